@@ -1,0 +1,95 @@
+"""The errors that optlaws raises: one small tree, so that one `except` can catch them all."""
+
+from __future__ import annotations
+
+
+class OptlawsError(Exception):
+    """Base of every error raised on purpose by optlaws.
+
+    Examples
+    --------
+    >>> issubclass(InputError, OptlawsError)
+    True
+    """
+
+
+class InputError(OptlawsError, ValueError):
+    """An input is wrong; the message names the input, what it was and what it may be.
+
+    Examples
+    --------
+    >>> raise InputError("order must be an integer of at least 1, got 0")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: order must be an integer of at least 1, got 0
+    """
+
+
+class InfeasibleProblem(OptlawsError):
+    """No law meets the conditions of the problem.
+
+    Parameters
+    ----------
+    message
+        What cannot be met, and which condition to relax.
+    problem
+        The whole problem; its repr is printed after the message so that it can be run again.
+    tried
+        What was tried, in words.
+    proof
+        Whatever shows that no law exists, for example a certificate.
+
+    Examples
+    --------
+    >>> print(InfeasibleProblem("no law has B < 1", problem={"B": 0.5}))
+    no law has B < 1
+    problem: {'B': 0.5}
+    """
+
+    def __init__(
+        self, message: str, *, problem: object | None = None, tried: str = "", proof: object | None = None
+    ) -> None:
+        super().__init__(message)
+        self.problem = problem
+        self.tried = tried
+        self.proof = proof
+
+    def __str__(self) -> str:
+        return _report(self.args[0], self.tried, self.problem)
+
+
+class SolverFailure(OptlawsError, RuntimeError):
+    """The solver found no answer that stands its checks, although the problem may have one.
+
+    Parameters
+    ----------
+    message
+        What went wrong, and what to change.
+    problem
+        The whole problem; its repr is printed after the message so that it can be run again.
+    tried
+        What was tried, in words.
+
+    Examples
+    --------
+    >>> print(SolverFailure("no convergence", problem={"B": 2.0}, tried="3 starts"))
+    no convergence
+    tried: 3 starts
+    problem: {'B': 2.0}
+    """
+
+    def __init__(self, message: str, *, problem: object | None = None, tried: str = "") -> None:
+        super().__init__(message)
+        self.problem = problem
+        self.tried = tried
+
+    def __str__(self) -> str:
+        return _report(self.args[0], self.tried, self.problem)
+
+
+def _report(message: str, tried: str, problem: object | None) -> str:
+    lines = [message]
+    if tried:
+        lines.append(f"tried: {tried}")
+    if problem is not None:
+        lines.append(f"problem: {problem!r}")
+    return "\n".join(lines)

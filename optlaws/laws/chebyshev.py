@@ -1,0 +1,159 @@
+"""Exact change between powers of k and Chebyshev polynomials T_n(2k - 1), in rational arithmetic.
+
+Power coefficients of a good law reach 6e7 at degree 17 and 1e20 at degree 59 with alternating signs. Nothing may
+be rounded on the way between the two bases, so integers do the work and each result is rounded once.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Sequence
+from fractions import Fraction
+from functools import lru_cache
+from math import comb, factorial, isfinite, lcm
+from numbers import Rational, Real
+from typing import Any
+
+from optlaws.errors import InputError
+
+MAGNITUDE_LIMIT = 1e100
+
+
+def chebyshev_from_powers(coefficients: Iterable[Any]) -> tuple[float, ...]:
+    """Chebyshev series in 2k - 1 of a polynomial given by ascending powers of k, rounded once.
+
+    Parameters
+    ----------
+    coefficients
+        Ints, floats or Fractions, dimensionless, shape (n,).
+
+    Raises
+    ------
+    InputError
+        If a coefficient is not a finite real number.
+
+    Examples
+    --------
+    >>> chebyshev_from_powers([-3, 6])
+    (0.0, 3.0)
+    """
+    return rounded(exact_chebyshev(fractions(coefficients, "coefficients")))
+
+
+def powers_from_chebyshev(coefficients: Iterable[Any]) -> tuple[float, ...]:
+    """Ascending powers of k of a polynomial given by its Chebyshev series in 2k - 1, rounded once.
+
+    Parameters
+    ----------
+    coefficients
+        Ints, floats or Fractions, dimensionless, shape (n,).
+
+    Raises
+    ------
+    InputError
+        If a coefficient is not a finite real number.
+
+    Examples
+    --------
+    >>> powers_from_chebyshev([0.0, 3.0])
+    (-3.0, 6.0)
+    """
+    return rounded(exact_powers(fractions(coefficients, "coefficients")))
+
+
+def exact_chebyshev(powers: Sequence[Fraction]) -> list[Fraction]:
+    """Chebyshev series of sum powers[n] k^n, by 4^n k^n = C(2n, n) + 2 sum_m C(2n, n-m) T_m(2k - 1).
+
+    Examples
+    --------
+    >>> exact_chebyshev([Fraction(0), Fraction(0), Fraction(8)])
+    [Fraction(3, 1), Fraction(4, 1), Fraction(1, 1)]
+    """
+    return _changed(powers, _power_row, 4)
+
+
+def exact_powers(series: Sequence[Fraction]) -> list[Fraction]:
+    """Powers of k of sum series[n] T_n(2k - 1).
+
+    Examples
+    --------
+    >>> exact_powers([Fraction(0), Fraction(0), Fraction(1)])
+    [Fraction(1, 1), Fraction(-8, 1), Fraction(8, 1)]
+    """
+    return _changed(series, _chebyshev_row, 1)
+
+
+def fractions(values: Iterable[Any], name: str) -> list[Fraction]:
+    """The exact values of ints, floats and Fractions; `name` is what an error calls them.
+
+    Raises
+    ------
+    InputError
+        If a value is not a finite real number, or so large that its square would overflow.
+
+    Examples
+    --------
+    >>> fractions([1, 0.5], "z")
+    [Fraction(1, 1), Fraction(1, 2)]
+    """
+    try:
+        items = list(values)
+    except TypeError:
+        msg = f"{name} must be a sequence of real numbers, got {values!r}"
+        raise InputError(msg) from None
+    return [_fraction(value, f"{name}[{i}]") for i, value in enumerate(items)]
+
+
+def rounded(values: Iterable[Fraction]) -> tuple[float, ...]:
+    """The nearest floats.
+
+    Examples
+    --------
+    >>> rounded([Fraction(1, 4)])
+    (0.25,)
+    """
+    return tuple(float(value) for value in values)
+
+
+def _fraction(value: Any, name: str) -> Fraction:
+    if isinstance(value, Rational):
+        exact = Fraction(int(value.numerator), int(value.denominator))
+    elif isinstance(value, Real) and isfinite(value):
+        exact = Fraction(float(value))
+    else:
+        msg = f"{name} must be a finite real number, got {value!r}"
+        raise InputError(msg)
+    if abs(exact) > MAGNITUDE_LIMIT:
+        msg = f"{name} must not exceed {MAGNITUDE_LIMIT:g} in magnitude: a law is dimensionless"
+        raise InputError(msg)
+    return exact
+
+
+def _changed(values: Sequence[Fraction], row: Callable[[int], tuple[int, ...]], base: int) -> list[Fraction]:
+    # row(n) holds base^n times column n of the change of basis, in integers
+    if not values:
+        return []
+    common = lcm(*(value.denominator for value in values))
+    top = len(values) - 1
+    totals = [0] * len(values)
+    for n, value in enumerate(values):
+        weight = value.numerator * (common // value.denominator) * base ** (top - n)
+        if weight:
+            for m, entry in enumerate(row(n)):
+                totals[m] += weight * entry
+    denominator = common * base**top
+    return [Fraction(total, denominator) for total in totals]
+
+
+@lru_cache(maxsize=256)
+def _power_row(n: int) -> tuple[int, ...]:
+    return (comb(2 * n, n), *(2 * comb(2 * n, n - m) for m in range(1, n + 1)))
+
+
+@lru_cache(maxsize=256)
+def _chebyshev_row(n: int) -> tuple[int, ...]:
+    if n == 0:
+        return (1,)
+    return tuple(
+        (-1) ** (n - i) * 4**i * n * factorial(n + i - 1) // (factorial(n - i) * factorial(2 * i))
+        for i in range(n + 1)
+    )

@@ -1,0 +1,322 @@
+"""What a motion law is: an immutable value with displacement, velocity, acceleration, jerk and power on [0, 1]."""
+
+from __future__ import annotations
+
+import json
+from abc import ABC, abstractmethod
+from collections.abc import Mapping, Sequence
+from functools import cached_property
+from typing import Any, ClassVar, Self, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.laws import peaks
+from optlaws.laws.checks import times, whole
+from optlaws.laws.html import page
+from optlaws.laws.peaks import Constants, Peak
+
+Array = NDArray[np.float64]
+Many = NDArray[Any] | Sequence[Any]
+
+FORMAT = 1
+
+
+class MotionLaw(ABC):
+    """Displacement a(k) of k in [0, 1] with its derivatives; dimensionless (eq. 1).
+
+    Velocity b = a', acceleration c = a'', jerk j = a''', kinetic power d = b c. With stroke h and duration T the
+    motion is h a, h/T b, h/T² c, h/T³ j. Laws are immutable, hashable, and equal where type and contents are equal.
+
+    A new representation is one subclass, a frozen dataclass declared with its kind, for example
+    ``class SplineLaw(MotionLaw, kind="spline")``, that supplies the private methods listed below this class's public
+    ones; loading, peaks, tables and drawings follow.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> law = smoothstep(3)
+    >>> law(0.5), law.b(0.5), law([0.0, 1.0], nu=2).tolist()
+    (0.5, 1.875, [0.0, 0.0])
+    """
+
+    kind: ClassVar[str]
+    kinds: ClassVar[dict[str, type[MotionLaw]]] = {}
+
+    def __init_subclass__(cls, *, kind: str | None = None, **kwargs: object) -> None:
+        super().__init_subclass__(**kwargs)
+        if kind is not None:
+            cls.kind = kind
+            MotionLaw.kinds[kind] = cls
+
+    @overload
+    def __call__(self, k: float, nu: int = 0) -> float: ...
+    @overload
+    def __call__(self, k: Many, nu: int = 0) -> Array: ...
+    def __call__(self, k: float | Many, nu: int = 0) -> float | Array:
+        """Derivative of order `nu` of a at `k`.
+
+        Parameters
+        ----------
+        k
+            Dimensionless time in [0, 1]; a number or an array of any shape.
+        nu
+            Order of the derivative, at least 0.
+
+        Returns
+        -------
+        A float for a number (or an array of shape ()), else an array of the shape of `k`.
+
+        Raises
+        ------
+        InputError
+            If `k` is outside [0, 1] or not a number, or `nu` is not an integer of at least 0.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> smoothstep(3)([0.0, 0.5, 1.0], nu=1).tolist()
+        [0.0, 1.875, 0.0]
+        """
+        return _plain(self._derivative(times(k), whole(nu, "nu")))
+
+    @overload
+    def a(self, k: float) -> float: ...
+    @overload
+    def a(self, k: Many) -> Array: ...
+    def a(self, k: float | Many) -> float | Array:
+        """Displacement at k."""
+        return _plain(self._derivative(times(k), 0))
+
+    @overload
+    def b(self, k: float) -> float: ...
+    @overload
+    def b(self, k: Many) -> Array: ...
+    def b(self, k: float | Many) -> float | Array:
+        """Velocity a' at k."""
+        return _plain(self._derivative(times(k), 1))
+
+    @overload
+    def c(self, k: float) -> float: ...
+    @overload
+    def c(self, k: Many) -> Array: ...
+    def c(self, k: float | Many) -> float | Array:
+        """Acceleration a'' at k."""
+        return _plain(self._derivative(times(k), 2))
+
+    @overload
+    def j(self, k: float) -> float: ...
+    @overload
+    def j(self, k: Many) -> Array: ...
+    def j(self, k: float | Many) -> float | Array:
+        """Jerk a''' at k."""
+        return _plain(self._derivative(times(k), 3))
+
+    @overload
+    def d(self, k: float) -> float: ...
+    @overload
+    def d(self, k: Many) -> Array: ...
+    def d(self, k: float | Many) -> float | Array:
+        """Kinetic power b c at k."""
+        inside = times(k)
+        return _plain(self._derivative(inside, 1) * self._derivative(inside, 2))
+
+    def boundary_values(self, count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
+        """The first `count` of a, b, c, c', ... at k = 0, and the same at k = 1.
+
+        Raises
+        ------
+        InputError
+            If `count` is not an integer of at least 0.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> smoothstep(2).boundary_values(3)
+        ((0.0, 0.0, 6.0), (1.0, 0.0, -6.0))
+        """
+        ends = np.array([0.0, 1.0])
+        pairs = [self._derivative(ends, nu).tolist() for nu in range(whole(count, "count"))]
+        return tuple(pair[0] for pair in pairs), tuple(pair[1] for pair in pairs)
+
+    def peak(self, nu: int) -> Peak:
+        """Peak of |derivative of order nu| over the whole interval, at the smallest k where several tie.
+
+        Raises
+        ------
+        InputError
+            If `nu` is not an integer of at least 0.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> smoothstep(2).peak(2)
+        Peak(value=6.0, k=0.0)
+        """
+        return peaks.peak(*self._candidate_values(nu))
+
+    def extrema(self, nu: int) -> tuple[Peak, Peak]:
+        """Minimum and maximum, signed, of the derivative of order nu over the whole interval.
+
+        Raises
+        ------
+        InputError
+            If `nu` is not an integer of at least 0.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> smoothstep(2).extrema(2)
+        (Peak(value=-6.0, k=1.0), Peak(value=6.0, k=0.0))
+        """
+        return peaks.extremes(*self._candidate_values(nu))
+
+    def power_peak(self) -> Peak:
+        """Peak of |d| over the whole interval, d = b c.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> round(smoothstep(2).power_peak().value, 6)
+        3.464102
+        """
+        k = self._power_candidates()
+        return peaks.peak(k, self._derivative(k, 1) * self._derivative(k, 2))
+
+    @cached_property
+    def constants(self) -> Constants:
+        """B, C, D, J with their places, and the RMS of c; computed at the first use.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> smoothstep(2).constants.J
+        Peak(value=12.0, k=0.0)
+        """
+        return Constants(
+            B=self.peak(1),
+            C=self.peak(2),
+            D=self.power_peak(),
+            J=self.peak(3),
+            rms_c=float(np.sqrt(self._mean_square_acceleration())),
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """The law as plain data (numbers, strings, lists), from which `from_dict` makes an equal one.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> smoothstep(1).to_dict()
+        {'format': 1, 'kind': 'polynomial', 'acceleration': [], 'a0': 0.0, 'b0': 1.0}
+        """
+        return {"format": FORMAT, "kind": self.kind, **self._fields()}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The law that `to_dict` described.
+
+        Raises
+        ------
+        InputError
+            If the format, the kind or a key is unknown, a key is missing, or a number is not finite.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> MotionLaw.from_dict(smoothstep(4).to_dict()) == smoothstep(4)
+        True
+        """
+        fields = _opened(data)
+        kind = fields.pop("kind", None)
+        known = {name: law for name, law in MotionLaw.kinds.items() if issubclass(law, cls)}
+        if not isinstance(kind, str) or kind not in known:
+            msg = f"kind of law {kind!r} is unknown; known are {', '.join(sorted(known))}"
+            raise InputError(msg)
+        return known[kind]._from_fields(fields)
+
+    def to_json(self) -> str:
+        """`to_dict` as JSON text."""
+        return json.dumps(self.to_dict(), allow_nan=False)
+
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """The law that `to_json` wrote.
+
+        Raises
+        ------
+        InputError
+            If the text is not JSON or does not describe a law.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> MotionLaw.from_json(smoothstep(4).to_json()) == smoothstep(4)
+        True
+        """
+        try:
+            data = json.loads(text)
+        except (TypeError, ValueError) as error:
+            msg = f"a law must be JSON text: {error}"
+            raise InputError(msg) from error
+        return cls.from_dict(data)
+
+    def __repr__(self) -> str:
+        one = self.constants
+        shown = f"B={one.B.value:g}, C={one.C.value:g}, D={one.D.value:g}, J={one.J.value:g}"
+        return f"{type(self).__name__}({self._summary()}, {shown})"
+
+    def _repr_html_(self) -> str:
+        k = np.linspace(0.0, 1.0, 121)
+        curves = {name: self._derivative(k, nu).tolist() for nu, name in enumerate("abc")}
+        return page(f"{type(self).__name__}, {self._summary()}", self.constants, curves)
+
+    def _candidate_values(self, nu: int) -> tuple[Array, Array]:
+        order = whole(nu, "nu")
+        k = self._candidates(order)
+        return k, self._derivative(k, order)
+
+    @abstractmethod
+    def _derivative(self, k: Array, nu: int) -> Array:
+        """Derivative of order `nu` at valid `k` of any shape; at a break, the value to be reported there."""
+
+    @abstractmethod
+    def _candidates(self, nu: int) -> Array:
+        """Points where the derivative of order `nu` may be extreme: stationary points, breaks and both ends."""
+
+    @abstractmethod
+    def _power_candidates(self) -> Array:
+        """Points where d may be extreme."""
+
+    @abstractmethod
+    def _mean_square_acceleration(self) -> float:
+        """Integral of c² over [0, 1]."""
+
+    @abstractmethod
+    def _summary(self) -> str:
+        """What the repr says besides the constants."""
+
+    @abstractmethod
+    def _fields(self) -> dict[str, Any]:
+        """Contents as plain data, without format and kind."""
+
+    @classmethod
+    @abstractmethod
+    def _from_fields(cls, fields: dict[str, Any]) -> Self:
+        """The law of these contents; InputError for missing or unknown keys."""
+
+
+def _plain(values: Array) -> float | Array:
+    return values if np.ndim(values) else float(values)
+
+
+def _opened(data: Any) -> dict[str, Any]:  # noqa: ANN401
+    if not isinstance(data, Mapping):
+        msg = f"a law must be a dict, got {type(data).__name__}"
+        raise InputError(msg)
+    fields = dict(data)
+    if (found := fields.pop("format", None)) != FORMAT:
+        msg = f"format of a law must be {FORMAT}, got {found!r}"
+        raise InputError(msg)
+    return fields

@@ -1,0 +1,141 @@
+"""Peaks of a law over the whole interval: their values, where they sit, and how they are chosen and polished."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+TIE = 1e-10
+POLISH_STEPS = 3
+POLISH_REACH = 1e-3
+
+
+@dataclass(frozen=True, slots=True)
+class Peak:
+    """An extreme value and the smallest k at which it is reached, both dimensionless.
+
+    Examples
+    --------
+    >>> Peak(1.875, 0.5)
+    Peak(value=1.875, k=0.5)
+    """
+
+    value: float
+    k: float
+
+    def to_dict(self) -> dict[str, float]:
+        """Value and place as plain data.
+
+        Examples
+        --------
+        >>> Peak(1.875, 0.5).to_dict()
+        {'value': 1.875, 'k': 0.5}
+        """
+        return {"value": self.value, "k": self.k}
+
+
+@dataclass(frozen=True, slots=True)
+class Constants:
+    """The constants of a law: peaks of |b|, |c|, |d|, |j| over the whole interval, and the RMS of c; dimensionless.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> smoothstep(2).constants.C
+    Peak(value=6.0, k=0.0)
+    """
+
+    B: Peak
+    C: Peak
+    D: Peak
+    J: Peak
+    rms_c: float
+
+    def to_dict(self, *, rms: bool = False) -> dict[str, dict[str, float] | float]:
+        """B, C, D, J as {"value": ..., "k": ...}; rms_c too where `rms`.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> smoothstep(2).constants.to_dict()["B"]
+        {'value': 1.5, 'k': 0.5}
+        """
+        table: dict[str, dict[str, float] | float] = {
+            "B": self.B.to_dict(),
+            "C": self.C.to_dict(),
+            "D": self.D.to_dict(),
+            "J": self.J.to_dict(),
+        }
+        if rms:
+            table["rms_c"] = self.rms_c
+        return table
+
+
+def highest(k: Array, values: Array, tie: float) -> Peak:
+    """The largest of `values`, with the smallest k whose value is within `tie` of it.
+
+    Examples
+    --------
+    >>> highest(np.array([0.75, 0.25, 0.5]), np.array([2.0, 2.0, 1.0]), 1e-10)
+    Peak(value=2.0, k=0.25)
+    """
+    top = float(values.max())
+    return Peak(top, float(k[values >= top - tie].min()))
+
+
+def extremes(k: Array, values: Array) -> tuple[Peak, Peak]:
+    """Minimum and maximum, signed, of values at candidate points.
+
+    Examples
+    --------
+    >>> extremes(np.array([0.0, 1.0]), np.array([-6.0, 6.0]))
+    (Peak(value=-6.0, k=0.0), Peak(value=6.0, k=1.0))
+    """
+    tie = TIE * float(np.abs(values).max())
+    lowest = highest(k, -values, tie)
+    return Peak(-lowest.value if lowest.value else 0.0, lowest.k), highest(k, values, tie)
+
+
+def peak(k: Array, values: Array) -> Peak:
+    """Peak magnitude of values at candidate points.
+
+    Examples
+    --------
+    >>> peak(np.array([0.0, 1.0]), np.array([-6.0, 6.0]))
+    Peak(value=6.0, k=0.0)
+    """
+    size = np.abs(values)
+    return highest(k, size, TIE * float(size.max()))
+
+
+def polished(x: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Array:
+    """Candidates in [-1, 1] moved by Newton steps towards the roots of a residual, where that makes it smaller.
+
+    `residual(x)` gives the residual and its derivative with respect to x. A step is short and stays only where the
+    residual shrinks, so that a candidate that is already good cannot be lost.
+
+    Examples
+    --------
+    >>> polished(np.array([0.4995]), lambda x: (x * x - 0.25, 2 * x)).round(12)
+    array([0.5])
+    """
+    size, step = _step(*residual(x))
+    for _ in range(POLISH_STEPS):
+        trial = np.clip(x - step, -1.0, 1.0)
+        trial_size, trial_step = _step(*residual(trial))
+        better = trial_size < size
+        x = np.where(better, trial, x)
+        size = np.where(better, trial_size, size)
+        step = np.where(better, trial_step, 0.0)
+    return x
+
+
+def _step(value: Array, slope: Array) -> tuple[Array, Array]:
+    safe = np.where(slope == 0.0, 1.0, slope)
+    step = np.where(slope == 0.0, 0.0, value / safe)
+    return np.abs(value), np.clip(step, -POLISH_REACH, POLISH_REACH)

@@ -1,0 +1,110 @@
+"""Newton's method on the optimality conditions of the exact active set.
+
+At the optimum a few contacts carry the whole program: points where a constraint binds, each at an extremum of its
+residual. Unknown are the variables x, the free positions u and the multipliers. The system is square, so convergence
+is quadratic, and fewer contacts than variables are no difficulty (the curvature of the contacts closes it).
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.rows import Program
+
+Array = NDArray[np.float64]
+
+_STEPS = 14
+_CONVERGED = 1e-13
+_STALLED = 1e-10
+
+
+@dataclass(frozen=True, eq=False)
+class ActiveSet:
+    """Variables, contacts (family, position u, sign, whether it may move), multipliers, and the equality's multiplier."""
+
+    x: Array
+    family: NDArray[np.intp]
+    u: Array
+    s: Array
+    free: NDArray[np.bool_]
+    multipliers: Array
+    equality_multiplier: float
+
+    def joined(self, family: int, u: float, s: float, *, free: bool) -> ActiveSet:
+        """With one more contact, without weight yet."""
+        return replace(
+            self,
+            family=np.append(self.family, family),
+            u=np.append(self.u, u),
+            s=np.append(self.s, s),
+            free=np.append(self.free, free),
+            multipliers=np.append(self.multipliers, 0.0),
+        )
+
+
+def newton(program: Program, start: ActiveSet, right: float) -> ActiveSet | None:
+    """Solve the optimality conditions from `start` for the equality's right side; None where it does not converge."""
+    state = start
+    previous = np.inf
+    for _ in range(_STEPS):
+        step = _step(program, state, right)
+        if step is None or not np.isfinite(step).all():
+            return None
+        state = _moved(state, step)
+        lowest = np.array([program.families[i].lowest for i in state.family])
+        if np.any(state.u > 1.01) or np.any(state.u < lowest - 0.01):
+            return None
+        size = float(np.abs(step[: program.size]).max() / max(1.0, np.abs(state.x).max()))
+        if size < _CONVERGED or (size < _STALLED and size > previous / 4):
+            return replace(state, u=np.minimum(np.maximum(state.u, lowest), 1.0))
+        previous = size
+    return None
+
+
+def _step(program: Program, state: ActiveSet, right: float) -> Array | None:
+    n, p = program.size, len(state.u)
+    jets = np.empty((3, p, n + 1))
+    for i, family in enumerate(program.families):
+        mine = state.family == i
+        if mine.any():
+            jets[:, mine] = family.jet(state.u[mine], state.s[mine])
+    value, slope, curvature = jets @ np.append(state.x, 1.0)
+    rows, rows_slope = jets[0, :, :n], jets[1, :, :n]
+    free = state.free
+    m = int(free.sum())
+    last = n + m + p
+
+    system = np.zeros((last + 1, last + 1))
+    system[:n, n : n + m] = (rows_slope[free] * state.multipliers[free, None]).T
+    system[:n, n + m : last] = rows.T
+    system[:n, last] = system[last, :n] = program.equality
+    system[n : n + m, :n] = rows_slope[free]
+    system[n : n + m, n : n + m] = np.diag(curvature[free])
+    system[n + m : last, :n] = rows
+    system[n + m + np.flatnonzero(free), n + np.arange(m)] = slope[free]
+
+    defect = np.empty(last + 1)
+    defect[:n] = program.objective + rows.T @ state.multipliers + program.equality * state.equality_multiplier
+    defect[n : n + m] = slope[free]
+    defect[n + m : last] = value
+    defect[last] = program.equality @ state.x + program.equality_offset - right
+    try:
+        return np.linalg.solve(system, -defect)
+    except np.linalg.LinAlgError:
+        return None
+
+
+def _moved(state: ActiveSet, step: Array) -> ActiveSet:
+    n, p, m = len(state.x), len(state.u), int(state.free.sum())
+    u = state.u.copy()
+    u[state.free] += step[n : n + m]
+    return replace(
+        state,
+        x=state.x + step[:n],
+        u=u,
+        multipliers=state.multipliers + step[n + m : n + m + p],
+        equality_multiplier=state.equality_multiplier + float(step[-1]),
+    )

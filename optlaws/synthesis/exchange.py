@@ -1,0 +1,157 @@
+"""Few points by IPOPT, then the exact active set by Newton; where that fails, the true extrema join the points."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.active_set import ActiveSet, newton
+from optlaws.synthesis.rows import Family, Points, Program
+from optlaws.synthesis.transcription import Answer, solve_rows
+
+Array = NDArray[np.float64]
+
+VIOLATION = 1e-10
+_ROUNDS = 12
+_CORRECTIONS = 8
+_SAME = 1e-6
+_WEIGHTLESS = 1e-7
+
+
+@dataclass(frozen=True, eq=False)
+class Outcome:
+    """How a program ended: the optimum (None where there is none), IPOPT's iterations and last word, the rounds."""
+
+    optimum: ActiveSet | None
+    iterations: int
+    rounds: int
+    status: str
+
+
+def solve(program: Program, right: float, warm: ActiveSet | None = None) -> Outcome:
+    """Solve a semi-infinite linear program; a neighbour's optimum as `warm` is tried before IPOPT."""
+    if warm is not None:
+        optimum = _polished(program, warm, right)
+        if optimum is not None:
+            return Outcome(optimum, 0, 0, "continued from a neighbour")
+    points = [_first_points(family, program.size) for family in program.families]
+    iterations = 0
+    status = ""
+    for attempt in range(1, _ROUNDS + 1):
+        answer = _on_points(program, points, right)
+        iterations += answer.iterations
+        status = answer.status
+        if not np.isfinite(answer.x).all() or np.abs(answer.x).max() > 1e7:
+            return Outcome(None, iterations, attempt, status)
+        optimum = _polished(program, _identified(program, points, answer), right)
+        if optimum is not None:
+            return Outcome(optimum, iterations, attempt, status)
+        points = [_exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
+    return Outcome(None, iterations, _ROUNDS, status)
+
+
+def _polished(program: Program, start: ActiveSet, right: float) -> ActiveSet | None:
+    """Newton on a guess of the contacts; contacts that pull are dropped and extrema that stick out join, a few times."""
+    guess = start
+    for _ in range(_CORRECTIONS):
+        optimum = newton(program, guess, right)
+        if optimum is None:
+            return None
+        pulling = optimum.multipliers < -1e-10 * np.abs(optimum.multipliers).max(initial=0.0)
+        if pulling.any():
+            guess = _without(optimum, int(np.argmin(optimum.multipliers)))
+            continue
+        guess = _with_violated(program, optimum)
+        if len(guess.u) == len(optimum.u):
+            return optimum
+    return None
+
+
+def _without(state: ActiveSet, contact: int) -> ActiveSet:
+    kept = np.arange(len(state.u)) != contact
+    return replace(
+        state,
+        family=state.family[kept],
+        u=state.u[kept],
+        s=state.s[kept],
+        free=state.free[kept],
+        multipliers=state.multipliers[kept],
+    )
+
+
+def _with_violated(program: Program, state: ActiveSet) -> ActiveSet:
+    allowed = VIOLATION * max(1.0, abs(float(state.x[-1])))
+    added = state
+    for i, family in enumerate(program.families):
+        u, s, residual = family.extremes(state.x)
+        for j in np.flatnonzero(residual > allowed):
+            mine = (added.family == i) & (added.s == s[j])
+            if not np.any(mine & (np.abs(added.u - u[j]) < _SAME)):
+                added = added.joined(i, float(u[j]), float(s[j]), free=family.lowest < u[j] < 1.0)
+    return added
+
+
+def _on_points(program: Program, points: list[Points], right: float) -> Answer:
+    parts = [family.rows(mine.u, mine.s) for family, mine in zip(program.families, points, strict=True)]
+    rows = np.vstack([*(a for a, _ in parts), program.equality])
+    uppers = np.concatenate([*(h for _, h in parts), [right - program.equality_offset]])
+    return solve_rows(rows, uppers, 1, program.objective)
+
+
+def _first_points(family: Family, size: int) -> Points:
+    if family.odd:
+        count = 2 * size + 4
+        u = np.cos((np.arange(count) + 0.5) * np.pi / (2 * count))
+        return Points(np.tile(u, 2), np.repeat(family.signs, count))
+    count = (3 * size) // 2 + 4
+    return Points(np.cos(np.arange(count) * np.pi / (count - 1)), np.ones(count))
+
+
+def _exchanged(family: Family, points: Points, x: Array) -> Points:
+    u, s, residual = family.extremes(x)
+    near = residual > -1e-2 * max(1.0, abs(float(x[-1])))
+    return points.joined(Points(u[near], s[near]))
+
+
+def _identified(program: Program, points: list[Points], answer: Answer) -> ActiveSet:
+    """Give each point's multiplier to the extremum that its hill leads to; those are the contacts."""
+    family_of: list[int] = []
+    u_of: list[float] = []
+    s_of: list[float] = []
+    free_of: list[bool] = []
+    weight_of: list[float] = []
+    first = 0
+    for i, (family, mine) in enumerate(zip(program.families, points, strict=True)):
+        weights = answer.multipliers[first : first + len(mine.u)]
+        first += len(mine.u)
+        u, s, residual = family.extremes(answer.x)
+        here = mine.s * family.residual(answer.x, mine.u) - float(family.slack @ answer.x)
+        gathered = np.zeros(len(u))
+        for j in np.flatnonzero(_binding(family.rows(mine.u, mine.s)[0], weights, here)):
+            higher = (s == mine.s[j]) & (residual >= here[j] - 1e-9)
+            distance = np.where(higher, np.abs(u - mine.u[j]), np.inf)
+            gathered[np.argmin(distance)] += weights[j]
+        ends = (u <= family.lowest) | (u >= 1.0)
+        for j in np.flatnonzero(gathered):
+            family_of.append(i)
+            u_of.append(float(u[j]))
+            s_of.append(float(s[j]))
+            free_of.append(not ends[j])
+            weight_of.append(float(gathered[j]))
+    return ActiveSet(
+        x=answer.x,
+        family=np.asarray(family_of, dtype=np.intp),
+        u=np.asarray(u_of),
+        s=np.asarray(s_of),
+        free=np.asarray(free_of, dtype=np.bool_),
+        multipliers=np.asarray(weight_of),
+        equality_multiplier=float(answer.multipliers[-1]),
+    )
+
+
+def _binding(rows: Array, weights: Array, residual: Array) -> NDArray[np.bool_]:
+    # complementarity, in units in which each row has length 1: a contact's multiplier exceeds its distance
+    squared = np.einsum("ij,ij->i", rows, rows)
+    return (weights * squared > -residual) & (weights * np.sqrt(squared) > _WEIGHTLESS)

@@ -1,0 +1,149 @@
+"""synthesize(problem) -> Solution: least peak acceleration at a given peak velocity, with proof."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator
+from time import perf_counter
+
+import numpy as np
+
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.synthesis import certificate as proof
+from optlaws.synthesis.active_set import ActiveSet
+from optlaws.synthesis.certificate import Certificate, Contact
+from optlaws.synthesis.exchange import VIOLATION, Outcome, solve
+from optlaws.synthesis.limits import acceleration_limit
+from optlaws.synthesis.problem import Problem
+from optlaws.synthesis.programs import ACCELERATION, BELOW_PEAK, least_acceleration, least_violation
+from optlaws.synthesis.rows import Program
+from optlaws.synthesis.solution import Solution, Status
+from optlaws.synthesis.space import symmetric_space
+
+GAP = 1e-8
+
+
+def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
+    """Find the law that minimises the problem's constant and prove it.
+
+    Parameters
+    ----------
+    problem
+        What to solve.
+    start
+        A solution of a neighbouring problem (same order, degree and constraints, another B): its contacts are
+        continued by Newton's method and IPOPT is called only where that fails. The answer is the same.
+
+    Returns
+    -------
+    Solution
+        The law, its constants, the lower bound and the limit.
+
+    Raises
+    ------
+    InfeasibleProblem
+        If no law of the problem exists; `proof` is a certificate of that.
+    SolverFailure
+        If no law could be found although none was shown not to exist.
+
+    Examples
+    --------
+    >>> solution = synthesize(Problem(B=1.641, order=4))
+    >>> round(solution.objective, 8), solution.gap < 1e-8
+    (5.08070242, True)
+    """
+    began = perf_counter()
+    if not isinstance(problem, Problem):
+        msg = f"synthesize takes a Problem, got {type(problem).__name__}"
+        raise InputError(msg)
+    program = least_acceleration(problem.order, problem.terms, monotone=problem.monotone)
+    warm = start.active_set if start is not None and _neighbours(problem, start.problem) else None
+    outcome = solve(program, problem.B, warm)
+    if outcome.optimum is None:
+        raise _failure(problem, outcome)
+    return _solution(problem, program, outcome, outcome.optimum, began)
+
+
+def sweep(problems: Iterable[Problem]) -> Iterator[Solution]:
+    """Solve problems in turn, each warm started by the one before it where they are neighbours.
+
+    Examples
+    --------
+    >>> from dataclasses import replace
+    >>> first = Problem(B=1.6, order=4)
+    >>> [round(s.objective, 6) for s in sweep(replace(first, B=B) for B in (1.6, 1.62))]
+    [5.227796, 5.151771]
+    """
+    previous: Solution | None = None
+    for problem in problems:
+        previous = synthesize(problem, start=previous)
+        yield previous
+
+
+def _neighbours(first: Problem, second: Problem) -> bool:
+    return (first.order, first.terms, first.monotone) == (second.order, second.terms, second.monotone)
+
+
+def _solution(problem: Problem, program: Program, outcome: Outcome, optimum: ActiveSet, began: float) -> Solution:
+    space = symmetric_space(problem.order, problem.terms)
+    coordinates = optimum.x[:-1]
+    law = space.law(coordinates)
+    objective = law.peak(2).value
+    lowest, highest = law.extrema(1)
+    excess = max(highest.value / problem.B - 1.0, -lowest.value / problem.B if problem.monotone else 0.0)
+    if excess > VIOLATION:
+        msg = f"the law found breaks a velocity constraint by {excess:.1e} of B"
+        raise SolverFailure(msg, problem=problem, tried=f"IPOPT said {outcome.status}")
+    found = certify(problem, program, optimum)
+    gap = (objective - found.bound) / objective
+    return Solution(
+        problem=problem,
+        law=law,
+        z=problem.basis.coefficients(space.z_series(coordinates)),
+        objective=objective,
+        certificate=found,
+        limit=acceleration_limit(problem.B, monotone=problem.monotone, order=problem.order),
+        status=Status.OPTIMAL if gap <= GAP else Status.INACCURATE,
+        iterations=outcome.iterations,
+        seconds=perf_counter() - began,
+        active_set=optimum,
+    )
+
+
+def certify(problem: Problem, program: Program, optimum: ActiveSet) -> Certificate:
+    """Turn contacts and multipliers of the program into a certificate that speaks of the law itself."""
+    contacts = [Contact(proof.MIDDLE, 0.5, optimum.equality_multiplier)]
+    space = symmetric_space(problem.order, problem.terms)
+    for i, family in enumerate(program.families):
+        mine = np.flatnonzero(optimum.family == i)
+        for j, k in zip(mine, family.k(optimum.u[mine]), strict=True):
+            multiplier = float(optimum.multipliers[j])
+            if family.name == ACCELERATION:
+                name = proof.UPPER if optimum.s[j] > 0 else proof.LOWER
+            elif family.name == BELOW_PEAK:
+                name = proof.CHORD
+            else:
+                name, multiplier = proof.RATIO, multiplier / space.base_ratio
+            contacts.append(Contact(name, float(k), multiplier))
+    return Certificate(problem.order, problem.basis.degree, problem.B, problem.monotone, tuple(contacts))
+
+
+def _failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFailure:
+    tried = f"IPOPT said {outcome.status!r} after {outcome.iterations} iterations in {outcome.rounds} rounds of exchange"
+    elastic = least_violation(problem.order, problem.terms, monotone=problem.monotone)
+    trial = solve(elastic, problem.B)
+    if trial.optimum is not None:
+        found = certify(problem, elastic, trial.optimum)
+        if found.proves_infeasible:
+            return InfeasibleProblem(_why(problem), problem=problem, proof=found, tried=tried)
+        tried += f"; the constraints leave {-trial.optimum.x[-1]:.3e} to spare"
+    msg = "no law was found, and none was shown not to exist; try a degree higher or lower by 2, or another B"
+    return SolverFailure(msg, problem=problem, tried=tried)
+
+
+def _why(problem: Problem) -> str:
+    broken = "0 <= b <= B" if problem.monotone else "b <= B"
+    return (
+        f"no law of order {problem.order} with Z of degree {problem.basis.degree} has b(1/2) = B = {problem.B:g} "
+        f"and {broken} everywhere: with b(1/2) = B its velocity breaks this elsewhere. "
+        "A higher degree of Z or a lower order helps; so does a B nearer to 2"
+    )
