@@ -24,7 +24,7 @@ class InputError(OptlawsError, ValueError):
     """
 
 
-class InfeasibleProblem(OptlawsError):
+class InfeasibleProblem(OptlawsError):  # noqa: N818
     """No law meets the conditions of the problem.
 
     Parameters
@@ -57,7 +57,7 @@ class InfeasibleProblem(OptlawsError):
         return _report(self.args[0], self.tried, self.problem)
 
 
-class SolverFailure(OptlawsError, RuntimeError):
+class SolverFailure(OptlawsError, RuntimeError):  # noqa: N818
     """The solver found no answer that stands its checks, although the problem may have one.
 
     Parameters

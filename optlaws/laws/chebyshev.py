@@ -1,7 +1,7 @@
 """Exact change between powers of k and Chebyshev polynomials T_n(2k - 1), in rational arithmetic.
 
-Power coefficients of a good law reach 6e7 at degree 17 and 1e20 at degree 59 with alternating signs. Nothing may
-be rounded on the way between the two bases, so integers do the work and each result is rounded once.
+Power coefficients of a good law reach 6e7 at degree 17 and 1e20 at degree 59, with alternating signs. Nothing
+may be rounded on the way between the two bases, so integers do the work and each result is rounded once.
 """
 
 from __future__ import annotations
@@ -114,7 +114,7 @@ def rounded(values: Iterable[Fraction]) -> tuple[float, ...]:
     return tuple(float(value) for value in values)
 
 
-def _fraction(value: Any, name: str) -> Fraction:
+def _fraction(value: Any, name: str) -> Fraction:  # noqa: ANN401
     if isinstance(value, Rational):
         exact = Fraction(int(value.numerator), int(value.denominator))
     elif isinstance(value, Real) and isfinite(value):

@@ -1,37 +1,35 @@
-"""What a motion law is: an immutable value with displacement, velocity, acceleration, jerk and power on [0, 1]."""
+"""What a motion law is: an immutable value with displacement a and its derivatives on [0, 1]."""
 
 from __future__ import annotations
 
-import json
-from abc import ABC, abstractmethod
-from collections.abc import Mapping, Sequence
+from abc import abstractmethod
+from collections.abc import Sequence
 from functools import cached_property
-from typing import Any, ClassVar, Self, overload
+from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.errors import InputError
 from optlaws.laws import peaks
 from optlaws.laws.checks import times, whole
 from optlaws.laws.html import page
 from optlaws.laws.peaks import Constants, Peak
+from optlaws.laws.storage import Stored
 
 Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[Any]
 
-FORMAT = 1
 
-
-class MotionLaw(ABC):
+class MotionLaw(Stored):
     """Displacement a(k) of k in [0, 1] with its derivatives; dimensionless (eq. 1).
 
-    Velocity b = a', acceleration c = a'', jerk j = a''', kinetic power d = b c. With stroke h and duration T the
-    motion is h a, h/T b, h/T² c, h/T³ j. Laws are immutable, hashable, and equal where type and contents are equal.
+    Velocity b = a', acceleration c = a'', jerk j = a''', kinetic power d = b c. With stroke h and duration T
+    the motion is h a, its derivatives h/T b, h/T² c, h/T³ j. Laws are immutable, hashable, and equal where type
+    and contents are equal.
 
     A new representation is one subclass, a frozen dataclass declared with its kind, for example
-    ``class SplineLaw(MotionLaw, kind="spline")``, that supplies the private methods listed below this class's public
-    ones; loading, peaks, tables and drawings follow.
+    ``class SplineLaw(MotionLaw, kind="spline")``, that supplies the abstract methods; storage, peaks, tables and
+    drawings follow.
 
     Examples
     --------
@@ -40,15 +38,6 @@ class MotionLaw(ABC):
     >>> law(0.5), law.b(0.5), law([0.0, 1.0], nu=2).tolist()
     (0.5, 1.875, [0.0, 0.0])
     """
-
-    kind: ClassVar[str]
-    kinds: ClassVar[dict[str, type[MotionLaw]]] = {}
-
-    def __init_subclass__(cls, *, kind: str | None = None, **kwargs: object) -> None:
-        super().__init_subclass__(**kwargs)
-        if kind is not None:
-            cls.kind = kind
-            MotionLaw.kinds[kind] = cls
 
     @overload
     def __call__(self, k: float, nu: int = 0) -> float: ...
@@ -202,66 +191,6 @@ class MotionLaw(ABC):
             rms_c=float(np.sqrt(self._mean_square_acceleration())),
         )
 
-    def to_dict(self) -> dict[str, Any]:
-        """The law as plain data (numbers, strings, lists), from which `from_dict` makes an equal one.
-
-        Examples
-        --------
-        >>> from optlaws.laws import smoothstep
-        >>> smoothstep(1).to_dict()
-        {'format': 1, 'kind': 'polynomial', 'acceleration': [], 'a0': 0.0, 'b0': 1.0}
-        """
-        return {"format": FORMAT, "kind": self.kind, **self._fields()}
-
-    @classmethod
-    def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """The law that `to_dict` described.
-
-        Raises
-        ------
-        InputError
-            If the format, the kind or a key is unknown, a key is missing, or a number is not finite.
-
-        Examples
-        --------
-        >>> from optlaws.laws import smoothstep
-        >>> MotionLaw.from_dict(smoothstep(4).to_dict()) == smoothstep(4)
-        True
-        """
-        fields = _opened(data)
-        kind = fields.pop("kind", None)
-        known = {name: law for name, law in MotionLaw.kinds.items() if issubclass(law, cls)}
-        if not isinstance(kind, str) or kind not in known:
-            msg = f"kind of law {kind!r} is unknown; known are {', '.join(sorted(known))}"
-            raise InputError(msg)
-        return known[kind]._from_fields(fields)
-
-    def to_json(self) -> str:
-        """`to_dict` as JSON text."""
-        return json.dumps(self.to_dict(), allow_nan=False)
-
-    @classmethod
-    def from_json(cls, text: str) -> Self:
-        """The law that `to_json` wrote.
-
-        Raises
-        ------
-        InputError
-            If the text is not JSON or does not describe a law.
-
-        Examples
-        --------
-        >>> from optlaws.laws import smoothstep
-        >>> MotionLaw.from_json(smoothstep(4).to_json()) == smoothstep(4)
-        True
-        """
-        try:
-            data = json.loads(text)
-        except (TypeError, ValueError) as error:
-            msg = f"a law must be JSON text: {error}"
-            raise InputError(msg) from error
-        return cls.from_dict(data)
-
     def __repr__(self) -> str:
         one = self.constants
         shown = f"B={one.B.value:g}, C={one.C.value:g}, D={one.D.value:g}, J={one.J.value:g}"
@@ -279,11 +208,11 @@ class MotionLaw(ABC):
 
     @abstractmethod
     def _derivative(self, k: Array, nu: int) -> Array:
-        """Derivative of order `nu` at valid `k` of any shape; at a break, the value to be reported there."""
+        """Derivative of order `nu` at valid `k` of any shape."""
 
     @abstractmethod
     def _candidates(self, nu: int) -> Array:
-        """Points where the derivative of order `nu` may be extreme: stationary points, breaks and both ends."""
+        """Points where the derivative of order `nu` may be extreme: stationary, breaks and both ends."""
 
     @abstractmethod
     def _power_candidates(self) -> Array:
@@ -297,26 +226,6 @@ class MotionLaw(ABC):
     def _summary(self) -> str:
         """What the repr says besides the constants."""
 
-    @abstractmethod
-    def _fields(self) -> dict[str, Any]:
-        """Contents as plain data, without format and kind."""
-
-    @classmethod
-    @abstractmethod
-    def _from_fields(cls, fields: dict[str, Any]) -> Self:
-        """The law of these contents; InputError for missing or unknown keys."""
-
 
 def _plain(values: Array) -> float | Array:
     return values if np.ndim(values) else float(values)
-
-
-def _opened(data: Any) -> dict[str, Any]:  # noqa: ANN401
-    if not isinstance(data, Mapping):
-        msg = f"a law must be a dict, got {type(data).__name__}"
-        raise InputError(msg)
-    fields = dict(data)
-    if (found := fields.pop("format", None)) != FORMAT:
-        msg = f"format of a law must be {FORMAT}, got {found!r}"
-        raise InputError(msg)
-    return fields

@@ -1,4 +1,4 @@
-"""Peaks of a law over the whole interval: their values, where they sit, and how they are chosen and polished."""
+"""Peaks over the whole interval: what they are, and how they are chosen and polished."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ class Peak:
 
 @dataclass(frozen=True, slots=True)
 class Constants:
-    """The constants of a law: peaks of |b|, |c|, |d|, |j| over the whole interval, and the RMS of c; dimensionless.
+    """The constants of a law, dimensionless: peaks of |b|, |c|, |d|, |j| over the interval and the RMS of c.
 
     Examples
     --------
@@ -114,10 +114,10 @@ def peak(k: Array, values: Array) -> Peak:
 
 
 def polished(x: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Array:
-    """Candidates in [-1, 1] moved by Newton steps towards the roots of a residual, where that makes it smaller.
+    """Candidates in [-1, 1] moved by Newton steps towards roots of a residual, where that makes it smaller.
 
-    `residual(x)` gives the residual and its derivative with respect to x. A step is short and stays only where the
-    residual shrinks, so that a candidate that is already good cannot be lost.
+    `residual(x)` gives the residual and its derivative with respect to x. A step is short and stays only where
+    the residual shrinks, so that a candidate that is already good cannot be lost.
 
     Examples
     --------

@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 
 @dataclass(frozen=True, init=False, repr=False)
 class PolynomialLaw(MotionLaw, kind="polynomial"):
-    """A polynomial law, given by its acceleration c(k) = sum acceleration[n] T_n(2k - 1), a(0) and b(0).
+    """A polynomial law: acceleration c(k) = sum acceleration[n] T_n(2k - 1), with a(0) and b(0).
 
     Displacement and velocity come from integration and jerk from one differentiation, which stays accurate at
     degree 60 and more, where powers of k lose every digit.
@@ -89,7 +89,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
 
     @classmethod
     def from_chebyshev(cls, coefficients: Iterable[Any]) -> Self:
-        """The law a(k) = sum coefficients[n] T_n(2k - 1), differentiated by exact arithmetic and rounded once.
+        """The law a(k) = sum coefficients[n] T_n(2k - 1), differentiated exactly and rounded once.
 
         Raises
         ------
@@ -112,8 +112,8 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
     def to_powers(self) -> tuple[float, ...]:
         """Coefficients of a in ascending powers of k, each the float nearest to that of this very law.
 
-        Above degree 15 or so, rounded powers no longer describe the law to full accuracy: use `to_dict` to keep
-        a law and `exact_powers` to compute with its powers.
+        Above degree 15 or so, rounded powers do not describe the law to full accuracy: use `to_dict` to keep a
+        law and `exact_powers` to compute with its powers.
 
         Examples
         --------
@@ -211,7 +211,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
 
 @lru_cache(maxsize=128)
 def smoothstep(order: int) -> PolynomialLaw:
-    """S_l, the law of least degree that goes from 0 to 1 with order - 1 derivatives zero at both ends (eq. 8).
+    """S_l, of least degree from 0 to 1 with order - 1 derivatives zero at both ends (eq. 8).
 
     Its degree is 2l - 1 and b = (2l-1)!/((l-1)!)² (k(1-k))^(l-1), l being `order`; built by exact arithmetic.
 
@@ -239,7 +239,7 @@ def _exact_derivative(values: list[Fraction]) -> list[Fraction]:
     return result[: len(values) - 1]
 
 
-def _numbers(values: Any, name: str) -> tuple[float, ...]:
+def _numbers(values: Any, name: str) -> tuple[float, ...]:  # noqa: ANN401
     try:
         array = np.asarray(values)
         right = array.ndim == 1 and (array.dtype.kind in "fiu" or array.size == 0)

@@ -27,8 +27,7 @@ def value(series: Array, x: Place) -> Place:
     last = before = x * 0.0
     for coefficient in series[:0:-1].tolist():
         last, before = coefficient + twice * last - before, last
-    first = float(series[0])
-    return first + x * last - before
+    return float(series[0]) + x * last - before
 
 
 def basis_values(x: Array, count: int) -> Array:
@@ -113,9 +112,9 @@ def product(first: Array, second: Array) -> Array:
 def real_parts_of_roots(series: Array) -> Array:
     """Points of [-1, 1] among which is, to rounding, every real root of the series there.
 
-    They are the real parts of all eigenvalues of the colleague matrix, clipped to the interval: a multiple root
-    splits into complex ones, and a rule for which of them are real could only lose roots. Leading coefficients
-    that are negligible relative to the largest are left out, for their rounding errors would spoil the rest.
+    They are the real parts of all eigenvalues of the colleague matrix, clipped to the interval: a multiple
+    root splits into complex ones, and a rule for which of them are real could only lose roots. Leading
+    coefficients negligible beside the largest are left out, for their rounding errors would spoil the rest.
 
     Examples
     --------
@@ -128,7 +127,8 @@ def real_parts_of_roots(series: Array) -> Array:
     if count == 0:
         return np.empty(0)
     if count == 1:
-        return np.clip(-series[:1] / series[1], -1.0, 1.0)
+        single: Array = np.clip(-series[:1] / series[1], -1.0, 1.0)
+        return single
     skeleton, scale = _colleague(count)
     matrix = skeleton.copy()
     matrix[::-1, 0] -= series[:count] / series[count] * scale

@@ -19,6 +19,7 @@ Array = NDArray[np.float64]
 _STEPS = 14
 _CONVERGED = 1e-13
 _STALLED = 1e-10
+_FAR = 1.05
 
 
 @dataclass(frozen=True, eq=False)
@@ -32,6 +33,12 @@ class ActiveSet:
     free: NDArray[np.bool_]
     multipliers: Array
     equality_multiplier: float
+
+    def moved(self, contact: int, u: float) -> ActiveSet:
+        """With one contact let go from its end to u."""
+        places, free = self.u.copy(), self.free.copy()
+        places[contact], free[contact] = u, True
+        return replace(self, u=places, free=free)
 
     def joined(self, family: int, u: float, s: float, *, free: bool) -> ActiveSet:
         """With one more contact, without weight yet."""
@@ -54,12 +61,11 @@ def newton(program: Program, start: ActiveSet, right: float) -> ActiveSet | None
         if step is None or not np.isfinite(step).all():
             return None
         state = _moved(state, step)
-        lowest = np.array([program.families[i].lowest for i in state.family])
-        if np.any(state.u > 1.01) or np.any(state.u < lowest - 0.01):
+        if np.any(np.abs(state.u) > _FAR):
             return None
         size = float(np.abs(step[: program.size]).max() / max(1.0, np.abs(state.x).max()))
         if size < _CONVERGED or (size < _STALLED and size > previous / 4):
-            return replace(state, u=np.minimum(np.maximum(state.u, lowest), 1.0))
+            return state
         previous = size
     return None
 

@@ -2,12 +2,13 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.active_set import ActiveSet, newton
+from optlaws.synthesis.contacts import corrected
 from optlaws.synthesis.rows import Family, Points, Program
 from optlaws.synthesis.transcription import Answer, solve_rows
 
@@ -16,7 +17,6 @@ Array = NDArray[np.float64]
 VIOLATION = 1e-10
 _ROUNDS = 12
 _CORRECTIONS = 8
-_SAME = 1e-6
 _WEIGHTLESS = 1e-7
 
 
@@ -53,44 +53,16 @@ def solve(program: Program, right: float, warm: ActiveSet | None = None) -> Outc
 
 
 def _polished(program: Program, start: ActiveSet, right: float) -> ActiveSet | None:
-    """Newton on a guess of the contacts; contacts that pull are dropped and extrema that stick out join, a few times."""
+    """Newton on a guess of the contacts, which is corrected a few times by what the answer says."""
     guess = start
     for _ in range(_CORRECTIONS):
         optimum = newton(program, guess, right)
         if optimum is None:
             return None
-        pulling = optimum.multipliers < -1e-10 * np.abs(optimum.multipliers).max(initial=0.0)
-        if pulling.any():
-            guess = _without(optimum, int(np.argmin(optimum.multipliers)))
-            continue
-        guess = _with_violated(program, optimum)
-        if len(guess.u) == len(optimum.u):
+        guess = corrected(program, optimum, VIOLATION * max(1.0, abs(float(optimum.x[-1]))))
+        if guess is optimum:
             return optimum
     return None
-
-
-def _without(state: ActiveSet, contact: int) -> ActiveSet:
-    kept = np.arange(len(state.u)) != contact
-    return replace(
-        state,
-        family=state.family[kept],
-        u=state.u[kept],
-        s=state.s[kept],
-        free=state.free[kept],
-        multipliers=state.multipliers[kept],
-    )
-
-
-def _with_violated(program: Program, state: ActiveSet) -> ActiveSet:
-    allowed = VIOLATION * max(1.0, abs(float(state.x[-1])))
-    added = state
-    for i, family in enumerate(program.families):
-        u, s, residual = family.extremes(state.x)
-        for j in np.flatnonzero(residual > allowed):
-            mine = (added.family == i) & (added.s == s[j])
-            if not np.any(mine & (np.abs(added.u - u[j]) < _SAME)):
-                added = added.joined(i, float(u[j]), float(s[j]), free=family.lowest < u[j] < 1.0)
-    return added
 
 
 def _on_points(program: Program, points: list[Points], right: float) -> Answer:

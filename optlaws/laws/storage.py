@@ -1,0 +1,112 @@
+"""How laws are kept: as plain data or JSON text that names its format and its kind."""
+
+from __future__ import annotations
+
+import json
+from abc import ABC, abstractmethod
+from collections.abc import Mapping
+from typing import Any, ClassVar, Self
+
+from optlaws.errors import InputError
+
+FORMAT = 1
+
+
+class Stored(ABC):
+    """A value that turns into plain data and back without loss; each kind is a subclass that names itself.
+
+    Examples
+    --------
+    >>> from optlaws.laws import PolynomialLaw
+    >>> Stored.kinds["polynomial"] is PolynomialLaw
+    True
+    """
+
+    kind: ClassVar[str]
+    kinds: ClassVar[dict[str, type[Stored]]] = {}
+
+    def __init_subclass__(cls, *, kind: str | None = None, **kwargs: object) -> None:
+        super().__init_subclass__(**kwargs)
+        if kind is not None:
+            cls.kind = kind
+            Stored.kinds[kind] = cls
+
+    def to_dict(self) -> dict[str, Any]:
+        """The law as plain data (numbers, strings, lists), from which `from_dict` makes an equal one.
+
+        Examples
+        --------
+        >>> from optlaws.laws import MotionLaw, smoothstep
+        >>> smoothstep(1).to_dict()
+        {'format': 1, 'kind': 'polynomial', 'acceleration': [], 'a0': 0.0, 'b0': 1.0}
+        """
+        return {"format": FORMAT, "kind": self.kind, **self._fields()}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """The law that `to_dict` described.
+
+        Raises
+        ------
+        InputError
+            If the format, the kind or a key is unknown, a key is missing, or a number is not finite.
+
+        Examples
+        --------
+        >>> from optlaws.laws import MotionLaw, smoothstep
+        >>> MotionLaw.from_dict(smoothstep(4).to_dict()) == smoothstep(4)
+        True
+        """
+        fields = _opened(data)
+        kind = fields.pop("kind", None)
+        known = {name: law for name, law in cls.kinds.items() if issubclass(law, cls)}
+        if not isinstance(kind, str) or kind not in known:
+            msg = f"kind of law {kind!r} is unknown; known are {', '.join(sorted(known))}"
+            raise InputError(msg)
+        return known[kind]._from_fields(fields)  # noqa: SLF001
+
+    def to_json(self) -> str:
+        """`to_dict` as JSON text."""
+        return json.dumps(self.to_dict(), allow_nan=False)
+
+    @classmethod
+    def from_json(cls, text: str) -> Self:
+        """The law that `to_json` wrote.
+
+        Raises
+        ------
+        InputError
+            If the text is not JSON or does not describe a law.
+
+        Examples
+        --------
+        >>> from optlaws.laws import MotionLaw, smoothstep
+        >>> MotionLaw.from_json(smoothstep(4).to_json()) == smoothstep(4)
+        True
+        """
+        try:
+            data = json.loads(text)
+        except (TypeError, ValueError) as error:
+            msg = f"a law must be JSON text: {error}"
+            raise InputError(msg) from error
+        return cls.from_dict(data)
+
+    @abstractmethod
+    def _fields(self) -> dict[str, Any]:
+        """Contents as plain data, without format and kind."""
+
+    @classmethod
+    @abstractmethod
+    def _from_fields(cls, fields: dict[str, Any]) -> Self:
+        """The value of these contents; InputError for missing or unknown keys."""
+
+
+def _opened(data: Any) -> dict[str, Any]:  # noqa: ANN401
+    if not isinstance(data, Mapping):
+        msg = f"a law must be a dict, got {type(data).__name__}"
+        raise InputError(msg)
+    fields = dict(data)
+    if (found := fields.pop("format", None)) != FORMAT:
+        msg = f"format of a law must be {FORMAT}, got {found!r}"
+        raise InputError(msg)
+    return fields
