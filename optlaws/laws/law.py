@@ -24,11 +24,11 @@ class MotionLaw(Stored):
     """Displacement a(k) of k in [0, 1] with its derivatives; dimensionless (eq. 1).
 
     Velocity b = a', acceleration c = a'', jerk j = a''', kinetic power d = b c. With stroke h and duration T
-    the motion is h a, its derivatives h/T b, h/T² c, h/T³ j. Laws are immutable, hashable, and equal where type
-    and contents are equal.
+    the motion is h a and its derivatives are (h/T) b, (h/T²) c, (h/T³) j. Laws are immutable, hashable, and
+    equal where type and contents are equal.
 
     A new representation is one subclass, a frozen dataclass declared with its kind, for example
-    ``class SplineLaw(MotionLaw, kind="spline")``, that supplies the abstract methods; storage, peaks, tables and
+    ``class SplineLaw(MotionLaw, kind="spline")``, that supplies the abstract methods; storage, peaks and
     drawings follow.
 
     Examples

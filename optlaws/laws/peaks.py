@@ -116,8 +116,8 @@ def peak(k: Array, values: Array) -> Peak:
 def polished(x: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Array:
     """Candidates in [-1, 1] moved by Newton steps towards roots of a residual, where that makes it smaller.
 
-    `residual(x)` gives the residual and its derivative with respect to x. A step is short and stays only where
-    the residual shrinks, so that a candidate that is already good cannot be lost.
+    `residual(x)` gives the residual and its derivative with respect to x. A step is short and stays only
+    where the residual shrinks, so that a candidate that is already good cannot be lost.
 
     Examples
     --------

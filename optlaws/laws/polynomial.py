@@ -112,8 +112,8 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
     def to_powers(self) -> tuple[float, ...]:
         """Coefficients of a in ascending powers of k, each the float nearest to that of this very law.
 
-        Above degree 15 or so, rounded powers do not describe the law to full accuracy: use `to_dict` to keep a
-        law and `exact_powers` to compute with its powers.
+        Above degree 15 or so, rounded powers do not describe the law to full accuracy: use `to_dict` to keep
+        a law and `exact_powers` to compute with its powers.
 
         Examples
         --------
@@ -209,7 +209,6 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
         return cls(**fields)
 
 
-@lru_cache(maxsize=128)
 def smoothstep(order: int) -> PolynomialLaw:
     """S_l, of least degree from 0 to 1 with order - 1 derivatives zero at both ends (eq. 8).
 
@@ -225,7 +224,11 @@ def smoothstep(order: int) -> PolynomialLaw:
     >>> smoothstep(4)
     PolynomialLaw(degree=7, B=2.1875, C=7.51319, D=10.7502, J=52.5)
     """
-    order = whole(order, "order", least=1)
+    return _smoothstep(whole(order, "order", least=1))
+
+
+@lru_cache(maxsize=128)
+def _smoothstep(order: int) -> PolynomialLaw:
     factor = factorial(2 * order - 1) // factorial(order - 1) ** 2
     powers = [Fraction((-1) ** i * factor * comb(order - 1, i), order + i) for i in range(order)]
     return PolynomialLaw.from_powers([0] * order + powers)

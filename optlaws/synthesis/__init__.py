@@ -1,6 +1,7 @@
 """How an optimal law is found: problems, their solution by CasADi and IPOPT, lower bounds and limits."""
 
 from optlaws.synthesis.bases import Basis, Chebyshev, Powers, basis
+from optlaws.synthesis.boundary import BoundaryConditions, construct
 from optlaws.synthesis.certificate import Certificate, Contact
 from optlaws.synthesis.limits import acceleration_limit
 from optlaws.synthesis.problem import Problem
@@ -9,6 +10,7 @@ from optlaws.synthesis.solve import sweep, synthesize
 
 __all__ = [
     "Basis",
+    "BoundaryConditions",
     "Certificate",
     "Chebyshev",
     "Contact",
@@ -18,6 +20,7 @@ __all__ = [
     "Status",
     "acceleration_limit",
     "basis",
+    "construct",
     "sweep",
     "synthesize",
 ]

@@ -13,19 +13,15 @@ _PULL = 1e-10
 _SAME = 1e-6
 
 
-def corrected(program: Program, state: ActiveSet, allowed: float) -> ActiveSet:
-    """The same object if nothing is wrong, else a better guess with one kind of correction made.
-
-    Contacts that pull are dropped one by one, contacts that left the interval are put on its end, contacts on an end
-    whose residual grows inward are let go, and extrema that stick out by more than `allowed` join.
-    """
+def settled(program: Program, state: ActiveSet) -> ActiveSet:
+    """Drop the contact that pulls most, or put contacts that left the interval on its end; the same object if none."""
     if np.any(state.multipliers < -_PULL * np.abs(state.multipliers).max(initial=0.0)):
         return _without(state, int(np.argmin(state.multipliers)))
     lowest = np.array([program.families[i].lowest for i in state.family])
     outside = (state.u < lowest) | (state.u > 1.0)
     if outside.any():
         return replace(state, u=np.clip(state.u, lowest, 1.0), free=state.free & ~outside)
-    return _with_violated(program, state, allowed)
+    return state
 
 
 def _without(state: ActiveSet, contact: int) -> ActiveSet:
@@ -40,7 +36,11 @@ def _without(state: ActiveSet, contact: int) -> ActiveSet:
     )
 
 
-def _with_violated(program: Program, state: ActiveSet, allowed: float) -> ActiveSet:
+def completed(program: Program, state: ActiveSet, allowed: float) -> ActiveSet:
+    """Add the extrema that stick out by more than `allowed`; the same object if none does.
+
+    Where the nearest contact is pinned to an end, its residual grows inward and it is let go instead.
+    """
     better = state
     for i, family in enumerate(program.families):
         u, s, residual = family.extremes(state.x)

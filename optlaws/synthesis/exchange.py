@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.active_set import ActiveSet, newton
-from optlaws.synthesis.contacts import corrected
+from optlaws.synthesis.contacts import completed, settled
 from optlaws.synthesis.rows import Family, Points, Program
 from optlaws.synthesis.transcription import Answer, solve_rows
 
@@ -30,10 +31,19 @@ class Outcome:
     status: str
 
 
-def solve(program: Program, right: float, warm: ActiveSet | None = None) -> Outcome:
-    """Solve a semi-infinite linear program; a neighbour's optimum as `warm` is tried before IPOPT."""
+def solve(
+    program: Program,
+    right: float,
+    warm: ActiveSet | None = None,
+    *,
+    holds: Callable[[Array], bool] | None = None,
+) -> Outcome:
+    """Solve a semi-infinite linear program; a neighbour's optimum as `warm` is tried before IPOPT.
+
+    `holds` may tell from x alone, and more quickly than the families do, whether every constraint holds.
+    """
     if warm is not None:
-        optimum = _polished(program, warm, right)
+        optimum = _polished(program, warm, right, holds)
         if optimum is not None:
             return Outcome(optimum, 0, 0, "continued from a neighbour")
     points = [_first_points(family, program.size) for family in program.families]
@@ -45,21 +55,27 @@ def solve(program: Program, right: float, warm: ActiveSet | None = None) -> Outc
         status = answer.status
         if not np.isfinite(answer.x).all() or np.abs(answer.x).max() > 1e7:
             return Outcome(None, iterations, attempt, status)
-        optimum = _polished(program, _identified(program, points, answer), right)
+        optimum = _polished(program, _identified(program, points, answer), right, holds)
         if optimum is not None:
             return Outcome(optimum, iterations, attempt, status)
-        points = [_exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
+        points = [
+            _exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)
+        ]
     return Outcome(None, iterations, _ROUNDS, status)
 
 
-def _polished(program: Program, start: ActiveSet, right: float) -> ActiveSet | None:
+def _polished(
+    program: Program, start: ActiveSet, right: float, holds: Callable[[Array], bool] | None
+) -> ActiveSet | None:
     """Newton on a guess of the contacts, which is corrected a few times by what the answer says."""
     guess = start
     for _ in range(_CORRECTIONS):
         optimum = newton(program, guess, right)
         if optimum is None:
             return None
-        guess = corrected(program, optimum, VIOLATION * max(1.0, abs(float(optimum.x[-1]))))
+        guess = settled(program, optimum)
+        if guess is optimum and (holds is None or not holds(optimum.x)):
+            guess = completed(program, optimum, VIOLATION * max(1.0, abs(float(optimum.x[-1]))))
         if guess is optimum:
             return optimum
     return None

@@ -54,11 +54,18 @@ class Problem:
     symmetric: bool = True
 
     def __post_init__(self) -> None:
-        if isinstance(self.B, bool) or not isinstance(self.B, int | float) or not isfinite(self.B) or self.B <= 1:
+        if (
+            isinstance(self.B, bool)
+            or not isinstance(self.B, int | float)
+            or not isfinite(self.B)
+            or self.B <= 1
+        ):
             _refuse(f"B must be a finite number above 1 (the mean velocity is 1), got {self.B!r}")
         object.__setattr__(self, "B", float(self.B))
         if isinstance(self.order, bool) or not isinstance(self.order, int) or self.order < 1:
-            _refuse(f"order (the number l of conditions at each end) must be an integer of at least 1, got {self.order!r}")
+            _refuse(
+                f"order (the number l of conditions at each end) must be an integer of at least 1, got {self.order!r}"
+            )
         if not isinstance(self.basis, Basis):
             _refuse(f"basis must be a Basis such as Powers(9) or Chebyshev(9), got {self.basis!r}")
         if self.minimise != "C":

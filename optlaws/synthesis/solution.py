@@ -10,6 +10,7 @@ from typing import Any
 
 from optlaws.laws import Constants, PolynomialLaw
 from optlaws.synthesis.active_set import ActiveSet
+from optlaws.synthesis.bases import Powers
 from optlaws.synthesis.certificate import Certificate
 from optlaws.synthesis.problem import Problem
 
@@ -85,6 +86,11 @@ class Solution:
         return self.law.constants
 
     @property
+    def z_powers(self) -> tuple[float, ...]:
+        """Coefficients of Z in ascending powers of k, whatever the problem's basis."""
+        return Powers(self.problem.basis.degree).coefficients(self.problem.basis.series(self.z))
+
+    @property
     def lower_bound(self) -> float:
         """The proven lower bound of the objective over all laws of the problem."""
         return self.certificate.bound
@@ -108,7 +114,7 @@ class Solution:
             "gap": self.gap,
             "limit": self.limit,
             "constants": self.constants.to_dict(),
-            "z": list(self.z),
+            "z": list(self.z_powers),
             "law": self.law.to_dict(),
             "iterations": self.iterations,
             "seconds": self.seconds,

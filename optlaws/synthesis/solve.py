@@ -6,6 +6,7 @@ from collections.abc import Iterable, Iterator
 from time import perf_counter
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.synthesis import certificate as proof
@@ -20,6 +21,8 @@ from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.space import symmetric_space
 
 GAP = 1e-8
+
+Array = NDArray[np.float64]
 
 
 def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
@@ -57,10 +60,30 @@ def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
         raise InputError(msg)
     program = least_acceleration(problem.order, problem.terms, monotone=problem.monotone)
     warm = start.active_set if start is not None and _neighbours(problem, start.problem) else None
-    outcome = solve(program, problem.B, warm)
+    candidate = _Candidate(problem)
+    outcome = solve(program, problem.B, warm, holds=candidate.holds)
     if outcome.optimum is None:
         raise _failure(problem, outcome)
-    return _solution(problem, program, outcome, outcome.optimum, began)
+    return _solution(candidate, program, outcome, outcome.optimum, began)
+
+
+class _Candidate:
+    """The law of the coordinates tried last, with what it is worth on the whole interval."""
+
+    def __init__(self, problem: Problem) -> None:
+        self.problem = problem
+        self.space = symmetric_space(problem.order, problem.terms)
+        self.coordinates: Array = np.empty(0)
+
+    def holds(self, x: Array) -> bool:
+        """Whether the law keeps to the velocity constraints, and its C to the one claimed in x."""
+        self.coordinates = x[:-1]
+        self.law = self.space.law(self.coordinates)
+        self.objective = self.law.peak(2).value
+        lowest, highest = self.law.extrema(1)
+        excess = max(highest.value - self.problem.B, -lowest.value if self.problem.monotone else 0.0)
+        self.excess = excess / self.problem.B
+        return self.excess <= VIOLATION and self.objective <= float(x[-1]) * (1.0 + VIOLATION)
 
 
 def sweep(problems: Iterable[Problem]) -> Iterator[Solution]:
@@ -83,23 +106,20 @@ def _neighbours(first: Problem, second: Problem) -> bool:
     return (first.order, first.terms, first.monotone) == (second.order, second.terms, second.monotone)
 
 
-def _solution(problem: Problem, program: Program, outcome: Outcome, optimum: ActiveSet, began: float) -> Solution:
-    space = symmetric_space(problem.order, problem.terms)
-    coordinates = optimum.x[:-1]
-    law = space.law(coordinates)
-    objective = law.peak(2).value
-    lowest, highest = law.extrema(1)
-    excess = max(highest.value / problem.B - 1.0, -lowest.value / problem.B if problem.monotone else 0.0)
-    if excess > VIOLATION:
-        msg = f"the law found breaks a velocity constraint by {excess:.1e} of B"
-        raise SolverFailure(msg, problem=problem, tried=f"IPOPT said {outcome.status}")
+def _solution(
+    candidate: _Candidate, program: Program, outcome: Outcome, optimum: ActiveSet, began: float
+) -> Solution:
+    problem = candidate.problem
+    if candidate.excess > VIOLATION:
+        msg = f"the law found breaks a velocity constraint by {candidate.excess:.1e} of B"
+        raise SolverFailure(msg, problem=problem, tried=f"IPOPT said {outcome.status!r}")
     found = certify(problem, program, optimum)
-    gap = (objective - found.bound) / objective
+    gap = (candidate.objective - found.bound) / candidate.objective
     return Solution(
         problem=problem,
-        law=law,
-        z=problem.basis.coefficients(space.z_series(coordinates)),
-        objective=objective,
+        law=candidate.law,
+        z=problem.basis.coefficients(candidate.space.z_series(candidate.coordinates)),
+        objective=candidate.objective,
         certificate=found,
         limit=acceleration_limit(problem.B, monotone=problem.monotone, order=problem.order),
         status=Status.OPTIMAL if gap <= GAP else Status.INACCURATE,

@@ -17,6 +17,7 @@ _LINEAR = {
     "ipopt.jac_c_constant": "yes",
     "ipopt.jac_d_constant": "yes",
     "ipopt.hessian_constant": "yes",
+    "ipopt.max_iter": 400,
     # the order of elimination is fixed so that every platform takes the same steps
     "ipopt.mumps_permuting_scaling": 0,
     "ipopt.mumps_pivot_order": 2,
@@ -34,7 +35,9 @@ class Answer:
     iterations: int
 
 
-def solve_rows(rows: Array, right: Array, equalities: int, objective: Array, *, tolerance: float = 1e-9) -> Answer:
+def solve_rows(
+    rows: Array, right: Array, equalities: int, objective: Array, *, tolerance: float = 1e-9
+) -> Answer:
     """Minimise objective . x subject to rows . x <= right, the last `equalities` rows as equations.
 
     Rows are scaled to unit length before IPOPT sees them; the multipliers returned belong to the rows as given.

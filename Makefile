@@ -1,0 +1,91 @@
+PYTHON ?= python3
+VENV := .venv
+BIN := $(VENV)/bin
+UV := $(or $(wildcard $(BIN)/uv),$(shell command -v uv 2>/dev/null))
+RUN := $(VENV)/.stamp-run
+DEV := $(VENV)/.stamp-dev
+PROBLEMS := $(sort $(wildcard problems/*.toml))
+
+# More BLAS threads change the order of summation, and with it the last digits of a table.
+export OMP_NUM_THREADS := 1
+export OPENBLAS_NUM_THREADS := 1
+export MKL_NUM_THREADS := 1
+export MPLBACKEND := Agg
+
+ifdef UV
+install = $(UV) pip install --quiet --python $(BIN)/python -c constraints.txt -e $(1)
+else
+install = { $(BIN)/python -m pip --version >/dev/null 2>&1 || $(BIN)/python -m ensurepip >/dev/null; } \
+	&& $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e $(1)
+endif
+
+.DEFAULT_GOAL := help
+.DELETE_ON_ERROR:
+.PHONY: help table test test-long lint format docs bench results check-results constraints clean
+
+help: ## list the targets
+	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1|\2/p' Makefile | awk -F'|' '{ printf "%-22s %s\n", $$1, $$2 }'
+
+table: $(RUN) ## set everything up and regenerate the table of optimal laws
+	$(BIN)/optlaws run problems/optimal_table.toml
+
+test: $(DEV) ## run the tests, the doctests and the documents
+	$(BIN)/python -m pytest -n 2
+
+test-long: $(DEV) ## run the tests that take long
+	$(BIN)/python -m pytest -n 2 -m long || [ $$? -eq 5 ] # 5: there are none
+
+lint: $(DEV) ## check style, formatting and types
+	$(BIN)/ruff check
+	$(BIN)/ruff format --check
+	$(BIN)/mypy
+
+format: $(DEV) ## format the code and mend what can be mended
+	$(BIN)/ruff format
+	$(BIN)/ruff check --fix
+
+docs: $(DEV) ## build the documentation into docs/_build/html
+	$(BIN)/python -m sphinx -b html -W --keep-going -n -E -q docs docs/_build/html
+
+bench: $(DEV) ## run the benchmarks
+	$(BIN)/python -m tests.bench
+
+results: $(RUN) ## regenerate results/ from every problem file
+	@set -e; for problem in $(PROBLEMS); do echo "optlaws run $$problem"; $(BIN)/optlaws run "$$problem"; done
+
+# Pictures carry fonts and renderer versions, so only the numbers are compared.
+check-results: $(RUN) ## regenerate the results elsewhere and compare their numbers with results/
+	@set -e; top=$$(pwd); copy=$$(mktemp -d); trap 'rm -rf "$$copy"' EXIT; \
+	mkdir "$$copy/results"; cp -R problems "$$copy/problems"; \
+	for problem in $(PROBLEMS); do \
+		echo "optlaws run $$problem"; (cd "$$copy" && "$$top/$(BIN)/optlaws" run "$$problem" >/dev/null); \
+	done; \
+	diff -ru -x '*.svg' -x '*.png' -x '*.pdf' results "$$copy/results" \
+		|| { echo "results/ differs from what the problem files give (see above)" >&2; exit 1; }; \
+	echo "results/ agrees with the problem files"
+
+constraints: $(BIN)/python ## resolve every dependency again into constraints.txt (needs uv)
+	@test -n "$(UV)" || { echo "make constraints needs uv" >&2; exit 1; }
+	$(UV) pip compile pyproject.toml --all-extras --universal --python-version 3.11 --upgrade --quiet \
+		--no-header --no-annotate --no-emit-index-url --no-emit-find-links --output-file constraints.txt
+
+clean: ## remove everything that can be made again, the environment included
+	rm -rf $(VENV) build dist docs/_build .mypy_cache .pytest_cache .ruff_cache .hypothesis
+	find . -name __pycache__ -type d -prune -exec rm -rf {} +
+
+$(BIN)/python:
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' 2>/dev/null || { \
+		echo "optlaws needs Python 3.11 or newer; $(PYTHON) is $$($(PYTHON) --version 2>&1)." >&2; \
+		echo "Name another one: make PYTHON=python3.12 ..." >&2; exit 1; }
+	@$(PYTHON) -m venv $(VENV) || { rm -rf $(VENV); \
+		echo "$(PYTHON) cannot make virtual environments (on Debian and Ubuntu: install python3-venv)." >&2; exit 1; }
+
+$(RUN): pyproject.toml constraints.txt | $(BIN)/python
+	@echo "installing optlaws into $(VENV)"
+	@$(call install,.)
+	@touch $@
+
+$(DEV): pyproject.toml constraints.txt | $(BIN)/python
+	@echo "installing optlaws and its development tools into $(VENV)"
+	@$(call install,'.[dev]')
+	@touch $(RUN) $@

@@ -1,0 +1,35 @@
+"""References to where an object is defined lead to where it is documented.
+
+`MotionLaw` lives in a module of its own and is documented as a name of the package that re-exports it;
+annotations name the module.
+"""
+
+from docutils import nodes
+from sphinx.addnodes import pending_xref
+from sphinx.application import Sphinx
+from sphinx.environment import BuildEnvironment
+from sphinx.util.nodes import make_refnode
+
+
+def resolve(
+    app: Sphinx, env: BuildEnvironment, node: pending_xref, content: nodes.TextElement
+) -> nodes.reference | None:
+    """Find the documented object that is the one referred to: the same name, in a package above it."""
+    target: str = node.get("reftarget", "")
+    if node.get("refdomain") != "py" or not target.startswith("optlaws."):
+        return None
+    objects = env.domains.python_domain.objects
+    *package, name = target.split(".")
+    while package:
+        found = objects.get(".".join([*package, name]))
+        if found is not None:
+            source: str = node.get("refdoc", env.docname)
+            return make_refnode(app.builder, source, found.docname, found.node_id, content)
+        package.pop()
+    return None
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Register the resolver."""
+    app.connect("missing-reference", resolve)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,45 @@
+"""Sphinx configuration; pages are MyST Markdown, docstrings are in numpy style."""
+
+import logging
+import sys
+from pathlib import Path
+
+import optlaws
+
+sys.path.insert(0, str(Path(__file__).parent / "_ext"))
+
+project = "optlaws"
+author = copyright = "the optlaws developers"
+version = release = optlaws.__version__
+
+extensions = [
+    "mathml",
+    "myst_parser",
+    "public_names",
+    "sphinx.ext.autodoc",
+    "sphinx.ext.napoleon",
+]
+exclude_patterns = ["_build"]
+
+# A section of the contents may wait for its first page. (suppress_warnings does not reach this warning:
+# Sphinx gives it a subtype but no type.)
+logging.getLogger("sphinx.sphinx.directives.other").addFilter(
+    lambda record: "toctree glob pattern" not in str(record.msg)
+)
+
+myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+
+autodoc_member_order = "bysource"
+autodoc_typehints = "signature"
+napoleon_google_docstring = False
+napoleon_use_rtype = False
+
+nitpicky = True
+# The documentation is built without a network, hence without other projects' inventories:
+# only references to optlaws itself can be resolved, and those must be.
+nitpick_ignore_regex = [("py:.*", r"(?!optlaws\.).*"), ("py:.*", r"optlaws\.(.*\.)?_.*")]
+
+html_theme = "furo"
+html_title = f"optlaws {version}"
+html_math_renderer = "mathml"

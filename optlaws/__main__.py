@@ -1,0 +1,5 @@
+"""`python -m optlaws` is the command `optlaws`."""
+
+from optlaws.cli import main
+
+main()

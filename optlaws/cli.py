@@ -1,0 +1,226 @@
+"""The command `optlaws`."""
+
+from __future__ import annotations
+
+import json
+import sys
+from collections.abc import Sequence
+from contextlib import nullcontext
+from pathlib import Path
+from typing import Annotated, Any, Literal, NoReturn
+
+from cyclopts import App, CycloptsError, Parameter
+from rich.console import Console
+from rich.table import Table
+
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
+from optlaws.laws import Constants
+from optlaws.synthesis import BoundaryConditions, Problem, Solution, basis, construct, synthesize
+
+BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 2, 3, 4, 130
+
+
+def _version() -> str:
+    from importlib.metadata import version
+
+    return version("optlaws")
+
+
+app = App(
+    name="optlaws",
+    help="Optimal motion laws for cam mechanisms and servo axes, with proof of their optimality.",
+    version=_version,
+    help_format="plaintext",
+    default_parameter=Parameter(negative=()),
+)
+
+
+@app.command
+def run(*files: Path, out: Path | None = None) -> None:
+    """Do the jobs of problem files and write their results.
+
+    Parameters
+    ----------
+    files
+        Problem files (TOML).
+    out
+        Folder for the results of a single file; otherwise results/NAME beside the folder of the problem file.
+    """
+    from optlaws.studies import problem_file
+
+    if not files:
+        raise InputError("name at least one problem file, for example problems/optimal_table.toml")
+    if out is not None and len(files) > 1:
+        raise InputError("--out takes the results of one problem file; several were named")
+    progress, console = Console(stderr=True), Console()
+    for file in files:
+        with progress.status(f"{file}") if progress.is_terminal else nullcontext():
+            written = problem_file.run(file, out)
+        for text in (w for w in written if w.suffix == ".md"):
+            _show_markdown(console, text.read_text(encoding="utf-8"))
+        for result in written:
+            print(_near(result))  # noqa: T201
+
+
+@app.command
+def solve(
+    *,
+    peak_velocity: float,
+    order: int,
+    degree: int,
+    minimise: Literal["C"] = "C",
+    basis_name: Annotated[Literal["powers", "chebyshev"], Parameter(name="--basis")] = "powers",
+    monotone: bool = False,
+    as_json: Annotated[bool, Parameter(name="--json")] = False,
+    output: Path | None = None,
+) -> None:
+    """Find the law with the least peak constant at a given peak velocity, and prove it.
+
+    Parameters
+    ----------
+    peak_velocity
+        B, above 1 (dimensionless; the mean velocity is 1).
+    order
+        Number l of boundary conditions at each end: 2 for velocity 0, 3 for acceleration 0 too, 4 for jerk 0 too.
+    degree
+        Degree of Z(k).
+    minimise
+        The constant to minimise.
+    basis_name
+        Basis of Z(k).
+    monotone
+        Ask b >= 0 too: no return within the motion.
+    as_json
+        Print one JSON object on stdout and nothing else.
+    output
+        Write the whole solution, with its problem and certificate, to this JSON file.
+    """
+    problem = Problem(
+        B=peak_velocity, order=order, basis=basis(basis_name, degree), minimise=minimise, monotone=monotone
+    )
+    solution = synthesize(problem)
+    if output is not None:
+        _save(output, solution)
+    if as_json:
+        print(json.dumps(_summary(solution)))  # noqa: T201
+    else:
+        _show_solution(solution)
+
+
+@app.command
+def constants(*, z: str, order: int, as_json: Annotated[bool, Parameter(name="--json")] = False) -> None:
+    """Peak constants of the rest-to-rest law with a given Z(k).
+
+    Parameters
+    ----------
+    z
+        Coefficients of Z in ascending powers of k, separated by blanks: "148.4156 -553.8533 771.0667 -514.0444".
+    order
+        Number l of boundary conditions at each end.
+    as_json
+        Print one JSON object on stdout and nothing else.
+    """
+    try:
+        numbers = [float(text) for text in z.replace(",", " ").split()]
+    except ValueError as error:
+        raise InputError(f"--z takes numbers separated by blanks: {error}") from None
+    found = construct(BoundaryConditions.rest(order), numbers).constants
+    if as_json:
+        print(json.dumps(found.to_dict()))  # noqa: T201
+    else:
+        Console().print(_constants_table(found))
+
+
+def main(arguments: Sequence[str] | None = None) -> NoReturn:
+    """Run the command and exit: 0 done, 2 bad input, 3 infeasible, 4 solver failure, 130 interrupted."""
+    sys.exit(exit_code(sys.argv[1:] if arguments is None else arguments))
+
+
+def exit_code(arguments: Sequence[str]) -> int:
+    """Run the command and return its exit code; an error is one clear text on stderr."""
+    try:
+        app(list(arguments), exit_on_error=False, print_error=False, result_action="return_none")
+    except CycloptsError as error:
+        _complain(str(error))
+        return BAD_INPUT
+    except InputError as error:
+        _complain(str(error))
+        return BAD_INPUT
+    except InfeasibleProblem as error:
+        _complain(f"infeasible: {error}")
+        return INFEASIBLE
+    except OptlawsError as error:
+        _complain(str(error))
+        return SOLVER_FAILURE
+    except KeyboardInterrupt:
+        _complain("interrupted")
+        return INTERRUPTED
+    except OSError as error:
+        _complain(f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}")
+        return BAD_INPUT
+    return 0
+
+
+def _complain(text: str) -> None:
+    print(f"optlaws: {text}", file=sys.stderr)  # noqa: T201
+
+
+def _summary(solution: Solution) -> dict[str, Any]:
+    whole = solution.to_dict()
+    names = (
+        "status",
+        "objective",
+        "lower_bound",
+        "gap",
+        "limit",
+        "constants",
+        "z",
+        "law",
+        "iterations",
+        "seconds",
+    )
+    return {name: whole[name] for name in names}
+
+
+def _save(file: Path, solution: Solution) -> None:
+    from optlaws.export.files import MARK, write
+
+    write(file, json.dumps({"about": MARK, **solution.to_dict()}, indent=1) + "\n")
+
+
+def _show_solution(solution: Solution) -> None:
+    console = Console()
+    table = Table(show_header=False, box=None, pad_edge=False)
+    table.add_row("status", f"{solution.status.value}: {solution.status.advice}")
+    table.add_row(solution.problem.minimise, f"{solution.objective:.10g}")
+    table.add_row("lower bound", f"{solution.lower_bound:.10g} (gap {solution.gap:.1e})")
+    table.add_row("limit", f"{solution.limit:.10g}, which no law of any degree can beat")
+    table.add_row(
+        "Z(k)", " ".join(f"{value:.9g}" for value in solution.z) + f"  ({solution.problem.basis.name})"
+    )
+    table.add_row("solved", f"{solution.problem!r}")
+    table.add_row("", f"{solution.iterations} iterations of IPOPT, {1e3 * solution.seconds:.0f} ms")
+    console.print(table)
+    console.print(_constants_table(solution.constants))
+
+
+def _constants_table(found: Constants) -> Table:
+    table = Table("constant", "value", "at k", box=None, pad_edge=False)
+    for name, peak in found.to_dict().items():
+        table.add_row(name, f"{peak['value']:.10g}", f"{peak['k']:.6g}")
+    table.add_row("RMS of c", f"{found.rms_c:.10g}", "")
+    return table
+
+
+def _show_markdown(console: Console, text: str) -> None:
+    # wide tables are printed as they are: a terminal scrolls, a file keeps its columns
+    for line in text.splitlines():
+        if not line.startswith("<!--"):
+            console.print(line, markup=False, highlight=False, soft_wrap=True)
+
+
+def _near(file: Path) -> Path:
+    try:
+        return file.relative_to(Path.cwd())
+    except ValueError:
+        return file

@@ -1,0 +1,1 @@
+"""What leaves the library: files and tables."""

@@ -1,0 +1,62 @@
+"""Pictures in one style; matplotlib is imported when the first one is drawn."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any
+
+from optlaws.export.files import MARK
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+BLUES = ("#9ecae1", "#6baed6", "#3182bd", "#08519c", "#08306b")
+WARM = "#d95f02"
+GREEN = "#1b7f5c"
+GREY = "#595959"
+
+_STYLE: dict[str, Any] = {
+    "font.family": "DejaVu Sans",
+    "font.size": 10.0,
+    "axes.titlesize": 11.0,
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e6e6e6",
+    "grid.linewidth": 0.7,
+    "axes.axisbelow": True,
+    "lines.linewidth": 1.6,
+    "legend.frameon": False,
+    "legend.fontsize": 9.0,
+    "figure.dpi": 100.0,
+    "savefig.dpi": 160.0,
+    "svg.hashsalt": "optlaws",
+    "svg.fonttype": "path",
+}
+
+
+@contextmanager
+def style() -> Iterator[None]:
+    """The style of every picture of the project, for the time of a `with` block."""
+    import matplotlib as mpl
+
+    with mpl.rc_context(_STYLE):
+        yield
+
+
+def figure(width: float = 7.2, height: float = 4.6) -> Figure:
+    """An empty figure that no window system knows of; sizes in inches."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def rendered(drawing: Figure, kind: str) -> bytes:
+    """The picture as svg or png, without the date: the same drawing gives the same bytes."""
+    stream = io.BytesIO()
+    metadata = {"svg": {"Date": None, "Creator": MARK}, "png": {"Software": MARK}}[kind]
+    drawing.savefig(stream, format=kind, metadata=metadata)
+    return stream.getvalue()

@@ -1,0 +1,1 @@
+"""Problem files and the jobs they name."""

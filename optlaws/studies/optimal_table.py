@@ -1,0 +1,260 @@
+"""The job "optimal table": a printed table of optimal laws, recomputed, proven and extended."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.export import files, tables
+from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
+from optlaws.studies import printed
+from optlaws.studies.figure_table import draw
+from optlaws.studies.problem_file import convert
+from optlaws.synthesis import (
+    BoundaryConditions,
+    Chebyshev,
+    Problem,
+    Solution,
+    acceleration_limit,
+    construct,
+    sweep,
+)
+
+COLUMNS = ("B", "C", "D", "base", "z", "note")
+
+
+class Base(msgspec.Struct, forbid_unknown_fields=True):
+    """The law that k^l (k-1)^l Z(k) is added to, and the degree of Z of the same laws over its own order."""
+
+    order: int
+    z: list[float] = []
+    same: int | None = None
+
+
+class Misprint(msgspec.Struct, forbid_unknown_fields=True):
+    """A printed number that is wrong, with the reason."""
+
+    row: str
+    quantity: str
+    printed: float
+    means: float
+    reason: str
+
+
+class Curves(msgspec.Struct, forbid_unknown_fields=True, rename={"start": "from", "stop": "to"}):
+    """What the figure shows: optima of these degrees over B."""
+
+    degrees: list[int]
+    start: float
+    stop: float
+    points: int
+
+
+class Table(msgspec.Struct, forbid_unknown_fields=True):
+    """The problem file."""
+
+    job: str
+    title: str
+    printed: str
+    order: int
+    monotone: bool
+    degrees: list[int]
+    grid: int
+    bases: dict[str, Base]
+    figure: Curves
+    misprint: list[Misprint] = []
+
+
+@dataclass(frozen=True)
+class Row:
+    """One row: what is printed, the law that the printed Z gives, and the optima by degree of Z."""
+
+    cells: Mapping[str, str]
+    law: PolynomialLaw
+    same: Solution
+    richer: Mapping[int, Solution]
+
+    @property
+    def B(self) -> float:
+        """The printed peak velocity."""
+        return float(self.cells["B"])
+
+
+def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
+    """Do the job and return the files written."""
+    spec = convert(data, Table, file)
+    source = file.parent / spec.printed
+    lines = printed.rows(source, COLUMNS)
+    rows = _solved(spec, lines, str(source))
+    verdicts = _verdicts(spec, rows)
+    about = f"{spec.title}; from {file.name}"
+    headings, cells = _cells(spec, rows)
+    judged = [(v.row, v.quantity, v.printed, v.exact, v.on_grid, v.verdict, v.reason) for v in verdicts]
+    verdict_headings = ("row B", "quantity", "printed", "exact", "on grid", "verdict", "reason")
+    drawing = draw(spec, rows)
+    return [
+        files.write(out / "table.csv", tables.to_csv(headings, cells, about=about)),
+        files.write(out / "verdicts.csv", tables.to_csv(verdict_headings, judged, about=about)),
+        files.write(out / "table.md", _markdown(spec, headings, cells, verdict_headings, judged)),
+        files.write(out / "laws.json", _laws(about, rows)),
+        *(files.write(out / f"figure.{kind}", content) for kind, content in drawing.items()),
+    ]
+
+
+def _solved(spec: Table, lines: Sequence[Mapping[str, str]], where: str) -> list[Row]:
+    laws = [_printed_law(spec, line, where) for line in lines]
+    values = [printed.number(line["B"], where) for line in lines]
+    first = Problem(B=values[0], order=spec.order, monotone=spec.monotone)
+    richer: list[dict[int, Solution]] = [{} for _ in lines]
+    for degree in spec.degrees:
+        problems = (replace(first, B=B, basis=Chebyshev(degree)) for B in values)
+        for found, solution in zip(richer, sweep(problems), strict=True):
+            found[degree] = solution
+    same = [_same_shape(spec, line, B, found) for line, B, found in zip(lines, values, richer, strict=True)]
+    return [Row(*parts) for parts in zip(lines, laws, same, richer, strict=True)]
+
+
+def _same_shape(spec: Table, line: Mapping[str, str], B: float, found: Mapping[int, Solution]) -> Solution:
+    base = spec.bases[line["base"]]
+    degree = len(line["z"].split()) - 1 if base.same is None else base.same
+    if base.order == spec.order and degree in found:
+        return found[degree]
+    (solution,) = sweep([Problem(B=B, order=base.order, basis=Chebyshev(degree), monotone=spec.monotone)])
+    return solution
+
+
+def _printed_law(spec: Table, line: Mapping[str, str], where: str) -> PolynomialLaw:
+    if line["base"] not in spec.bases:
+        raise InputError(f"{where}: base {line['base']!r} is not among the bases {', '.join(spec.bases)}")
+    base = spec.bases[line["base"]]
+    z = [Fraction(text) for text in line["z"].split()]
+    powers = construct(BoundaryConditions.rest(base.order), base.z).exact_powers()
+    whole = construct(BoundaryConditions.rest(spec.order), z).exact_powers()
+    plain = smoothstep(spec.order).exact_powers()
+    size = max(len(powers), len(whole), len(plain))
+    return PolynomialLaw.from_powers(
+        [p + w - s for p, w, s in zip(*(_filled(part, size) for part in (powers, whole, plain)), strict=True)]
+    )
+
+
+def _filled(powers: Sequence[Fraction], size: int) -> list[Fraction]:
+    return [*powers, *[Fraction(0)] * (size - len(powers))]
+
+
+def _verdicts(spec: Table, rows: Sequence[Row]) -> list[printed.Verdict]:
+    wrong = {(m.row, m.quantity): m for m in spec.misprint}
+    grid = np.linspace(0.0, 1.0, spec.grid + 1)
+    verdicts = []
+    for row in rows:
+        constants = row.law.constants
+        on_grid = {
+            "B": float(np.abs(row.law.b(grid)).max()),
+            "C": float(np.abs(row.law.c(grid)).max()),
+            "D": float(np.abs(row.law.d(grid)).max()),
+        }
+        for name, peak in (("B", constants.B), ("C", constants.C), ("D", constants.D)):
+            text = row.cells[name]
+            misprint = wrong.get((row.cells["B"], name))
+            reason = misprint.reason if misprint else None
+            verdicts.append(printed.judge(row.cells["B"], name, text, peak.value, on_grid[name], reason))
+        verdicts += [
+            printed.Verdict(m.row, m.quantity, f"{m.printed:.10g}", m.means, None, printed.MISPRINT, m.reason)
+            for m in spec.misprint
+            if m.row == row.cells["B"] and m.quantity not in {"B", "C", "D"}
+        ]
+    return verdicts
+
+
+def _cells(spec: Table, rows: Sequence[Row]) -> tuple[list[str], list[list[tables.Cell]]]:
+    headings = ["B", "C printed", "D printed", "B exact", "C exact", "at k", "D exact", "at k", "J exact"]
+    headings += ["order l", "degree of Z", "C optimal", "lower bound", "gap <="]
+    headings += [f"C optimal, l={spec.order}, degree {degree}" for degree in spec.degrees]
+    headings += ["greatest gap <=", "limit", "limit, b >= 0"]
+    cells: list[list[tables.Cell]] = []
+    for row in rows:
+        constants, same = row.law.constants, row.same
+        line: list[tables.Cell] = [row.cells["B"], row.cells["C"], row.cells["D"]]
+        line += [constants.B.value, constants.C.value, round(constants.C.k, 4)]
+        line += [constants.D.value, round(constants.D.k, 4), constants.J.value]
+        line += [
+            same.problem.order,
+            same.problem.basis.degree,
+            same.objective,
+            same.lower_bound,
+            _decade(same.gap),
+        ]
+        line += [row.richer[degree].objective for degree in spec.degrees]
+        line += [_decade(max(s.gap for s in row.richer.values()))]
+        line += [acceleration_limit(row.B), acceleration_limit(row.B, monotone=True)]
+        cells.append(line)
+    return headings, cells
+
+
+def _decade(gap: float) -> str:
+    # the power of ten above it: what lies below is rounding, and differs between machines
+    return f"1e{int(np.ceil(np.log10(max(gap, 1e-12))))}"
+
+
+def _markdown(
+    spec: Table,
+    headings: Sequence[str],
+    cells: Sequence[Sequence[tables.Cell]],
+    verdict_headings: Sequence[str],
+    verdicts: Sequence[Sequence[tables.Cell]],
+) -> str:
+    split = headings.index("order l")
+    tail = [[line[0], *line[split:]] for line in cells]
+    return "\n".join(
+        [
+            f"# {spec.title}",
+            "",
+            f"<!-- {files.MARK} -->",
+            "",
+            "## What is printed, and what the printed Z(k) gives",
+            "",
+            tables.to_markdown(headings[:split], [line[:split] for line in cells]),
+            "## What is possible",
+            "",
+            "The least C of laws of the printed row's own order and degree of Z with its proven lower bound, then of laws of",
+            f"order {spec.order} with richer Z, each proven to the gap shown, and the limits that no law of any degree can beat.",
+            "",
+            tables.to_markdown(["B", *headings[split:]], tail),
+            "## Every printed number",
+            "",
+            tables.to_markdown(verdict_headings, verdicts),
+        ]
+    )
+
+
+def _laws(about: str, rows: Sequence[Row]) -> str:
+    content = {
+        "about": f"{about}; {files.MARK}",
+        "rows": [
+            {
+                "B": row.cells["B"],
+                "printed": _law(row.law),
+                "same shape": _solution(row.same),
+                "richer": {str(degree): _solution(solution) for degree, solution in row.richer.items()},
+            }
+            for row in rows
+        ],
+    }
+    return json.dumps(content, indent=1) + "\n"
+
+
+def _solution(solution: Solution) -> dict[str, Any]:
+    kept = ("status", "objective", "lower_bound", "limit", "constants", "z", "law", "problem", "certificate")
+    whole = solution.to_dict()
+    return {name: whole[name] for name in kept}
+
+
+def _law(law: MotionLaw) -> dict[str, Any]:
+    return {"law": law.to_dict(), "constants": law.constants.to_dict()}

@@ -1,0 +1,98 @@
+"""Printed figures beside recomputed ones, and what to say of each."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from dataclasses import dataclass
+from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
+from pathlib import Path
+
+from optlaws.errors import InputError
+
+REPRODUCED = "reproduced to its digits"
+ON_GRID = "reproduced to its digits on the paper's grid"
+MISPRINT = "misprint"
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """A printed number, what it should be, and how well the two agree."""
+
+    row: str
+    quantity: str
+    printed: str
+    exact: float
+    on_grid: float | None
+    verdict: str
+    reason: str
+
+
+def judge(
+    row: str, quantity: str, printed: str, exact: float, on_grid: float | None, misprint: str | None
+) -> Verdict:
+    """Compare a printed number with the exact one and, where given, with the greatest value on the paper's grid.
+
+    A number is reproduced to its digits where the exact one, rounded to as many, is the printed one. The value on the
+    grid may be rounded or cut: the paper does both.
+
+    Examples
+    --------
+    >>> judge("1.859", "C", "5.91", 5.919585, 5.913140, None).verdict
+    "reproduced to its digits on the paper's grid"
+    """
+    off = abs(exact / float(printed) - 1.0)
+    if misprint is not None:
+        return Verdict(row, quantity, printed, exact, on_grid, MISPRINT, misprint)
+    if _same_digits(printed, exact, ROUND_HALF_UP):
+        return Verdict(row, quantity, printed, exact, on_grid, REPRODUCED, "")
+    if on_grid is not None and _same_digits(printed, on_grid, ROUND_HALF_UP, ROUND_DOWN):
+        reason = f"printed is the greatest value at the grid's points; the peak between them is off by {100 * off:.2g} %"
+        return Verdict(row, quantity, printed, exact, on_grid, ON_GRID, reason)
+    return Verdict(row, quantity, printed, exact, on_grid, f"reproduced to {_percent(off)}", "")
+
+
+def rows(file: Path, columns: tuple[str, ...]) -> list[Mapping[str, str]]:
+    """Rows of a CSV file of printed data; lines that start with # are comments.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read or has other columns.
+    """
+    try:
+        text = file.read_text(encoding="utf-8")
+    except (OSError, UnicodeDecodeError) as error:
+        raise InputError(f"cannot read the printed data {file}: {error}") from None
+    reader = csv.DictReader(line for line in text.splitlines() if line and not line.startswith("#"))
+    if tuple(reader.fieldnames or ()) != columns:
+        raise InputError(f"{file} must have the columns {', '.join(columns)}, got {reader.fieldnames}")
+    return list(reader)
+
+
+def number(text: str, where: str) -> float:
+    """A printed number.
+
+    Raises
+    ------
+    InputError
+        If it is not a finite number.
+    """
+    try:
+        value = Decimal(text)
+    except InvalidOperation:
+        value = Decimal("nan")
+    if not value.is_finite():
+        raise InputError(f"{where}: {text!r} is not a number")
+    return float(value)
+
+
+def _same_digits(printed: str, exact: float, *roundings: str) -> bool:
+    unit = Decimal(1).scaleb(Decimal(printed).as_tuple().exponent)  # type: ignore[arg-type] # finite: it is parsed
+    # what a table prints as 1.53 may come out as 1.5299999999
+    tried = Decimal(repr(round(exact, 9)))
+    return Decimal(printed) in {tried.quantize(unit, rounding) for rounding in roundings}
+
+
+def _percent(off: float) -> str:
+    return f"{100 * off:.1g} %" if off < 1e-3 else f"{100 * off:.2g} %"

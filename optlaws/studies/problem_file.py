@@ -1,0 +1,107 @@
+"""Problem files: TOML that says what is solved; the job named in it does the work."""
+
+from __future__ import annotations
+
+import tomllib
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from types import UnionType
+from typing import Any, TypeVar, get_args, get_origin, get_type_hints
+
+import msgspec
+
+from optlaws.errors import InputError
+from optlaws.suggest import unknown_key
+
+Job = Callable[[Mapping[str, Any], Path, Path], list[Path]]
+Spec = TypeVar("Spec", bound=msgspec.Struct)
+
+
+def jobs() -> dict[str, Job]:
+    """The jobs a problem file can name."""
+    from optlaws.studies import optimal_table
+
+    return {"optimal table": optimal_table.run}
+
+
+def run(file: Path, out: Path | None = None) -> list[Path]:
+    """Do the job of a problem file and return the files written.
+
+    Parameters
+    ----------
+    file
+        The problem file.
+    out
+        Folder for the results; `results/<name of the file>` beside the problem file's folder unless given.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is not TOML, or holds an unknown or wrong entry.
+    """
+    data = read(file)
+    known = jobs()
+    name = data.get("job")
+    if name is None:
+        raise InputError(f"{file}: the entry job is missing; known jobs are {', '.join(known)}")
+    if not isinstance(name, str) or name not in known:
+        raise InputError(f"{file}: {unknown_key(str(name), known, 'job')}")
+    target = out if out is not None else file.resolve().parent.parent / "results" / file.stem
+    return known[name](data, file, target)
+
+
+def read(file: Path) -> dict[str, Any]:
+    """The contents of a TOML file.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read or is not TOML.
+    """
+    try:
+        return tomllib.loads(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"cannot read {file}: {error.strerror or error}") from None
+    except UnicodeDecodeError:
+        raise InputError(f"{file} is not a text file in UTF-8") from None
+    except tomllib.TOMLDecodeError as error:
+        raise InputError(f"{file} is not TOML: {error}") from None
+
+
+def convert(data: Mapping[str, Any], spec: type[Spec], file: Path) -> Spec:
+    """Entries of a problem file as a typed value.
+
+    Raises
+    ------
+    InputError
+        If a key is unknown (the nearest right one is named), missing, or a value is of the wrong type.
+    """
+    _check_keys(data, spec, str(file))
+    try:
+        return msgspec.convert(data, spec)
+    except msgspec.ValidationError as error:
+        raise InputError(f"{file}: {error}") from None
+
+
+def _check_keys(data: Any, spec: Any, where: str) -> None:  # noqa: ANN401
+    spec = (
+        next((part for part in get_args(spec) if part is not type(None)), spec) if _optional(spec) else spec
+    )
+    origin, inner = get_origin(spec), get_args(spec)
+    if origin is list and isinstance(data, list):
+        for i, item in enumerate(data):
+            _check_keys(item, inner[0], f"{where}[{i}]")
+    elif origin is dict and isinstance(data, dict):
+        for key, item in data.items():
+            _check_keys(item, inner[1], f"{where}, {key}")
+    elif isinstance(spec, type) and issubclass(spec, msgspec.Struct) and isinstance(data, Mapping):
+        hints = get_type_hints(spec)
+        names = {field.encode_name: hints[field.name] for field in msgspec.structs.fields(spec)}
+        for key, item in data.items():
+            if key not in names:
+                raise InputError(f"{where}: {unknown_key(key, names)}")
+            _check_keys(item, names[key], f"{where}, {key}")
+
+
+def _optional(spec: Any) -> bool:  # noqa: ANN401
+    return isinstance(spec, UnionType) and type(None) in get_args(spec)

@@ -1,0 +1,154 @@
+"""The construction of eq. 8: end conditions -> a0, a1, and with any Z(k) -> a law."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import comb, factorial
+from typing import Any, Self
+
+from optlaws.errors import InputError
+from optlaws.laws import PolynomialLaw
+from optlaws.laws.chebyshev import exact_powers, fractions
+from optlaws.synthesis.bases import Basis, Powers
+
+Polynomial = list[Fraction]
+
+
+@dataclass(frozen=True)
+class BoundaryConditions:
+    """Values of a, b, c, c', ... at k = 0 and at k = 1 (eq. 1, 2), as many at one end as at the other.
+
+    Parameters
+    ----------
+    start, end
+        The l values at each end, dimensionless; ints, floats or Fractions.
+
+    Raises
+    ------
+    InputError
+        If there is no value, a value is not a finite number, or the ends have not as many.
+
+    Examples
+    --------
+    >>> BoundaryConditions.rest(2)
+    BoundaryConditions(start=(0, 0), end=(1, 0))
+    >>> BoundaryConditions(start=(0, 0), end=(1, 0.5)).order
+    2
+    """
+
+    start: tuple[Any, ...]
+    end: tuple[Any, ...]
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "start", tuple(self.start))
+        object.__setattr__(self, "end", tuple(self.end))
+        if len(self.start) != len(self.end) or not self.start:
+            raise InputError(
+                "boundary conditions need as many values at the start as at the end, at least one; "
+                f"got {len(self.start)} and {len(self.end)}"
+            )
+        fractions(self.start, "start")
+        fractions(self.end, "end")
+
+    @classmethod
+    def rest(cls, order: int) -> Self:
+        """Rest to rest: 0, 0, ... at k = 0 and 1, 0, ... at k = 1, `order` values each.
+
+        Raises
+        ------
+        InputError
+            If `order` is not an integer of at least 1.
+        """
+        if isinstance(order, bool) or not isinstance(order, int) or order < 1:
+            raise InputError(f"order must be an integer of at least 1, got {order!r}")
+        return cls((0,) * order, (1,) + (0,) * (order - 1))
+
+    @property
+    def order(self) -> int:
+        """The number l of conditions at each end."""
+        return len(self.start)
+
+    def a0(self) -> Polynomial:
+        """Ascending powers of the a0(k) of eq. 8, exact: the Taylor polynomial of the start."""
+        return [value / factorial(i) for i, value in enumerate(fractions(self.start, "start"))]
+
+    def a1(self) -> Polynomial:
+        """Ascending powers of the a1(k) of eq. 8, exact.
+
+        It is the Taylor polynomial at k = 1, of degree l - 1, of (wanted end - a0(k)) / k^l.
+        """
+        order = self.order
+        end = [value / factorial(i) for i, value in enumerate(fractions(self.end, "end"))]
+        wanted = [e - a for e, a in zip(end, _shifted(self.a0(), 1), strict=True)]
+        inverse = [Fraction((-1) ** i * comb(order + i - 1, i)) for i in range(order)]
+        return _shifted(_times(wanted, inverse)[:order], -1)
+
+
+def construct(
+    boundary: BoundaryConditions, z: Iterable[Any] = (), basis: Basis | None = None
+) -> PolynomialLaw:
+    """The law a(k) = a0(k) + k^l [a1(k) + (k-1)^l Z(k)] (eq. 8), built in exact arithmetic and rounded once.
+
+    Parameters
+    ----------
+    boundary
+        End conditions; no choice of Z breaks them.
+    z
+        Coefficients of Z, dimensionless; ascending powers of k unless a basis is given.
+    basis
+        The basis that `z` belongs to.
+
+    Raises
+    ------
+    InputError
+        If `z` does not fit the basis or is not finite.
+
+    Examples
+    --------
+    >>> construct(BoundaryConditions.rest(2), [-3, 6]) == construct(BoundaryConditions.rest(3))
+    True
+    >>> construct(BoundaryConditions(start=(0, 0), end=(1, 0.25))).b([0, 1]).tolist()
+    [0.0, 0.25]
+    """
+    order = boundary.order
+    free = _powers_of(list(z), basis)
+    end_factor = [Fraction((-1) ** (order - i) * comb(order, i)) for i in range(order + 1)]
+    bracket = _plus(boundary.a1(), _times(end_factor, free))
+    return PolynomialLaw.from_powers(_plus(boundary.a0(), [Fraction(0)] * order + bracket))
+
+
+def _powers_of(z: Sequence[Any], basis: Basis | None) -> Polynomial:
+    if basis is None or isinstance(basis, Powers):
+        if basis is not None and len(z) != basis.size:
+            raise InputError(f"{basis!r} takes {basis.size} coefficients z, got {len(z)}")
+        return fractions(z, "z")
+    return exact_powers(fractions(basis.series(z), "z"))
+
+
+def _times(first: Polynomial, second: Polynomial) -> Polynomial:
+    if not first or not second:
+        return []
+    product = [Fraction(0)] * (len(first) + len(second) - 1)
+    for i, p in enumerate(first):
+        for j, q in enumerate(second):
+            product[i + j] += p * q
+    return product
+
+
+def _plus(first: Polynomial, second: Polynomial) -> Polynomial:
+    total = [Fraction(0)] * max(len(first), len(second))
+    for polynomial in (first, second):
+        for i, value in enumerate(polynomial):
+            total[i] += value
+    return total
+
+
+def _shifted(polynomial: Polynomial, by: int) -> Polynomial:
+    """Powers of h of p(h + by)."""
+    shifted = [Fraction(0)] * len(polynomial)
+    for n, value in enumerate(polynomial):
+        for i in range(n + 1):
+            shifted[i] += value * comb(n, i) * by ** (n - i)
+    return shifted

@@ -1,0 +1,83 @@
+"""What the modules of a package import, read from their syntax trees."""
+
+import ast
+from collections.abc import Iterator
+from dataclasses import dataclass
+from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Import:
+    """Module `source` imports module `target`; `typing` if only a type checker sees it."""
+
+    source: str
+    target: str
+    line: int
+    typing: bool
+
+    def __str__(self) -> str:
+        return f"{self.source}:{self.line} imports {self.target}"
+
+
+def modules(package: Path) -> dict[str, Path]:
+    """The package's modules by their dotted names; a package is its __init__.py."""
+    found = {}
+    for path in sorted(package.rglob("*.py")):
+        parts = path.relative_to(package.parent).with_suffix("").parts
+        found[".".join(parts[:-1] if parts[-1] == "__init__" else parts)] = path
+    return found
+
+
+def imports(package: Path) -> list[Import]:
+    """Every import statement in the package, deferred ones included."""
+    known = modules(package)
+    return [found for name, path in known.items() for found in _imports_of(name, path, known)]
+
+
+def _imports_of(name: str, path: Path, known: dict[str, Path]) -> Iterator[Import]:
+    tree = ast.parse(path.read_text("utf-8"))
+    typing = {
+        id(child)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.If) and ast.unparse(node.test).endswith("TYPE_CHECKING")
+        for statement in node.body
+        for child in ast.walk(statement)
+    }
+    parent = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Import):
+            for alias in node.names:
+                yield Import(name, alias.name, node.lineno, id(node) in typing)
+        elif isinstance(node, ast.ImportFrom):
+            above = parent[: len(parent) - node.level + 1] if node.level else []
+            origin = ".".join([*above, *([node.module] if node.module else [])])
+            for alias in node.names:
+                # `from package import name` imports a module where there is one of that name.
+                submodule = f"{origin}.{alias.name}"
+                target = submodule if submodule in known else origin
+                yield Import(name, target, node.lineno, id(node) in typing)
+
+
+def cycles(found: list[Import]) -> list[list[str]]:
+    """Groups of modules that import each other, directly or not, when they run."""
+    graph: dict[str, set[str]] = {}
+    for one in found:
+        if not one.typing:
+            graph.setdefault(one.source, set()).add(one.target)
+
+    def reachable(start: str) -> set[str]:
+        seen: set[str] = set()
+        waiting = [start]
+        while waiting:
+            for target in graph.get(waiting.pop(), set()) - seen:
+                seen.add(target)
+                waiting.append(target)
+        return seen
+
+    reach = {name: reachable(name) for name in graph}
+    groups = {
+        tuple(sorted(other for other in reach[name] if name in reach.get(other, set())))
+        for name in graph
+        if name in reach[name]
+    }
+    return [list(group) for group in sorted(groups)]

@@ -1,0 +1,85 @@
+"""Rules that the public names of optlaws.laws and optlaws.errors keep."""
+
+import inspect
+import pickle
+import subprocess
+import sys
+
+import pytest
+
+from optlaws import errors, laws
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
+from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
+
+
+@pytest.mark.parametrize("name", laws.__all__)
+def test_every_public_name_has_an_example(name: str) -> None:
+    assert ">>>" in (inspect.getdoc(getattr(laws, name)) or "")
+
+
+@pytest.mark.parametrize("owner", [MotionLaw, PolynomialLaw, laws.Constants, laws.Peak])
+def test_every_public_method_says_what_it_is(owner: type) -> None:
+    for name, member in inspect.getmembers(owner):
+        if not name.startswith("_") and callable(member):
+            assert inspect.getdoc(member), name
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: PolynomialLaw([1.0], a_0=1.0),  # type: ignore[call-arg]
+        lambda: PolynomialLaw.from_powers([1.0], degree=1),  # type: ignore[call-arg]
+        lambda: smoothstep(l=2),  # type: ignore[call-arg]
+        lambda: smoothstep(2)(0.5, n=1),  # type: ignore[call-overload]
+        lambda: smoothstep(2).peak(order=1),  # type: ignore[call-arg]
+        lambda: smoothstep(2).constants.to_dict(rmsc=True),  # type: ignore[call-arg]
+        lambda: SolverFailure("", problm=1),  # type: ignore[call-arg]
+    ],
+)
+def test_a_misspelt_keyword_is_refused(call: object) -> None:
+    with pytest.raises(TypeError, match="unexpected keyword"):
+        call()  # type: ignore[operator]
+
+
+def test_importing_laws_stays_light() -> None:
+    code = "import sys, optlaws.laws; print(*{'scipy', 'casadi', 'matplotlib'} & {*sys.modules})"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
+    assert done.stdout.strip() == ""
+
+
+def test_a_law_cannot_be_made_without_its_methods() -> None:
+    with pytest.raises(TypeError, match="abstract"):
+        MotionLaw()  # type: ignore[abstract]
+
+
+def test_a_new_kind_of_law_is_one_class() -> None:
+    class Halved(PolynomialLaw, kind="halved"):
+        pass
+
+    try:
+        law = Halved([0.0, -6.0])
+        assert type(MotionLaw.from_dict(law.to_dict())) is Halved
+        assert law != smoothstep(2)
+    finally:
+        del MotionLaw.kinds["halved"]
+
+
+def test_errors_print_the_problem_so_that_it_can_be_run_again() -> None:
+    error = InfeasibleProblem("no law", problem={"B": 0.5}, tried="2 bases", proof=(1, 2))
+    assert str(error) == "no law\ntried: 2 bases\nproblem: {'B': 0.5}"
+    assert error.proof == (1, 2)
+    assert str(SolverFailure("no answer")) == "no answer"
+
+
+@pytest.mark.parametrize(
+    "error", [InputError("x"), InfeasibleProblem("x", problem=1), SolverFailure("x", tried="y")]
+)
+def test_errors_survive_other_processes(error: OptlawsError) -> None:
+    back = pickle.loads(pickle.dumps(error))  # noqa: S301
+    assert (type(back), str(back), back.__dict__) == (type(error), str(error), error.__dict__)
+
+
+def test_errors_are_one_tree() -> None:
+    for name, member in inspect.getmembers(errors, inspect.isclass):
+        assert issubclass(member, OptlawsError), name
+        assert ">>>" in (inspect.getdoc(member) or "")

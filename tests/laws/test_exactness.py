@@ -1,0 +1,160 @@
+"""Peaks against 60-digit arithmetic on the very law that is stored."""
+
+from collections.abc import Callable
+from functools import cache
+
+import numpy as np
+import pytest
+from mpmath import mp, mpf  # type: ignore[import-untyped]
+from numpy.typing import NDArray
+
+from optlaws.laws import PolynomialLaw, smoothstep
+from tests.laws.examples import free_function_law, random_law
+
+DENSE = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 20001))
+DIGITS = 110  # powers of k lose 45 digits at degree 61
+
+LAWS: dict[str, PolynomialLaw] = {
+    **{f"S_{order}": smoothstep(order) for order in (2, 3, 4, 5, 7, 9, 12, 17, 25, 30)},
+    **{
+        f"random {count + 1} x {decay}": random_law(count, count, decay)
+        for count in (2, 3, 5, 8, 13, 16, 24, 37, 48, 59)
+        for decay in (1.0, 0.8, 0.3)
+    },
+    **{
+        f"Z of {terms} terms on S_{order}": free_function_law(terms, order, terms)
+        for order, terms in ((1, 3), (2, 4), (3, 6), (4, 10), (5, 12), (8, 20), (10, 30))
+    },
+}
+
+
+class Exact:
+    """The stored law in many digits: its powers are exact rationals."""
+
+    def __init__(self, law: PolynomialLaw) -> None:
+        powers = [mpf(value.numerator) / value.denominator for value in law.exact_powers()]
+        self.orders = [powers]
+        for _ in range(6):
+            powers = [n * value for n, value in enumerate(powers)][1:] or [mpf(0)]
+            self.orders.append(powers)
+
+    def __call__(self, k: mpf, nu: int) -> mpf:
+        total = mpf(0)
+        for value in reversed(self.orders[nu]):
+            total = total * k + value
+        return total
+
+    def peak(self, nu: int, samples: NDArray[np.float64]) -> mpf:
+        return self._highest(
+            samples, lambda k: self(k, nu), lambda k: self(k, nu + 1), lambda k: self(k, nu + 2)
+        )
+
+    def power_peak(self, samples: NDArray[np.float64]) -> mpf:
+        def value(k: mpf) -> mpf:
+            return self(k, 1) * self(k, 2)
+
+        def slope(k: mpf) -> mpf:
+            return self(k, 2) ** 2 + self(k, 1) * self(k, 3)
+
+        def bend(k: mpf) -> mpf:
+            return 3 * self(k, 2) * self(k, 3) + self(k, 1) * self(k, 4)
+
+        return self._highest(samples, value, slope, bend)
+
+    @staticmethod
+    def _highest(
+        samples: NDArray[np.float64],
+        value: Callable[[mpf], mpf],
+        slope: Callable[[mpf], mpf],
+        bend: Callable[[mpf], mpf],
+    ) -> mpf:
+        best = max(abs(value(mpf(0))), abs(value(mpf(1))))
+        size = np.abs(samples)
+        inner = size[1:-1]
+        tops = 1 + np.flatnonzero(
+            (inner >= size[:-2]) & (inner >= size[2:]) & (inner >= size.max() * (1 - 1e-5))
+        )
+        for k in DENSE[tops[:: max(1, len(tops) // 20)]]:
+            place = mpf(float(k))
+            for _ in range(7):
+                steep = bend(place)
+                place -= slope(place) / steep if steep else 0
+            if 0 <= place <= 1:
+                best = max(best, abs(value(place)))
+        return best
+
+
+@cache
+def built(name: str) -> tuple[PolynomialLaw, Exact]:
+    with mp.workdps(DIGITS):
+        law = LAWS[name]
+        return law, Exact(law)
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_peak_constants_are_right_to_12_digits(name: str) -> None:
+    law, exact = built(name)
+    one = law.constants
+    with mp.workdps(DIGITS):
+        for nu, peak in ((1, one.B), (2, one.C), (3, one.J)):
+            assert abs(peak.value / exact.peak(nu, law(DENSE, nu)) - 1) < 1e-12
+        assert abs(one.D.value / exact.power_peak(law.d(DENSE)) - 1) < 1e-12
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_peaks_sit_where_the_slope_vanishes(name: str) -> None:
+    law, exact = built(name)
+    with mp.workdps(DIGITS):
+        for nu in (1, 2, 3):
+            k = law.peak(nu).k
+            if 0 < k < 1:
+                assert abs(exact(mpf(k), nu + 1) / exact(mpf(k), nu + 2)) < 1e-13
+        k = law.power_peak().k
+        b, c, j, s = (exact(mpf(k), nu) for nu in (1, 2, 3, 4))
+        assert k in {0, 1} or abs((c * c + b * j) / (3 * c * j + b * s)) < 1e-13
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_values_are_right_to_12_digits_of_the_peak(name: str) -> None:
+    law, exact = built(name)
+    places = np.random.default_rng(5).uniform(size=15).tolist()
+    with mp.workdps(DIGITS):
+        for nu in range(4):
+            scale = law.peak(nu).value
+            assert max(abs(exact(mpf(k), nu) - law(k, nu)) for k in places) < 1e-12 * scale
+
+
+@pytest.mark.parametrize("name", LAWS)
+def test_rms_is_right_to_12_digits(name: str) -> None:
+    law, exact = built(name)
+    with mp.workdps(DIGITS):
+        c = exact.orders[2]
+        square = sum(p * q / (m + n + 1) for m, p in enumerate(c) for n, q in enumerate(c))
+        assert abs(law.constants.rms_c / mp.sqrt(square) - 1) < 1e-12
+
+
+@pytest.mark.parametrize("name", [name for name in LAWS if name.startswith(("S_", "Z"))])
+def test_exact_powers_describe_the_stored_series(name: str) -> None:
+    law, exact = built(name)
+    with mp.workdps(DIGITS):
+        for k in (mpf("0.1"), mpf("0.45"), mpf("0.9")):
+            angle = mp.acos(2 * k - 1)
+            stored = sum(mpf(value) * mp.cos(n * angle) for n, value in enumerate(law.acceleration))
+            assert abs(exact(k, 2) - stored) < mpf(10) ** -50
+
+
+def test_no_peak_is_missed_in_many_random_laws() -> None:
+    rng = np.random.default_rng(11)
+    k = DENSE[::10]
+    for _ in range(250):
+        count = int(rng.integers(1, 60))
+        shapes = (
+            rng.uniform(0.2, 1.0) ** np.arange(count),
+            10.0 ** rng.uniform(-18, 0, size=count),
+            rng.random(count) < 0.2,
+            np.exp(-(((np.arange(count) - rng.uniform(0, count)) / rng.uniform(0.5, 10)) ** 2)),
+        )
+        law = PolynomialLaw(rng.normal(size=count) * shapes[rng.integers(4)], b0=rng.normal())
+        one = law.constants
+        for peak, values in ((one.B, law.b(k)), (one.C, law.c(k)), (one.D, law.d(k)), (one.J, law.j(k))):
+            assert peak.value >= np.abs(values).max() * (1 - 1e-13)

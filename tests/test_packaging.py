@@ -1,0 +1,49 @@
+import re
+import tomllib
+from importlib import metadata
+from typing import Any
+
+import pytest
+from packaging.requirements import Requirement
+from packaging.utils import canonicalize_name
+
+import optlaws
+from tests.documents import ROOT
+
+PROJECT: dict[str, Any] = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]
+PINS = [Requirement(line) for line in (ROOT / "constraints.txt").read_text("utf-8").splitlines()]
+REQUIRED = [
+    requirement
+    for lines in (PROJECT["dependencies"], *PROJECT["optional-dependencies"].values())
+    for line in lines
+    if (requirement := Requirement(line)).name != "optlaws"
+]
+
+
+def test_the_package_is_marked_as_typed() -> None:
+    assert (ROOT / "optlaws" / "py.typed").is_file()
+
+
+def test_there_is_one_version() -> None:
+    assert optlaws.__version__ == metadata.version("optlaws") == PROJECT["version"]
+
+
+def test_the_command_is_installed() -> None:
+    (command,) = metadata.entry_points(group="console_scripts", name="optlaws")
+    assert callable(command.load())
+
+
+@pytest.mark.parametrize("pin", PINS, ids=str)
+def test_a_constraint_is_a_name_and_one_version(pin: Requirement) -> None:
+    assert pin.url is None
+    assert not pin.extras
+    assert re.fullmatch(r"==[0-9][0-9a-z.]*", str(pin.specifier))
+
+
+@pytest.mark.parametrize("requirement", REQUIRED, ids=str)
+def test_every_dependency_is_pinned_to_a_version_it_allows(requirement: Requirement) -> None:
+    pins = [pin for pin in PINS if canonicalize_name(pin.name) == canonicalize_name(requirement.name)]
+    assert pins
+    for pin in pins:
+        (specifier,) = pin.specifier
+        assert requirement.specifier.contains(specifier.version)
