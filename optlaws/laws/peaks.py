@@ -13,6 +13,7 @@ Array = NDArray[np.float64]
 TIE = 1e-10
 POLISH_STEPS = 3
 POLISH_REACH = 1e-3
+POLISHED = 1e-14
 
 
 @dataclass(frozen=True, slots=True)
@@ -126,6 +127,8 @@ def polished(x: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Arra
     """
     size, step = _step(*residual(x))
     for _ in range(POLISH_STEPS):
+        if np.abs(step).max(initial=0.0) < POLISHED:
+            break
         trial = np.clip(x - step, -1.0, 1.0)
         trial_size, trial_step = _step(*residual(trial))
         better = trial_size < size

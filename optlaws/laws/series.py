@@ -112,28 +112,51 @@ def product(first: Array, second: Array) -> Array:
 def real_parts_of_roots(series: Array) -> Array:
     """Points of [-1, 1] among which is, to rounding, every real root of the series there.
 
-    They are the real parts of all eigenvalues of the colleague matrix, clipped to the interval: a multiple
-    root splits into complex ones, and a rule for which of them are real could only lose roots. Leading
-    coefficients negligible beside the largest are left out, for their rounding errors would spoil the rest.
+    They are the real parts of all eigenvalues of the colleague matrix, clipped to the interval: a multiple root
+    splits into complex ones, so that a rule for which of them are real could only lose roots. Leading
+    coefficients that are negligible relative to the largest are left out, for they would carry rounding errors of
+    the eigenvalues into the rest. Even and odd series are halved: they are one in t = 2x² - 1, or x times one.
 
     Examples
     --------
     >>> real_parts_of_roots(np.array([-0.5, 1.0]))
     array([0.5])
+    >>> real_parts_of_roots(np.array([-0.5, 0.0, 1.0])).round(3)
+    array([ 0.866, -0.866])
     """
+    if len(series) > 2:
+        if not series[1::2].any():
+            return _both_signs(_roots(series[::2]))
+        if not series[::2].any():
+            return np.append(_both_signs(_roots(_divided(series[1::2]))), 0.0)
+    return _roots(series)
+
+
+def _both_signs(t: Array) -> Array:
+    x = np.sqrt(0.5 * (t + 1.0))
+    return np.concatenate([x, -x])
+
+
+def _divided(odd: Array) -> Array:
+    """Even series e with x e = sum odd[m] T_(2m+1): from x T_2m = (T_(2m+1) + T_|2m-1|) / 2."""
+    signs = 1.0 - 2.0 * (_numbers(len(odd)) % 2.0)
+    result: Array = 2.0 * signs * np.cumsum((signs * odd)[::-1])[::-1]
+    result[0] *= 0.5
+    return result
+
+
+def _roots(series: Array) -> Array:
     size = np.abs(series)
     kept = np.flatnonzero(size > NEGLIGIBLE * size.max())
     count = int(kept[-1]) if len(kept) else 0
     if count == 0:
         return np.empty(0)
     if count == 1:
-        single: Array = np.clip(-series[:1] / series[1], -1.0, 1.0)
-        return single
+        return np.clip(-series[:1] / series[1], -1.0, 1.0)
     skeleton, scale = _colleague(count)
     matrix = skeleton.copy()
     matrix[::-1, 0] -= series[:count] / series[count] * scale
-    roots: Array = np.clip(np.linalg.eigvals(matrix).real, -1.0, 1.0)
-    return roots
+    return np.clip(np.linalg.eigvals(matrix).real, -1.0, 1.0)
 
 
 @lru_cache(maxsize=256)
