@@ -13,7 +13,7 @@ export MKL_NUM_THREADS := 1
 export MPLBACKEND := Agg
 
 ifdef UV
-install = $(UV) pip install --quiet --python $(BIN)/python -c constraints.txt -e $(1)
+install = $(UV) pip install --quiet --compile-bytecode --python $(BIN)/python -c constraints.txt -e $(1)
 else
 install = { $(BIN)/python -m pip --version >/dev/null 2>&1 || $(BIN)/python -m ensurepip >/dev/null; } \
 	&& $(BIN)/python -m pip install --quiet --disable-pip-version-check -c constraints.txt -e $(1)

@@ -12,12 +12,12 @@ Cell = str | float | int | None
 
 
 def to_csv(columns: Sequence[str], rows: Sequence[Sequence[Cell]], *, about: str) -> str:
-    """CSV with a first comment line; numbers to 10 significant digits, nothing for None."""
+    """CSV with a first comment line; numbers to 8 significant digits, nothing for None."""
     stream = io.StringIO()
     stream.write(f"# {about}; {MARK}\n")
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(columns)
-    writer.writerows([_text(cell, 10) for cell in row] for row in rows)
+    writer.writerows([_text(cell, 8) for cell in row] for row in rows)
     return stream.getvalue()
 
 

@@ -13,7 +13,7 @@ Array = NDArray[np.float64]
 TIE = 1e-10
 POLISH_STEPS = 3
 POLISH_REACH = 1e-3
-POLISHED = 1e-14
+POLISHED = 1e-12
 
 
 @dataclass(frozen=True, slots=True)

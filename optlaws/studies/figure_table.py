@@ -3,28 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
 from typing import TYPE_CHECKING
 
 import numpy as np
 
 from optlaws import plotting
 from optlaws.laws.savin import alpha_range, savin
-from optlaws.synthesis import Chebyshev, Problem, acceleration_limit, sweep
+from optlaws.synthesis import acceleration_limit
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
-    from optlaws.studies.optimal_table import Row, Table
+    from optlaws.studies.optimal_table import Curves, Row, Table
 
 
-def draw(spec: Table, rows: Sequence[Row]) -> dict[str, bytes]:
+def draw(spec: Table, rows: Sequence[Row], curves: Curves) -> dict[str, bytes]:
     """The figure as svg and png."""
     with plotting.style():
         figure = plotting.figure(8.0, 5.2)
         axes = figure.subplots()
         _limits(axes, spec)
-        _optima(axes, spec)
+        _optima(axes, curves)
         _family(axes)
         axes.plot(
             [row.B for row in rows],
@@ -46,12 +45,8 @@ def draw(spec: Table, rows: Sequence[Row]) -> dict[str, bytes]:
         return {kind: plotting.rendered(figure, kind) for kind in ("svg", "png")}
 
 
-def _optima(axes: Axes, spec: Table) -> None:
-    values = np.linspace(spec.figure.start, spec.figure.stop, spec.figure.points)
-    shades = plotting.BLUES[-len(spec.figure.degrees) :]
-    for degree, shade in zip(spec.figure.degrees, shades, strict=True):
-        first = Problem(B=float(values[0]), order=spec.order, basis=Chebyshev(degree), monotone=spec.monotone)
-        found = list(sweep(replace(first, B=float(B)) for B in values))
+def _optima(axes: Axes, curves: Curves) -> None:
+    for (degree, found), shade in zip(curves.items(), plotting.BLUES[-len(curves) :], strict=True):
         axes.plot(
             [s.problem.B for s in found],
             [s.objective for s in found],

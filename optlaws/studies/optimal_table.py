@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
 from typing import Any
@@ -28,6 +28,8 @@ from optlaws.synthesis import (
     sweep,
 )
 
+Curves = Mapping[int, Sequence[Solution]]
+
 COLUMNS = ("B", "C", "D", "base", "z", "note")
 
 
@@ -49,7 +51,7 @@ class Misprint(msgspec.Struct, forbid_unknown_fields=True):
     reason: str
 
 
-class Curves(msgspec.Struct, forbid_unknown_fields=True, rename={"start": "from", "stop": "to"}):
+class Figure(msgspec.Struct, forbid_unknown_fields=True, rename={"start": "from", "stop": "to"}):
     """What the figure shows: optima of these degrees over B."""
 
     degrees: list[int]
@@ -69,7 +71,7 @@ class Table(msgspec.Struct, forbid_unknown_fields=True):
     degrees: list[int]
     grid: int
     bases: dict[str, Base]
-    figure: Curves
+    figure: Figure
     misprint: list[Misprint] = []
 
 
@@ -93,13 +95,13 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     spec = convert(data, Table, file)
     source = file.parent / spec.printed
     lines = printed.rows(source, COLUMNS)
-    rows = _solved(spec, lines, str(source))
+    rows, curves = _solved(spec, lines, str(source))
     verdicts = _verdicts(spec, rows)
     about = f"{spec.title}; from {file.name}"
     headings, cells = _cells(spec, rows)
     judged = [(v.row, v.quantity, v.printed, v.exact, v.on_grid, v.verdict, v.reason) for v in verdicts]
     verdict_headings = ("row B", "quantity", "printed", "exact", "on grid", "verdict", "reason")
-    drawing = draw(spec, rows)
+    drawing = draw(spec, rows, curves)
     return [
         files.write(out / "table.csv", tables.to_csv(headings, cells, about=about)),
         files.write(out / "verdicts.csv", tables.to_csv(verdict_headings, judged, about=about)),
@@ -109,17 +111,24 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     ]
 
 
-def _solved(spec: Table, lines: Sequence[Mapping[str, str]], where: str) -> list[Row]:
+def _solved(spec: Table, lines: Sequence[Mapping[str, str]], where: str) -> tuple[list[Row], Curves]:
     laws = [_printed_law(spec, line, where) for line in lines]
     values = [printed.number(line["B"], where) for line in lines]
-    first = Problem(B=values[0], order=spec.order, monotone=spec.monotone)
-    richer: list[dict[int, Solution]] = [{} for _ in lines]
-    for degree in spec.degrees:
-        problems = (replace(first, B=B, basis=Chebyshev(degree)) for B in values)
-        for found, solution in zip(richer, sweep(problems), strict=True):
-            found[degree] = solution
+    solved = {degree: _by_velocity(spec, degree, values) for degree in {*spec.degrees, *spec.figure.degrees}}
+    richer = [{degree: solved[degree][B] for degree in spec.degrees} for B in values]
     same = [_same_shape(spec, line, B, found) for line, B, found in zip(lines, values, richer, strict=True)]
-    return [Row(*parts) for parts in zip(lines, laws, same, richer, strict=True)]
+    rows = [Row(*parts) for parts in zip(lines, laws, same, richer, strict=True)]
+    return rows, {degree: list(solved[degree].values()) for degree in spec.figure.degrees}
+
+
+def _by_velocity(spec: Table, degree: int, values: Sequence[float]) -> dict[float, Solution]:
+    """Solutions by B, ascending: at the rows' values and, where the figure wants a curve, between them."""
+    wanted = set(values)
+    if degree in spec.figure.degrees:
+        wanted |= set(np.linspace(spec.figure.start, spec.figure.stop, spec.figure.points).tolist())
+    basis = Chebyshev(degree)
+    problems = [Problem(B=B, order=spec.order, basis=basis, monotone=spec.monotone) for B in sorted(wanted)]
+    return {solution.problem.B: solution for solution in sweep(problems)}
 
 
 def _same_shape(spec: Table, line: Mapping[str, str], B: float, found: Mapping[int, Solution]) -> Solution:
@@ -199,8 +208,8 @@ def _cells(spec: Table, rows: Sequence[Row]) -> tuple[list[str], list[list[table
 
 
 def _decade(gap: float) -> str:
-    # the power of ten above it: what lies below is rounding, and differs between machines
-    return f"1e{int(np.ceil(np.log10(max(gap, 1e-12))))}"
+    # the power of ten above it, 1e-10 at least: what lies below is rounding, and differs between machines
+    return f"1e{int(np.ceil(np.log10(max(gap, 1e-10))))}"
 
 
 def _markdown(

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
-from functools import cache
+from functools import cache, cached_property
 from importlib.metadata import version
 from typing import Any
+
+import numpy as np
 
 from optlaws.laws import Constants, PolynomialLaw
 from optlaws.synthesis.active_set import ActiveSet
@@ -48,8 +50,8 @@ class Solution:
         What was solved.
     law
         The motion law.
-    z
-        Coefficients of Z in the problem's basis.
+    z_series
+        Chebyshev coefficients of Z in 2k - 1, whatever the problem's basis.
     objective
         The minimised constant, recomputed from `law`.
     certificate
@@ -71,7 +73,7 @@ class Solution:
 
     problem: Problem
     law: PolynomialLaw
-    z: tuple[float, ...]
+    z_series: tuple[float, ...]
     objective: float
     certificate: Certificate
     limit: float
@@ -85,10 +87,15 @@ class Solution:
         """B, C, D, J of the law, each with its k, and the RMS of c."""
         return self.law.constants
 
-    @property
+    @cached_property
+    def z(self) -> tuple[float, ...]:
+        """Coefficients of Z in the problem's basis."""
+        return self.problem.basis.coefficients(np.array(self.z_series))
+
+    @cached_property
     def z_powers(self) -> tuple[float, ...]:
         """Coefficients of Z in ascending powers of k, whatever the problem's basis."""
-        return Powers(self.problem.basis.degree).coefficients(self.problem.basis.series(self.z))
+        return Powers(self.problem.basis.degree).coefficients(np.array(self.z_series))
 
     @property
     def lower_bound(self) -> float:

@@ -118,7 +118,7 @@ def _solution(
     return Solution(
         problem=problem,
         law=candidate.law,
-        z=problem.basis.coefficients(candidate.space.z_series(candidate.coordinates)),
+        z_series=tuple(candidate.space.z_series(candidate.coordinates).tolist()),
         objective=candidate.objective,
         certificate=found,
         limit=acceleration_limit(problem.B, monotone=problem.monotone, order=problem.order),
