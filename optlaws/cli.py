@@ -140,29 +140,20 @@ def exit_code(arguments: Sequence[str]) -> int:
     """Run the command and return its exit code; an error is one clear text on stderr."""
     try:
         app(list(arguments), exit_on_error=False, print_error=False, result_action="return_none")
-    except CycloptsError as error:
-        _complain(str(error))
-        return BAD_INPUT
-    except InputError as error:
-        _complain(str(error))
-        return BAD_INPUT
+    except (CycloptsError, InputError) as error:
+        text, code = str(error), BAD_INPUT
     except InfeasibleProblem as error:
-        _complain(f"infeasible: {error}")
-        return INFEASIBLE
+        text, code = f"infeasible: {error}", INFEASIBLE
     except OptlawsError as error:
-        _complain(str(error))
-        return SOLVER_FAILURE
-    except KeyboardInterrupt:
-        _complain("interrupted")
-        return INTERRUPTED
+        text, code = str(error), SOLVER_FAILURE
     except OSError as error:
-        _complain(f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}")
-        return BAD_INPUT
-    return 0
-
-
-def _complain(text: str) -> None:
+        text, code = f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}", BAD_INPUT
+    except KeyboardInterrupt:
+        text, code = "interrupted", INTERRUPTED
+    else:
+        return 0
     print(f"optlaws: {text}", file=sys.stderr)  # noqa: T201
+    return code
 
 
 def _summary(solution: Solution) -> dict[str, Any]:
@@ -195,9 +186,7 @@ def _show_solution(solution: Solution) -> None:
     table.add_row(solution.problem.minimise, f"{solution.objective:.10g}")
     table.add_row("lower bound", f"{solution.lower_bound:.10g} (gap {solution.gap:.1e})")
     table.add_row("limit", f"{solution.limit:.10g}, which no law of any degree can beat")
-    table.add_row(
-        "Z(k)", " ".join(f"{value:.9g}" for value in solution.z) + f"  ({solution.problem.basis.name})"
-    )
+    table.add_row("Z(k)", " ".join(f"{value:.9g}" for value in solution.z) + f"  ({solution.problem.basis.name})")
     table.add_row("solved", f"{solution.problem!r}")
     table.add_row("", f"{solution.iterations} iterations of IPOPT, {1e3 * solution.seconds:.0f} ms")
     console.print(table)
@@ -206,8 +195,9 @@ def _show_solution(solution: Solution) -> None:
 
 def _constants_table(found: Constants) -> Table:
     table = Table("constant", "value", "at k", box=None, pad_edge=False)
-    for name, peak in found.to_dict().items():
-        table.add_row(name, f"{peak['value']:.10g}", f"{peak['k']:.6g}")
+    for name in ("B", "C", "D", "J"):
+        peak = getattr(found, name)
+        table.add_row(name, f"{peak.value:.10g}", f"{peak.k:.6g}")
     table.add_row("RMS of c", f"{found.rms_c:.10g}", "")
     return table
 

@@ -17,7 +17,7 @@ WARM = "#d95f02"
 GREEN = "#1b7f5c"
 GREY = "#595959"
 
-_STYLE: dict[str, Any] = {
+_STYLE: Any = {  # matplotlib's type lists every key there is
     "font.family": "DejaVu Sans",
     "font.size": 10.0,
     "axes.titlesize": 11.0,

@@ -154,6 +154,5 @@ def _chebyshev_row(n: int) -> tuple[int, ...]:
     if n == 0:
         return (1,)
     return tuple(
-        (-1) ** (n - i) * 4**i * n * factorial(n + i - 1) // (factorial(n - i) * factorial(2 * i))
-        for i in range(n + 1)
+        (-1) ** (n - i) * 4**i * n * factorial(n + i - 1) // (factorial(n - i) * factorial(2 * i)) for i in range(n + 1)
     )

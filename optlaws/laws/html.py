@@ -22,8 +22,7 @@ def page(title: str, constants: Constants, curves: Mapping[str, Sequence[float]]
     """
     peaks = {"B": constants.B, "C": constants.C, "D": constants.D, "J": constants.J}
     rows = "".join(
-        f"<tr><th>{name}</th><td>{peak.value:.7g}</td><td>{peak.k:.6g}</td></tr>"
-        for name, peak in peaks.items()
+        f"<tr><th>{name}</th><td>{peak.value:.7g}</td><td>{peak.k:.6g}</td></tr>" for name, peak in peaks.items()
     )
     drawings = "".join(_drawing(name, values) for name, values in curves.items())
     return (
@@ -37,8 +36,7 @@ def _drawing(name: str, values: Sequence[float]) -> str:
     scale = (HEIGHT - 2 * MARGIN) / ((high - low) or 1.0)
     step = (WIDTH - 2 * MARGIN) / (len(values) - 1)
     points = " ".join(
-        f"{MARGIN + i * step:.1f},{HEIGHT - MARGIN - (value - low) * scale:.1f}"
-        for i, value in enumerate(values)
+        f"{MARGIN + i * step:.1f},{HEIGHT - MARGIN - (value - low) * scale:.1f}" for i, value in enumerate(values)
     )
     zero = HEIGHT - MARGIN + low * scale
     return (

@@ -53,9 +53,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
     a0: float
     b0: float
 
-    def __init__(
-        self, acceleration: Sequence[float] | NDArray[Any], a0: float = 0.0, b0: float = 0.0
-    ) -> None:
+    def __init__(self, acceleration: Sequence[float] | NDArray[Any], a0: float = 0.0, b0: float = 0.0) -> None:
         kept = list(_numbers(acceleration, "acceleration"))
         while kept and kept[-1] == 0.0:
             kept.pop()
@@ -104,8 +102,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
         displacement = chebyshev.fractions(coefficients, "coefficients")
         velocity = _exact_derivative(displacement)
         a0, b0 = (
-            float(sum((-1) ** n * value for n, value in enumerate(values)))
-            for values in (displacement, velocity)
+            float(sum((-1) ** n * value for n, value in enumerate(values))) for values in (displacement, velocity)
         )
         return cls(chebyshev.rounded(_exact_derivative(velocity)), a0, b0)
 

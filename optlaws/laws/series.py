@@ -134,12 +134,13 @@ def real_parts_of_roots(series: Array) -> Array:
 
 def _both_signs(t: Array) -> Array:
     x = np.sqrt(0.5 * (t + 1.0))
-    return np.concatenate([x, -x])
+    both: Array = np.concatenate([x, -x])
+    return both
 
 
 def _divided(odd: Array) -> Array:
     """Even series e with x e = sum odd[m] T_(2m+1): from x T_2m = (T_(2m+1) + T_|2m-1|) / 2."""
-    signs = 1.0 - 2.0 * (_numbers(len(odd)) % 2.0)
+    signs: Array = np.where(_numbers(len(odd)) % 2.0 == 0.0, 1.0, -1.0)
     result: Array = 2.0 * signs * np.cumsum((signs * odd)[::-1])[::-1]
     result[0] *= 0.5
     return result

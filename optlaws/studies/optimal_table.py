@@ -173,7 +173,9 @@ def _verdicts(spec: Table, rows: Sequence[Row]) -> list[printed.Verdict]:
             text = row.cells[name]
             misprint = wrong.get((row.cells["B"], name))
             reason = misprint.reason if misprint else None
-            verdicts.append(printed.judge(row.cells["B"], name, text, peak.value, on_grid[name], reason))
+            verdicts.append(
+                printed.judge(row.cells["B"], name, text, peak.value, on_grid=on_grid[name], misprint=reason)
+            )
         verdicts += [
             printed.Verdict(m.row, m.quantity, f"{m.printed:.10g}", m.means, None, printed.MISPRINT, m.reason)
             for m in spec.misprint
@@ -232,8 +234,9 @@ def _markdown(
             tables.to_markdown(headings[:split], [line[:split] for line in cells]),
             "## What is possible",
             "",
-            "The least C of laws of the printed row's own order and degree of Z with its proven lower bound, then of laws of",
-            f"order {spec.order} with richer Z, each proven to the gap shown, and the limits that no law of any degree can beat.",
+            "The least C of laws of the printed row's own order and degree of Z with its proven lower bound, then of",
+            f"laws of order {spec.order} with richer Z, each proven to the gap shown, and the limits that no law of",
+            "any degree can beat.",
             "",
             tables.to_markdown(["B", *headings[split:]], tail),
             "## Every printed number",

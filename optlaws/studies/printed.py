@@ -29,7 +29,7 @@ class Verdict:
 
 
 def judge(
-    row: str, quantity: str, printed: str, exact: float, on_grid: float | None, misprint: str | None
+    row: str, quantity: str, printed: str, exact: float, *, on_grid: float | None, misprint: str | None
 ) -> Verdict:
     """Compare a printed number with the exact one and, where given, with the greatest value on the paper's grid.
 
@@ -38,7 +38,7 @@ def judge(
 
     Examples
     --------
-    >>> judge("1.859", "C", "5.91", 5.919585, 5.913140, None).verdict
+    >>> judge("1.859", "C", "5.91", 5.919585, on_grid=5.913140, misprint=None).verdict
     "reproduced to its digits on the paper's grid"
     """
     off = abs(exact / float(printed) - 1.0)
@@ -47,7 +47,9 @@ def judge(
     if _same_digits(printed, exact, ROUND_HALF_UP):
         return Verdict(row, quantity, printed, exact, on_grid, REPRODUCED, "")
     if on_grid is not None and _same_digits(printed, on_grid, ROUND_HALF_UP, ROUND_DOWN):
-        reason = f"printed is the greatest value at the grid's points; the peak between them is off by {100 * off:.2g} %"
+        reason = (
+            f"printed is the greatest value at the grid's points; the peak between them is off by {100 * off:.2g} %"
+        )
         return Verdict(row, quantity, printed, exact, on_grid, ON_GRID, reason)
     return Verdict(row, quantity, printed, exact, on_grid, f"reproduced to {_percent(off)}", "")
 

@@ -84,9 +84,7 @@ def convert(data: Mapping[str, Any], spec: type[Spec], file: Path) -> Spec:
 
 
 def _check_keys(data: Any, spec: Any, where: str) -> None:  # noqa: ANN401
-    spec = (
-        next((part for part in get_args(spec) if part is not type(None)), spec) if _optional(spec) else spec
-    )
+    spec = next((part for part in get_args(spec) if part is not type(None)), spec) if _optional(spec) else spec
     origin, inner = get_origin(spec), get_args(spec)
     if origin is list and isinstance(data, list):
         for i, item in enumerate(data):

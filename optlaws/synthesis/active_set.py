@@ -24,7 +24,7 @@ _FAR = 1.05
 
 @dataclass(frozen=True, eq=False)
 class ActiveSet:
-    """Variables, contacts (family, position u, sign, whether it may move), multipliers, and the equality's multiplier."""
+    """Variables, contacts (family, position u, sign, whether it may move) and multipliers, the equality's apart."""
 
     x: Array
     family: NDArray[np.intp]
@@ -98,9 +98,10 @@ def _step(program: Program, state: ActiveSet, right: float) -> Array | None:
     defect[n + m : last] = value
     defect[last] = program.equality @ state.x + program.equality_offset - right
     try:
-        return np.linalg.solve(system, -defect)
+        step: Array = np.linalg.solve(system, -defect).astype(np.float64, copy=False)
     except np.linalg.LinAlgError:
         return None
+    return step
 
 
 def _moved(state: ActiveSet, step: Array) -> ActiveSet:

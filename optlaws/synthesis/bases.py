@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.laws.chebyshev import chebyshev_from_powers, powers_from_chebyshev
+from optlaws.laws.checks import whole
 
 Array = NDArray[np.float64]
 
@@ -37,14 +38,12 @@ class Basis(ABC):
     name: ClassVar[str]
     kinds: ClassVar[dict[str, type[Basis]]] = {}
 
-    def __init_subclass__(cls, **kwargs: Any) -> None:
+    def __init_subclass__(cls, **kwargs: Any) -> None:  # noqa: ANN401 - whatever a subclass declares
         super().__init_subclass__(**kwargs)
         Basis.kinds[cls.name] = cls
 
     def __post_init__(self) -> None:
-        if isinstance(self.degree, bool) or not isinstance(self.degree, int) or self.degree < 0:
-            msg = f"degree of Z must be an integer of at least 0, got {self.degree!r}"
-            raise InputError(msg)
+        object.__setattr__(self, "degree", whole(self.degree, "degree of Z"))
 
     @property
     def size(self) -> int:

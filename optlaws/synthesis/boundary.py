@@ -11,6 +11,7 @@ from typing import Any, Self
 from optlaws.errors import InputError
 from optlaws.laws import PolynomialLaw
 from optlaws.laws.chebyshev import exact_powers, fractions
+from optlaws.laws.checks import whole
 from optlaws.synthesis.bases import Basis, Powers
 
 Polynomial = list[Fraction]
@@ -61,9 +62,8 @@ class BoundaryConditions:
         InputError
             If `order` is not an integer of at least 1.
         """
-        if isinstance(order, bool) or not isinstance(order, int) or order < 1:
-            raise InputError(f"order must be an integer of at least 1, got {order!r}")
-        return cls((0,) * order, (1,) + (0,) * (order - 1))
+        count = whole(order, "order", least=1)
+        return cls((0,) * count, (1,) + (0,) * (count - 1))
 
     @property
     def order(self) -> int:
@@ -86,9 +86,7 @@ class BoundaryConditions:
         return _shifted(_times(wanted, inverse)[:order], -1)
 
 
-def construct(
-    boundary: BoundaryConditions, z: Iterable[Any] = (), basis: Basis | None = None
-) -> PolynomialLaw:
+def construct(boundary: BoundaryConditions, z: Iterable[Any] = (), basis: Basis | None = None) -> PolynomialLaw:
     """The law a(k) = a0(k) + k^l [a1(k) + (k-1)^l Z(k)] (eq. 8), built in exact arithmetic and rounded once.
 
     Parameters

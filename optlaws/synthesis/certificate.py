@@ -73,9 +73,7 @@ class Certificate:
     @cached_property
     def bound(self) -> float:
         """The proven lower bound of C, recomputed from the contacts with numpy alone; -inf where there is none."""
-        share = sum(
-            c.multiplier for c in self.contacts if c.constraint in {UPPER, LOWER} and c.multiplier > 0.0
-        )
+        share = sum(c.multiplier for c in self.contacts if c.constraint in {UPPER, LOWER} and c.multiplier > 0.0)
         return excess(self) / share if share > 0.0 else -np.inf
 
     @cached_property
@@ -92,9 +90,7 @@ class Certificate:
     def from_dict(cls, data: Mapping[str, Any]) -> Certificate:
         """Read what `to_dict` wrote; the bound is recomputed, not read."""
         contacts = tuple(Contact(**c) for c in data["contacts"])
-        return cls(
-            int(data["order"]), int(data["degree"]), float(data["B"]), bool(data["monotone"]), contacts
-        )
+        return cls(int(data["order"]), int(data["degree"]), float(data["B"]), bool(data["monotone"]), contacts)
 
 
 def excess(certificate: Certificate) -> float:
@@ -186,9 +182,7 @@ def _gegenbauer(index: float, degree: int, y: Array) -> Array:
 def _scale(order: int, degree: int) -> Array:
     # the base law's stroke is 1; the free velocities have root mean square 1
     y, weights = legendre.leggauss(2 * order + degree)
-    velocities = ((1.0 - y * y) / 4.0) ** (order - 1) * _gegenbauer(order - 0.5, degree + 1, y)[
-        : degree + 2 : 2
-    ]
+    velocities = ((1.0 - y * y) / 4.0) ** (order - 1) * _gegenbauer(order - 0.5, degree + 1, y)[: degree + 2 : 2]
     scale = 1.0 / np.sqrt(velocities**2 @ weights / 2.0)
     scale[0] = 2.0 / (velocities[0] @ weights)
     return np.asarray(scale)
@@ -214,4 +208,4 @@ def _least_extension(values: Callable[[int, int, Array], Array], order: int, deg
     y, weights = legendre.leggauss(count)
     free = values(order, degree, (1.0 + y) / 2.0)[:, 1:]
     moments = legendre.legvander(y, count - 1).T @ (0.5 * weights[:, None] * free)
-    return np.linalg.pinv(moments.T)
+    return np.asarray(np.linalg.pinv(moments.T), dtype=np.float64)

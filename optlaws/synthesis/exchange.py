@@ -58,9 +58,7 @@ def solve(
         optimum = _polished(program, _identified(program, points, answer), right, holds)
         if optimum is not None:
             return Outcome(optimum, iterations, attempt, status)
-        points = [
-            _exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)
-        ]
+        points = [_exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
     return Outcome(None, iterations, _ROUNDS, status)
 
 
@@ -142,4 +140,6 @@ def _identified(program: Program, points: list[Points], answer: Answer) -> Activ
 def _binding(rows: Array, weights: Array, residual: Array) -> NDArray[np.bool_]:
     # complementarity, in units in which each row has length 1: a contact's multiplier exceeds its distance
     squared = np.einsum("ij,ij->i", rows, rows)
-    return (weights * squared > -residual) & (weights * np.sqrt(squared) > _WEIGHTLESS)
+    binding: NDArray[np.bool_] = weights * squared > -residual
+    binding &= weights * np.sqrt(squared) > _WEIGHTLESS
+    return binding

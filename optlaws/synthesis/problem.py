@@ -8,6 +8,7 @@ from math import isfinite
 from typing import Any
 
 from optlaws.errors import InputError
+from optlaws.laws.checks import whole
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.bases import Basis, Chebyshev, basis
 
@@ -54,29 +55,13 @@ class Problem:
     symmetric: bool = True
 
     def __post_init__(self) -> None:
-        if (
-            isinstance(self.B, bool)
-            or not isinstance(self.B, int | float)
-            or not isfinite(self.B)
-            or self.B <= 1
-        ):
-            _refuse(f"B must be a finite number above 1 (the mean velocity is 1), got {self.B!r}")
-        object.__setattr__(self, "B", float(self.B))
-        if isinstance(self.order, bool) or not isinstance(self.order, int) or self.order < 1:
-            _refuse(
-                f"order (the number l of conditions at each end) must be an integer of at least 1, got {self.order!r}"
-            )
-        if not isinstance(self.basis, Basis):
-            _refuse(f"basis must be a Basis such as Powers(9) or Chebyshev(9), got {self.basis!r}")
-        if self.minimise != "C":
-            _refuse(f"minimise must be 'C', got {self.minimise!r}")
-        for name in ("monotone", "symmetric"):
-            if not isinstance(getattr(self, name), bool):
-                _refuse(f"{name} must be True or False, got {getattr(self, name)!r}")
+        object.__setattr__(self, "B", _peak_velocity(self.B))
+        object.__setattr__(self, "order", whole(self.order, "order", least=1))
+        _check_choices(self.basis, self.minimise, monotone=self.monotone, symmetric=self.symmetric)
         if self.basis.degree < 1:
-            _refuse(
-                f"degree {self.basis.degree} leaves no freedom: b(1/2) = B takes the one coefficient of Z that is odd "
-                "about k = 1/2, so the degree of Z must be at least 1 (3 or more to optimise)"
+            raise InputError(
+                f"degree {self.basis.degree} leaves no freedom: b(1/2) = B takes the one coefficient of Z that is "
+                "odd about k = 1/2, so the degree of Z must be at least 1 (3 or more to optimise)"
             )
 
     @property
@@ -117,11 +102,23 @@ class Problem:
                 raise InputError(unknown_key(key, known))
         missing = [key for key in ("B", "order") if key not in data]
         if missing:
-            _refuse(f"the problem lacks {' and '.join(missing)}")
+            raise InputError(f"the problem lacks {' and '.join(missing)}")
         given = dict(data)
         chosen = basis(given.pop("basis", "chebyshev"), given.pop("degree", 9))
         return cls(basis=chosen, **given)
 
 
-def _refuse(message: str) -> None:
-    raise InputError(message)
+def _peak_velocity(B: Any) -> float:  # noqa: ANN401 - it is checked here
+    if isinstance(B, bool) or not isinstance(B, int | float) or not isfinite(B) or B <= 1:
+        raise InputError(f"B must be a finite number above 1 (the mean velocity is 1), got {B!r}")
+    return float(B)
+
+
+def _check_choices(chosen: Any, minimise: Any, **switches: Any) -> None:  # noqa: ANN401 - they are checked here
+    if not isinstance(chosen, Basis):
+        raise InputError(f"basis must be a Basis such as Powers(9) or Chebyshev(9), got {chosen!r}")
+    if minimise != "C":
+        raise InputError(f"minimise must be 'C', got {minimise!r}")
+    for name, value in switches.items():
+        if not isinstance(value, bool):
+            raise InputError(f"{name} must be True or False, got {value!r}")

@@ -56,7 +56,8 @@ class Family:
         """f and offset with two derivatives by u, shape (3, points, variables + 1); the last column is the offset."""
         angles = np.arccos(np.minimum(np.maximum(u, -1.0), 1.0))
         flat = np.cos(np.outer(angles, np.arange(len(self.offset)))) @ self._jet
-        return flat.reshape(len(u), 3, -1).transpose(1, 0, 2)
+        shaped: Array = flat.reshape(len(u), 3, -1).transpose(1, 0, 2)
+        return shaped
 
     def jet(self, u: Array, s: Array) -> Array:
         """The constraint's rows with sign and slack, and two derivatives, shaped like `values`."""
@@ -75,7 +76,7 @@ class Family:
 
     def extremes(self, x: Array) -> tuple[Array, Array, Array]:
         """Points, signs and residuals (positive where violated) at every end and stationary point."""
-        slope = chebyshev.chebder(self.series @ x + self.offset)
+        slope = np.asarray(chebyshev.chebder(self.series @ x + self.offset), dtype=np.float64)
         if self.odd:
             inner = real_parts_of_roots(slope[::2])
             inner = np.sqrt((inner + 1.0) / 2.0)
@@ -94,8 +95,9 @@ class Family:
 
 @dataclass(frozen=True, eq=False)
 class RatioFamily(Family):
-    """A family whose columns are even Gegenbauer polynomials: their values grow so much toward k = 0 that a series
-    would lose the digits of the others. `scale` multiplies them, the offset's (degree 0) last.
+    """A family whose columns are even Gegenbauer polynomials, `scale` times; the offset's (degree 0) is last.
+
+    Their values grow so much toward k = 0 that a series would lose the digits of the others.
     """
 
     index: float = 0.5

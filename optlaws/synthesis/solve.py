@@ -55,9 +55,7 @@ def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
     (5.08070242, True)
     """
     began = perf_counter()
-    if not isinstance(problem, Problem):
-        msg = f"synthesize takes a Problem, got {type(problem).__name__}"
-        raise InputError(msg)
+    _check_type(problem)
     program = least_acceleration(problem.order, problem.terms, monotone=problem.monotone)
     warm = start.active_set if start is not None and _neighbours(problem, start.problem) else None
     candidate = _Candidate(problem)
@@ -102,13 +100,16 @@ def sweep(problems: Iterable[Problem]) -> Iterator[Solution]:
         yield previous
 
 
+def _check_type(problem: object) -> None:
+    if not isinstance(problem, Problem):
+        raise InputError(f"synthesize takes a Problem, got {type(problem).__name__}")
+
+
 def _neighbours(first: Problem, second: Problem) -> bool:
     return (first.order, first.terms, first.monotone) == (second.order, second.terms, second.monotone)
 
 
-def _solution(
-    candidate: _Candidate, program: Program, outcome: Outcome, optimum: ActiveSet, began: float
-) -> Solution:
+def _solution(candidate: _Candidate, program: Program, outcome: Outcome, optimum: ActiveSet, began: float) -> Solution:
     problem = candidate.problem
     if candidate.excess > VIOLATION:
         msg = f"the law found breaks a velocity constraint by {candidate.excess:.1e} of B"
@@ -148,7 +149,9 @@ def certify(problem: Problem, program: Program, optimum: ActiveSet) -> Certifica
 
 
 def _failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFailure:
-    tried = f"IPOPT said {outcome.status!r} after {outcome.iterations} iterations in {outcome.rounds} rounds of exchange"
+    tried = (
+        f"IPOPT said {outcome.status!r} after {outcome.iterations} iterations in {outcome.rounds} rounds of exchange"
+    )
     elastic = least_violation(problem.order, problem.terms, monotone=problem.monotone)
     trial = solve(elastic, problem.B)
     if trial.optimum is not None:

@@ -91,11 +91,7 @@ def symmetric_space(order: int, terms: int) -> SymmetricSpace:
         slopes[1:] = gegenbauer(1.5, int(index[-1]), x)[index[1:] - 1]
     else:
         factor = -(index + 1) * (index + 2 * order - 2) / (2 * order - 3)
-        slopes = (
-            factor[:, None]
-            * weight ** (order - 2)
-            * gegenbauer(order - 1.5, int(index[-1]) + 1, x)[index + 1]
-        )
+        slopes = factor[:, None] * weight ** (order - 2) * gegenbauer(order - 1.5, int(index[-1]) + 1, x)[index + 1]
     acceleration = -2.0 * slopes
 
     scale = np.ones(terms + 1)

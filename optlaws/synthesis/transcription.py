@@ -35,9 +35,7 @@ class Answer:
     iterations: int
 
 
-def solve_rows(
-    rows: Array, right: Array, equalities: int, objective: Array, *, tolerance: float = 1e-9
-) -> Answer:
+def solve_rows(rows: Array, right: Array, equalities: int, objective: Array, *, tolerance: float = 1e-9) -> Answer:
     """Minimise objective . x subject to rows . x <= right, the last `equalities` rows as equations.
 
     Rows are scaled to unit length before IPOPT sees them; the multipliers returned belong to the rows as given.
@@ -65,7 +63,7 @@ def solve_rows(
 
 
 @lru_cache(maxsize=512)
-def _solver(size: int, count: int, tolerance: float) -> Any:
+def _solver(size: int, count: int, tolerance: float) -> Any:  # noqa: ANN401 - a casadi Function, imported late
     import casadi as ca
 
     x = ca.MX.sym("x", size)
@@ -79,6 +77,6 @@ def _solver(size: int, count: int, tolerance: float) -> Any:
         ["x", "p", "lam_f", "lam_g"],
         ["triu_hess_gamma_x_x"],
     )
-    options = {**_QUIET, **_LINEAR, "ipopt.tol": tolerance, "hess_lag": no_curvature}
-    program = {"x": x, "p": p, "f": ca.dot(objective, x), "g": rows @ x}
+    options: Any = {**_QUIET, **_LINEAR, "ipopt.tol": tolerance, "hess_lag": no_curvature}
+    program: Any = {"x": x, "p": p, "f": ca.dot(objective, x), "g": rows @ x}
     return ca.nlpsol("program", "ipopt", program, options)
