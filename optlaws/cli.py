@@ -46,7 +46,7 @@ def run(*files: Path, out: Path | None = None) -> None:
     out
         Folder for the results of a single file; otherwise results/NAME beside the folder of the problem file.
     """
-    from optlaws.studies import problem_file
+    from optlaws.studies import jobs
 
     if not files:
         raise InputError("name at least one problem file, for example problems/optimal_table.toml")
@@ -55,7 +55,7 @@ def run(*files: Path, out: Path | None = None) -> None:
     progress, console = Console(stderr=True), Console()
     for file in files:
         with progress.status(f"{file}") if progress.is_terminal else nullcontext():
-            written = problem_file.run(file, out)
+            written = jobs.run(file, out)
         for text in (w for w in written if w.suffix == ".md"):
             _show_markdown(console, text.read_text(encoding="utf-8"))
         for result in written:

@@ -18,7 +18,7 @@ MAY_IMPORT = {
     "synthesis": BASE | {"laws"},
     "mechanisms": BASE | {"laws", "synthesis"},
     "export": CORE,
-    "plotting": CORE,
+    "plotting": CORE | {"export"},
     "studies": CORE | {"export", "plotting"},
     "cli": CORE | {"export", "plotting", "studies", "optlaws"},
     "__main__": {"cli"},

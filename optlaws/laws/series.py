@@ -153,7 +153,8 @@ def _roots(series: Array) -> Array:
     if count == 0:
         return np.empty(0)
     if count == 1:
-        return np.clip(-series[:1] / series[1], -1.0, 1.0)
+        only: Array = np.clip(-series[:1] / series[1], -1.0, 1.0)
+        return only
     skeleton, scale = _colleague(count)
     matrix = skeleton.copy()
     matrix[::-1, 0] -= series[:count] / series[count] * scale

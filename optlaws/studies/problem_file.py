@@ -1,9 +1,9 @@
-"""Problem files: TOML that says what is solved; the job named in it does the work."""
+"""Problem files: TOML that says what is solved, read and checked against the entries that a job knows."""
 
 from __future__ import annotations
 
 import tomllib
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from pathlib import Path
 from types import UnionType
 from typing import Any, TypeVar, get_args, get_origin, get_type_hints
@@ -13,41 +13,7 @@ import msgspec
 from optlaws.errors import InputError
 from optlaws.suggest import unknown_key
 
-Job = Callable[[Mapping[str, Any], Path, Path], list[Path]]
 Spec = TypeVar("Spec", bound=msgspec.Struct)
-
-
-def jobs() -> dict[str, Job]:
-    """The jobs a problem file can name."""
-    from optlaws.studies import optimal_table
-
-    return {"optimal table": optimal_table.run}
-
-
-def run(file: Path, out: Path | None = None) -> list[Path]:
-    """Do the job of a problem file and return the files written.
-
-    Parameters
-    ----------
-    file
-        The problem file.
-    out
-        Folder for the results; `results/<name of the file>` beside the problem file's folder unless given.
-
-    Raises
-    ------
-    InputError
-        If the file cannot be read, is not TOML, or holds an unknown or wrong entry.
-    """
-    data = read(file)
-    known = jobs()
-    name = data.get("job")
-    if name is None:
-        raise InputError(f"{file}: the entry job is missing; known jobs are {', '.join(known)}")
-    if not isinstance(name, str) or name not in known:
-        raise InputError(f"{file}: {unknown_key(str(name), known, 'job')}")
-    target = out if out is not None else file.resolve().parent.parent / "results" / file.stem
-    return known[name](data, file, target)
 
 
 def read(file: Path) -> dict[str, Any]:

@@ -92,7 +92,7 @@ def sweep(problems: Iterable[Problem]) -> Iterator[Solution]:
     >>> from dataclasses import replace
     >>> first = Problem(B=1.6, order=4)
     >>> [round(s.objective, 6) for s in sweep(replace(first, B=B) for B in (1.6, 1.62))]
-    [5.227796, 5.151771]
+    [5.262224, 5.173677]
     """
     previous: Solution | None = None
     for problem in problems:

@@ -45,7 +45,7 @@ class SymmetricSpace:
 
     Examples
     --------
-    >>> symmetric_space(4, 2).middle[0]
+    >>> round(float(symmetric_space(4, 2).middle[0]), 12)
     2.1875
     """
 

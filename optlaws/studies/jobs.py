@@ -1,0 +1,41 @@
+"""The jobs that a problem file can name, and the one door to them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+from typing import Any
+
+from optlaws.errors import InputError
+from optlaws.studies import optimal_table
+from optlaws.studies.problem_file import read
+from optlaws.suggest import unknown_key
+
+Job = Callable[[Mapping[str, Any], Path, Path], list[Path]]
+
+JOBS: dict[str, Job] = {"optimal table": optimal_table.run}
+
+
+def run(file: Path, out: Path | None = None) -> list[Path]:
+    """Do the job of a problem file and return the files written.
+
+    Parameters
+    ----------
+    file
+        The problem file.
+    out
+        Folder for the results; `results/<name of the file>` beside the problem file's folder unless given.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, is not TOML, or holds an unknown or wrong entry.
+    """
+    data = read(file)
+    name = data.get("job")
+    if name is None:
+        raise InputError(f"{file}: the entry job is missing; known jobs are {', '.join(JOBS)}")
+    if not isinstance(name, str) or name not in JOBS:
+        raise InputError(f"{file}: {unknown_key(str(name), JOBS, 'job')}")
+    target = out if out is not None else file.resolve().parent.parent / "results" / file.stem
+    return JOBS[name](data, file, target)
