@@ -238,12 +238,16 @@ def _markdown(
             f"laws of order {spec.order} with richer Z, each proven to the gap shown, and the limits that no law of",
             "any degree can beat.",
             "",
-            tables.to_markdown(["B", *headings[split:]], tail),
+            tables.to_markdown(["B", *(_short(heading) for heading in headings[split:])], tail),
             "## Every printed number",
             "",
             tables.to_markdown(verdict_headings, verdicts),
         ]
     )
+
+
+def _short(heading: str) -> str:
+    return heading.rpartition(", ")[2] if heading.startswith("C optimal, ") else heading
 
 
 def _laws(about: str, rows: Sequence[Row]) -> str:

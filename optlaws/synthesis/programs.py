@@ -36,6 +36,16 @@ def least_violation(order: int, terms: int, *, monotone: bool) -> Program:
     return _program(space, _velocity_families(space, _last(terms + 1), monotone=monotone))
 
 
+@lru_cache(maxsize=256)
+def extreme_velocity(order: int, terms: int, *, monotone: bool, greatest: bool) -> Program:
+    """The least or greatest B for which the velocity constraints do not contradict; B is the last variable."""
+    space = symmetric_space(order, terms)
+    families = _velocity_families(space, np.zeros(terms + 1), monotone=monotone)
+    equality = np.append(space.middle[1:], -1.0)
+    objective = _last(terms + 1) * (-1.0 if greatest else 1.0)
+    return Program(families, equality, float(space.middle[0]), objective)
+
+
 def _velocity_families(space: SymmetricSpace, slack: Array, *, monotone: bool) -> tuple[Family, ...]:
     below = Family(BELOW_PEAK, -_widened(space.chord), -space.chord[:, 0], slack)
     if not monotone:

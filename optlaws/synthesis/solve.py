@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from math import ceil, floor
 from time import perf_counter
 
 import numpy as np
@@ -15,7 +16,7 @@ from optlaws.synthesis.certificate import Certificate, Contact
 from optlaws.synthesis.exchange import VIOLATION, Outcome, solve
 from optlaws.synthesis.limits import acceleration_limit
 from optlaws.synthesis.problem import Problem
-from optlaws.synthesis.programs import ACCELERATION, BELOW_PEAK, least_acceleration, least_violation
+from optlaws.synthesis.programs import ACCELERATION, BELOW_PEAK, extreme_velocity, least_acceleration, least_violation
 from optlaws.synthesis.rows import Program
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.space import symmetric_space
@@ -168,5 +169,16 @@ def _why(problem: Problem) -> str:
     return (
         f"no law of order {problem.order} with Z of degree {problem.basis.degree} has b(1/2) = B = {problem.B:g} "
         f"and {broken} everywhere: with b(1/2) = B its velocity breaks this elsewhere. "
-        "A higher degree of Z or a lower order helps; so does a B nearer to 2"
+        f"A higher degree of Z or a lower order helps; so does {_possible(problem)}"
     )
+
+
+def _possible(problem: Problem) -> str:
+    """Which B this order and degree can have, to six digits, inward."""
+    low, high = (
+        solve(extreme_velocity(problem.order, problem.terms, monotone=problem.monotone, greatest=greatest), 0.0).optimum
+        for greatest in (False, True)
+    )
+    least = f"from {ceil(low.x[-1] * 1e6) / 1e6:.7g}" if low is not None else ""
+    greatest = f"up to {floor(high.x[-1] * 1e6) / 1e6:.7g}" if high is not None else ""
+    return f"a B {' '.join(part for part in (least, greatest) if part) or 'nearer to 2'}"
