@@ -24,7 +24,7 @@ _FAR = 1.05
 
 @dataclass(frozen=True, eq=False)
 class ActiveSet:
-    """Variables, contacts (family, position u, sign, whether it may move) and multipliers, the equality's apart."""
+    """Variables, contacts (family, position u, sign, whether it may move) and multipliers, the equations' apart."""
 
     x: Array
     family: NDArray[np.intp]
@@ -32,7 +32,7 @@ class ActiveSet:
     s: Array
     free: NDArray[np.bool_]
     multipliers: Array
-    equality_multiplier: float
+    equality_multipliers: Array
 
     def moved(self, contact: int, u: float) -> ActiveSet:
         """With one contact let go from its end to u."""
@@ -52,12 +52,12 @@ class ActiveSet:
         )
 
 
-def newton(program: Program, start: ActiveSet, right: float) -> ActiveSet | None:
-    """Solve the optimality conditions from `start` for the equality's right side; None where it does not converge."""
+def newton(program: Program, start: ActiveSet) -> ActiveSet | None:
+    """Solve the optimality conditions from `start`; None where that does not converge."""
     state = start
     previous = np.inf
     for _ in range(_STEPS):
-        step = _step(program, state, right)
+        step = _step(program, state)
         if step is None or not np.isfinite(step).all():
             return None
         state = _moved(state, step)
@@ -70,33 +70,39 @@ def newton(program: Program, start: ActiveSet, right: float) -> ActiveSet | None
     return None
 
 
-def _step(program: Program, state: ActiveSet, right: float) -> Array | None:
+def _step(program: Program, state: ActiveSet) -> Array | None:
     n, p = program.size, len(state.u)
-    jets = np.empty((3, p, n + 1))
-    for i, family in enumerate(program.families):
-        mine = state.family == i
-        if mine.any():
-            jets[:, mine] = family.jet(state.u[mine], state.s[mine])
-    value, slope, curvature = jets @ np.append(state.x, 1.0)
-    rows, rows_slope = jets[0, :, :n], jets[1, :, :n]
+    value, slope, curvature = np.empty((3, p))
+    rows, slopes = np.empty((2, p, n))
     free = state.free
     m = int(free.sum())
     last = n + m + p
+    system = np.zeros((last + len(program.right),) * 2)
+    for i, family in enumerate(program.families):
+        mine = state.family == i
+        if mine.any():
+            u, s = state.u[mine], state.s[mine]
+            jet = family.jet(state.x, u, s)
+            value[mine], slope[mine], curvature[mine] = jet.value, jet.slope, jet.curvature
+            rows[mine], slopes[mine] = jet.gradient, jet.slope_gradient
+            bent = family.hessian(state.x, u, state.multipliers[mine] * s)
+            if bent is not None:
+                system[:n, :n] += bent
 
-    system = np.zeros((last + 1, last + 1))
-    system[:n, n : n + m] = (rows_slope[free] * state.multipliers[free, None]).T
+    system[:n, n : n + m] = (slopes[free] * state.multipliers[free, None]).T
     system[:n, n + m : last] = rows.T
-    system[:n, last] = system[last, :n] = program.equality
-    system[n : n + m, :n] = rows_slope[free]
+    system[:n, last:] = program.equalities.T
+    system[last:, :n] = program.equalities
+    system[n : n + m, :n] = slopes[free]
     system[n : n + m, n : n + m] = np.diag(curvature[free])
     system[n + m : last, :n] = rows
     system[n + m + np.flatnonzero(free), n + np.arange(m)] = slope[free]
 
-    defect = np.empty(last + 1)
-    defect[:n] = program.objective + rows.T @ state.multipliers + program.equality * state.equality_multiplier
+    defect = np.empty(len(system))
+    defect[:n] = program.objective + rows.T @ state.multipliers + program.equalities.T @ state.equality_multipliers
     defect[n : n + m] = slope[free]
     defect[n + m : last] = value
-    defect[last] = program.equality @ state.x + program.equality_offset - right
+    defect[last:] = program.equalities @ state.x - program.right
     try:
         step: Array = np.linalg.solve(system, -defect).astype(np.float64, copy=False)
     except np.linalg.LinAlgError:
@@ -113,5 +119,5 @@ def _moved(state: ActiveSet, step: Array) -> ActiveSet:
         x=state.x + step[:n],
         u=u,
         multipliers=state.multipliers + step[n + m : n + m + p],
-        equality_multiplier=state.equality_multiplier + float(step[-1]),
+        equality_multipliers=state.equality_multipliers + step[n + m + p :],
     )

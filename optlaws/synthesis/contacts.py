@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.synthesis.active_set import ActiveSet
 from optlaws.synthesis.rows import Program
 
+VIOLATION = 1e-10
 _PULL = 1e-10
 _SAME = 1e-6
 
@@ -17,10 +19,10 @@ def settled(program: Program, state: ActiveSet) -> ActiveSet:
     """Drop the contact that pulls most, or put contacts that left the interval on its end; the same object if none."""
     if np.any(state.multipliers < -_PULL * np.abs(state.multipliers).max(initial=0.0)):
         return _without(state, int(np.argmin(state.multipliers)))
-    lowest = np.array([program.families[i].lowest for i in state.family])
-    outside = (state.u < lowest) | (state.u > 1.0)
+    low, high = np.array([program.families[i].domain for i in state.family]).reshape(-1, 2).T
+    outside = (state.u < low) | (state.u > high)
     if outside.any():
-        return replace(state, u=np.clip(state.u, lowest, 1.0), free=state.free & ~outside)
+        return replace(state, u=np.clip(state.u, low, high), free=state.free & ~outside)
     return state
 
 
@@ -36,15 +38,16 @@ def _without(state: ActiveSet, contact: int) -> ActiveSet:
     )
 
 
-def completed(program: Program, state: ActiveSet, allowed: float) -> ActiveSet:
-    """Add the extrema that stick out by more than `allowed`; the same object if none does.
+def completed(program: Program, state: ActiveSet) -> ActiveSet:
+    """Add the extrema that stick out by more than VIOLATION of the right side; the same object if none does.
 
     Where the nearest contact is pinned to an end, its residual grows inward and it is let go instead.
     """
     better = state
     for i, family in enumerate(program.families):
         u, s, residual = family.extremes(state.x)
-        for j in np.flatnonzero(residual > allowed):
+        low, high = family.domain
+        for j in np.flatnonzero(residual > VIOLATION * max(1.0, abs(family.room(state.x)))):
             mine = (better.family == i) & (better.s == s[j])
             if np.any(mine & (np.abs(better.u - u[j]) < _SAME)):
                 continue
@@ -52,11 +55,11 @@ def completed(program: Program, state: ActiveSet, allowed: float) -> ActiveSet:
             if len(pinned):
                 better = better.moved(int(pinned[0]), float(u[j]))
             else:
-                better = better.joined(i, float(u[j]), float(s[j]), free=bool(family.lowest < u[j] < 1.0))
+                better = better.joined(i, float(u[j]), float(s[j]), free=bool(low < u[j] < high))
     return better
 
 
-def _nothing_between(state: ActiveSet, mine: np.ndarray, u: float) -> np.ndarray:
+def _nothing_between(state: ActiveSet, mine: NDArray[np.bool_], u: float) -> NDArray[np.bool_]:
     # the contacts of `mine` that are neighbours of u: no other lies between
     distance = np.where(mine, np.abs(state.u - u), np.inf)
     same_side = [

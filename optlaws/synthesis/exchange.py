@@ -9,16 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.active_set import ActiveSet, newton
-from optlaws.synthesis.contacts import completed, settled
+from optlaws.synthesis.contacts import VIOLATION, completed, settled
 from optlaws.synthesis.rows import Family, Points, Program
-from optlaws.synthesis.transcription import Answer, solve_rows
+from optlaws.synthesis.transcription import Answer, solve_on_points
 
 Array = NDArray[np.float64]
 
-VIOLATION = 1e-10
 _ROUNDS = 12
 _CORRECTIONS = 8
 _WEIGHTLESS = 1e-7
+_LOST = 1e7
 
 
 @dataclass(frozen=True, eq=False)
@@ -33,107 +33,92 @@ class Outcome:
 
 def solve(
     program: Program,
-    right: float,
     warm: ActiveSet | None = None,
     *,
+    start: Array | None = None,
     holds: Callable[[Array], bool] | None = None,
 ) -> Outcome:
-    """Solve a semi-infinite linear program; a neighbour's optimum as `warm` is tried before IPOPT.
+    """Solve a semi-infinite program; a neighbour's optimum as `warm` is tried before IPOPT, which begins at `start`.
 
     `holds` may tell from x alone, and more quickly than the families do, whether every constraint holds.
     """
     if warm is not None:
-        optimum = _polished(program, warm, right, holds)
+        optimum = _polished(program, warm, holds)
         if optimum is not None:
             return Outcome(optimum, 0, 0, "continued from a neighbour")
     points = [_first_points(family, program.size) for family in program.families]
     iterations = 0
     status = ""
     for attempt in range(1, _ROUNDS + 1):
-        answer = _on_points(program, points, right)
+        answer = solve_on_points(program, points, start)
         iterations += answer.iterations
         status = answer.status
-        if not np.isfinite(answer.x).all() or np.abs(answer.x).max() > 1e7:
+        if not np.isfinite(answer.x).all() or np.abs(answer.x).max() > _LOST:
             return Outcome(None, iterations, attempt, status)
-        optimum = _polished(program, _identified(program, points, answer), right, holds)
+        optimum = _polished(program, _identified(program, points, answer), holds)
         if optimum is not None:
             return Outcome(optimum, iterations, attempt, status)
         points = [_exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
     return Outcome(None, iterations, _ROUNDS, status)
 
 
-def _polished(
-    program: Program, start: ActiveSet, right: float, holds: Callable[[Array], bool] | None
-) -> ActiveSet | None:
+def _polished(program: Program, start: ActiveSet, holds: Callable[[Array], bool] | None) -> ActiveSet | None:
     """Newton on a guess of the contacts, which is corrected a few times by what the answer says."""
     guess = start
     for _ in range(_CORRECTIONS):
-        optimum = newton(program, guess, right)
+        optimum = newton(program, guess)
         if optimum is None:
             return None
         guess = settled(program, optimum)
         if guess is optimum and (holds is None or not holds(optimum.x)):
-            guess = completed(program, optimum, VIOLATION * max(1.0, abs(float(optimum.x[-1]))))
+            guess = completed(program, optimum)
         if guess is optimum:
             return optimum
     return None
 
 
-def _on_points(program: Program, points: list[Points], right: float) -> Answer:
-    parts = [family.rows(mine.u, mine.s) for family, mine in zip(program.families, points, strict=True)]
-    rows = np.vstack([*(a for a, _ in parts), program.equality])
-    uppers = np.concatenate([*(h for _, h in parts), [right - program.equality_offset]])
-    return solve_rows(rows, uppers, 1, program.objective)
-
-
 def _first_points(family: Family, size: int) -> Points:
-    if family.odd:
+    low, high = family.domain
+    if low == high:
+        u = np.array([low])
+    elif low == 0.0:
         count = 2 * size + 4
         u = np.cos((np.arange(count) + 0.5) * np.pi / (2 * count))
-        return Points(np.tile(u, 2), np.repeat(family.signs, count))
-    count = (3 * size) // 2 + 4
-    return Points(np.cos(np.arange(count) * np.pi / (count - 1)), np.ones(count))
+    else:
+        count = (3 * size) // 2 + 4
+        u = (high + low) / 2 + (high - low) / 2 * np.cos(np.arange(count) * np.pi / (count - 1))
+    return Points(np.tile(u, len(family.signs)), np.repeat(family.signs, len(u)))
 
 
 def _exchanged(family: Family, points: Points, x: Array) -> Points:
     u, s, residual = family.extremes(x)
-    near = residual > -1e-2 * max(1.0, abs(float(x[-1])))
+    near = residual > -1e-2 * max(1.0, abs(family.room(x)))
     return points.joined(Points(u[near], s[near]))
 
 
 def _identified(program: Program, points: list[Points], answer: Answer) -> ActiveSet:
     """Give each point's multiplier to the extremum that its hill leads to; those are the contacts."""
-    family_of: list[int] = []
-    u_of: list[float] = []
-    s_of: list[float] = []
-    free_of: list[bool] = []
-    weight_of: list[float] = []
-    first = 0
+    found: list[tuple[int, float, float, bool, float]] = []
     for i, (family, mine) in enumerate(zip(program.families, points, strict=True)):
-        weights = answer.multipliers[first : first + len(mine.u)]
-        first += len(mine.u)
+        weights = answer.multipliers[i]
         u, s, residual = family.extremes(answer.x)
-        here = mine.s * family.residual(answer.x, mine.u) - float(family.slack @ answer.x)
+        jet = family.jet(answer.x, mine.u, mine.s)
         gathered = np.zeros(len(u))
-        for j in np.flatnonzero(_binding(family.rows(mine.u, mine.s)[0], weights, here)):
-            higher = (s == mine.s[j]) & (residual >= here[j] - 1e-9)
+        for j in np.flatnonzero(_binding(jet.gradient, weights, jet.value)):
+            higher = (s == mine.s[j]) & (residual >= jet.value[j] - 1e-9)
             distance = np.where(higher, np.abs(u - mine.u[j]), np.inf)
             gathered[np.argmin(distance)] += weights[j]
-        ends = (u <= family.lowest) | (u >= 1.0)
-        for j in np.flatnonzero(gathered):
-            family_of.append(i)
-            u_of.append(float(u[j]))
-            s_of.append(float(s[j]))
-            free_of.append(not ends[j])
-            weight_of.append(float(gathered[j]))
+        inside = (u > family.domain[0]) & (u < family.domain[1])
+        found += [(i, u[j], s[j], inside[j], gathered[j]) for j in np.flatnonzero(gathered)]
+    family_of, places, signs, free, multipliers = zip(*found, strict=True) if found else ((),) * 5
     return ActiveSet(
         x=answer.x,
         family=np.asarray(family_of, dtype=np.intp),
-        u=np.asarray(u_of),
-        s=np.asarray(s_of),
-        free=np.asarray(free_of, dtype=np.bool_),
-        multipliers=np.asarray(weight_of),
-        equality_multiplier=float(answer.multipliers[-1]),
+        u=np.asarray(places, dtype=np.float64),
+        s=np.asarray(signs, dtype=np.float64),
+        free=np.asarray(free, dtype=np.bool_),
+        multipliers=np.asarray(multipliers, dtype=np.float64),
+        equality_multipliers=answer.multipliers[-1],
     )
 
 

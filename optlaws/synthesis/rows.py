@@ -1,7 +1,8 @@
-"""Families of constraints that hold at every k: rows of a semi-infinite linear program, and where they bind."""
+"""Families of constraints that hold at every k, and the semi-infinite programs made of them."""
 
 from __future__ import annotations
 
+from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from functools import cached_property
 
@@ -9,93 +10,145 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from optlaws.laws.series import real_parts_of_roots
-from optlaws.synthesis.space import even_gegenbauer_jet
+from optlaws.laws.series import product, real_parts_of_roots
+from optlaws.synthesis.polynomials import even_gegenbauer_jet
 
 Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, eq=False)
-class Family:
-    """The constraint s (f(u) . x + offset(u)) <= slack . x for every u, s = 1 or, if `two_sided`, s = 1 and -1.
+class Jet:
+    """Residuals of a family at points, their derivatives by the place u, and their gradients by the variables."""
 
-    f and offset are Chebyshev series in u on [-1, 1]: one column a variable. If `odd`, they are odd in u and only
-    0 <= u <= 1 counts (u = 1 - 2k); otherwise u = 2 (1-2k)² - 1.
+    value: Array
+    slope: Array
+    curvature: Array
+    gradient: Array
+    slope_gradient: Array
+
+
+@dataclass(frozen=True, eq=False)
+class Family(ABC):
+    """The constraint s f(u; x) <= slack . x + bound for every u of the domain and every sign s.
+
+    Attributes
+    ----------
+    name
+        What is constrained; the certificate finds its formula by it.
+    slack, bound
+        The right side: a variable such as the peak C, a number, or both.
+    signs
+        The values of s: (1,), (-1,) or (1, -1) for a magnitude.
+    domain
+        The least and the greatest u that count.
     """
 
     name: str
-    series: Array
-    offset: Array
     slack: Array
-    two_sided: bool = False
-    odd: bool = False
+    bound: float = 0.0
+    signs: tuple[float, ...] = (1.0,)
+    domain: tuple[float, float] = (-1.0, 1.0)
 
-    @property
-    def signs(self) -> tuple[float, ...]:
-        """The values that s takes."""
-        return (1.0, -1.0) if self.two_sided else (1.0,)
+    @abstractmethod
+    def jet(self, x: Array, u: Array, s: Array) -> Jet:
+        """Residuals s f - slack . x - bound with their derivatives."""
 
-    @property
-    def lowest(self) -> float:
-        """The least u that counts."""
-        return 0.0 if self.odd else -1.0
+    @abstractmethod
+    def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
+        """Second derivative by x of the sum of weights times f; None where it is zero."""
+
+    @abstractmethod
+    def value(self, x: Array, u: Array) -> Array:
+        """f at the points u."""
+
+    @abstractmethod
+    def stationary(self, x: Array) -> Array:
+        """Points of [-1, 1] among which every stationary point of f is."""
+
+    def k(self, u: Array) -> Array:
+        """The k in [0, 1] that belongs to u = 1 - 2k."""
+        places: Array = (1.0 - u) / 2.0
+        return places
+
+    def room(self, x: Array) -> float:
+        """The right side."""
+        return float(self.slack @ x) + self.bound
+
+    def extremes(self, x: Array) -> tuple[Array, Array, Array]:
+        """Points, signs and residuals (positive where violated) at every end and stationary point."""
+        low, high = self.domain
+        if low == high:
+            u = np.array([low])
+        else:
+            inner = self.stationary(x)
+            inner = np.sort(inner[(inner > low) & (inner < high)])
+            u = np.concatenate([[low], inner, [high]])
+        value, room = self.value(x, u), self.room(x)
+        signs = np.repeat(self.signs, len(u))
+        return np.tile(u, len(self.signs)), signs, signs * np.tile(value, len(self.signs)) - room
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class LinearFamily(Family):
+    """f is affine in x: a Chebyshev series in u for each variable, and one that belongs to none as the last column."""
+
+    series: Array
 
     @cached_property
     def _jet(self) -> Array:
-        # value, first and second derivative side by side, the offset as a last column of each
-        value = np.column_stack([self.series, self.offset])
-        parts = [value]
+        parts = [self.series]
         for _ in range(2):
-            slope = np.zeros_like(value)
+            slope = np.zeros_like(self.series)
             lower = chebyshev.chebder(parts[-1])
             slope[: len(lower)] = lower
             parts.append(slope)
         return np.hstack(parts)
 
-    def values(self, u: Array) -> Array:
-        """f and offset with two derivatives by u, shape (3, points, variables + 1); the last column is the offset."""
+    def columns(self, u: Array) -> Array:
+        """f's columns with two derivatives by u, shape (3, points, variables + 1)."""
         angles = np.arccos(np.minimum(np.maximum(u, -1.0), 1.0))
-        flat = np.cos(np.outer(angles, np.arange(len(self.offset)))) @ self._jet
+        flat = np.cos(np.outer(angles, np.arange(len(self.series)))) @ self._jet
         shaped: Array = flat.reshape(len(u), 3, -1).transpose(1, 0, 2)
         return shaped
 
-    def jet(self, u: Array, s: Array) -> Array:
-        """The constraint's rows with sign and slack, and two derivatives, shaped like `values`."""
-        rows: Array = self.values(u) * s[:, None]
-        rows[0, :, :-1] -= self.slack
-        return rows
-
     def rows(self, u: Array, s: Array) -> tuple[Array, Array]:
         """A and h of the rows A x <= h at the points u with signs s."""
-        values = self.jet(u, s)[0]
-        return values[:, :-1], -values[:, -1]
+        columns = self.columns(u)[0] * s[:, None]
+        return columns[:, :-1] - self.slack, self.bound - columns[:, -1]
 
-    def residual(self, x: Array, u: Array) -> Array:
-        """f . x + offset at the points u, without sign and slack."""
-        return np.asarray(chebyshev.chebval(u, self.series @ x + self.offset), dtype=float)
+    def jet(self, x: Array, u: Array, s: Array) -> Jet:
+        """Residuals with their derivatives."""
+        columns = self.columns(u) * s[:, None]
+        columns[0, :, :-1] -= self.slack
+        value, slope, curvature = columns @ np.append(x, 1.0)
+        return Jet(value - self.bound, slope, curvature, columns[0, :, :-1], columns[1, :, :-1])
 
-    def extremes(self, x: Array) -> tuple[Array, Array, Array]:
-        """Points, signs and residuals (positive where violated) at every end and stationary point."""
-        slope = np.asarray(chebyshev.chebder(self.series @ x + self.offset), dtype=np.float64)
-        if self.odd:
-            inner = real_parts_of_roots(slope[::2])
-            inner = np.sqrt((inner + 1.0) / 2.0)
-        else:
-            inner = real_parts_of_roots(slope)
-        u = np.concatenate([[self.lowest], np.sort(inner), [1.0]])
-        value = self.residual(x, u)
-        room = float(self.slack @ x)
-        signs = np.repeat(self.signs, len(u))
-        return np.tile(u, len(self.signs)), signs, signs * np.tile(value, len(self.signs)) - room
+    def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002
+        """None: f is affine."""
+        return None
+
+    def value(self, x: Array, u: Array) -> Array:
+        """f at the points u."""
+        return np.asarray(chebyshev.chebval(u, self.series @ np.append(x, 1.0)), dtype=float)
+
+    def stationary(self, x: Array) -> Array:
+        """Roots of the derivative's series."""
+        slope = np.asarray(chebyshev.chebder(self.series @ np.append(x, 1.0)), dtype=np.float64)
+        return real_parts_of_roots(slope)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EvenFamily(LinearFamily):
+    """A linear family of laws that are even about k = 1/2, as series in u = 2 (1-2k)² - 1."""
 
     def k(self, u: Array) -> Array:
         """The k in [0, 1/2] that belongs to u."""
-        return (1.0 - (u if self.odd else np.sqrt(np.maximum(u + 1.0, 0.0) / 2.0))) / 2.0
+        return (1.0 - np.sqrt(np.maximum(u + 1.0, 0.0) / 2.0)) / 2.0
 
 
-@dataclass(frozen=True, eq=False)
-class RatioFamily(Family):
-    """A family whose columns are even Gegenbauer polynomials, `scale` times; the offset's (degree 0) is last.
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RatioFamily(EvenFamily):
+    """An even family whose columns are Gegenbauer polynomials, `scale` times; the last one, of degree 0, has no variable.
 
     Their values grow so much toward k = 0 that a series would lose the digits of the others.
     """
@@ -103,18 +156,94 @@ class RatioFamily(Family):
     index: float = 0.5
     scale: Array = field(default_factory=lambda: np.ones(1))
 
-    def values(self, u: Array) -> Array:
-        """f and offset with two derivatives by u, by recurrence."""
+    def columns(self, u: Array) -> Array:
+        """f's columns with two derivatives by u, by recurrence."""
         polynomials = even_gegenbauer_jet(self.index, len(self.scale) - 1, u)
         shaped = np.zeros((3, len(u), len(self.slack) + 1))
         shaped[:, :, : len(self.scale) - 1] = polynomials[:, :, 1:] * self.scale[:-1]
         shaped[:, :, -1] = polynomials[:, :, 0] * self.scale[-1]
         return shaped
 
-    def residual(self, x: Array, u: Array) -> Array:
-        """f . x + offset at the points u, by recurrence."""
-        value: Array = self.values(u)[0] @ np.append(x, 1.0)
+    def value(self, x: Array, u: Array) -> Array:
+        """f at the points u, by recurrence."""
+        value: Array = self.columns(u)[0] @ np.append(x, 1.0)
         return value
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ProductFamily(Family):
+    """f = g h, g and h affine in x: the power d = b c, which is not convex in x."""
+
+    first: LinearFamily
+    second: LinearFamily
+
+    def jet(self, x: Array, u: Array, s: Array) -> Jet:
+        """Residuals with their derivatives, by the product rule."""
+        g, h = self.first.columns(u), self.second.columns(u)
+        point = np.append(x, 1.0)
+        (g0, g1, g2), (h0, h1, h2) = g @ point, h @ point
+        g, h = g[:, :, :-1], h[:, :, :-1]
+        gradient = g0[:, None] * h[0] + h0[:, None] * g[0]
+        slope_gradient = g1[:, None] * h[0] + h0[:, None] * g[1] + g0[:, None] * h[1] + h1[:, None] * g[0]
+        return Jet(
+            s * g0 * h0 - self.room(x),
+            s * (g1 * h0 + g0 * h1),
+            s * (g2 * h0 + 2.0 * g1 * h1 + g0 * h2),
+            s[:, None] * gradient - self.slack,
+            s[:, None] * slope_gradient,
+        )
+
+    def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002
+        """The sum of weights times g's row by h's and h's by g's."""
+        g, h = self.first.columns(u)[0, :, :-1], self.second.columns(u)[0, :, :-1]
+        half: Array = (g * weights[:, None]).T @ h
+        return half + half.T
+
+    def value(self, x: Array, u: Array) -> Array:
+        """G h at the points u, each evaluated by itself."""
+        return self.first.value(x, u) * self.second.value(x, u)
+
+    def stationary(self, x: Array) -> Array:
+        """Roots of g' h + g h'."""
+        point = np.append(x, 1.0)
+        g, h = self.first.series @ point, self.second.series @ point
+        slopes = [product(np.asarray(chebyshev.chebder(p)), q) for p, q in ((g, h), (h, g))]
+        total = np.zeros(max(map(len, slopes)))
+        for slope in slopes:
+            total[: len(slope)] += slope
+        return real_parts_of_roots(total)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class NormFamily(Family):
+    """f is the Euclidean norm of an affine map of x: the RMS of c or j. It has no place: u is 1."""
+
+    matrix: Array
+    domain: tuple[float, float] = (1.0, 1.0)
+
+    def jet(self, x: Array, u: Array, s: Array) -> Jet:
+        """The residual with its gradient."""
+        image = self.matrix @ np.append(x, 1.0)
+        norm = float(np.linalg.norm(image))
+        zero, flat = np.zeros(len(u)), np.zeros((len(u), len(x)))
+        gradient = s[:, None] * (image @ self.matrix[:, :-1] / norm) - self.slack
+        return Jet(s * norm - self.room(x), zero, zero, gradient, flat)
+
+    def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002
+        """Of the norm, times the sum of weights."""
+        image = self.matrix @ np.append(x, 1.0)
+        norm = float(np.linalg.norm(image))
+        direction = image @ self.matrix[:, :-1] / norm
+        curved: Array = self.matrix[:, :-1].T @ self.matrix[:, :-1] - np.outer(direction, direction)
+        return curved * (float(weights.sum()) / norm)
+
+    def value(self, x: Array, u: Array) -> Array:
+        """The norm."""
+        return np.full(len(u), float(np.linalg.norm(self.matrix @ np.append(x, 1.0))))
+
+    def stationary(self, x: Array) -> Array:  # noqa: ARG002
+        """Nothing: it has no place."""
+        return np.empty(0)
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,11 +260,11 @@ class Points:
 
 @dataclass(frozen=True, eq=False)
 class Program:
-    """Minimise objective . x subject to families and one equality, equality . x = right - equality_offset."""
+    """Minimise objective . x subject to families and equations: equalities . x = right."""
 
     families: tuple[Family, ...]
-    equality: Array
-    equality_offset: float
+    equalities: Array
+    right: Array
     objective: Array
 
     @property
@@ -143,6 +272,15 @@ class Program:
         """Number of variables."""
         return len(self.objective)
 
+    @property
+    def scale(self) -> float:
+        """What residuals are compared with: 1, as laws have stroke and duration 1."""
+        return 1.0
+
+    def worth(self, x: Array) -> float:
+        """The objective at x."""
+        return float(self.objective @ x)
+
     def violation(self, x: Array) -> float:
         """Largest residual over every family and every u."""
-        return max(float(family.extremes(x)[2].max()) for family in self.families)
+        return max((float(family.extremes(x)[2].max()) for family in self.families), default=0.0)

@@ -1,0 +1,140 @@
+"""Objectives as sums and maxima of constants, written in Python or as text: 0.6*C/4 + 0.4*D/2.25."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from math import isfinite
+from numbers import Real
+
+from optlaws.errors import InputError
+
+
+class Term:
+    """What a sum is made of: a constant of a law or a maximum. Numbers scale terms, terms add up.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis import C, D
+    >>> 0.6 * C / 4 + 0.4 * D / 2.25
+    0.15*C + 0.177778*D
+    """
+
+    def expression(self) -> Expression:
+        """The term alone, as a sum."""
+        return Expression(((1.0, self),))
+
+    def __add__(self, other: Term | Expression) -> Expression:
+        return self.expression() + other
+
+    def __mul__(self, factor: float) -> Expression:
+        return self.expression() * factor
+
+    def __rmul__(self, factor: float) -> Expression:
+        return self.expression() * factor
+
+    def __truediv__(self, divisor: float) -> Expression:
+        return self.expression() / divisor
+
+
+@dataclass(frozen=True, repr=False)
+class Expression:
+    """A sum of terms with weights above 0 (dimensionless).
+
+    Raises
+    ------
+    InputError
+        If a weight is not a finite number above 0: with such a weight the sum would have no least value.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis import C, D
+    >>> (C / 4 + D / 2.25).weights()["C"]
+    0.25
+    """
+
+    terms: tuple[tuple[float, Term], ...]
+
+    def __post_init__(self) -> None:
+        gathered: dict[Term, float] = {}
+        for weight, term in self.terms:
+            if not isinstance(weight, Real) or not isfinite(weight) or weight <= 0.0:
+                raise InputError(f"weights in an objective must be finite numbers above 0, got {weight!r} for {term!r}")
+            gathered[term] = gathered.get(term, 0.0) + float(weight)
+        object.__setattr__(self, "terms", tuple((weight, term) for term, weight in gathered.items()))
+
+    def expression(self) -> Expression:
+        """Itself."""
+        return self
+
+    def weights(self) -> dict[str, float]:
+        """Weights by the name of the term."""
+        return {repr(term): weight for weight, term in self.terms}
+
+    def __add__(self, other: Term | Expression) -> Expression:
+        if not isinstance(other, Term | Expression):
+            return NotImplemented
+        return Expression(self.terms + other.expression().terms)
+
+    def __mul__(self, factor: float) -> Expression:
+        if isinstance(factor, bool) or not isinstance(factor, Real):
+            return NotImplemented
+        return Expression(tuple((weight * float(factor), term) for weight, term in self.terms))
+
+    __rmul__ = __mul__
+
+    def __truediv__(self, divisor: float) -> Expression:
+        if isinstance(divisor, bool) or not isinstance(divisor, Real):
+            return NotImplemented
+        if divisor == 0:
+            raise InputError("an objective cannot be divided by 0")
+        return Expression(tuple((weight / float(divisor), term) for weight, term in self.terms))
+
+    def __repr__(self) -> str:
+        return " + ".join(repr(t) if w == 1.0 else f"{w:.6g}*{t!r}" for w, t in self.terms)
+
+
+@dataclass(frozen=True, repr=False)
+class Maximum(Term):
+    """The greatest of several sums.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis import C, D, maximum
+    >>> maximum(C / 4, D / 2.25)
+    max(0.25*C, 0.444444*D)
+    """
+
+    parts: tuple[Expression, ...]
+
+    def __repr__(self) -> str:
+        return f"max({', '.join(map(repr, self.parts))})"
+
+
+def maximum(*parts: Term | Expression) -> Maximum:
+    """The greatest of several terms or sums, itself a term.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two parts.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis import C, D
+    >>> len(maximum(C, D).parts)
+    2
+    """
+    if len(parts) < 2:
+        raise InputError("a maximum needs at least two parts")
+    return Maximum(tuple(part.expression() for part in parts))
+
+
+def leaves(expression: Expression) -> Iterator[tuple[float, Term]]:
+    """Every term that is not a maximum, with the product of the weights that lead to it."""
+    for weight, term in expression.terms:
+        if isinstance(term, Maximum):
+            for part in term.parts:
+                yield from ((weight * inner, leaf) for inner, leaf in leaves(part))
+        else:
+            yield weight, term

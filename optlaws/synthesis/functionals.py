@@ -1,0 +1,135 @@
+"""What can be minimised or bounded: constants of a law, each with its NLP form and its exact value.
+
+One more constant is one class: say how it reads off a law (`value`), which rows make a variable at least as great
+(`families`), and, if known, what no law can beat (`limit`).
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.laws import MotionLaw
+from optlaws.synthesis.expression import Term
+from optlaws.synthesis.rows import Family
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.space import LawSpace
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, repr=False)
+class Functional(Term):
+    """A constant of a law, at least 0 (dimensionless).
+
+    Attributes
+    ----------
+    name
+        Its name in expressions, problem files and results.
+    reference
+        The least value that rest-to-rest laws can have, by which mixtures are normalised.
+    convex
+        Whether it is convex in the law; then optima are proven, otherwise only bounded.
+    """
+
+    name: str
+    reference: float
+    convex: bool
+
+    @abstractmethod
+    def value(self, law: MotionLaw) -> float:
+        """The constant of a law, over the whole interval."""
+
+    @abstractmethod
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+        """Rows that hold if and only if the constant is at most slack . x + bound."""
+
+    def __repr__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True, repr=False)
+class Peak(Functional):
+    """Peak of a derivative: magnitude, or one sign only.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> C.value(smoothstep(2)), C_plus.value(smoothstep(2))
+    (6.0, 6.0)
+    """
+
+    nu: int
+    signs: tuple[float, ...] = (1.0, -1.0)
+
+    def value(self, law: MotionLaw) -> float:
+        """The peak, by the roots of the next derivative."""
+        if len(self.signs) == 2:
+            return law.peak(self.nu).value
+        lowest, highest = law.extrema(self.nu)
+        return highest.value if self.signs[0] > 0 else -lowest.value
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+        """The derivative's own family."""
+        return (space.derivative(self.nu, self.name, slack, bound, self.signs),)
+
+
+@dataclass(frozen=True, repr=False)
+class Power(Functional):
+    """Peak D of the kinetic power d = b c: not convex in the law.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> round(D.value(smoothstep(2)), 6)
+    3.464102
+    """
+
+    def value(self, law: MotionLaw) -> float:
+        """The peak, b and c evaluated separately."""
+        return law.power_peak().value
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+        """The product's family."""
+        return (space.power(self.name, slack, bound),)
+
+
+@dataclass(frozen=True, repr=False)
+class RootMeanSquare(Functional):
+    """RMS of a derivative over the interval.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> round(rms_c.value(smoothstep(2)) ** 2, 9)
+    12.0
+    """
+
+    nu: int
+
+    def value(self, law: MotionLaw) -> float:
+        """The root of the mean square, by Gauss-Legendre quadrature exact for the law's degree."""
+        return law.rms(self.nu)
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+        """A norm of the coordinates."""
+        return (space.norm(self.nu, self.name, slack, bound),)
+
+
+B = Peak("B", 1.0, convex=True, nu=1)
+C = Peak("C", 4.0, convex=True, nu=2)
+C_plus = Peak("C_plus", 4.0, convex=True, nu=2, signs=(1.0,))
+C_minus = Peak("C_minus", 4.0, convex=True, nu=2, signs=(-1.0,))
+D = Power("D", 2.25, convex=False)
+J = Peak("J", 12.0, convex=True, nu=3)
+jounce = Peak("jounce", 1.0, convex=True, nu=4)
+rms_c = RootMeanSquare("rms_c", np.sqrt(12.0), convex=True, nu=2)
+rms_j = RootMeanSquare("rms_j", 1.0, convex=True, nu=3)
+
+FUNCTIONALS: dict[str, Functional] = {f.name: f for f in (B, C, C_plus, C_minus, D, J, jounce, rms_c, rms_j)}

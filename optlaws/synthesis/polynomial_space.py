@@ -1,0 +1,176 @@
+"""The laws of eq. 8 with polynomial Z as a linear space with well-conditioned coordinates.
+
+With u = 1 - 2k the free part of the velocity is (k(1-k))^(l-1) times a polynomial. Gegenbauer polynomials of index
+l - 1/2 are orthogonal for that weight, those of degree 1 and more carry no stroke, and both Z(k) and c(k) are again
+Gegenbauer series (of index l + 1/2 and l - 3/2): every free function has a closed form and nothing is expanded.
+"""
+
+from __future__ import annotations
+
+from functools import cached_property, lru_cache
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+from optlaws.laws import PolynomialLaw
+from optlaws.synthesis.boundary import BoundaryConditions, construct
+from optlaws.synthesis.polynomials import chebyshev_series, gegenbauer
+from optlaws.synthesis.rows import EvenFamily, Family, RatioFamily
+from optlaws.synthesis.space import LawSpace
+
+Array = NDArray[np.float64]
+
+
+class PolynomialSpace(LawSpace):
+    """Laws (8) with the given end conditions and Z of a degree, or, if `symmetric`, its part odd about k = 1/2 only.
+
+    The free functions are scaled so that each has peak acceleration 1. All is dimensionless.
+
+    Parameters
+    ----------
+    boundary
+        End conditions; if `symmetric`, those of a law with a(k) + a(1-k) = 1.
+    degree
+        Degree of Z.
+    symmetric
+        Keep to symmetric laws: half the coordinates, and constraints need to hold on half the interval only.
+
+    Examples
+    --------
+    >>> space = polynomial_space(BoundaryConditions.rest(4), 3, symmetric=True)
+    >>> space.terms, round(float(space.middle[-1]), 12)
+    (2, 2.1875)
+    """
+
+    def __init__(self, boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> None:
+        self.boundary, self.degree, self.symmetric = boundary, degree, symmetric
+        self.order = boundary.order
+        self.domain = (0.0, 1.0) if symmetric else (-1.0, 1.0)
+        self.base = construct(boundary)
+        #: degrees of the free velocities' Gegenbauer polynomials; Z has one degree less
+        self.index = np.arange(2, degree + 2, 2) if symmetric else np.arange(1, degree + 2)
+        self.terms = len(self.index)
+        count = 2 * self.order + degree + 3
+        self._angle = (np.arange(count) + 0.5) * np.pi / count
+        self._u = np.cos(self._angle)
+        self._series: dict[int, Array] = {}
+
+    @cached_property
+    def _shapes(self) -> tuple[Array, Array, Array, Array]:
+        """Displacement, velocity, acceleration and Z of the free functions at the Chebyshev points, and their scale."""
+        l, m, u = self.order, self.index, self._u  # noqa: E741 - the field's name
+        weight = 1.0 - u * u
+        top = int(m[-1])
+        velocity = weight ** (l - 1) * gegenbauer(l - 0.5, top, u)[m]
+        if l == 1:
+            acceleration = -2.0 * gegenbauer(1.5, top, u)[m - 1]
+        else:
+            factor = 2.0 * (m + 1) * (m + 2 * l - 2) / (2 * l - 3)
+            acceleration = factor[:, None] * weight ** (l - 2) * gegenbauer(l - 1.5, top + 1, u)[m + 1]
+        step = (2 * l - 1) / (2.0 * m * (m + 2 * l - 1))
+        free = gegenbauer(l + 0.5, top - 1, u)[m - 1] * step[:, None]
+        displacement = weight**l * free
+        # k^l (k-1)^l is (-1/4)^l times the weight
+        return displacement, velocity, acceleration, (-4.0) ** l * free
+
+    @cached_property
+    def scale(self) -> Array:
+        """What makes each free function's peak acceleration 1."""
+        return np.asarray(1.0 / np.abs(self._shapes[2]).max(axis=1))
+
+    def series(self, nu: int) -> Array:
+        """Chebyshev series in u = 1 - 2k of the derivative of order nu, the base law's as the last column."""
+        if nu not in self._series:
+            if nu > 2:
+                lower = self.series(nu - 1)
+                found = -2.0 * np.asarray(chebyshev.chebder(lower)) if len(lower) > 1 else np.zeros_like(lower)
+            else:
+                base = self.base(self._k, nu)
+                values = np.column_stack([(self._shapes[nu] * self.scale[:, None]).T, base])
+                found = chebyshev_series(values, self._angle)
+                if self.symmetric:
+                    # a - 1/2 and c are odd about the middle, b is even: rounding must not blur it
+                    found[(1 if nu == 1 else (2 if nu == 0 else 0)) :: 2] = 0.0
+            found.setflags(write=False)
+            self._series[nu] = found
+        return self._series[nu]
+
+    @property
+    def _k(self) -> Array:
+        return np.asarray((1.0 - self._u) / 2.0)
+
+    def law(self, coordinates: Array) -> PolynomialLaw:
+        """The law with the given coordinates (one for each free function)."""
+        columns = self.series(2)
+        series = columns[:, :-1] @ coordinates + columns[:, -1]
+        series[1::2] *= -1.0
+        start = self._start @ np.append(coordinates, 1.0)
+        return PolynomialLaw(series, a0=float(self.boundary.start[0]), b0=float(start))
+
+    @cached_property
+    def _start(self) -> Array:
+        """b(0): free only where the order is 1."""
+        if self.order == 1:
+            return np.asarray(self.series(1).sum(axis=0))
+        return np.append(np.zeros(self.terms), float(self.boundary.start[1]))
+
+    def z_series(self, coordinates: Array) -> Array:
+        """Chebyshev series of Z in 2k - 1."""
+        series = chebyshev_series((self._shapes[3] * self.scale[:, None]).T, self._angle)[: self.degree + 1]
+        found: Array = series @ coordinates
+        found[1::2] *= -1.0
+        if self.symmetric:
+            found[::2] = 0.0
+        return found
+
+    @cached_property
+    def middle(self) -> Array:
+        """b(1/2) as a row: free functions, then the base law."""
+        return np.asarray(chebyshev.chebval(0.0, self.series(1)))
+
+    @cached_property
+    def base_ratio(self) -> float:
+        """b / (k(1-k))^(l-1) of the base law S_l."""
+        return 4.0 ** (self.order - 1) * float(self.base.b(0.5))
+
+    def velocity(self, slack: Array, *, monotone: bool) -> tuple[Family, ...]:
+        """Rows b <= b(1/2) and, where `monotone`, b >= 0 of symmetric laws, divided by their known zeros.
+
+        They are (b(1/2) - b) / (1-2k)² >= 0 and b / (k(1-k))^(l-1) >= 0: undivided rows would be ill posed.
+        """
+        chord = self.widened(-_chord(self.series(1)[::2]), len(slack))
+        below = EvenFamily("chord", slack, series=chord)
+        if not monotone:
+            return (below,)
+        scale = np.append(self._ratio_scale, 1.0)
+        columns = gegenbauer(self.order - 0.5, int(self.index[-1]), self._u)[np.append(self.index, 0)] * scale[:, None]
+        ratio = self.widened(-chebyshev_series(columns.T, self._angle)[::2], len(slack))
+        forward = RatioFamily("ratio", slack, series=ratio, index=self.order - 0.5, scale=-scale)
+        return below, forward
+
+    @cached_property
+    def _ratio_scale(self) -> Array:
+        return self.scale * 4.0 ** (self.order - 1) / self.base_ratio
+
+
+@lru_cache(maxsize=256)
+def polynomial_space(boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> PolynomialSpace:
+    """The space, kept for the next call.
+
+    Examples
+    --------
+    >>> polynomial_space(BoundaryConditions.rest(2), 3, symmetric=False).terms
+    4
+    """
+    return PolynomialSpace(boundary, degree, symmetric=symmetric)
+
+
+def _chord(even: Array) -> Array:
+    # T_2m(x) - T_2m(0) = -2 (-1)^m sin²(m p) with x = sin p: the division by x² has a closed form
+    rows = len(even)
+    angle = (np.arange(rows) + 0.5) * np.pi / rows
+    p = np.arcsin(np.cos(angle / 2))
+    m = np.arange(rows)
+    kernel = 2.0 * (-1.0) ** m * (np.sin(np.outer(p, m)) / np.sin(p)[:, None]) ** 2
+    return chebyshev_series(kernel @ even, angle)
