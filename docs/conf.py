@@ -1,8 +1,11 @@
 """Sphinx configuration; pages are MyST Markdown, docstrings are in numpy style."""
 
 import logging
+import re
 import sys
 from pathlib import Path
+
+from sphinx.application import Sphinx
 
 import optlaws
 
@@ -34,12 +37,26 @@ autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
 napoleon_google_docstring = False
 napoleon_use_rtype = False
+# a property may be listed among the attributes as well: that is no second object
+napoleon_use_ivar = True
 
 nitpicky = True
 # The documentation is built without a network, hence without other projects' inventories:
 # only references to optlaws itself can be resolved, and those must be.
 nitpick_ignore_regex = [("py:.*", r"(?!optlaws\.).*"), ("py:.*", r"optlaws\.(.*\.)?_.*")]
+# what a solution keeps for its neighbours; not public
+nitpick_ignore = [("py:class", "optlaws.synthesis.active_set.ActiveSet")]
 
 html_theme = "furo"
 html_title = f"optlaws {version}"
 html_math_renderer = "mathml"
+
+
+def escape_bars(_app: Sphinx, _what: str, _name: str, _obj: object, _options: object, lines: list[str]) -> None:
+    """In docstrings |b| is a magnitude, not a substitution."""
+    lines[:] = [re.sub(r"(?<!\\)\|", r"\\|", line) for line in lines]
+
+
+def setup(app: Sphinx) -> None:
+    """Register the hook above, before napoleon's."""
+    app.connect("autodoc-process-docstring", escape_bars, priority=100)

@@ -108,7 +108,12 @@ def solve(
 
 
 @app.command
-def constants(*, z: str, order: int, as_json: Annotated[bool, Parameter(name="--json")] = False) -> None:
+def constants(
+    *,
+    z: Annotated[str, Parameter(allow_leading_hyphen=True)],
+    order: int,
+    as_json: Annotated[bool, Parameter(name="--json")] = False,
+) -> None:
     """Peak constants of the rest-to-rest law with a given Z(k).
 
     Parameters

@@ -12,7 +12,7 @@ from optlaws.export.files import MARK
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-BLUES = ("#9ecae1", "#6baed6", "#3182bd", "#08519c", "#08306b")
+BLUES = ("#b3cde3", "#74add1", "#4292c6", "#2166ac", "#08306b")
 WARM = "#d95f02"
 GREEN = "#1b7f5c"
 GREY = "#595959"

@@ -17,6 +17,9 @@ if TYPE_CHECKING:
     from optlaws.studies.optimal_table import Curves, Row, Table
 
 
+_FEWEST = 2  # coefficients of an odd cubic
+
+
 def draw(spec: Table, rows: Sequence[Row], curves: Curves) -> dict[str, bytes]:
     """The figure as svg and png."""
     with plotting.style():
@@ -25,33 +28,50 @@ def draw(spec: Table, rows: Sequence[Row], curves: Curves) -> dict[str, bytes]:
         _limits(axes, spec)
         _optima(axes, curves)
         _family(axes)
-        axes.plot(
-            [row.B for row in rows],
-            [row.law.constants.C.value for row in rows],
-            "o",
-            color=plotting.WARM,
-            markersize=5,
-            label="laws of the paper, from their Z(k)",
-            zorder=5,
-        )
+        _printed(axes, spec, rows)
         axes.set(
-            xlabel="peak velocity B",
-            ylabel="peak acceleration C",
+            xlabel="peak velocity B (dimensionless)",
+            ylabel="peak acceleration C (dimensionless)",
             xlim=(spec.figure.start, spec.figure.stop),
             ylim=(3.6, 12.2),
-            title="Least peak acceleration at a given peak velocity",
+            title=f"Least peak acceleration at a given peak velocity, order l = {spec.order}",
         )
-        axes.legend(loc="upper left", ncols=1)
+        axes.legend(loc="upper left")
         return {kind: plotting.rendered(figure, kind) for kind in ("svg", "png")}
+
+
+def _printed(axes: Axes, spec: Table, rows: Sequence[Row]) -> None:
+    plain = [row for row in rows if row.same.problem.order == spec.order and row.same.problem.terms == _FEWEST]
+    others = [row for row in rows if row not in plain]
+    for some, face, label in (
+        (plain, plotting.WARM, "laws of the paper with cubic Z(k)"),
+        (others, "white", "of higher degree, or (B = 1.75) of order 3"),
+    ):
+        axes.plot(
+            [row.B for row in some],
+            [row.law.constants.C.value for row in some],
+            "o",
+            color=plotting.WARM,
+            markerfacecolor=face,
+            markersize=5.5,
+            label=label,
+            zorder=5,
+        )
 
 
 def _optima(axes: Axes, curves: Curves) -> None:
     for (degree, found), shade in zip(curves.items(), plotting.BLUES[-len(curves) :], strict=True):
-        axes.plot(
-            [s.problem.B for s in found],
-            [s.objective for s in found],
+        line = [s.objective for s in found]
+        label = "optimal, by degree of Z(k)" if degree == max(curves) else None
+        axes.plot([s.problem.B for s in found], line, color=shade, label=label)
+        axes.annotate(
+            f"{degree}",
+            (found[-1].problem.B, line[-1]),
+            xytext=(5, 0),
+            textcoords="offset points",
             color=shade,
-            label=f"optimal, Z of degree {degree}",
+            va="center",
+            annotation_clip=False,
         )
 
 
@@ -81,6 +101,6 @@ def _limits(axes: Axes, spec: Table) -> None:
         [acceleration_limit(B, monotone=True) for B in beyond],
         color=plotting.GREY,
         linewidth=1.2,
-        linestyle=":",
+        linestyle="-.",
         label="limit of all laws with b ≥ 0",
     )

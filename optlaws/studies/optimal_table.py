@@ -42,13 +42,13 @@ class Base(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class Misprint(msgspec.Struct, forbid_unknown_fields=True):
-    """A printed number that is wrong, with the reason."""
+    """A printed number that is wrong, with the reason; what it means, where the printed Z does not tell."""
 
     row: str
     quantity: str
     printed: float
-    means: float
     reason: str
+    means: float | None = None
 
 
 class Figure(msgspec.Struct, forbid_unknown_fields=True, rename={"start": "from", "stop": "to"}):
@@ -179,7 +179,7 @@ def _verdicts(spec: Table, rows: Sequence[Row]) -> list[printed.Verdict]:
         verdicts += [
             printed.Verdict(m.row, m.quantity, f"{m.printed:.10g}", m.means, None, printed.MISPRINT, m.reason)
             for m in spec.misprint
-            if m.row == row.cells["B"] and m.quantity not in {"B", "C", "D"}
+            if m.row == row.cells["B"] and m.means is not None
         ]
     return verdicts
 

@@ -22,7 +22,7 @@ class Verdict:
     row: str
     quantity: str
     printed: str
-    exact: float
+    exact: float | None
     on_grid: float | None
     verdict: str
     reason: str

@@ -158,10 +158,15 @@ def _failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFa
     if trial.optimum is not None:
         found = certify(problem, elastic, trial.optimum)
         if found.proves_infeasible:
-            return InfeasibleProblem(_why(problem), problem=problem, proof=found, tried=tried)
+            return InfeasibleProblem(_why(problem), problem=problem, proof=found, tried=_contradiction(found))
         tried += f"; the constraints leave {-trial.optimum.x[-1]:.3e} to spare"
     msg = "no law was found, and none was shown not to exist; try a degree higher or lower by 2, or another B"
     return SolverFailure(msg, problem=problem, tried=tried)
+
+
+def _contradiction(found: Certificate) -> str:
+    places = ", ".join(f"{contact.k:.4g}" for contact in found.contacts if contact.constraint != proof.MIDDLE)
+    return f"the constraints contradict each other at k = {places} (error.proof is the certificate)"
 
 
 def _why(problem: Problem) -> str:
