@@ -1,18 +1,18 @@
 """Lower bounds that stand by themselves: contacts and multipliers, checked by weak duality with numpy alone.
 
-Every law of the problem obeys the constraints below. Their sum with multipliers m >= 0 (any sign for the equation),
-divided by the sum of the multipliers of |c| <= C, bounds C from below by L(law) = sum of m times left side. The
-multipliers are such that L hardly depends on the free coefficients z; what rounding leaves of that dependence is
-charged against the bound, with z bounded through the stroke: b <= B gives a mean of |b| of at most 2B - 1.
-The functions here share nothing with the solver. They know the velocities of eq. 8 with odd Z as (k(1-k))^(l-1) times
-even Gegenbauer polynomials of index l - 1/2 in 2k - 1, of which the first alone carries the stroke.
+Every law of the problem, with its own constants as variables, obeys the rows of the program. Added up with multipliers
+m >= 0 (any sign for equations) to the objective they give an affine function of the coordinates of the law, and its
+value is a lower bound of the objective wherever it is constant. The multipliers are such that it hardly varies; what
+rounding leaves of its dependence is charged against the bound, for which the law's coordinates are bounded through
+their Legendre moments: a law that contradicts the claim has a small objective, so small constants.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from functools import cached_property, lru_cache
+from functools import cached_property
+from math import inf, isfinite
 from typing import Any
 
 import numpy as np
@@ -20,41 +20,50 @@ from numpy.polynomial import chebyshev, legendre
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.synthesis.expression import Expression, Maximum
+from optlaws.synthesis.polynomial_space import PolynomialSpace
+from optlaws.synthesis.problem import Problem
+from optlaws.synthesis.programs import ROOT, Model, least_violation, model, relaxed
+from optlaws.synthesis.rows import Family, LinearFamily, NormFamily
 
 Array = NDArray[np.float64]
 
-UPPER = "c <= C"
-LOWER = "c >= -C"
-CHORD = "(b(1/2) - b) / (1-2k)^2 >= 0"
-RATIO = "b / (k(1-k))^(l-1) >= 0"
-MIDDLE = "b(1/2) = B"
-CONSTRAINTS = (UPPER, LOWER, CHORD, RATIO, MIDDLE)
-_STRAIGHT = 1e-9  # below it sin(mp) / sin(p) is m to rounding
+OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
 
 
 @dataclass(frozen=True)
 class Contact:
-    """A constraint at one k with its multiplier (dimensionless)."""
+    """A constraint at one k: which family of rows, with which sign, and its multiplier (dimensionless).
+
+    `direction` belongs to an RMS alone: the unit vector by which the norm is bounded from below.
+    """
 
     constraint: str
+    sign: float
     k: float
     multiplier: float
+    direction: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        if self.constraint not in CONSTRAINTS:
-            msg = f"constraint {self.constraint!r} is unknown; known are {', '.join(CONSTRAINTS)}"
-            raise InputError(msg)
-        if not 0.0 <= self.k <= 1.0 or not np.isfinite(self.multiplier):
-            msg = f"a contact needs k in [0, 1] and a finite multiplier, got {self!r}"
-            raise InputError(msg)
+        if not 0.0 <= self.k <= 1.0 or not isfinite(self.multiplier) or abs(self.sign) != 1.0:
+            raise InputError(f"a contact needs k in [0, 1], a sign 1 or -1 and a finite multiplier, got {self!r}")
 
 
 @dataclass(frozen=True)
 class Certificate:
-    """Contacts and multipliers that prove a lower bound of C, or that no law exists.
+    """Contacts and multipliers that prove a lower bound of a problem's objective, or that it has no law.
 
-    It speaks of all laws (8) of order l with Z of the given degree, zero end values, b(1/2) = B >= b and, where
-    `monotone`, b >= 0: symmetric or not (the contacts stand for themselves and their mirror images).
+    Attributes
+    ----------
+    problem
+        Of which problem it speaks: of every law of it, symmetric or not if that is not asked.
+    contacts, equations
+        Multipliers of the rows that bind, and of the program's equations.
+    program
+        "objective", or "relaxed" for a problem that is not convex: the bound is then that of a convex program
+        that every law of the problem obeys too; or "violation" for a proof that no law exists.
+    tangent
+        Where the relaxed program replaces D by its tangent.
 
     Examples
     --------
@@ -64,148 +73,172 @@ class Certificate:
     True
     """
 
-    order: int
-    degree: int
-    B: float
-    monotone: bool
+    problem: Problem
     contacts: tuple[Contact, ...]
+    equations: tuple[float, ...]
+    program: str = OBJECTIVE
+    tangent: float = 0.0
 
     @cached_property
     def bound(self) -> float:
-        """The proven lower bound of C, recomputed from the contacts with numpy alone; -inf where there is none."""
-        share = sum(c.multiplier for c in self.contacts if c.constraint in {UPPER, LOWER} and c.multiplier > 0.0)
-        return excess(self) / share if share > 0.0 else -np.inf
+        """The proven lower bound of the objective, recomputed from the contacts by numpy; -inf for a mere violation."""
+        return excess(self) if self.program != VIOLATION else -inf
 
     @cached_property
     def proves_infeasible(self) -> bool:
-        """Whether the contacts of the velocity constraints alone contradict each other (Farkas)."""
-        return not any(c.constraint in {UPPER, LOWER} for c in self.contacts) and excess(self) > 0.0
+        """Whether the contacts contradict each other (Farkas): every law breaks one by more than 0."""
+        return self.program == VIOLATION and excess(self) > 0.0
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict with the recomputed bound (None where there is none)."""
-        bound = self.bound if np.isfinite(self.bound) else None
-        return {**asdict(self), "contacts": [asdict(c) for c in self.contacts], "bound": bound}
+        return {
+            "problem": self.problem.to_dict(),
+            "program": self.program,
+            "tangent": self.tangent,
+            "contacts": [asdict(contact) for contact in self.contacts],
+            "equations": list(self.equations),
+            "bound": self.bound if isfinite(self.bound) else None,
+        }
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Certificate:
-        """Read what `to_dict` wrote; the bound is recomputed, not read."""
-        contacts = tuple(Contact(**c) for c in data["contacts"])
-        return cls(int(data["order"]), int(data["degree"]), float(data["B"]), bool(data["monotone"]), contacts)
+        """Read what `to_dict` wrote; the bound is recomputed, not read.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong.
+        """
+        try:
+            contacts = tuple(Contact(**{**c, "direction": tuple(c["direction"])}) for c in data["contacts"])
+            rest = (tuple(map(float, data["equations"])), str(data["program"]), float(data["tangent"]))
+            return cls(Problem.from_dict(data["problem"]), contacts, *rest)
+        except (KeyError, TypeError, ValueError) as error:
+            raise InputError(f"this is not a certificate: {type(error).__name__} {error}") from None
 
 
 def excess(certificate: Certificate) -> float:
-    """Least value over all laws of the problem of the constraints' sum, right sides taken over; a rigorous lower bound.
+    """Least value over all laws of the problem of the objective plus the contacts' residuals; a lower bound.
 
-    Negative multipliers of inequalities and forward contacts where b >= 0 is not asked count as zero.
+    Negative multipliers count as zero, and so do contacts that the problem does not ask for.
     """
-    names = np.array([c.constraint for c in certificate.contacts])
-    k = np.array([c.k for c in certificate.contacts])
-    multipliers = np.array([c.multiplier for c in certificate.contacts])
-    usable = (names == MIDDLE) | (multipliers > 0.0)
-    if not certificate.monotone:
-        usable &= names != RATIO
-    multipliers = np.where(usable, multipliers, 0.0)
-
-    functionals = np.zeros((len(k), 1 + (certificate.degree + 1) // 2))
-    signs = {UPPER: 1.0, LOWER: -1.0, CHORD: -1.0, RATIO: -1.0, MIDDLE: 1.0}
-    values = {UPPER: _acceleration, LOWER: _acceleration, CHORD: _chord, RATIO: _ratio, MIDDLE: _middle}
-    for name, sign in signs.items():
-        mine = names == name
-        if mine.any():
-            functionals[mine] = sign * values[name](certificate.order, certificate.degree, k[mine])
-    base, *residual = multipliers @ functionals
-    base -= certificate.B * float(multipliers[names == MIDDLE].sum())
-    share = float(multipliers[(names == UPPER) | (names == LOWER)].sum())
-    return float(base - _rounding(certificate, np.asarray(residual), base / share if share > 0.0 else None))
+    found = _model(certificate)
+    program = found.program
+    slope = program.objective.copy()
+    value = 0.0
+    for contact in certificate.contacts:
+        row, right = _row(program.families, contact)
+        weight = max(contact.multiplier, 0.0)
+        slope += weight * row
+        value -= weight * right
+    for row, right, weight in zip(program.equalities, program.right, certificate.equations, strict=False):
+        slope += weight * row
+        value -= weight * float(right)
+    return value - _charge(found, certificate, slope, value)
 
 
-def _rounding(certificate: Certificate, residual: Array, claim: float | None) -> float:
-    """Most that what depends on z can be worth, over all laws that could contradict the claim.
-
-    A law that contradicts the claim C >= claim has |c| < claim; a law that contradicts infeasibility has b <= B and
-    stroke 1, so a mean of |b| of at most 2B - 1. Either bounds all Legendre moments of the law; the base law's own are
-    at most 1 for b and its rise and fall of velocity for c.
-    """
-    if claim is None:
-        weights = _least_extension(_velocity, certificate.order, certificate.degree) @ residual
-        return float(2.0 * certificate.B * np.abs(weights).sum())
-    weights = _least_extension(_acceleration, certificate.order, certificate.degree) @ residual
-    base = 2.0 * float(_velocity(certificate.order, certificate.degree, np.array([0.5]))[0, 0])
-    return float((max(claim, 0.0) + base) * np.abs(weights).sum())
+def _model(certificate: Certificate) -> Model:
+    if certificate.program == RELAXED:
+        return relaxed(certificate.problem, certificate.tangent)
+    if certificate.program == VIOLATION:
+        return least_violation(certificate.problem)
+    return model(certificate.problem)
 
 
-def _ratio(order: int, degree: int, k: Array) -> Array:
-    polynomials = _gegenbauer(order - 0.5, degree + 1, 2.0 * k - 1.0)[: degree + 2 : 2]
-    return polynomials.T * _scale(order, degree)
+def _row(families: tuple[Family, ...], contact: Contact) -> tuple[Array, float]:
+    """The row of a contact and its right side: row . x <= right for every law of the problem."""
+    for family in families:
+        if family.name != contact.constraint or contact.sign not in family.signs:
+            continue
+        u = np.clip(family.u(np.array([contact.k])), *family.domain)
+        if isinstance(family, LinearFamily):
+            rows, right = family.rows(u, np.array([contact.sign]))
+            return rows[0], float(right[0])
+        if isinstance(family, NormFamily):
+            direction = np.array(contact.direction)
+            row = (direction / np.linalg.norm(direction)) @ family.matrix
+            return row[:-1] - family.slack, family.bound - float(row[-1])
+    return np.zeros(len(families[0].slack)), 0.0
 
 
-def _velocity(order: int, degree: int, k: Array) -> Array:
-    weight: Array = (k * (1.0 - k))[:, None] ** (order - 1)
-    return weight * _ratio(order, degree, k)
+def _charge(found: Model, certificate: Certificate, slope: Array, claim: float) -> float:
+    """Most that rounding in the slope can be worth, over all laws that contradict the claim."""
+    terms = found.space.terms
+    greatest = _greatest(certificate, found, max(claim, 0.0))
+    beyond = 0.0
+    for name, place in found.places.items():
+        # constants are at least 0, so a positive slope can only help
+        if slope[place] < 0.0:
+            beyond += -slope[place] * greatest.get(name, inf)
+    return beyond + min(
+        (mean * np.abs(_extension(found.space, nu) @ slope[:terms]).sum() for nu, mean in _means(certificate, found.space, greatest)),
+        default=0.0 if not slope[:terms].any() else inf,
+    )
 
 
-def _acceleration(order: int, degree: int, k: Array) -> Array:
-    y, m = 2.0 * k - 1.0, np.arange(0, degree + 2, 2)
-    if order == 1:
-        polynomials = _gegenbauer(1.5, degree + 1, y)
-        return np.where(m > 0, 2.0 * polynomials[m - 1].T, 0.0) * _scale(order, degree)
-    factor = -2.0 * (m + 1) * (m + 2 * order - 2) / (4.0 * (2 * order - 3))
-    weight = (k * (1.0 - k))[:, None] ** (order - 2)
-    return weight * _gegenbauer(order - 1.5, degree + 2, y)[m + 1].T * (factor * _scale(order, degree))
+def _greatest(certificate: Certificate, found: Model, claim: float) -> dict[str, float]:
+    """Greatest values of the program's variables in a law that contradicts the claim."""
+    bounds: dict[str, float] = {}
+    if certificate.program == VIOLATION:
+        bounds["t"] = 0.0
+    else:
+        _spread(certificate.problem.objective, claim, bounds)
+    for name in ("B", "C", "D", "J"):
+        asked = certificate.problem.range(name)
+        if asked is not None:
+            bounds[name] = min(bounds.get(name, inf), asked.high)
+    if "D" in bounds:
+        bounds[ROOT] = bounds["D"] ** 0.5
+    if "B" in found.places and not isfinite(bounds["B"]):
+        curved = min(bounds.get(name, inf) * factor for name, factor in _STEEP)
+        bounds["B"] = abs(float(found.space.base.b(0.0))) + curved
+    return bounds
 
 
-def _middle(order: int, degree: int, k: Array) -> Array:
-    return np.tile(_velocity(order, degree, np.array([0.5])), (len(k), 1))
+# |b| <= |b(0)| + half the peak of c or its RMS; a one-sided peak may be passed in full
+_STEEP = (("C", 0.5), ("rms_c", 0.5), ("C_plus", 1.0), ("C_minus", 1.0))
 
 
-def _chord(order: int, degree: int, k: Array) -> Array:
-    even = _even_series(order, degree)
-    p = np.arcsin(np.clip(2.0 * k - 1.0, -1.0, 1.0))
-    m = np.arange(len(even))
-    near = np.abs(p) < _STRAIGHT
-    safe = np.where(near, 1.0, p)
-    ratio = np.where(near[:, None], m, np.sin(np.outer(safe, m)) / np.sin(safe)[:, None])
-    values: Array = (2.0 * (-1.0) ** m * ratio**2) @ even
-    return values
+def _spread(expression: Expression, claim: float, bounds: dict[str, float]) -> None:
+    for weight, term in expression.terms:
+        name = repr(term)
+        bounds[name] = min(bounds.get(name, inf), claim / weight)
+        if isinstance(term, Maximum):
+            for part in term.parts:
+                _spread(part, claim / weight, bounds)
 
 
-def _gegenbauer(index: float, degree: int, y: Array) -> Array:
-    rows = np.empty((degree + 1, len(y)))
-    rows[0] = 1.0
-    rows[1:2] = 2.0 * index * y
-    for n in range(2, degree + 1):
-        rows[n] = (2.0 * (n + index - 1.0) * y * rows[n - 1] - (n + 2.0 * index - 2.0) * rows[n - 2]) / n
-    return rows
+def _means(certificate: Certificate, space: PolynomialSpace, greatest: dict[str, float]) -> list[tuple[int, float]]:
+    """Orders of derivatives whose mean magnitude is bounded, with the bound for law and base law together."""
+    drop = abs(float(space.base.b(1.0)) - float(space.base.b(0.0)))
+    means = [(2, greatest.get("C", inf)), (2, greatest.get("rms_c", inf)), (3, greatest.get("J", inf))]
+    means += [(2, 2.0 * greatest.get(name, inf) + drop) for name in ("C_plus", "C_minus")]
+    means += [(3, greatest.get("rms_j", inf)), (4, greatest.get("jounce", inf))]
+    stroke = abs(float(space.base.a(1.0)) - float(space.base.a(0.0)))
+    means += [(1, 2.0 * greatest.get("B", inf) + stroke)]
+    if certificate.problem.monotone:
+        means += [(1, stroke)]
+    return [(nu, mean + _mean_square(space, nu) ** 0.5) for nu, mean in means if isfinite(mean)]
 
 
-@lru_cache(maxsize=256)
-def _scale(order: int, degree: int) -> Array:
-    # the base law's stroke is 1; the free velocities have root mean square 1
-    y, weights = legendre.leggauss(2 * order + degree)
-    velocities = ((1.0 - y * y) / 4.0) ** (order - 1) * _gegenbauer(order - 0.5, degree + 1, y)[: degree + 2 : 2]
-    scale = 1.0 / np.sqrt(velocities**2 @ weights / 2.0)
-    scale[0] = 2.0 / (velocities[0] @ weights)
-    return np.asarray(scale)
+def _mean_square(space: PolynomialSpace, nu: int) -> float:
+    series = space.series(nu)[:, -1]
+    u, weights = legendre.leggauss(len(series) + 1)
+    return float(weights @ chebyshev.chebval(u, series) ** 2) / 2.0
 
 
-@lru_cache(maxsize=256)
-def _even_series(order: int, degree: int) -> Array:
-    # velocities as series in T_2m(2k-1)
-    count = 2 * order + degree
-    y = chebyshev.chebpts1(count)
-    series = 2.0 / count * chebyshev.chebvander(y, count - 1).T @ _velocity(order, degree, (1.0 + y) / 2.0)
-    series[0] /= 2.0
-    return np.asarray(series[::2])
-
-
-@lru_cache(maxsize=256)
-def _least_extension(values: Callable[[int, int, Array], Array], order: int, degree: int) -> Array:
+def _extension(space: PolynomialSpace, nu: int) -> Array:
     """Matrix from a functional's values on the free functions to weights of their Legendre moments.
 
-    A moment is the integral of P_m(2k-1) times the function: at most the mean magnitude of the function.
+    A moment is the integral of P_m(2k-1) times the derivative of order nu: at most its mean magnitude.
     """
-    count = 2 * order + degree
-    y, weights = legendre.leggauss(count)
-    free = values(order, degree, (1.0 + y) / 2.0)[:, 1:]
-    moments = legendre.legvander(y, count - 1).T @ (0.5 * weights[:, None] * free)
+    return space.cached(("extension", nu), lambda: _computed_extension(space, nu))
+
+
+def _computed_extension(space: PolynomialSpace, nu: int) -> Array:
+    series = space.series(nu)[:, :-1]
+    count = len(series) + 1
+    u, weights = legendre.leggauss(count)
+    free = chebyshev.chebvander(u, len(series) - 1) @ series
+    moments = legendre.legvander(u, count - 1).T @ (0.5 * weights[:, None] * free)
     return np.asarray(np.linalg.pinv(moments.T), dtype=np.float64)

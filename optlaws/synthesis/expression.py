@@ -16,8 +16,8 @@ class Term:
     Examples
     --------
     >>> from optlaws.synthesis import C, D
-    >>> 0.6 * C / 4 + 0.4 * D / 2.25
-    0.15*C + 0.177778*D
+    >>> 0.5 * C / 4 + 0.5 * D / 2
+    0.125*C + 0.25*D
     """
 
     def expression(self) -> Expression:
@@ -91,7 +91,7 @@ class Expression:
         return Expression(tuple((weight / float(divisor), term) for weight, term in self.terms))
 
     def __repr__(self) -> str:
-        return " + ".join(repr(t) if w == 1.0 else f"{w:.6g}*{t!r}" for w, t in self.terms)
+        return " + ".join(repr(t) if w == 1.0 else f"{w!r}*{t!r}" for w, t in self.terms)
 
 
 @dataclass(frozen=True, repr=False)
@@ -101,8 +101,8 @@ class Maximum(Term):
     Examples
     --------
     >>> from optlaws.synthesis import C, D, maximum
-    >>> maximum(C / 4, D / 2.25)
-    max(0.25*C, 0.444444*D)
+    >>> maximum(C / 4, D / 2)
+    max(0.25*C, 0.5*D)
     """
 
     parts: tuple[Expression, ...]

@@ -48,8 +48,8 @@ def parse(text: str, names: Mapping[str, Term]) -> Expression:
     Examples
     --------
     >>> from optlaws.synthesis import FUNCTIONALS
-    >>> parse("0.6*C/4 + 0.4*D/2.25", FUNCTIONALS)
-    0.15*C + 0.177778*D
+    >>> parse("0.5*C/4 + 0.5*D/2", FUNCTIONALS)
+    0.125*C + 0.25*D
     """
     reader = _Reader(text, names)
     value = reader.sum()

@@ -44,6 +44,7 @@ class PolynomialSpace(LawSpace):
     """
 
     def __init__(self, boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> None:
+        super().__init__()
         self.boundary, self.degree, self.symmetric = boundary, degree, symmetric
         self.order = boundary.order
         self.domain = (0.0, 1.0) if symmetric else (-1.0, 1.0)
@@ -134,20 +135,19 @@ class PolynomialSpace(LawSpace):
         """b / (k(1-k))^(l-1) of the base law S_l."""
         return 4.0 ** (self.order - 1) * float(self.base.b(0.5))
 
-    def velocity(self, slack: Array, *, monotone: bool) -> tuple[Family, ...]:
-        """Rows b <= b(1/2) and, where `monotone`, b >= 0 of symmetric laws, divided by their known zeros.
-
-        They are (b(1/2) - b) / (1-2k)² >= 0 and b / (k(1-k))^(l-1) >= 0: undivided rows would be ill posed.
-        """
+    def below(self, slack: Array) -> Family:
+        """Rows b <= b(1/2) of symmetric laws as (b(1/2) - b) / (1-2k)² >= 0: undivided they would be ill posed."""
         chord = self.widened(-_chord(self.series(1)[::2]), len(slack))
-        below = EvenFamily("chord", slack, series=chord)
-        if not monotone:
-            return (below,)
+        return EvenFamily("chord", slack, series=chord)
+
+    def forward(self, slack: Array) -> Family:
+        """Rows b >= 0, of symmetric laws as b / (k(1-k))^(l-1) >= 0 (in units of the base law's)."""
+        if not self.symmetric:
+            return self.derivative(1, "forward", slack, signs=(-1.0,))
         scale = np.append(self._ratio_scale, 1.0)
         columns = gegenbauer(self.order - 0.5, int(self.index[-1]), self._u)[np.append(self.index, 0)] * scale[:, None]
         ratio = self.widened(-chebyshev_series(columns.T, self._angle)[::2], len(slack))
-        forward = RatioFamily("ratio", slack, series=ratio, index=self.order - 0.5, scale=-scale)
-        return below, forward
+        return RatioFamily("ratio", slack, series=ratio, index=self.order - 0.5, scale=-scale)
 
     @cached_property
     def _ratio_scale(self) -> Array:

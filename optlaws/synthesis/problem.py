@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
+from functools import lru_cache
 from math import isfinite
 from typing import Any
 
@@ -11,30 +12,38 @@ from optlaws.errors import InputError
 from optlaws.laws.checks import whole
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.bases import Basis, Chebyshev, basis
+from optlaws.synthesis.boundary import BoundaryConditions
+from optlaws.synthesis.bounds import Range, as_range
+from optlaws.synthesis.expression import Expression, Term, leaves
+from optlaws.synthesis.functionals import FUNCTIONALS
+from optlaws.synthesis.grammar import parse
+
+CONSTANTS = ("B", "C", "D", "J")
 
 
-@dataclass(frozen=True, kw_only=True)
+@dataclass(frozen=True, kw_only=True, repr=False)
 class Problem:
-    """Minimise a peak constant of a law (8) that starts and ends at rest, at a given peak velocity B (eq. 10).
-
-    All quantities are dimensionless. The law has l = `order` conditions at each end (a, b, c, ... = 0, 0, 0, ... at
-    k = 0 and 1, 0, 0, ... at k = 1), b(1/2) = B and b <= B everywhere.
+    """Minimise an objective over the laws (8) with given end conditions and constants (eq. 10); dimensionless.
 
     Parameters
     ----------
-    B
-        Peak velocity, above 1.
     order
         Number l of boundary conditions at each end, at least 1.
+    minimise
+        A constant or a sum or maximum of constants: "C", "D", "0.6*C/4 + 0.4*D/2.25", `0.6 * C / 4 + 0.4 * D / 2.25`.
+    B, C, D, J
+        Peak velocity, acceleration, power and jerk: a number fixes the constant, a `Range` such as
+        `between(1.5, 1.8)` or `at_most(60)` bounds it, None leaves it free. In a symmetric law B is b(1/2), and
+        b <= B holds everywhere.
     basis
         Basis of Z(k) with its degree: `Powers(9)`, `Chebyshev(9)`.
-    minimise
-        The constant to minimise: "C".
     monotone
         Ask b >= 0 too.
     symmetric
-        Ask a(k) + a(1-k) = 1. The optimum is the same either way (the problem is convex, so the mean of a solution and
-        its mirror image is no worse); with False the lower bound speaks of unsymmetric laws as well.
+        Ask a(k) + a(1-k) = 1. Where the objective is convex and the ends are at rest the optimum is the same either
+        way (the mean of a solution and its mirror image is no worse).
+    boundary
+        End conditions; rest to rest unless given. Others make the law unsymmetric.
 
     Raises
     ------
@@ -44,21 +53,32 @@ class Problem:
     Examples
     --------
     >>> Problem(B=1.859, order=4, basis=Chebyshev(9))
-    Problem(B=1.859, order=4, basis=Chebyshev(degree=9), minimise='C', monotone=False, symmetric=True)
+    Problem(B=1.859, order=4, basis=Chebyshev(degree=9), minimise='C')
     """
 
-    B: float
-    order: int
+    B: float | Range | None = None
+    order: int = 0
     basis: Basis = field(default_factory=lambda: Chebyshev(9))
-    minimise: str = "C"
+    minimise: str | Expression = "C"
     monotone: bool = False
     symmetric: bool = True
+    C: float | Range | None = None
+    D: float | Range | None = None
+    J: float | Range | None = None
+    boundary: BoundaryConditions | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "B", _peak_velocity(self.B))
-        object.__setattr__(self, "order", whole(self.order, "order", least=1))
-        _check_choices(self.basis, self.minimise, monotone=self.monotone, symmetric=self.symmetric)
-        if self.basis.degree < 1:
+        object.__setattr__(self, "order", _order(self.order, self.boundary))
+        _check_choices(self.basis, monotone=self.monotone, symmetric=self.symmetric)
+        object.__setattr__(self, "minimise", _canonical(self.minimise))
+        for name in CONSTANTS:
+            object.__setattr__(self, name, _constant(getattr(self, name), name))
+        if self.boundary is not None:
+            if self.boundary == BoundaryConditions.rest(self.order):
+                object.__setattr__(self, "boundary", None)
+            elif self.symmetric:
+                raise InputError("a law with these boundary conditions is not symmetric: ask symmetric=False")
+        if self.basis.degree < (1 if self.symmetric else 0):
             raise InputError(
                 f"degree {self.basis.degree} leaves no freedom: b(1/2) = B takes the one coefficient of Z that is "
                 "odd about k = 1/2, so the degree of Z must be at least 1 (3 or more to optimise)"
@@ -66,8 +86,28 @@ class Problem:
 
     @property
     def terms(self) -> int:
-        """Number of coefficients of Z that are odd about k = 1/2."""
-        return (self.basis.degree + 1) // 2
+        """Number of free coefficients of Z: where symmetric, of those odd about k = 1/2."""
+        return (self.basis.degree + 1) // 2 if self.symmetric else self.basis.degree + 1
+
+    @property
+    def objective(self) -> Expression:
+        """What is minimised."""
+        return _parsed(self.minimise) if isinstance(self.minimise, str) else self.minimise
+
+    @property
+    def conditions(self) -> BoundaryConditions:
+        """The end conditions."""
+        return self.boundary if self.boundary is not None else BoundaryConditions.rest(self.order)
+
+    @property
+    def convex(self) -> bool:
+        """Whether every constant in the objective and every bounded one is convex in the law."""
+        names = {name for name in CONSTANTS if getattr(self, name) is not None}
+        return "D" not in names and all(leaf.convex for _, leaf in leaves(self.objective))  # type: ignore[attr-defined]
+
+    def range(self, name: str) -> Range | None:
+        """What is asked of the constant B, C, D or J."""
+        return as_range(getattr(self, name), name)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict.
@@ -77,48 +117,94 @@ class Problem:
         >>> Problem.from_dict(Problem(B=2, order=3).to_dict()) == Problem(B=2, order=3)
         True
         """
-        return {
-            "minimise": self.minimise,
-            "B": self.B,
-            "order": self.order,
-            "basis": self.basis.name,
-            "degree": self.basis.degree,
-            "monotone": self.monotone,
-            "symmetric": self.symmetric,
-        }
+        found: dict[str, Any] = {"minimise": str(self.minimise), "order": self.order}
+        found |= {"basis": self.basis.name, "degree": self.basis.degree}
+        found |= {"monotone": self.monotone, "symmetric": self.symmetric}
+        for name in CONSTANTS:
+            value = getattr(self, name)
+            if value is not None:
+                found[name] = value if isinstance(value, float) else _plain(value)
+        if self.boundary is not None:
+            found["start"] = [float(v) for v in self.boundary.start]
+            found["end"] = [float(v) for v in self.boundary.end]
+        return found
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Problem:
-        """Read a problem from what `to_dict` wrote, or a part of it: B and order are needed.
+        """Read a problem from what `to_dict` wrote, or a part of it: the order is needed.
 
         Raises
         ------
         InputError
             If a key is unknown (the nearest right one is named) or missing, or a value is out of range.
         """
-        known = ("minimise", "B", "order", "basis", "degree", "monotone", "symmetric")
+        known = ("minimise", *CONSTANTS, "order", "basis", "degree", "monotone", "symmetric", "start", "end")
         for key in data:
             if key not in known:
                 raise InputError(unknown_key(key, known))
-        missing = [key for key in ("B", "order") if key not in data]
-        if missing:
-            raise InputError(f"the problem lacks {' and '.join(missing)}")
+        if "order" not in data and "start" not in data:
+            raise InputError("the problem lacks order")
         given = dict(data)
         chosen = basis(given.pop("basis", "chebyshev"), given.pop("degree", 9))
+        if "start" in given or "end" in given:
+            given["boundary"] = BoundaryConditions(tuple(given.pop("start", ())), tuple(given.pop("end", ())))
         return cls(basis=chosen, **given)
 
+    def __repr__(self) -> str:
+        shown = ("B", "order", "basis", "minimise")
+        parts = [f"{f.name}={getattr(self, f.name)!r}" for f in fields(self) if f.name in shown or _given(self, f)]
+        return f"Problem({', '.join(parts)})"
 
-def _peak_velocity(B: Any) -> float:  # noqa: ANN401 - it is checked here
-    if isinstance(B, bool) or not isinstance(B, int | float) or not isfinite(B) or B <= 1:
-        raise InputError(f"B must be a finite number above 1 (the mean velocity is 1), got {B!r}")
-    return float(B)
+
+def _given(problem: Problem, one: Any) -> bool:  # noqa: ANN401 - a dataclass field
+    return bool(getattr(problem, one.name) != one.default)
 
 
-def _check_choices(chosen: Any, minimise: Any, **switches: Any) -> None:  # noqa: ANN401 - they are checked here
+@lru_cache(maxsize=256)
+def _parsed(text: str) -> Expression:
+    return parse(text, FUNCTIONALS)
+
+
+def _canonical(minimise: Any) -> str | Expression:  # noqa: ANN401 - it is checked here
+    if isinstance(minimise, str):
+        found = _parsed(minimise)
+    elif isinstance(minimise, Term | Expression):
+        found = minimise.expression()
+    else:
+        raise InputError(f"minimise must be a constant such as 'C', a sum or an expression, got {minimise!r}")
+    known = all(FUNCTIONALS.get(repr(leaf)) == leaf for _, leaf in leaves(found))
+    return repr(found) if known else found
+
+
+def _constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - it is checked here
+    if name == "B" and isinstance(value, int | float) and not isinstance(value, bool) and not value > 1:
+        raise InputError(f"B must be a finite number above 1 (the mean velocity is 1), got {value!r}")
+    found = as_range(value, name)
+    if found is None:
+        return None
+    if name == "B" and found.high <= 1.0:
+        raise InputError(f"B must be able to exceed 1 (the mean velocity is 1), got {value!r}")
+    if found.high <= 0.0:
+        raise InputError(f"{name} must be able to exceed 0, got {value!r}")
+    return found.high if found.fixed else found
+
+
+def _order(order: Any, boundary: BoundaryConditions | None) -> int:  # noqa: ANN401 - it is checked here
+    if boundary is not None and order in {0, boundary.order}:
+        return boundary.order
+    found = whole(order, "order", least=1)
+    if boundary is not None:
+        raise InputError(f"order {found} does not fit {boundary.order} boundary conditions at each end")
+    return found
+
+
+def _plain(one: Range) -> list[float | None]:
+    return [one.low, one.high if isfinite(one.high) else None]
+
+
+def _check_choices(chosen: Any, **switches: Any) -> None:  # noqa: ANN401 - they are checked here
     if not isinstance(chosen, Basis):
         raise InputError(f"basis must be a Basis such as Powers(9) or Chebyshev(9), got {chosen!r}")
-    if minimise != "C":
-        raise InputError(f"minimise must be 'C', got {minimise!r}")
     for name, value in switches.items():
         if not isinstance(value, bool):
             raise InputError(f"{name} must be True or False, got {value!r}")

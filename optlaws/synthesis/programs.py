@@ -1,77 +1,215 @@
-"""The semi-infinite programs of the synthesis: least acceleration, and the elastic one that tells infeasibility."""
+"""Problem -> semi-infinite program: which variables, which rows, which equations."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from functools import lru_cache
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.rows import Family, Program, RatioFamily
-from optlaws.synthesis.space import SymmetricSpace, symmetric_space
+from optlaws.synthesis.bounds import Range
+from optlaws.synthesis.expression import Expression, Maximum, leaves
+from optlaws.synthesis.functionals import FUNCTIONALS, D, Functional
+from optlaws.synthesis.polynomial_space import PolynomialSpace, polynomial_space
+from optlaws.synthesis.problem import Problem
+from optlaws.synthesis.rows import Family, LinearFamily, MirroredFamily, Program, RootFamily
 
 Array = NDArray[np.float64]
 
-ACCELERATION = "acceleration"
-BELOW_PEAK = "below peak"
-FORWARD = "forward"
+
+@dataclass(frozen=True, eq=False)
+class Model:
+    """A program with the space it is written over and the places of its variables beyond the coordinates.
+
+    `places` has the variables that bound the objective's constants from above, by their names, those of maxima, and
+    "B" where the peak velocity is a variable.
+    """
+
+    space: PolynomialSpace
+    program: Program
+    places: dict[str, int]
+
+
+def model(problem: Problem) -> Model:
+    """The program of a problem. Built once per shape: a fixed B only enters the right side of an equation."""
+    if isinstance(problem.B, float):
+        shape = _model(replace(problem, B=_ANY))
+        right = shape.program.right.copy()
+        right[0] += problem.B - _ANY
+        return replace(shape, program=replace(shape.program, right=right))
+    return _model(problem)
+
+
+_ANY = 2.0
+ROOT = "root of D"
 
 
 @lru_cache(maxsize=256)
-def least_acceleration(order: int, terms: int, *, monotone: bool) -> Program:
-    """Minimise C over coordinates and C: |c| <= C, b <= b(1/2), b >= 0 if monotone, b(1/2) = B (eq. 10)."""
-    space = symmetric_space(order, terms)
-    peak = _last(terms + 1)
-    acceleration = Family(
-        ACCELERATION, _widened(space.acceleration), space.acceleration[:, 0], peak, two_sided=True, odd=True
-    )
-    families = (acceleration, *_velocity_families(space, np.zeros(terms + 1), monotone=monotone))
-    return _program(space, families)
+def _model(problem: Problem) -> Model:
+    space = _space(problem)
+    names = [repr(leaf) for _, leaf in leaves(problem.objective)]
+    names += [repr(term) for term in _maxima(problem.objective)]
+    writer = _Writer(space, names, problem)
+    writer.objective(problem.objective)
+    writer.constraints(problem)
+    return writer.model()
 
 
-@lru_cache(maxsize=256)
-def least_violation(order: int, terms: int, *, monotone: bool) -> Program:
-    """Minimise t so that the velocity constraints hold with t to spare: above 0 if and only if they contradict."""
-    space = symmetric_space(order, terms)
-    return _program(space, _velocity_families(space, _last(terms + 1), monotone=monotone))
+def relaxed(problem: Problem, tangent: float) -> Model:
+    """A convex program whose least value bounds that of a problem with D from below.
+
+    From (b²/2)' = d follows b² <= 2 D min(k, 1-k). With r for the root of D that is b <= r sqrt(2k), linear; and
+    D >= r² >= 2 t r - t² for any t, best where the tangent t is the root of D itself.
+    """
+    return _relaxed(problem, tangent)
 
 
-@lru_cache(maxsize=256)
-def extreme_velocity(order: int, terms: int, *, monotone: bool, greatest: bool) -> Program:
-    """The least or greatest B for which the velocity constraints do not contradict; B is the last variable."""
-    space = symmetric_space(order, terms)
-    families = _velocity_families(space, np.zeros(terms + 1), monotone=monotone)
-    equality = np.append(space.middle[1:], -1.0)
-    objective = _last(terms + 1) * (-1.0 if greatest else 1.0)
-    return Program(families, equality, float(space.middle[0]), objective)
+@lru_cache(maxsize=64)
+def _relaxed(problem: Problem, tangent: float) -> Model:
+    names = [repr(leaf) for _, leaf in leaves(problem.objective)]
+    names += [repr(term) for term in _maxima(problem.objective)]
+    writer = _Writer(_space(problem), names, problem, extra=ROOT)
+    writer.tangent = tangent
+    writer.objective(problem.objective)
+    writer.constraints(problem)
+    return writer.model()
 
 
-def _velocity_families(space: SymmetricSpace, slack: Array, *, monotone: bool) -> tuple[Family, ...]:
-    below = Family(BELOW_PEAK, -_widened(space.chord), -space.chord[:, 0], slack)
-    if not monotone:
-        return (below,)
-    forward = RatioFamily(
-        FORWARD,
-        -_widened(space.ratio),
-        -space.ratio[:, 0],
-        slack,
-        index=space.order - 0.5,
-        scale=np.append(-space.ratio_scale[1:], -space.ratio_scale[0]),
-    )
-    return below, forward
+def least_violation(problem: Problem) -> Model:
+    """Minimise t so that every constraint holds but for t: above 0 if and only if they contradict."""
+    writer = _Writer(_space(problem), [], problem, extra="t")
+    writer.spare = writer.unit("t")
+    writer.cost = writer.unit("t")
+    writer.constraints(problem)
+    return writer.model()
 
 
-def _program(space: SymmetricSpace, families: tuple[Family, ...]) -> Program:
-    size = space.terms + 1
-    equality = np.append(space.middle[1:], 0.0)
-    return Program(families, equality, float(space.middle[0]), _last(size))
+def extreme_velocity(problem: Problem, *, greatest: bool) -> Model:
+    """The least or the greatest B for which the constraints do not contradict; B is a variable."""
+    free = replace(problem, B=Range(low=1.0))
+    writer = _Writer(_space(problem), [], free)
+    writer.cost = writer.unit("B", -1.0 if greatest else 1.0)
+    writer.constraints(free)
+    return writer.model()
 
 
-def _widened(matrix: Array) -> Array:
-    return np.column_stack([matrix[:, 1:], np.zeros(len(matrix))])
+def _space(problem: Problem) -> PolynomialSpace:
+    return polynomial_space(problem.conditions, problem.basis.degree, symmetric=problem.symmetric)
 
 
-def _last(size: int) -> Array:
-    unit = np.zeros(size)
-    unit[-1] = 1.0
-    return unit
+def _maxima(expression: Expression) -> list[Maximum]:
+    found = []
+    for _, term in expression.terms:
+        if isinstance(term, Maximum):
+            found.append(term)
+            for part in term.parts:
+                found += _maxima(part)
+    return found
+
+
+class _Writer:
+    def __init__(self, space: PolynomialSpace, names: list[str], problem: Problem, extra: str | None = None) -> None:
+        wanted = problem.range("B")
+        if wanted is not None and not (problem.symmetric and wanted.fixed):
+            names = [*names, "B"]
+        if extra is not None:
+            names = [*names, extra]
+        self.space = space
+        self.places = {name: space.terms + i for i, name in enumerate(dict.fromkeys(names))}
+        self.size = space.terms + len(self.places)
+        self.spare = np.zeros(self.size)
+        self.cost = np.zeros(self.size)
+        self.tangent = 0.0
+        self.families: list[Family] = []
+        self.equalities: list[Array] = []
+        self.right: list[float] = []
+
+    def unit(self, name: str, weight: float = 1.0) -> Array:
+        row = np.zeros(self.size)
+        row[self.places[name]] = weight
+        return row
+
+    def sum(self, expression: Expression) -> Array:
+        return np.asarray(sum(self.unit(repr(term), weight) for weight, term in expression.terms))
+
+    def objective(self, expression: Expression) -> None:
+        self.cost = self.sum(expression)
+        for leaf in dict.fromkeys(leaf for _, leaf in leaves(expression)):
+            if leaf == D and ROOT in self.places:
+                self._power(self.unit("D"), 0.0)
+            elif isinstance(leaf, Functional):
+                self.families += leaf.families(self.space, self.unit(repr(leaf)), 0.0)
+        for term in dict.fromkeys(_maxima(expression)):
+            for part in term.parts:
+                self.row(f"part of {term!r}", self.sum(part) - self.unit(repr(term)), 0.0)
+
+    def row(self, name: str, row: Array, bound: float) -> None:
+        """One row, row . x <= bound."""
+        series = np.append(row, 0.0)[None, :]
+        self.families.append(LinearFamily(name, self.spare, bound, (1.0,), (1.0, 1.0), series=series))
+
+    def constraints(self, problem: Problem) -> None:
+        wanted = problem.range("B")
+        if wanted is not None:
+            self._peak_velocity(wanted, problem)
+        if problem.monotone:
+            self.families.append(self.space.forward(self.spare))
+        for name in ("C", "D", "J"):
+            self._at_most(name, problem.range(name))
+
+    def _peak_velocity(self, wanted: Range, problem: Problem) -> None:
+        if problem.symmetric:
+            self.families.append(self.space.below(self.spare))
+            middle = np.zeros(self.size)
+            middle[: self.space.terms] = self.space.middle[:-1]
+            if not wanted.fixed:
+                middle -= self.unit("B")
+            base = float(self.space.middle[-1])
+            self.equation(middle, (wanted.high if wanted.fixed else 0.0) - base)
+        else:
+            signs = (1.0,) if problem.monotone else (1.0, -1.0)
+            self.families.append(self.space.derivative(1, "b", self.unit("B") + self.spare, signs=signs))
+            if wanted.fixed:
+                self.equation(self.unit("B"), wanted.high)
+            if problem.boundary is None and wanted.low > 0.0:
+                middle = np.zeros(self.size)
+                middle[: self.space.terms] = self.space.middle[:-1]
+                self.equation(middle - self.unit("B"), -float(self.space.middle[-1]))
+        if not wanted.fixed:
+            if isfinite(wanted.high):
+                self.row("B at most", self.unit("B"), wanted.high)
+            if wanted.low > 0.0:
+                self.row("B at least", -self.unit("B"), -wanted.low)
+
+    def _at_most(self, name: str, wanted: Range | None) -> None:
+        if wanted is None or not isfinite(wanted.high):
+            return
+        if name in self.places:
+            self.row(f"{name} at most", self.unit(name), wanted.high)
+        elif name == "D" and ROOT in self.places:
+            self._power(np.zeros(self.size), wanted.high)
+        else:
+            self.families += FUNCTIONALS[name].families(self.space, self.spare, wanted.high)
+
+    def _power(self, slack: Array, bound: float) -> None:
+        """Rows b <= r sqrt(2k), b >= -r sqrt(2k) from either end, and 2 t r - t² <= D."""
+        root, domain = self.unit(ROOT), (0.0, 1.0)
+        series = self.space.widened(self.space.series(1), self.size)
+        self.families.append(RootFamily("b / sqrt(2k)", root, 0.0, (1.0, -1.0), domain, series=series))
+        if not self.space.symmetric:
+            mirrored = series * (-1.0) ** np.arange(len(series))[:, None]
+            self.families.append(
+                MirroredFamily("b / sqrt(2 - 2k)", root, 0.0, (1.0, -1.0), domain, series=mirrored)
+            )
+        self.row("tangent", 2.0 * self.tangent * root - slack, bound + self.tangent**2)
+
+    def equation(self, row: Array, right: float) -> None:
+        self.equalities.append(row)
+        self.right.append(right)
+
+    def model(self) -> Model:
+        equalities = np.array(self.equalities).reshape(-1, self.size)
+        program = Program(tuple(self.families), equalities, np.array(self.right), self.cost)
+        return Model(self.space, program, self.places)

@@ -15,6 +15,8 @@ from optlaws.synthesis.polynomials import even_gegenbauer_jet
 
 Array = NDArray[np.float64]
 
+_END = 1e-9
+
 
 @dataclass(frozen=True, eq=False)
 class Jet:
@@ -69,6 +71,10 @@ class Family(ABC):
         """The k in [0, 1] that belongs to u = 1 - 2k."""
         places: Array = (1.0 - u) / 2.0
         return places
+
+    def u(self, k: Array) -> Array:
+        """The place that belongs to k."""
+        return 1.0 - 2.0 * k
 
     def room(self, x: Array) -> float:
         """The right side."""
@@ -144,6 +150,52 @@ class EvenFamily(LinearFamily):
     def k(self, u: Array) -> Array:
         """The k in [0, 1/2] that belongs to u."""
         return (1.0 - np.sqrt(np.maximum(u + 1.0, 0.0) / 2.0)) / 2.0
+
+    def u(self, k: Array) -> Array:
+        """2 (1-2k)² - 1."""
+        return 2.0 * (1.0 - 2.0 * k) ** 2 - 1.0
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RootFamily(LinearFamily):
+    """f is an affine series divided by sqrt(1-u), that is by sqrt(2k): b <= sqrt(2 D k) follows from b b' <= D."""
+
+    def columns(self, u: Array) -> Array:
+        """f's columns with two derivatives by u; zero at k = 0, where the series has a zero."""
+        g0, g1, g2 = super().columns(u)
+        near = 1.0 - u < _END
+        left = np.where(near, 1.0, 1.0 - u)[:, None]
+        root = np.sqrt(left)
+        jets = np.stack([g0, g1 + g0 / (2.0 * left), g2 + g1 / left + 3.0 * g0 / (4.0 * left**2)])
+        shaped: Array = np.where(near[:, None], 0.0, jets / root)
+        return shaped
+
+    def value(self, x: Array, u: Array) -> Array:
+        """f at the points u."""
+        value: Array = self.columns(u)[0] @ np.append(x, 1.0)
+        return value
+
+    def stationary(self, x: Array) -> Array:
+        """Roots of 2 (1-u) g' + g."""
+        series = self.series @ np.append(x, 1.0)
+        slope = product(np.array([2.0, -2.0]), np.asarray(chebyshev.chebder(series)))
+        total = np.zeros(max(len(series), len(slope)))
+        total[: len(series)] = series
+        total[: len(slope)] += slope
+        return real_parts_of_roots(total)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class MirroredFamily(RootFamily):
+    """A root family written from the end of the interval: u = 2k - 1."""
+
+    def k(self, u: Array) -> Array:
+        """The k that belongs to u = 2k - 1."""
+        return (1.0 + u) / 2.0
+
+    def u(self, k: Array) -> Array:
+        """2k - 1."""
+        return 2.0 * k - 1.0
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

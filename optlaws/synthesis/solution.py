@@ -35,7 +35,7 @@ class Status(StrEnum):
         """What the status means for the user."""
         return {
             Status.OPTIMAL: "The lower bound meets the objective: no law of this problem is better.",
-            Status.LOCAL: "No better law was found nearby; the gap says how much better one could be.",
+            Status.LOCAL: "No better law was found from any start; the gap says how much better one could be.",
             Status.INACCURATE: "The law is sound but the bound does not meet it; change the degree a little.",
         }[self]
 
@@ -53,13 +53,17 @@ class Solution:
     z_series
         Chebyshev coefficients of Z in 2k - 1, whatever the problem's basis.
     objective
-        The minimised constant, recomputed from `law`.
+        The objective, recomputed from `law`.
     certificate
-        Contacts and multipliers; `certificate.bound` is the lower bound, by numpy alone.
+        Contacts and multipliers; `certificate.bound` is a lower bound, by numpy alone.
+    lower_bound
+        The best proven lower bound of the objective over all laws of the problem: the certificate's or the limit.
     limit
-        What no law of any degree can beat.
+        What no law of any degree can beat; None where it is not known.
     status, iterations, seconds
         How it went: IPOPT's iterations (0 where a neighbour was continued) and the wall time.
+    starts
+        Where the problem is not convex: the objectives that the starts led to, ascending.
     versions
         Versions of optlaws and of the libraries that took part.
 
@@ -76,11 +80,13 @@ class Solution:
     z_series: tuple[float, ...]
     objective: float
     certificate: Certificate
-    limit: float
+    lower_bound: float
+    limit: float | None
     status: Status
     iterations: int
     seconds: float
-    active_set: ActiveSet = field(repr=False)
+    starts: tuple[float, ...] = ()
+    active_set: ActiveSet = field(repr=False, kw_only=True)
 
     @property
     def constants(self) -> Constants:
@@ -96,11 +102,6 @@ class Solution:
     def z_powers(self) -> tuple[float, ...]:
         """Coefficients of Z in ascending powers of k, whatever the problem's basis."""
         return Powers(self.problem.basis.degree).coefficients(np.array(self.z_series))
-
-    @property
-    def lower_bound(self) -> float:
-        """The proven lower bound of the objective over all laws of the problem."""
-        return self.certificate.bound
 
     @property
     def gap(self) -> float:
@@ -127,13 +128,15 @@ class Solution:
             "seconds": self.seconds,
             "problem": self.problem.to_dict(),
             "certificate": self.certificate.to_dict(),
+            "starts": list(self.starts),
             "versions": self.versions,
         }
 
     def __repr__(self) -> str:
+        limit = "" if self.limit is None else f"limit={self.limit:.9g}, "
         return (
-            f"Solution(status={self.status.value!r}, {self.problem.minimise}={self.objective:.9g}, "
-            f"lower_bound={self.lower_bound:.9g}, gap={self.gap:.1e}, limit={self.limit:.9g}, problem={self.problem!r})"
+            f"Solution(status={self.status.value!r}, objective={self.objective:.9g}, "
+            f"lower_bound={self.lower_bound:.9g}, gap={self.gap:.1e}, {limit}problem={self.problem!r})"
         )
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Callable, Hashable
 from functools import cache
 
 import numpy as np
@@ -20,6 +21,15 @@ class LawSpace(ABC):
 
     terms: int
     domain: tuple[float, float]
+
+    def __init__(self) -> None:
+        self._kept: dict[Hashable, Array] = {}
+
+    def cached(self, key: Hashable, make: Callable[[], Array]) -> Array:
+        """What `make` gives, made once for each key."""
+        if key not in self._kept:
+            self._kept[key] = make()
+        return self._kept[key]
 
     @abstractmethod
     def series(self, nu: int) -> Array:
@@ -59,9 +69,13 @@ class LawSpace(ABC):
         matrix = np.sqrt(weights / 2.0)[:, None] * chebyshev.chebvander(u, len(series) - 1) @ series
         return NormFamily(name, slack, bound, matrix=self.widened(matrix, len(slack)))
 
-    def velocity(self, slack: Array, *, monotone: bool) -> tuple[Family, ...]:
-        """Rows b <= B, B being what the equations make of it, and b >= 0 where `monotone`, each with slack to spare."""
-        raise NotImplementedError
+    @abstractmethod
+    def below(self, slack: Array) -> Family:
+        """Rows b <= b(1/2) of symmetric laws."""
+
+    @abstractmethod
+    def forward(self, slack: Array) -> Family:
+        """Rows b >= 0."""
 
 
 @cache

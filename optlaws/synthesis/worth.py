@@ -1,0 +1,51 @@
+"""What a law is worth to a problem, recomputed from the law over the whole interval."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+
+from optlaws.laws import MotionLaw
+from optlaws.synthesis.expression import Expression, Maximum
+from optlaws.synthesis.functionals import FUNCTIONALS, Functional
+from optlaws.synthesis.problem import Problem
+
+
+@dataclass(frozen=True)
+class Worth:
+    """The objective of a law, and by how much it breaks a constraint, relative to the constraint's bound."""
+
+    objective: float
+    excess: float
+
+
+def worth(problem: Problem, law: MotionLaw) -> Worth:
+    """Objective and greatest excess over the constraints."""
+    values: dict[str, float] = {}
+    objective = _total(problem.objective, law, values)
+    excess = 0.0
+    wanted = problem.range("B")
+    if wanted is not None or problem.monotone:
+        lowest, highest = law.extrema(1)
+        if wanted is not None:
+            excess = max(excess, highest.value / wanted.high - 1.0, 1.0 - highest.value / max(wanted.low, 1.0))
+        if problem.monotone:
+            excess = max(excess, -lowest.value)
+    for name in ("C", "D", "J"):
+        wanted = problem.range(name)
+        if wanted is not None and isfinite(wanted.high):
+            value = values[name] if name in values else FUNCTIONALS[name].value(law)
+            excess = max(excess, value / wanted.high - 1.0)
+    return Worth(objective, excess)
+
+
+def _total(expression: Expression, law: MotionLaw, values: dict[str, float]) -> float:
+    total = 0.0
+    for weight, term in expression.terms:
+        if isinstance(term, Maximum):
+            total += weight * max(_total(part, law, values) for part in term.parts)
+        elif isinstance(term, Functional):
+            if term.name not in values:
+                values[term.name] = term.value(law)
+            total += weight * values[term.name]
+    return total
