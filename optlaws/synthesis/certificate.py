@@ -34,7 +34,13 @@ _STRAIGHT = 1e-9  # below it sin(mp) / sin(p) is m to rounding
 
 @dataclass(frozen=True)
 class Contact:
-    """A constraint at one k with its multiplier (dimensionless)."""
+    """A constraint at one k with its multiplier (dimensionless).
+
+    Examples
+    --------
+    >>> Contact("c <= C", 0.25, 0.5).multiplier
+    0.5
+    """
 
     constraint: str
     k: float

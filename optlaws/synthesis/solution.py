@@ -60,6 +60,8 @@ class Solution:
         What no law of any degree can beat.
     status, iterations, seconds
         How it went: IPOPT's iterations (0 where a neighbour was continued) and the wall time.
+    active_set
+        Contacts and multipliers in the solver's own terms, from which a neighbouring problem is continued.
     versions
         Versions of optlaws and of the libraries that took part.
 
