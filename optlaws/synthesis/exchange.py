@@ -37,6 +37,7 @@ def solve(
     warm: ActiveSet | None = None,
     *,
     holds: Callable[[Array], bool] | None = None,
+    rounds: int = _ROUNDS,
 ) -> Outcome:
     """Solve a semi-infinite linear program; a neighbour's optimum as `warm` is tried before IPOPT.
 
@@ -46,12 +47,17 @@ def solve(
         optimum = _polished(program, warm, right, holds)
         if optimum is not None:
             return Outcome(optimum, 0, 0, "continued from a neighbour")
-    points = [_first_points(family, program.size) for family in program.families]
+    points = _first_points(program)
     iterations = 0
     status = ""
-    for attempt in range(1, _ROUNDS + 1):
+    for attempt in range(1, rounds + 1):
         answer = _on_points(program, points, right)
         iterations += answer.iterations
+        if not answer.success:
+            answer = _on_points(program, points, right, careful=True)
+            iterations += answer.iterations
+            if not answer.success:
+                return Outcome(None, iterations, attempt, answer.status)
         status = answer.status
         if not np.isfinite(answer.x).all() or np.abs(answer.x).max() > 1e7:
             return Outcome(None, iterations, attempt, status)
@@ -59,7 +65,7 @@ def solve(
         if optimum is not None:
             return Outcome(optimum, iterations, attempt, status)
         points = [_exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
-    return Outcome(None, iterations, _ROUNDS, status)
+    return Outcome(None, iterations, rounds, status)
 
 
 def _polished(
@@ -79,19 +85,29 @@ def _polished(
     return None
 
 
-def _on_points(program: Program, points: list[Points], right: float) -> Answer:
+def _on_points(program: Program, points: list[Points], right: float, *, careful: bool = False) -> Answer:
     parts = [family.rows(mine.u, mine.s) for family, mine in zip(program.families, points, strict=True)]
     rows = np.vstack([*(a for a, _ in parts), program.equality])
     uppers = np.concatenate([*(h for _, h in parts), [right - program.equality_offset]])
-    return solve_rows(rows, uppers, 1, program.objective)
+    return solve_rows(rows, uppers, 1, program.objective, careful=careful)
 
 
-def _first_points(family: Family, size: int) -> Points:
+def _first_points(program: Program) -> list[Points]:
+    # with no peak to hold them, the velocity constraints need points enough by themselves
+    share = 0.75 if any(family.odd for family in program.families) else 1.5
+    return [_points(family, program.size, share) for family in program.families]
+
+
+def _points(family: Family, size: int, even_share: float) -> Points:
+    """As many points as make IPOPT quick and the contacts plain; the rarer sign of a magnitude gets half as many."""
     if family.odd:
-        count = 2 * size + 4
-        u = np.cos((np.arange(count) + 0.5) * np.pi / (2 * count))
-        return Points(np.tile(u, 2), np.repeat(family.signs, count))
-    count = (3 * size) // 2 + 4
+        u, s = [], []
+        for sign, share in zip(family.signs, (1.5, 0.75), strict=False):
+            count = int(share * size) + 4
+            u.append(np.cos((np.arange(count) + 0.5) * np.pi / (2 * count)))
+            s.append(np.full(count, sign))
+        return Points(np.concatenate(u), np.concatenate(s))
+    count = int(even_share * size) + 4
     return Points(np.cos(np.arange(count) * np.pi / (count - 1)), np.ones(count))
 
 

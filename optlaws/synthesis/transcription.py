@@ -17,7 +17,7 @@ _LINEAR = {
     "ipopt.jac_c_constant": "yes",
     "ipopt.jac_d_constant": "yes",
     "ipopt.hessian_constant": "yes",
-    "ipopt.max_iter": 400,
+    "ipopt.max_iter": 200,
     # the order of elimination is fixed so that every platform takes the same steps
     "ipopt.mumps_permuting_scaling": 0,
     "ipopt.mumps_pivot_order": 2,
@@ -35,8 +35,10 @@ class Answer:
     iterations: int
 
 
-def solve_rows(rows: Array, right: Array, equalities: int, objective: Array, *, tolerance: float = 1e-9) -> Answer:
+def solve_rows(rows: Array, right: Array, equalities: int, objective: Array, *, careful: bool = False) -> Answer:
     """Minimise objective . x subject to rows . x <= right, the last `equalities` rows as equations.
+
+    `careful` goes without the quick steps for linear programs, which may diverge.
 
     Rows are scaled to unit length before IPOPT sees them; the multipliers returned belong to the rows as given.
     """
@@ -46,7 +48,7 @@ def solve_rows(rows: Array, right: Array, equalities: int, objective: Array, *, 
     lower = np.full(len(right), -np.inf)
     if equalities:
         lower[-equalities:] = upper[-equalities:]
-    solver = _solver(rows.shape[1], rows.shape[0], tolerance)
+    solver = _solver(rows.shape[1], rows.shape[0], careful=careful)
     parameters = np.concatenate([scaled.ravel(order="F"), objective])
     start = np.zeros(rows.shape[1])
     start[-1] = 10.0
@@ -63,7 +65,7 @@ def solve_rows(rows: Array, right: Array, equalities: int, objective: Array, *, 
 
 
 @lru_cache(maxsize=512)
-def _solver(size: int, count: int, tolerance: float) -> Any:  # noqa: ANN401 - a casadi Function, imported late
+def _solver(size: int, count: int, *, careful: bool) -> Any:  # noqa: ANN401 - a casadi Function, imported late
     import casadi as ca
 
     x = ca.MX.sym("x", size)
@@ -77,6 +79,8 @@ def _solver(size: int, count: int, tolerance: float) -> Any:  # noqa: ANN401 - a
         ["x", "p", "lam_f", "lam_g"],
         ["triu_hess_gamma_x_x"],
     )
-    options: Any = {**_QUIET, **_LINEAR, "ipopt.tol": tolerance, "hess_lag": no_curvature}
+    options: Any = {**_QUIET, **_LINEAR, "ipopt.tol": 1e-9, "hess_lag": no_curvature}
+    if careful:
+        options["ipopt.mehrotra_algorithm"] = "no"
     program: Any = {"x": x, "p": p, "f": ca.dot(objective, x), "g": rows @ x}
     return ca.nlpsol("program", "ipopt", program, options)
