@@ -9,7 +9,7 @@ from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated, Any, Literal, NoReturn
 
-from cyclopts import App, CycloptsError, Parameter
+from cyclopts import App, CycloptsError, Parameter, Token
 from rich.console import Console
 from rich.table import Table
 
@@ -26,12 +26,20 @@ def _version() -> str:
     return version("optlaws")
 
 
+def _whole(_: object, tokens: Sequence[Token]) -> int:
+    # the parser itself would cut 2.5 to 2
+    return int(tokens[0].value)
+
+
+Whole = Annotated[int, Parameter(converter=_whole)]
+
 app = App(
     name="optlaws",
     help="Optimal motion laws for cam mechanisms and servo axes, with proof of their optimality.",
     version=_version,
     help_format="plaintext",
     default_parameter=Parameter(negative=()),
+    suppress_keyboard_interrupt=False,
 )
 
 
@@ -66,8 +74,8 @@ def run(*files: Path, out: Path | None = None) -> None:
 def solve(
     *,
     peak_velocity: float,
-    order: int,
-    degree: int,
+    order: Whole,
+    degree: Whole,
     minimise: Literal["C"] = "C",
     basis_name: Annotated[Literal["powers", "chebyshev"], Parameter(name="--basis")] = "powers",
     monotone: bool = False,
@@ -111,7 +119,7 @@ def solve(
 def constants(
     *,
     z: Annotated[str, Parameter(allow_leading_hyphen=True)],
-    order: int,
+    order: Whole,
     as_json: Annotated[bool, Parameter(name="--json")] = False,
 ) -> None:
     """Peak constants of the rest-to-rest law with a given Z(k).

@@ -42,7 +42,14 @@ class Peak:
 
 @dataclass(frozen=True, slots=True)
 class Constants:
-    """The constants of a law, dimensionless: peaks of |b|, |c|, |d|, |j| over the interval and the RMS of c.
+    """The constants of a law, dimensionless.
+
+    Attributes
+    ----------
+    B, C, D, J
+        Peaks of |b|, |c|, |d|, |j| over the whole interval.
+    rms_c
+        Root mean square of c.
 
     Examples
     --------

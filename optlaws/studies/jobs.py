@@ -38,4 +38,8 @@ def run(file: Path, out: Path | None = None) -> list[Path]:
     if not isinstance(name, str) or name not in JOBS:
         raise InputError(f"{file}: {unknown_key(str(name), JOBS, 'job')}")
     target = out if out is not None else file.resolve().parent.parent / "results" / file.stem
-    return JOBS[name](data, file, target)
+    try:
+        return JOBS[name](data, file, target)
+    except InputError as error:
+        text = str(error)
+        raise InputError(text if str(file) in text else f"{file}: {text}") from None

@@ -7,7 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from pathlib import Path
-from typing import Any
+from typing import Annotated, Any
 
 import msgspec
 import numpy as np
@@ -18,6 +18,7 @@ from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
 from optlaws.studies import printed
 from optlaws.studies.figure_table import draw
 from optlaws.studies.problem_file import convert
+from optlaws.suggest import unknown_key
 from optlaws.synthesis import (
     BoundaryConditions,
     Chebyshev,
@@ -30,15 +31,22 @@ from optlaws.synthesis import (
 
 Curves = Mapping[int, Sequence[Solution]]
 
+_LEAST, _MOST = 2, 100  # coefficients of Z
+
 COLUMNS = ("B", "C", "D", "base", "z", "note")
+
+
+Count = Annotated[int, msgspec.Meta(ge=1)]
+Number = Annotated[float, msgspec.Meta(ge=-1e100, le=1e100)]
+Above1 = Annotated[float, msgspec.Meta(gt=1.0, le=1e100)]
 
 
 class Base(msgspec.Struct, forbid_unknown_fields=True):
     """The law that k^l (k-1)^l Z(k) is added to, and the degree of Z of the same laws over its own order."""
 
-    order: int
-    z: list[float] = []
-    same: int | None = None
+    order: Count
+    z: list[Number] = []
+    same: Count | None = None
 
 
 class Misprint(msgspec.Struct, forbid_unknown_fields=True):
@@ -46,18 +54,18 @@ class Misprint(msgspec.Struct, forbid_unknown_fields=True):
 
     row: str
     quantity: str
-    printed: float
+    printed: Number
     reason: str
-    means: float | None = None
+    means: Number | None = None
 
 
 class Figure(msgspec.Struct, forbid_unknown_fields=True, rename={"start": "from", "stop": "to"}):
     """What the figure shows: optima of these degrees over B."""
 
-    degrees: list[int]
-    start: float
-    stop: float
-    points: int
+    degrees: Annotated[list[Count], msgspec.Meta(min_length=1, max_length=5)]
+    start: Above1
+    stop: Above1
+    points: Annotated[int, msgspec.Meta(ge=2)]
 
 
 class Table(msgspec.Struct, forbid_unknown_fields=True):
@@ -66,10 +74,10 @@ class Table(msgspec.Struct, forbid_unknown_fields=True):
     job: str
     title: str
     printed: str
-    order: int
+    order: Count
     monotone: bool
-    degrees: list[int]
-    grid: int
+    degrees: Annotated[list[Count], msgspec.Meta(min_length=1)]
+    grid: Count
     bases: dict[str, Base]
     figure: Figure
     misprint: list[Misprint] = []
@@ -95,7 +103,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     spec = convert(data, Table, file)
     source = file.parent / spec.printed
     lines = printed.rows(source, COLUMNS)
-    rows, curves = _solved(spec, lines, str(source))
+    _check(spec, lines, str(source))
+    rows, curves = _solved(spec, lines)
     verdicts = _verdicts(spec, rows)
     about = f"{spec.title}; from {file.name}"
     headings, cells = _cells(spec, rows)
@@ -111,9 +120,32 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     ]
 
 
-def _solved(spec: Table, lines: Sequence[Mapping[str, str]], where: str) -> tuple[list[Row], Curves]:
-    laws = [_printed_law(spec, line, where) for line in lines]
-    values = [printed.number(line["B"], where) for line in lines]
+def _check(spec: Table, lines: Sequence[Mapping[str, str]], where: str) -> None:
+    for line in lines:
+        for name in ("B", "C", "D"):
+            printed.number(line[name], f"{where}, {name}")
+        if printed.number(line["B"], where) <= 1.0:
+            raise InputError(f"{where}: B must be above 1, got {line['B']}")
+        if line["base"] not in spec.bases:
+            raise InputError(f"{where}: base {line['base']!r} is not among the bases {', '.join(spec.bases)}")
+        coefficients = [printed.number(text, f"{where}, z of B = {line['B']}") for text in line["z"].split()]
+        if len(coefficients) < _LEAST:
+            raise InputError(f"{where}: z of B = {line['B']} needs at least {_LEAST} coefficients")
+    rows = {line["B"] for line in lines}
+    for misprint in spec.misprint:
+        if misprint.row not in rows:
+            raise InputError(f"misprint: row {misprint.row!r} is not a B of the printed table")
+        known = ["B", "C", "D"] if misprint.means is None else [f"z{i}" for i in range(_MOST)]
+        if misprint.quantity not in known:
+            raise InputError(
+                f"misprint: {unknown_key(misprint.quantity, known, 'quantity')} (B, C, D; a coefficient such as z1 "
+                "takes the entry means)"
+            )
+
+
+def _solved(spec: Table, lines: Sequence[Mapping[str, str]]) -> tuple[list[Row], Curves]:
+    laws = [_printed_law(spec, line) for line in lines]
+    values = [float(line["B"]) for line in lines]
     solved = {degree: _by_velocity(spec, degree, values) for degree in {*spec.degrees, *spec.figure.degrees}}
     richer = [{degree: solved[degree][B] for degree in spec.degrees} for B in values]
     same = [_same_shape(spec, line, B, found) for line, B, found in zip(lines, values, richer, strict=True)]
@@ -140,9 +172,7 @@ def _same_shape(spec: Table, line: Mapping[str, str], B: float, found: Mapping[i
     return solution
 
 
-def _printed_law(spec: Table, line: Mapping[str, str], where: str) -> PolynomialLaw:
-    if line["base"] not in spec.bases:
-        raise InputError(f"{where}: base {line['base']!r} is not among the bases {', '.join(spec.bases)}")
+def _printed_law(spec: Table, line: Mapping[str, str]) -> PolynomialLaw:
     base = spec.bases[line["base"]]
     z = [Fraction(text) for text in line["z"].split()]
     powers = construct(BoundaryConditions.rest(base.order), base.z).exact_powers()

@@ -37,6 +37,7 @@ def solve(
     *,
     start: Array | None = None,
     holds: Callable[[Array], bool] | None = None,
+    rounds: int = _ROUNDS,
 ) -> Outcome:
     """Solve a semi-infinite program; a neighbour's optimum as `warm` is tried before IPOPT, which begins at `start`.
 
@@ -46,12 +47,17 @@ def solve(
         optimum = _polished(program, warm, holds)
         if optimum is not None:
             return Outcome(optimum, 0, 0, "continued from a neighbour")
-    points = [_first_points(family, program.size) for family in program.families]
+    points = _first_points(program)
     iterations = 0
     status = ""
     for attempt in range(1, _ROUNDS + 1):
         answer = solve_on_points(program, points, start)
         iterations += answer.iterations
+        if not answer.success:
+            answer = _on_points(program, points, right, careful=True)
+            iterations += answer.iterations
+            if not answer.success:
+                return Outcome(None, iterations, attempt, answer.status)
         status = answer.status
         if not np.isfinite(answer.x).all() or np.abs(answer.x).max() > _LOST:
             return Outcome(None, iterations, attempt, status)
@@ -59,7 +65,7 @@ def solve(
         if optimum is not None:
             return Outcome(optimum, iterations, attempt, status)
         points = [_exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
-    return Outcome(None, iterations, _ROUNDS, status)
+    return Outcome(None, iterations, rounds, status)
 
 
 def _polished(program: Program, start: ActiveSet, holds: Callable[[Array], bool] | None) -> ActiveSet | None:

@@ -24,6 +24,8 @@ from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.worth import worth
 
 GAP = 1e-8
+# what passes without a look at the divided rows, in which a contact pinned to the middle may hide a larger excess
+_ROUNDING = 1e-13
 
 Array = NDArray[np.float64]
 
@@ -121,6 +123,8 @@ def _attempt(problem: Problem, found: Model, warm: ActiveSet | None, point: Arra
 def _check_type(problem: object) -> None:
     if not isinstance(problem, Problem):
         raise InputError(f"synthesize takes a Problem, got {type(problem).__name__}")
+    if start is not None and not isinstance(start, Solution):
+        raise InputError(f"start must be a Solution of a neighbouring problem, got {type(start).__name__}")
 
 
 def _neighbours(first: Problem, second: Problem) -> bool:

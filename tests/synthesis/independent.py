@@ -6,9 +6,10 @@ Chebyshev series; optima are found again by HiGHS over all laws of eq. 8, symmet
 
 from dataclasses import dataclass
 from functools import lru_cache
+from typing import Literal
 
 import numpy as np
-from numpy.polynomial import Chebyshev, Polynomial
+from numpy.polynomial import Chebyshev
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
@@ -166,7 +167,7 @@ def least_acceleration(problem: Problem, rounds: int = 60) -> float | None:
             places, excess = _peaks(series, C, two_sided=kind == 0)
             worst = max(worst, float(excess.max()) / max(C, 1.0))
             points[name] = np.concatenate([points[name], places[excess > -1e-3 * max(C, 1.0)]])
-        if worst <= 1e-10:
+        if worst <= 1e-9:
             return C
     raise AssertionError(f"the exchange did not end: {worst:.1e} of {C} in {problem}")
 
@@ -182,9 +183,11 @@ def _highs(rows: Array, right: Array, equations: Array, wanted: Array) -> Array 
     length = np.maximum(np.linalg.norm(rows, axis=1), 1e-300)
     objective = np.zeros(rows.shape[1])
     objective[-1] = 1.0
-    bounds = [(None, None)] * (len(objective) - 1) + [(0.0, None)]
+    bounds: list[tuple[float | None, float | None]] = [(None, None)] * (len(objective) - 1) + [(0.0, None)]
     said = ""
-    for method, tolerance in (("highs", 1e-10), ("highs", 1e-9), ("highs-ipm", 1e-9), ("highs", 1e-8)):
+    ways: tuple[tuple[Literal["highs", "highs-ipm"], float], ...]
+    ways = (("highs", 1e-10), ("highs", 1e-9), ("highs-ipm", 1e-9), ("highs", 1e-8))
+    for method, tolerance in ways:
         answer = linprog(
             objective,
             A_ub=rows / length[:, None],
@@ -201,10 +204,3 @@ def _highs(rows: Array, right: Array, equations: Array, wanted: Array) -> Array 
             return None
         said = answer.message
     raise AssertionError(f"HiGHS gave no answer: {said}")
-
-
-def smoothstep_powers(order: int) -> Polynomial:
-    """S_l in powers of k, by integrating (k(1-k))^(l-1)."""
-    k = Polynomial([0.0, 1.0])
-    whole = ((k * (1 - k)) ** (order - 1)).integ()
-    return whole / whole(1.0)

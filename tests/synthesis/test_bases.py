@@ -1,0 +1,220 @@
+"""One law whatever the basis, the start or the symmetry asked for; z reproduces it through eq. 8."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+
+import numpy as np
+import pytest
+
+from optlaws import (
+    Basis,
+    BoundaryConditions,
+    Chebyshev,
+    InfeasibleProblem,
+    InputError,
+    Powers,
+    Problem,
+    construct,
+    smoothstep,
+    sweep,
+    synthesize,
+)
+from tests.synthesis.independent import check_solution
+
+K = np.linspace(0.0, 1.0, 201)
+SHAPES = [(1.859, 4, 3), (1.641, 4, 9), (2.3, 2, 7), (1.9, 6, 15), (2.7, 3, 15), (1.5, 1, 5), (1.859, 5, 11)]
+every_shape = pytest.mark.parametrize(("B", "order", "degree"), SHAPES)
+
+
+@every_shape
+def test_powers_and_chebyshev_give_the_same_law(B: float, order: int, degree: int) -> None:
+    one, other = (synthesize(Problem(B=B, order=order, basis=kind(degree))) for kind in (Powers, Chebyshev))
+    assert one.objective == pytest.approx(other.objective, rel=1e-12)
+    assert one.law(K, 2) == pytest.approx(other.law(K, 2), abs=1e-10 * one.objective)
+    assert one.lower_bound == pytest.approx(other.lower_bound, rel=1e-12)
+    assert one.z_powers == pytest.approx(other.z_powers, rel=1e-9)
+
+
+@every_shape
+@pytest.mark.parametrize("kind", [Powers, Chebyshev])
+def test_z_reproduces_the_law_through_eq_8(B: float, order: int, degree: int, kind: type[Basis]) -> None:
+    basis = kind(degree)
+    solution = synthesize(Problem(B=B, order=order, basis=basis))
+    assert len(solution.z) == basis.size
+    law = construct(BoundaryConditions.rest(order), solution.z, basis)
+    for nu in range(4):
+        wanted = solution.law(K, nu)
+        allowed = 1e-9 * float(np.abs(wanted).max())
+        if isinstance(basis, Powers) and degree > 11:
+            allowed = rounding(order, solution.z, nu)
+        assert law(K, nu) == pytest.approx(wanted, abs=allowed)
+
+
+def rounding(order: int, z: Sequence[float], nu: int) -> float:
+    """What rounding each power of Z to a double may change: at degree 15 they reach 5e12."""
+    nothing = BoundaryConditions((0,) * order, (0,) * order)
+    sizes = [np.abs(construct(nothing, [0] * i + [1])(K, nu)).max() for i in range(len(z))]
+    return float(2.0**-53 * np.abs(z) @ sizes)
+
+
+def test_at_high_degree_z_still_reproduces_the_law_in_the_chebyshev_basis() -> None:
+    solution = synthesize(Problem(B=1.859, order=3, basis=Chebyshev(41)))
+    law = construct(BoundaryConditions.rest(3), solution.z, Chebyshev(41))
+    assert law.c(K) == pytest.approx(solution.law.c(K), abs=1e-9 * solution.objective)
+
+
+@every_shape
+def test_z_powers_are_z_in_powers_of_k(B: float, order: int, degree: int) -> None:
+    solution = synthesize(Problem(B=B, order=order, basis=Chebyshev(degree)))
+    law = construct(BoundaryConditions.rest(order), solution.z_powers)
+    allowed = 1e-9 * solution.objective if degree <= 11 else rounding(order, solution.z_powers, 2)
+    assert law.c(K) == pytest.approx(solution.law.c(K), abs=allowed)
+    # odd about 1/2
+    z = np.polynomial.Polynomial(solution.z_powers)
+    assert z(K) == pytest.approx(-z(1.0 - K), abs=1e-9 * float(np.abs(solution.z_powers).sum()))
+
+
+@pytest.mark.parametrize("basis", [Powers(4), Chebyshev(4), Chebyshev(0), Powers(11)], ids=repr)
+def test_a_basis_converts_there_and_back(basis: Basis) -> None:
+    z = tuple(float(value) for value in np.random.default_rng(3).integers(-50, 50, basis.size))
+    assert basis.coefficients(basis.series(z)) == pytest.approx(z, rel=1e-12, abs=1e-12)
+    series = np.polynomial.Chebyshev(basis.series(z), domain=(0.0, 1.0))
+    wanted = (
+        np.polynomial.Polynomial(z)(K) if isinstance(basis, Powers) else np.polynomial.chebyshev.chebval(2 * K - 1, z)
+    )
+    assert series(K) == pytest.approx(wanted, rel=1e-12, abs=1e-9)
+
+
+@pytest.mark.parametrize("basis", [Powers(3), Chebyshev(3)], ids=repr)
+@pytest.mark.parametrize("z", [[], [1.0], [1.0] * 5])
+def test_z_of_another_length_is_refused(basis: Basis, z: list[float]) -> None:
+    with pytest.raises(InputError, match="4 coefficients"):
+        basis.series(z)
+    with pytest.raises(InputError, match="4 coefficients"):
+        construct(BoundaryConditions.rest(2), z, basis)
+
+
+def test_a_new_basis_is_one_class() -> None:
+    class Odd(Basis):
+        name = "odd powers of 2k - 1"
+
+        def coefficients(self, series: np.ndarray) -> tuple[float, ...]:
+            powers = np.polynomial.chebyshev.cheb2poly(series[: self.size])
+            return tuple(float(value) for value in np.pad(powers, (0, self.size - len(powers))))
+
+        def series(self, z: object) -> np.ndarray:
+            return np.polynomial.chebyshev.poly2cheb(np.asarray(z, dtype=float))
+
+    try:
+        problem = Problem(B=1.859, order=4, basis=Odd(9))
+        solution = synthesize(problem)
+        check_solution(solution)
+        assert solution.objective == synthesize(replace(problem, basis=Chebyshev(9))).objective
+        law = construct(BoundaryConditions.rest(4), solution.z, Odd(9))
+        assert law.peak(2).value == pytest.approx(solution.objective, rel=1e-11)
+        assert Problem.from_dict(problem.to_dict()) == problem
+    finally:
+        del Basis.kinds[Odd.name]
+
+
+# --- starts ---
+
+
+@pytest.mark.parametrize(
+    ("order", "degree", "monotone"), [(4, 3, False), (4, 9, False), (2, 15, False), (3, 9, True), (4, 19, False)]
+)
+def test_a_sweep_gives_what_each_problem_gives_alone(order: int, degree: int, monotone: bool) -> None:  # noqa: FBT001
+    first = Problem(B=1.6, order=order, basis=Chebyshev(degree), monotone=monotone)
+    problems = [replace(first, B=float(B)) for B in np.linspace(1.6, 2.4, 17)]
+    for warm, problem in zip(sweep(problems), problems, strict=True):
+        cold = synthesize(problem)
+        assert warm.problem == problem
+        assert warm.objective == pytest.approx(cold.objective, rel=1e-11)
+        assert warm.lower_bound == pytest.approx(cold.lower_bound, rel=1e-11)
+        check_solution(warm)
+
+
+@pytest.mark.parametrize("step", [1e-6, 0.01, 0.3, -0.2])
+def test_a_start_does_not_change_the_answer(step: float) -> None:
+    problem = Problem(B=1.859, order=4, basis=Chebyshev(9))
+    start = synthesize(replace(problem, B=problem.B + step))
+    assert synthesize(problem, start=start).objective == pytest.approx(synthesize(problem).objective, rel=1e-11)
+
+
+def test_a_near_start_needs_no_ipopt() -> None:
+    problem = Problem(B=1.859, order=4, basis=Chebyshev(9))
+    assert synthesize(replace(problem, B=1.86), start=synthesize(problem)).iterations == 0
+
+
+def test_a_start_of_another_shape_is_left_aside() -> None:
+    problem = Problem(B=1.859, order=4, basis=Chebyshev(9))
+    start = synthesize(Problem(B=1.859, order=3, basis=Chebyshev(5)))
+    again, alone = synthesize(problem, start=start), synthesize(problem)
+    assert (again.objective, again.z) == (alone.objective, alone.z)
+
+
+def test_a_start_in_the_other_basis_serves_as_well() -> None:
+    problem = Problem(B=1.859, order=4, basis=Chebyshev(9))
+    start = synthesize(replace(problem, B=1.85, basis=Powers(9)))
+    assert synthesize(problem, start=start).objective == pytest.approx(synthesize(problem).objective, rel=1e-11)
+
+
+def test_a_sweep_says_which_problem_is_infeasible() -> None:
+    first = Problem(B=1.9, order=4, basis=Chebyshev(3))
+    found = sweep([first, replace(first, B=1.1)])
+    next(found)
+    with pytest.raises(InfeasibleProblem) as caught:
+        next(found)
+    assert caught.value.problem == replace(first, B=1.1)
+
+
+def test_a_sweep_over_nothing_is_nothing() -> None:
+    assert list(sweep([])) == []
+
+
+# --- symmetry and degree ---
+
+
+@every_shape
+def test_unsymmetric_laws_are_no_better(B: float, order: int, degree: int) -> None:
+    problem = Problem(B=B, order=order, basis=Chebyshev(degree))
+    one, other = synthesize(problem), synthesize(replace(problem, symmetric=False))
+    assert one.objective == other.objective
+    assert other.problem.symmetric is False
+
+
+@pytest.mark.parametrize("degree", [4, 8, 12])
+@pytest.mark.parametrize("order", [2, 4])
+def test_an_even_degree_adds_nothing(order: int, degree: int) -> None:
+    even, odd = (synthesize(Problem(B=1.859, order=order, basis=Chebyshev(n))) for n in (degree, degree - 1))
+    assert even.objective == pytest.approx(odd.objective, rel=1e-13)
+    assert even.z == (*odd.z, 0.0)
+    assert even.certificate.degree == degree
+    assert even.gap <= 1e-8
+
+
+@pytest.mark.parametrize("order", range(2, 7))
+@pytest.mark.parametrize("B", [1.53, 1.859, 2.4])
+def test_degree_41_is_solved_and_proven(order: int, B: float) -> None:
+    check_solution(synthesize(Problem(B=B, order=order, basis=Chebyshev(41))))
+
+
+@pytest.mark.parametrize("order", range(1, 7))
+@pytest.mark.parametrize("kind", [Powers, Chebyshev])
+def test_degree_1_leaves_one_law(order: int, kind: Callable[[int], Basis]) -> None:
+    # Z = z (k - 1/2): b(1/2) = B(S_l) + (-1/4)^l z
+    base = smoothstep(order).peak(1).value
+    B = base * 1.02
+    solution = synthesize(Problem(B=B, order=order, basis=kind(1)))
+    z = (B - base) * (-4.0) ** order
+    law = construct(BoundaryConditions.rest(order), [-z / 2, z])
+    assert solution.law.c(K) == pytest.approx(law.c(K), abs=1e-11 * solution.objective)
+    assert solution.z_powers == pytest.approx((-z / 2, z), rel=1e-10)
+    assert solution.gap <= 1e-8
+
+
+def test_the_velocity_of_s_l_itself_is_met_with_z_as_small_as_it_can_be() -> None:
+    # with one coefficient and B of S_4, nothing is left but S_4
+    solution = synthesize(Problem(B=2.1875, order=4, basis=Powers(1)))
+    assert solution.z == pytest.approx((0.0, 0.0), abs=1e-9)
+    assert solution.objective == pytest.approx(smoothstep(4).peak(2).value, rel=1e-12)
