@@ -173,6 +173,22 @@ class MotionLaw(Stored):
         k = self._power_candidates()
         return peaks.peak(k, self._derivative(k, 1) * self._derivative(k, 2))
 
+    def rms(self, nu: int) -> float:
+        """Root mean square of the derivative of order nu over the interval.
+
+        Raises
+        ------
+        InputError
+            If `nu` is not an integer of at least 0.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> round(smoothstep(2).rms(2) ** 2, 12)
+        12.0
+        """
+        return float(np.sqrt(self._mean_square(whole(nu, "nu"))))
+
     @cached_property
     def constants(self) -> Constants:
         """B, C, D, J with their places, and the RMS of c; computed at the first use.
@@ -188,7 +204,7 @@ class MotionLaw(Stored):
             C=self.peak(2),
             D=self.power_peak(),
             J=self.peak(3),
-            rms_c=float(np.sqrt(self._mean_square_acceleration())),
+            rms_c=self.rms(2),
         )
 
     def __repr__(self) -> str:
@@ -219,8 +235,8 @@ class MotionLaw(Stored):
         """Points where d may be extreme."""
 
     @abstractmethod
-    def _mean_square_acceleration(self) -> float:
-        """Integral of c² over [0, 1]."""
+    def _mean_square(self, nu: int) -> float:
+        """Integral over [0, 1] of the square of the derivative of order `nu`."""
 
     @abstractmethod
     def _summary(self) -> str:

@@ -186,8 +186,8 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
             columns[: len(part), i] = part
         return columns
 
-    def _mean_square_acceleration(self) -> float:
-        return series.mean_product(self._series(2), self._series(2))
+    def _mean_square(self, nu: int) -> float:
+        return series.mean_product(self._series(nu), self._series(nu))
 
     def _summary(self) -> str:
         return f"degree={self.degree}"

@@ -1,6 +1,49 @@
+"""How an optimal law is found: problems, their solution by CasADi and IPOPT, lower bounds and limits."""
+
 from optlaws.synthesis.bases import Basis, Chebyshev, Powers, basis
 from optlaws.synthesis.boundary import BoundaryConditions, construct
 from optlaws.synthesis.bounds import Range, at_least, at_most, between
-from optlaws.synthesis.expression import Expression, maximum
+from optlaws.synthesis.certificate import Certificate, Contact
+from optlaws.synthesis.expression import Expression, Maximum, Term, maximum
 from optlaws.synthesis.functionals import FUNCTIONALS, B, C, C_minus, C_plus, D, Functional, J, jounce, rms_c, rms_j
+from optlaws.synthesis.limits import acceleration_limit, limit
 from optlaws.synthesis.problem import Problem
+from optlaws.synthesis.solution import Solution, Status
+from optlaws.synthesis.solve import sweep, synthesize
+
+__all__ = [
+    "FUNCTIONALS",
+    "B",
+    "Basis",
+    "BoundaryConditions",
+    "C",
+    "C_minus",
+    "C_plus",
+    "Certificate",
+    "Chebyshev",
+    "Contact",
+    "D",
+    "Expression",
+    "Functional",
+    "J",
+    "Maximum",
+    "Powers",
+    "Problem",
+    "Range",
+    "Solution",
+    "Status",
+    "Term",
+    "acceleration_limit",
+    "at_least",
+    "at_most",
+    "basis",
+    "between",
+    "construct",
+    "jounce",
+    "limit",
+    "maximum",
+    "rms_c",
+    "rms_j",
+    "sweep",
+    "synthesize",
+]

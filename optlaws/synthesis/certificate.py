@@ -218,13 +218,17 @@ def _means(certificate: Certificate, space: PolynomialSpace, greatest: dict[str,
     means += [(1, 2.0 * greatest.get("B", inf) + stroke)]
     if certificate.problem.monotone:
         means += [(1, stroke)]
-    return [(nu, mean + _mean_square(space, nu) ** 0.5) for nu, mean in means if isfinite(mean)]
+    least: dict[int, float] = {}
+    for nu, mean in means:
+        if isfinite(mean):
+            least[nu] = min(least.get(nu, inf), mean)
+    return [(nu, mean + float(space.cached(("RMS", nu), lambda nu=nu: _base_rms(space, nu))[0])) for nu, mean in least.items()]
 
 
-def _mean_square(space: PolynomialSpace, nu: int) -> float:
+def _base_rms(space: PolynomialSpace, nu: int) -> Array:
     series = space.series(nu)[:, -1]
     u, weights = legendre.leggauss(len(series) + 1)
-    return float(weights @ chebyshev.chebval(u, series) ** 2) / 2.0
+    return np.sqrt(np.array([weights @ chebyshev.chebval(u, series) ** 2 / 2.0]))
 
 
 def _extension(space: PolynomialSpace, nu: int) -> Array:

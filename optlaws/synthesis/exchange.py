@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.active_set import ActiveSet, newton
 from optlaws.synthesis.contacts import VIOLATION, completed, settled
-from optlaws.synthesis.rows import Family, Points, Program
+from optlaws.synthesis.rows import EvenFamily, Family, Points, Program
 from optlaws.synthesis.transcription import Answer, solve_on_points
 
 Array = NDArray[np.float64]
@@ -37,7 +37,6 @@ def solve(
     *,
     start: Array | None = None,
     holds: Callable[[Array], bool] | None = None,
-    rounds: int = _ROUNDS,
 ) -> Outcome:
     """Solve a semi-infinite program; a neighbour's optimum as `warm` is tried before IPOPT, which begins at `start`.
 
@@ -53,11 +52,11 @@ def solve(
     for attempt in range(1, _ROUNDS + 1):
         answer = solve_on_points(program, points, start)
         iterations += answer.iterations
-        if not answer.success:
-            answer = _on_points(program, points, right, careful=True)
+        if not answer.usable and not program.curved:
+            answer = solve_on_points(program, points, start, careful=True)
             iterations += answer.iterations
-            if not answer.success:
-                return Outcome(None, iterations, attempt, answer.status)
+        if not answer.usable:
+            return Outcome(None, iterations, attempt, answer.status)
         status = answer.status
         if not np.isfinite(answer.x).all() or np.abs(answer.x).max() > _LOST:
             return Outcome(None, iterations, attempt, status)
@@ -65,7 +64,7 @@ def solve(
         if optimum is not None:
             return Outcome(optimum, iterations, attempt, status)
         points = [_exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
-    return Outcome(None, iterations, rounds, status)
+    return Outcome(None, iterations, _ROUNDS, status)
 
 
 def _polished(program: Program, start: ActiveSet, holds: Callable[[Array], bool] | None) -> ActiveSet | None:
@@ -83,20 +82,36 @@ def _polished(program: Program, start: ActiveSet, holds: Callable[[Array], bool]
     return None
 
 
-def _first_points(family: Family, size: int) -> Points:
+def _first_points(program: Program) -> list[Points]:
+    # with no peak to hold them, the velocity constraints need points enough by themselves
+    share = 0.75 if any(len(family.signs) > 1 for family in program.families) else 1.5
+    return [_points(family, program.size, share) for family in program.families]
+
+
+def _points(family: Family, size: int, even_share: float) -> Points:
+    """As many points as make IPOPT quick and the contacts plain; the rarer sign of a magnitude gets half as many."""
     low, high = family.domain
     if low == high:
-        u = np.array([low])
-    elif low == 0.0:
-        count = 2 * size + 4
-        u = np.cos((np.arange(count) + 0.5) * np.pi / (2 * count))
-    else:
-        count = (3 * size) // 2 + 4
-        u = (high + low) / 2 + (high - low) / 2 * np.cos(np.arange(count) * np.pi / (count - 1))
-    return Points(np.tile(u, len(family.signs)), np.repeat(family.signs, len(u)))
+        return Points(np.repeat([low], len(family.signs)), np.array(family.signs))
+    u, s = [], []
+    for i, sign in enumerate(family.signs):
+        if isinstance(family, EvenFamily):
+            count = int(even_share * size) + 4
+            places = np.cos(np.arange(count) * np.pi / (count - 1))
+        elif low == 0.0:
+            count = int((1.5, 0.75)[i] * size) + 4
+            places = np.cos((np.arange(count) + 0.5) * np.pi / (2 * count))
+        else:
+            count = int(1.5 * size) + 4
+            places = (high + low) / 2 + (high - low) / 2 * np.cos((np.arange(count) + 0.5) * np.pi / count)
+        u.append(places)
+        s.append(np.full(count, sign))
+    return Points(np.concatenate(u), np.concatenate(s))
 
 
 def _exchanged(family: Family, points: Points, x: Array) -> Points:
+    if family.domain[0] == family.domain[1]:
+        return points
     u, s, residual = family.extremes(x)
     near = residual > -1e-2 * max(1.0, abs(family.room(x)))
     return points.joined(Points(u[near], s[near]))

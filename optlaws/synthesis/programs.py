@@ -142,8 +142,8 @@ class _Writer:
             elif isinstance(leaf, Functional):
                 self.families += leaf.families(self.space, self.unit(repr(leaf)), 0.0)
         for term in dict.fromkeys(_maxima(expression)):
-            for part in term.parts:
-                self.row(f"part of {term!r}", self.sum(part) - self.unit(repr(term)), 0.0)
+            for i, part in enumerate(term.parts, 1):
+                self.row(f"part {i} of {term!r}", self.sum(part) - self.unit(repr(term)), 0.0)
 
     def row(self, name: str, row: Array, bound: float) -> None:
         """One row, row . x <= bound."""

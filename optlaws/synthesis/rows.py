@@ -329,6 +329,11 @@ class Program:
         """What residuals are compared with: 1, as laws have stroke and duration 1."""
         return 1.0
 
+    @property
+    def curved(self) -> bool:
+        """Whether a family is not affine in x."""
+        return not all(isinstance(family, LinearFamily) for family in self.families)
+
     def worth(self, x: Array) -> float:
         """The objective at x."""
         return float(self.objective @ x)

@@ -17,11 +17,12 @@ from optlaws.synthesis.bounding import certify, lower_bound
 from optlaws.synthesis.contacts import VIOLATION
 from optlaws.synthesis.exchange import Outcome, solve
 from optlaws.synthesis.failure import failure
-from optlaws.synthesis.limits import known_limit
+from optlaws.synthesis.forcing import best_place, forced
+from optlaws.synthesis.problem_limits import known_limit
 from optlaws.synthesis.problem import CONSTANTS, Problem
 from optlaws.synthesis.programs import Model, model
 from optlaws.synthesis.solution import Solution, Status
-from optlaws.synthesis.worth import worth
+from optlaws.synthesis.worth import shortfalls, worth
 
 GAP = 1e-8
 # what passes without a look at the divided rows, in which a contact pinned to the middle may hide a larger excess
@@ -60,7 +61,7 @@ def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
     (5.08070242, True)
     """
     began = perf_counter()
-    _check_type(problem)
+    _check_types(problem, start)
     found = model(problem)
     warm = start.active_set if start is not None and _neighbours(problem, start.problem) else None
     tries = [_attempt(problem, found, warm, None)]
@@ -69,7 +70,11 @@ def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
     sound = sorted((one for one in tries if one.law is not None), key=lambda one: one.objective)
     if not sound:
         raise failure(problem, found, tries[0].outcome)
-    return _solution(problem, found, sound, tries, began)
+    plain = sound[0]
+    best = _raised(problem, found, plain)
+    objectives = tuple(one.objective for one in sound) if not problem.convex and best is plain else ()
+    iterations = sum(one.outcome.iterations for one in tries)
+    return _solution(problem, found, plain, best, (objectives, iterations, began))
 
 
 def sweep(problems: Iterable[Problem]) -> Iterator[Solution]:
@@ -95,6 +100,7 @@ class _Attempt:
     outcome: Outcome
     law: PolynomialLaw | None = None
     objective: float = np.inf
+    excess: float = np.inf
 
 
 def _attempt(problem: Problem, found: Model, warm: ActiveSet | None, point: Array | None) -> _Attempt:
@@ -105,22 +111,16 @@ def _attempt(problem: Problem, found: Model, warm: ActiveSet | None, point: Arra
         law = found.space.law(x[: found.space.terms])
         assert isinstance(law, PolynomialLaw)  # noqa: S101
         measured = worth(problem, law)
-        if measured.excess > VIOLATION or measured.objective > float(claim @ x) * (1.0 + VIOLATION):
-            return False
-        attempt.law, attempt.objective = law, measured.objective
-        return True
+        attempt.law, attempt.objective, attempt.excess = law, measured.objective, measured.excess
+        return measured.excess <= _ROUNDING and measured.objective <= float(claim @ x) * (1.0 + _ROUNDING)
 
     attempt.outcome = solve(found.program, warm, start=point, holds=holds)
-    optimum = attempt.outcome.optimum
-    if optimum is not None and attempt.law is None:
-        law = found.space.law(optimum.x[: found.space.terms])
-        measured = worth(problem, law)
-        if measured.excess <= 10.0 * VIOLATION:
-            attempt.law, attempt.objective = law, measured.objective
+    if attempt.outcome.optimum is None or attempt.excess > 10.0 * VIOLATION:
+        attempt.law = None
     return attempt
 
 
-def _check_type(problem: object) -> None:
+def _check_types(problem: object, start: object) -> None:
     if not isinstance(problem, Problem):
         raise InputError(f"synthesize takes a Problem, got {type(problem).__name__}")
     if start is not None and not isinstance(start, Solution):
@@ -135,20 +135,45 @@ def _neighbours(first: Problem, second: Problem) -> bool:
     return same_kind and alike and weighted and first.terms == second.terms
 
 
+def _raised(problem: Problem, found: Model, plain: _Attempt) -> _Attempt:
+    """The attempt itself, or, where a constant came out below its lower bound, the best one in which it is held up."""
+    if plain.law is None:
+        return plain
+    short = shortfalls(problem, plain.law)
+    if not short:
+        return plain
+    name, low = next(iter(short.items()))
+    ends = (0.0, 0.5) if problem.symmetric else (0.0, 1.0)
+    tried: list[_Attempt] = []
+    for sign in (1.0, -1.0) if name != "B" else (1.0,):
+
+        def attempt(k: float, sign: float = sign) -> float:
+            one = _attempt(problem, forced(found, name, low, k, sign), None, None)
+            if one.law is not None and not shortfalls(problem, one.law):
+                tried.append(one)
+            return one.objective if one.law is not None else np.inf
+
+        attempt(best_place(attempt, ends))
+    if not tried:
+        asked = f"{name} at least {low:g}"
+        raise SolverFailure(f"no law with {asked} was found", problem=problem, tried=f"{asked} at places over {ends}")
+    return min(tried, key=lambda one: one.objective)
+
+
 def _solution(
-    problem: Problem, found: Model, sound: list[_Attempt], tries: list[_Attempt], began: float
+    problem: Problem, found: Model, plain: _Attempt, best: _Attempt, history: tuple[tuple[float, ...], int, float]
 ) -> Solution:
-    best = sound[0]
-    optimum = best.outcome.optimum
-    if best.law is None or optimum is None:
+    optimum, bounding = best.outcome.optimum, plain.outcome.optimum
+    if best.law is None or optimum is None or bounding is None:
         raise SolverFailure("no start led to a law", problem=problem)
+    objectives, iterations, began = history
     limit = known_limit(problem)
-    proof = certify(problem, found, optimum, best.objective)
+    proof = certify(problem, found, bounding, best.objective)
     bound = lower_bound(proof, limit)
     if (best.objective - bound) / best.objective <= GAP:
         status = Status.OPTIMAL
     else:
-        status = Status.INACCURATE if problem.convex else Status.LOCAL
+        status = Status.INACCURATE if problem.convex and best is plain else Status.LOCAL
     return Solution(
         problem=problem,
         law=best.law,
@@ -158,8 +183,8 @@ def _solution(
         lower_bound=bound,
         limit=limit,
         status=status,
-        iterations=sum(one.outcome.iterations for one in tries),
+        iterations=iterations,
         seconds=perf_counter() - began,
-        starts=() if problem.convex else tuple(one.objective for one in sound),
-        active_set=optimum,
+        starts=objectives,
+        active_set=bounding,
     )

@@ -15,7 +15,7 @@ Array = NDArray[np.float64]
 
 _QUIET = {"print_time": False, "ipopt.print_level": 0, "ipopt.sb": "yes"}
 _REPEATABLE = {
-    "ipopt.max_iter": 400,
+    "ipopt.max_iter": 200,
     # the order of elimination is fixed so that every platform takes the same steps
     "ipopt.mumps_permuting_scaling": 0,
     "ipopt.mumps_pivot_order": 2,
@@ -37,12 +37,22 @@ class Answer:
 
     x: Array
     multipliers: list[Array]
+    success: bool
     status: str
     iterations: int
 
+    @property
+    def usable(self) -> bool:
+        """Whether x is a start for the exact active set: an answer that is nearly one is, it is polished anyway."""
+        return self.success or self.status == "Solved_To_Acceptable_Level"
 
-def solve_on_points(program: Program, points: list[Points], start: Array | None, tolerance: float = 1e-9) -> Answer:
+
+def solve_on_points(
+    program: Program, points: list[Points], start: Array | None, *, careful: bool = False
+) -> Answer:
     """Solve the program with its families held at the points only.
+
+    `careful` goes without the quick steps for linear programs, which may diverge.
 
     Linear rows are scaled to unit length before IPOPT sees them; multipliers returned belong to the rows unscaled.
     """
@@ -57,7 +67,7 @@ def solve_on_points(program: Program, points: list[Points], start: Array | None,
     first, second, slack, bound = _product_rows(products, program.size)
     norms = [f for f in (f for f, _ in pairs) if isinstance(f, NormFamily)]
     solver = _solver(
-        program.size, len(rows), len(first), tuple(len(f.matrix) for f in norms), tolerance
+        program.size, len(rows), len(first), tuple(len(f.matrix) for f in norms), careful=careful
     )
     parts = [rows / length[:, None], first, second, slack, *(f.matrix for f in norms), *(f.slack[None] for f in norms)]
     parameters = np.concatenate([*(part.ravel(order="F") for part in parts), program.objective])
@@ -75,6 +85,7 @@ def solve_on_points(program: Program, points: list[Points], start: Array | None,
     return Answer(
         x=np.asarray(result["x"], dtype=float).ravel(),
         multipliers=_split(pairs, weights, len(rows), len(program.right)),
+        success=bool(stats["success"]) and str(stats["return_status"]) == "Solve_Succeeded",
         status=str(stats["return_status"]),
         iterations=int(stats["iter_count"]),
     )
@@ -105,7 +116,7 @@ def _split(pairs: list[tuple[Any, Points]], weights: Array, rows: int, equations
 
 @lru_cache(maxsize=512)
 def _solver(  # noqa: ANN202 - a casadi Function, imported late
-    size: int, linear: int, products: int, norms: tuple[int, ...], tolerance: float
+    size: int, linear: int, products: int, norms: tuple[int, ...], *, careful: bool
 ):
     import casadi as ca
 
@@ -126,7 +137,7 @@ def _solver(  # noqa: ANN202 - a casadi Function, imported late
     curved = [(first @ point) * (second @ point) - slack @ x] if products else []
     curved += [ca.norm_2(m @ point) - room @ x for m, room in zip(matrices, rooms, strict=True)]
     program: Any = {"x": x, "p": p, "f": ca.dot(symbols[-1], x), "g": ca.vertcat(rows @ x, *curved)}
-    options: Any = {**_QUIET, **_REPEATABLE, "ipopt.tol": tolerance}
+    options: Any = {**_QUIET, **_REPEATABLE, "ipopt.tol": 1e-9}
     if not curved:
         flat = ca.Function(
             "hessian",
@@ -136,4 +147,6 @@ def _solver(  # noqa: ANN202 - a casadi Function, imported late
             ["triu_hess_gamma_x_x"],
         )
         options |= {**_LINEAR, "hess_lag": flat}
+    if careful:
+        options["ipopt.mehrotra_algorithm"] = "no"
     return ca.nlpsol("program", "ipopt", program, options)

@@ -11,6 +11,9 @@ from optlaws.synthesis.functionals import FUNCTIONALS, Functional
 from optlaws.synthesis.problem import Problem
 
 
+_SHORT = 1e-9
+
+
 @dataclass(frozen=True)
 class Worth:
     """The objective of a law, and by how much it breaks a constraint, relative to the constraint's bound."""
@@ -28,7 +31,7 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
     if wanted is not None or problem.monotone:
         lowest, highest = law.extrema(1)
         if wanted is not None:
-            excess = max(excess, highest.value / wanted.high - 1.0, 1.0 - highest.value / max(wanted.low, 1.0))
+            excess = max(excess, highest.value / wanted.high - 1.0)
         if problem.monotone:
             excess = max(excess, -lowest.value)
     for name in ("C", "D", "J"):
@@ -37,6 +40,16 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
             value = values[name] if name in values else FUNCTIONALS[name].value(law)
             excess = max(excess, value / wanted.high - 1.0)
     return Worth(objective, excess)
+
+
+def shortfalls(problem: Problem, law: MotionLaw) -> dict[str, float]:
+    """Constants that are below their lower bound, with that bound: a peak can be held down by rows, but not up."""
+    asked = {name: problem.range(name) for name in ("B", "C", "D", "J")}
+    return {
+        name: wanted.low
+        for name, wanted in asked.items()
+        if wanted is not None and wanted.low > 0.0 and FUNCTIONALS[name].value(law) < wanted.low * (1.0 - _SHORT)
+    }
 
 
 def _total(expression: Expression, law: MotionLaw, values: dict[str, float]) -> float:

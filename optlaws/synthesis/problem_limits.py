@@ -1,0 +1,75 @@
+"""The limit that no law of any degree can beat, for a problem's own objective, where one is known."""
+
+from __future__ import annotations
+
+from math import isfinite
+
+from optlaws.errors import InputError
+from optlaws.synthesis.bounds import Range
+from optlaws.synthesis.expression import Expression, Maximum, Term
+from optlaws.synthesis.functionals import C_minus, C_plus, Functional
+from optlaws.synthesis.limits import best_velocity, limit
+from optlaws.synthesis.problem import Problem
+
+_NAMES = {"C": "C", "D": "D", "J": "J", "rms_c": "RMS"}
+_NEVER_BELOW_1 = 1.0 + 1e-12
+
+
+def known_limit(problem: Problem) -> float | None:
+    """A value that no law with the problem's constants can beat, whatever its degree; None where none is known.
+
+    For a sum it is the sum of the parts' limits, which no one law need reach together.
+
+    Examples
+    --------
+    >>> known_limit(Problem(B=1.5, order=4, minimise="D"))
+    2.25
+    """
+    if problem.boundary is not None:
+        return None
+    return _of_sum(problem, problem.objective)
+
+
+def _of_sum(problem: Problem, expression: Expression) -> float | None:
+    total = 0.0
+    for weight, term in expression.terms:
+        part = _of_term(problem, term)
+        if part is None:
+            return None
+        total += weight * part
+    return total
+
+
+def _of_term(problem: Problem, term: Term) -> float | None:
+    if isinstance(term, Maximum):
+        parts = [_of_sum(problem, part) for part in term.parts]
+        known = [part for part in parts if part is not None]
+        return max(known) if known else None
+    if not isinstance(term, Functional):
+        return None
+    if term in (C_plus, C_minus) and problem.symmetric:
+        return _of_constant(problem, "C")
+    return _of_constant(problem, _NAMES[term.name]) if term.name in _NAMES else None
+
+
+def _of_constant(problem: Problem, constant: str) -> float | None:
+    B = _best(problem.range("B"), constant, problem.order)
+    jerk = problem.range("J")
+    try:
+        if constant == "C" and jerk is not None and problem.order > 2 and isfinite(jerk.high) and B is not None:
+            return limit("C", B, order=problem.order, monotone=problem.monotone, J=jerk.high)
+    except InputError:
+        pass  # at this B no law has so small a jerk: the limit without it still holds
+    try:
+        return limit(constant, B, order=problem.order, monotone=problem.monotone)
+    except InputError:
+        return None
+
+
+def _best(asked: Range | None, constant: str, order: int) -> float | None:
+    """The B of the range at which the limit is least: it falls up to one B and rises beyond."""
+    if asked is None:
+        return None
+    if order == 1:
+        return max(asked.low, _NEVER_BELOW_1)
+    return min(max(asked.low, best_velocity(constant, order), _NEVER_BELOW_1), asked.high)
