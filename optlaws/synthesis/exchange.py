@@ -53,10 +53,10 @@ def solve(
     for attempt in range(1, rounds + 1):
         answer = _on_points(program, points, right)
         iterations += answer.iterations
-        if not answer.success:
+        if not answer.usable:
             answer = _on_points(program, points, right, careful=True)
             iterations += answer.iterations
-            if not answer.success:
+            if not answer.usable:
                 return Outcome(None, iterations, attempt, answer.status)
         status = answer.status
         if not np.isfinite(answer.x).all() or np.abs(answer.x).max() > 1e7:

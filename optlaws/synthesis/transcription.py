@@ -34,6 +34,11 @@ class Answer:
     status: str
     iterations: int
 
+    @property
+    def usable(self) -> bool:
+        """Whether x is a start for the exact active set: an answer that is nearly one is, it is polished anyway."""
+        return self.success or self.status == "Solved_To_Acceptable_Level"
+
 
 def solve_rows(rows: Array, right: Array, equalities: int, objective: Array, *, careful: bool = False) -> Answer:
     """Minimise objective . x subject to rows . x <= right, the last `equalities` rows as equations.
