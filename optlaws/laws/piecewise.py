@@ -27,6 +27,8 @@ Many = NDArray[Any] | Sequence[Any]
 JUMP = 1e-9  # a difference at a break below this share of the derivative's size is rounding, not a jump
 HIGHEST = 9
 
+_GAUSS = 24  # points a segment for the mean square of a, of which nothing asks more than curiosity
+
 
 @dataclass(frozen=True, init=False, repr=False)
 class PiecewiseLaw(MotionLaw, kind="piecewise"):
@@ -217,8 +219,16 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
             lambda segment, u, length: segment.power(u, length),
         )[0]
 
-    def _mean_square_acceleration(self) -> float:
-        return inf if self.jumps(1) else sum(segment.square(length) for segment, length in self._lengths)
+    def _mean_square(self, nu: int) -> float:
+        if nu == 0:
+            u, weights = np.polynomial.legendre.leggauss(_GAUSS)
+            ends = np.array(self.breaks)
+            middles, halves = (ends[1:] + ends[:-1]) / 2.0, np.diff(ends) / 2.0
+            values = self._derivative(middles[:, None] + halves[:, None] * u, 0)
+            return float((values**2 @ weights) @ halves)
+        if any(self.jumps(lower) for lower in range(nu)):
+            return inf
+        return sum(segment.square(length, nu) for segment, length in self._lengths)
 
     def _summary(self) -> str:
         return f"segments={len(self.segments)}"

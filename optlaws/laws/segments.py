@@ -53,8 +53,8 @@ class Segment(ABC):
         """Every u inside the segment where d = b c may be extreme."""
 
     @abstractmethod
-    def square(self, length: float) -> float:
-        """Integral of c² over the segment."""
+    def square(self, length: float, nu: int) -> float:
+        """Integral over the segment of the square of the derivative of order nu, at least 1."""
 
     def power(self, u: Array, length: float) -> Array:
         """Kinetic power d = b c at u."""
@@ -124,9 +124,8 @@ class PolynomialSegment(Segment, kind="polynomial"):
     def power_candidates(self, length: float) -> Array:  # noqa: D102
         return self._law(length)._power_candidates()  # noqa: SLF001
 
-    def square(self, length: float) -> float:  # noqa: D102
-        c = np.array(self.acceleration or (0.0,))
-        return length * series.mean_product(c, c)
+    def square(self, length: float, nu: int) -> float:  # noqa: D102
+        return length ** (5 - 2 * nu) * self._law(length).rms(nu) ** 2
 
     def _law(self, length: float) -> PolynomialLaw:
         # a = length² times this law in u, so that its acceleration is the segment's
@@ -172,8 +171,9 @@ class PowerSegment(Segment, kind="power"):
         rate = 2.0 * self._power(length)
         if order == 0 or rate == 0.0:
             return sign * b if order == 0 else np.zeros_like(u)
-        with np.errstate(divide="ignore"):
-            return np.asarray(sign * prod(0.5 - i for i in range(order)) * rate**order * square ** (0.5 - order))
+        factor = sign * prod((0.5 - i) * rate for i in range(order))
+        with np.errstate(divide="ignore", over="ignore"):
+            return np.asarray(factor * square ** (0.5 - order))
 
     def power(self, u: Array, length: float) -> Array:
         """Kinetic power d = b c at u, the same everywhere and finite where c is not."""
@@ -185,10 +185,18 @@ class PowerSegment(Segment, kind="power"):
     def power_candidates(self, length: float) -> Array:  # noqa: ARG002, D102
         return np.empty(0)
 
-    def square(self, length: float) -> float:  # noqa: D102
-        if self.b0 * self.b1 == 0.0:
-            return inf
-        return self._power(length) * log(self.b1 / self.b0)
+    def square(self, length: float, nu: int) -> float:  # noqa: D102
+        # with v = b², v' = q constant: the derivative of order nu is q^m v^(1/2-m) times a number, m = nu - 1
+        m, q = nu - 1, 2.0 * self._power(length)
+        start, end = self.b0 * self.b0, self.b1 * self.b1
+        if m > 0 and (q == 0.0 or start * end == 0.0):
+            return 0.0 if q == 0.0 else inf
+        if m == 0:
+            return 0.5 * length * (start + end)
+        factor = prod(0.5 - i for i in range(m)) ** 2 * q ** (2 * m - 1)
+        if m == 1:
+            return factor * log(end / start)
+        return factor * (end ** (2 - 2 * m) - start ** (2 - 2 * m)) / (2 - 2 * m)
 
     def _power(self, length: float) -> float:
         return 0.5 * (self.b1 - self.b0) * (self.b1 + self.b0) / length

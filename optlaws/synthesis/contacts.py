@@ -17,8 +17,10 @@ _SAME = 1e-6
 
 def settled(program: Program, state: ActiveSet) -> ActiveSet:
     """Drop the contact that pulls most, or put contacts that left the interval on its end; the same object if none."""
-    if np.any(state.multipliers < -_PULL * np.abs(state.multipliers).max(initial=0.0)):
-        return _without(state, int(np.argmin(state.multipliers)))
+    held = np.array([program.families[i].held for i in state.family], dtype=np.bool_)
+    pushing = np.where(held, 0.0, state.multipliers)
+    if np.any(pushing < -_PULL * np.abs(state.multipliers).max(initial=0.0)):
+        return _without(state, int(np.argmin(pushing)))
     low, high = np.array([program.families[i].domain for i in state.family]).reshape(-1, 2).T
     outside = (state.u < low) | (state.u > high)
     if outside.any():
@@ -45,6 +47,8 @@ def completed(program: Program, state: ActiveSet) -> ActiveSet:
     """
     better = state
     for i, family in enumerate(program.families):
+        if family.held:
+            continue
         u, s, residual = family.extremes(state.x)
         low, high = family.domain
         for j in np.flatnonzero(residual > VIOLATION * max(1.0, abs(family.room(state.x)))):

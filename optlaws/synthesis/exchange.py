@@ -43,7 +43,7 @@ def solve(
     `holds` may tell from x alone, and more quickly than the families do, whether every constraint holds.
     """
     if warm is not None:
-        optimum = _polished(program, warm, holds)
+        optimum = polished(program, warm, holds)
         if optimum is not None:
             return Outcome(optimum, 0, 0, "continued from a neighbour")
     points = _first_points(program)
@@ -60,14 +60,14 @@ def solve(
         status = answer.status
         if not np.isfinite(answer.x).all() or np.abs(answer.x).max() > _LOST:
             return Outcome(None, iterations, attempt, status)
-        optimum = _polished(program, _identified(program, points, answer), holds)
+        optimum = polished(program, _identified(program, points, answer), holds)
         if optimum is not None:
             return Outcome(optimum, iterations, attempt, status)
         points = [_exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
     return Outcome(None, iterations, _ROUNDS, status)
 
 
-def _polished(program: Program, start: ActiveSet, holds: Callable[[Array], bool] | None) -> ActiveSet | None:
+def polished(program: Program, start: ActiveSet, holds: Callable[[Array], bool] | None) -> ActiveSet | None:
     """Newton on a guess of the contacts, which is corrected a few times by what the answer says."""
     guess = start
     for _ in range(_CORRECTIONS):

@@ -1,4 +1,8 @@
-"""Lower bounds of peaks: rows can hold a peak down everywhere, but up only at a place, which has to be found."""
+"""Lower bounds of peaks: rows hold a peak down everywhere, but it is held up at one extremum, which moves.
+
+The optimum without the lower bound is continued: one extremum of the constant is held as an equation, first at the
+value that it has and then, step by step, at the bound. Each extremum leads to a candidate; the best one counts.
+"""
 
 from __future__ import annotations
 
@@ -6,31 +10,55 @@ from collections.abc import Callable
 from dataclasses import replace
 
 import numpy as np
+from numpy.typing import NDArray
 
+from optlaws.synthesis.active_set import ActiveSet
+from optlaws.synthesis.exchange import polished
 from optlaws.synthesis.functionals import FUNCTIONALS
 from optlaws.synthesis.programs import Model
-from optlaws.synthesis.rows import Family
+from optlaws.synthesis.rows import Family, Program
 
-_COARSE = 13
-_WIDTH = 1e-9
+Array = NDArray[np.float64]
 
-
-def forced(found: Model, name: str, low: float, k: float, sign: float) -> Model:
-    """The model with the further row: sign times b, c, d or j is at least `low` at k."""
-    zero = np.zeros(found.program.size)
-    (family,) = FUNCTIONALS[name].families(found.space, zero, 0.0)
-    u = float(family.u(np.array([k]))[0])
-    row: Family = replace(family, name=f"{name} at least", bound=-low, signs=(-sign,), domain=(u, u))
-    return replace(found, program=replace(found.program, families=(*found.program.families, row)))
+_FIRST_STEP = 0.25
+_LEAST_STEP = 1e-3
+_WORTHY = 0.2
 
 
-def best_place(worth: Callable[[float], float], ends: tuple[float, float]) -> float:
-    """Where `worth` is least: a coarse look, then a bounded search around the best place."""
-    from scipy.optimize import minimize_scalar
+def held_up(
+    found: Model, plain: ActiveSet, name: str, low: float, holds: Callable[[Array], bool]
+) -> list[ActiveSet]:
+    """Optima in which the constant `name` is held at `low` at one of its extrema, from the optimum without that."""
+    (family,) = FUNCTIONALS[name].families(found.space, np.zeros(found.program.size), 0.0)
+    held = replace(family, name=f"{name} at least", held=True)
+    u, s, height = family.extremes(plain.x)
+    inside = (u > family.domain[0]) & (u < family.domain[1])
+    candidates = np.flatnonzero(inside & (height > _WORTHY * height.max()))
+    led = (_continued(found.program, held, plain, (float(u[j]), float(s[j]), float(height[j])), low, holds) for j in candidates)
+    return [one for one in led if one is not None]
 
-    places = np.linspace(*ends, _COARSE)
-    values = [worth(float(k)) for k in places]
-    best = int(np.argmin(values))
-    around = (float(places[max(best - 1, 0)]), float(places[min(best + 1, _COARSE - 1)]))
-    found = minimize_scalar(worth, bounds=around, method="bounded", options={"xatol": _WIDTH})
-    return float(found.x) if found.fun < values[best] else float(places[best])
+
+def _continued(
+    program: Program,
+    held: Family,
+    plain: ActiveSet,
+    contact: tuple[float, float, float],
+    low: float,
+    holds: Callable[[Array], bool],
+) -> ActiveSet | None:
+    u, s, height = contact
+    state = plain.joined(len(program.families), u, s, free=True)
+    done, step = 0.0, _FIRST_STEP
+    while done < 1.0:
+        target = min(done + step, 1.0)
+        bound = height + target * (low - height)
+        pinned = replace(program, families=(*program.families, replace(held, bound=bound)))
+        moved = polished(pinned, state, holds)
+        if moved is None:
+            step /= 2.0
+            if step < _LEAST_STEP:
+                return None
+            continue
+        state, done = moved, target
+        step *= 1.5
+    return state

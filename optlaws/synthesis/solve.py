@@ -17,7 +17,8 @@ from optlaws.synthesis.bounding import certify, lower_bound
 from optlaws.synthesis.contacts import VIOLATION
 from optlaws.synthesis.exchange import Outcome, solve
 from optlaws.synthesis.failure import failure
-from optlaws.synthesis.forcing import best_place, forced
+from optlaws.synthesis.forcing import held_up
+from optlaws.synthesis.functionals import FUNCTIONALS
 from optlaws.synthesis.problem_limits import known_limit
 from optlaws.synthesis.problem import CONSTANTS, Problem
 from optlaws.synthesis.programs import Model, model
@@ -143,20 +144,21 @@ def _raised(problem: Problem, found: Model, plain: _Attempt) -> _Attempt:
     if not short:
         return plain
     name, low = next(iter(short.items()))
-    ends = (0.0, 0.5) if problem.symmetric else (0.0, 1.0)
+    optimum = plain.outcome.optimum
     tried: list[_Attempt] = []
-    for sign in (1.0, -1.0) if name != "B" else (1.0,):
-
-        def attempt(k: float, sign: float = sign) -> float:
-            one = _attempt(problem, forced(found, name, low, k, sign), None, None)
-            if one.law is not None and not shortfalls(problem, one.law):
-                tried.append(one)
-            return one.objective if one.law is not None else np.inf
-
-        attempt(best_place(attempt, ends))
+    for held in held_up(found, optimum, name, low, lambda _: False) if optimum is not None else []:
+        law = found.space.law(held.x[: found.space.terms])
+        measured = worth(problem, law)
+        if measured.excess <= 10.0 * VIOLATION and not shortfalls(problem, law):
+            outcome = replace(plain.outcome, optimum=held)
+            tried.append(_Attempt(outcome, law, measured.objective, measured.excess))
     if not tried:
-        asked = f"{name} at least {low:g}"
-        raise SolverFailure(f"no law with {asked} was found", problem=problem, tried=f"{asked} at places over {ends}")
+        raise SolverFailure(
+            f"no law with {name} at least {low:g} was found; without that, its {name} is "
+            f"{FUNCTIONALS[name].value(plain.law):.7g}",
+            problem=problem,
+            tried="every extremum was held up, step by step",
+        )
     return min(tried, key=lambda one: one.objective)
 
 

@@ -1,8 +1,13 @@
 """Example laws of every representation; the contract suite holds each of them to what a law must do."""
 
+import itertools
+
 import numpy as np
 
 from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
+from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments import PolynomialSegment, PowerSegment, Segment
+from optlaws.laws.sines import SineSegment
 
 
 def random_law(seed: int, count: int, decay: float = 1.0, b0: float = 0.0) -> PolynomialLaw:
@@ -27,6 +32,45 @@ def free_function_law(seed: int, order: int, terms: int) -> PolynomialLaw:
     )
 
 
+def cut(law: PolynomialLaw, *breaks: float) -> PiecewiseLaw:
+    """The same law in pieces: c interpolated exactly on each of them."""
+    places = [0.0, *breaks, 1.0]
+    segments: list[Segment] = []
+    for start, end in itertools.pairwise(places):
+
+        def c(x: np.ndarray, start: float = start, length: float = end - start) -> np.ndarray:
+            return law.c(start + 0.5 * length * (x + 1.0))
+
+        series = np.polynomial.Chebyshev.interpolate(c, max(law.degree - 2, 0), [-1, 1]).coef
+        segments.append(PolynomialSegment(tuple(series.tolist()), law.b(start)))
+    return PiecewiseLaw(places, segments, law.a0)
+
+
+def cut_sine(*breaks: float, powers: tuple[float, float, float] = (0.0, 0.0, 0.0), turns: int = 1) -> PiecewiseLaw:
+    """c = p0 + p1 k + p2 k² + 2 pi sin(2 pi turns k) in pieces; the cycloid by default."""
+    w = 2 * np.pi * turns
+    p0, p1, p2 = powers
+    places = [0.0, *breaks, 1.0]
+    segments = [
+        SineSegment(
+            amplitude=2 * np.pi,
+            frequency=w,
+            phase=w * k,
+            b0=p0 * k + p1 * k**2 / 2 + p2 * k**3 / 3 + 4 * np.pi / w * np.sin(w * k / 2) ** 2,
+            powers=(p0 + p1 * k + p2 * k * k, p1 + 2 * p2 * k, p2),
+        )
+        for k in places[:-1]
+    ]
+    return PiecewiseLaw(places, segments)
+
+
+def cut_power(first: float, last: float, *breaks: float) -> PiecewiseLaw:
+    """Constant power from one velocity to another, in pieces."""
+    places = [0.0, *breaks, 1.0]
+    b = [np.sign(first + last) * (first**2 + (last**2 - first**2) * k) ** 0.5 for k in places]
+    return PiecewiseLaw(places, [PowerSegment(*pair) for pair in itertools.pairwise(b)], 0.25)
+
+
 EXAMPLES: dict[str, MotionLaw] = {
     "uniform velocity": smoothstep(1),
     "rest": PolynomialLaw([]),
@@ -38,4 +82,12 @@ EXAMPLES: dict[str, MotionLaw] = {
     "random, degree 9": random_law(1, 8, b0=0.5),
     "random, degree 61": random_law(2, 60, 0.9),
     "Z of degree 5": free_function_law(3, 4, 6),
+    "S_4 in three pieces": cut(smoothstep(4), 0.2, 0.55),
+    "a random law in two pieces": cut(random_law(5, 7, b0=-1.0), 0.37),
+    "a piece of uniform velocity": PiecewiseLaw([0, 1], [PolynomialSegment((), 1.0)]),
+    "cycloid": cut_sine(),
+    "cycloid in two pieces": cut_sine(0.3),
+    "sine on a parabola, three pieces": cut_sine(0.25, 0.625, powers=(1.0, -3.0, 2.0), turns=3),
+    "rising power": cut_power(0.8, 1.6, 0.4),
+    "falling power backwards": cut_power(-1.6, -1.1),
 }

@@ -71,9 +71,7 @@ def test_errors_print_the_problem_so_that_it_can_be_run_again() -> None:
     assert str(SolverFailure("no answer")) == "no answer"
 
 
-@pytest.mark.parametrize(
-    "error", [InputError("x"), InfeasibleProblem("x", problem=1), SolverFailure("x", tried="y")]
-)
+@pytest.mark.parametrize("error", [InputError("x"), InfeasibleProblem("x", problem=1), SolverFailure("x", tried="y")])
 def test_errors_survive_other_processes(error: OptlawsError) -> None:
     back = pickle.loads(pickle.dumps(error))  # noqa: S301
     assert (type(back), str(back), back.__dict__) == (type(error), str(error), error.__dict__)

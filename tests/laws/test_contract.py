@@ -33,9 +33,7 @@ def size(law: MotionLaw, nu: int) -> float:
 @every_order
 @pytest.mark.parametrize("end", [0.1, 0.5, 0.83, 1.0])
 def test_each_derivative_integrates_the_next(law: MotionLaw, nu: int, end: float) -> None:
-    assert law(end, nu) - law(0.0, nu) == pytest.approx(
-        integral(law, nu + 1, end), abs=1e-12 * size(law, nu + 1)
-    )
+    assert law(end, nu) - law(0.0, nu) == pytest.approx(integral(law, nu + 1, end), abs=1e-12 * size(law, nu + 1))
 
 
 @every_law
@@ -166,9 +164,7 @@ def test_values_have_the_shape_of_k(law: MotionLaw) -> None:
 
 
 @every_law
-@pytest.mark.parametrize(
-    "k", [-1e-9, 1.0000001, np.nan, np.inf, "0.5", None, 0.5j, [0.2, 1.5], [[0.1], [0.1, 0.2]]]
-)
+@pytest.mark.parametrize("k", [-1e-9, 1.0000001, np.nan, np.inf, "0.5", None, 0.5j, [0.2, 1.5], [[0.1], [0.1, 0.2]]])
 def test_k_outside_the_interval_is_refused(law: MotionLaw, k: Any) -> None:  # noqa: ANN401
     for call in (law, law.a, law.b, law.c, law.j, law.d):
         with pytest.raises(InputError, match="k must be"):

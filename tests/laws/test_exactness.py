@@ -45,9 +45,7 @@ class Exact:
         return total
 
     def peak(self, nu: int, samples: NDArray[np.float64]) -> mpf:
-        return self._highest(
-            samples, lambda k: self(k, nu), lambda k: self(k, nu + 1), lambda k: self(k, nu + 2)
-        )
+        return self._highest(samples, lambda k: self(k, nu), lambda k: self(k, nu + 1), lambda k: self(k, nu + 2))
 
     def power_peak(self, samples: NDArray[np.float64]) -> mpf:
         def value(k: mpf) -> mpf:
@@ -71,9 +69,7 @@ class Exact:
         best = max(abs(value(mpf(0))), abs(value(mpf(1))))
         size = np.abs(samples)
         inner = size[1:-1]
-        tops = 1 + np.flatnonzero(
-            (inner >= size[:-2]) & (inner >= size[2:]) & (inner >= size.max() * (1 - 1e-5))
-        )
+        tops = 1 + np.flatnonzero((inner >= size[:-2]) & (inner >= size[2:]) & (inner >= size.max() * (1 - 1e-5)))
         for k in DENSE[tops[:: max(1, len(tops) // 20)]]:
             place = mpf(float(k))
             for _ in range(7):

@@ -62,9 +62,7 @@ def test_smoothsteps_are_rounded_once(order: int) -> None:
     assert sum(powers) == 1
 
 
-@pytest.mark.parametrize(
-    "law", [smoothstep(30), smoothstep(9), PolynomialLaw(np.linspace(-1, 2, 58), 0.1, 0.3)]
-)
+@pytest.mark.parametrize("law", [smoothstep(30), smoothstep(9), PolynomialLaw(np.linspace(-1, 2, 58), 0.1, 0.3)])
 def test_exact_powers_give_back_the_same_law(law: PolynomialLaw) -> None:
     assert PolynomialLaw.from_powers(law.exact_powers()) == law
 

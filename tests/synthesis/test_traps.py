@@ -66,7 +66,7 @@ def test_stopping_at_an_acceptable_level_is_no_success(monkeypatch: pytest.Monke
         def stats(self) -> dict[str, object]:
             return {"success": True, "return_status": "Solved_To_Acceptable_Level", "iter_count": 3}
 
-    monkeypatch.setattr(transcription, "_solver", lambda *_: Acceptable())
+    monkeypatch.setattr(transcription, "_solver", lambda *_, **__: Acceptable())
     answer = transcription.solve_rows(np.ones((3, 2)), np.ones(3), 1, np.array([0.0, 1.0]))
     assert not answer.success
     assert answer.status == "Solved_To_Acceptable_Level"

@@ -1,0 +1,272 @@
+"""Piecewise laws: joints, jumps and infinite peaks, exact values of each kind of segment, storage."""
+
+import itertools
+import json
+from dataclasses import dataclass
+from math import inf, log, nan, pi, sqrt
+from typing import Any
+
+import mpmath  # type: ignore[import-untyped]
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw, Peak, smoothstep
+from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments import PolynomialSegment, PowerSegment, Segment
+from optlaws.laws.sines import SineSegment
+from tests.laws.examples import cut, cut_power, cut_sine
+
+Array = NDArray[np.float64]
+K = np.linspace(0.0, 1.0, 501)
+
+# constant acceleration 4, then deceleration -4
+TWO_STEPS = PiecewiseLaw([0, 0.5, 1], [PolynomialSegment((4.0,)), PolynomialSegment((-4.0,), 2.0)])
+# constant power up and down: b = 1.5 sqrt(2k)
+TWO_POWERS = PiecewiseLaw([0, 0.5, 1], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)])
+
+
+@pytest.mark.parametrize("breaks", [(0.2,), (0.1, 0.5, 0.93), (1e-6,), (1 - 1e-6,)])
+@pytest.mark.parametrize("order", [2, 3, 5])
+def test_a_law_in_pieces_is_the_law(order: int, breaks: tuple[float, ...]) -> None:
+    law = smoothstep(order)
+    pieces = cut(law, *breaks)
+    for nu in range(3):
+        assert np.abs(pieces(K, nu) - law(K, nu)).max() <= 1e-13 * law.peak(nu).value
+    mine, whole = pieces.constants, law.constants
+    for name in "BCD":
+        assert getattr(mine, name).value == pytest.approx(getattr(whole, name).value, rel=1e-12)
+    assert mine.rms_c == pytest.approx(whole.rms_c, rel=1e-12)
+
+
+def test_the_cycloid_has_its_known_constants() -> None:
+    for law in (cut_sine(), cut_sine(0.1, 0.7)):
+        one = law.constants
+        assert law.a(1.0) == pytest.approx(1.0, abs=1e-14)
+        assert one.B.value == pytest.approx(2.0, rel=1e-14)
+        assert one.C.value == pytest.approx(2 * pi, rel=1e-14)
+        assert one.J.value == pytest.approx(4 * pi**2, rel=1e-14)
+        assert one.D.value == pytest.approx(2 * pi * 1.5 * sqrt(3) / 2, rel=1e-14)
+        assert one.D.k == pytest.approx(1 / 3, abs=1e-12)
+        assert one.rms_c == pytest.approx(2 * pi / sqrt(2), rel=1e-14)
+
+
+def test_a_fast_sine_is_resolved() -> None:
+    law = PiecewiseLaw([0, 1], [SineSegment(1.0, 500.0, 0.3, powers=(0.0, 0.5))])
+    k = np.linspace(0.0, 1.0, 1_000_001)
+    for nu in range(4):
+        sampled = np.abs(law(k, nu)).max()
+        assert sampled * (1 - 1e-14) <= law.peak(nu).value <= sampled * (1 + 1e-6)
+    sampled = np.abs(law.d(k)).max()
+    assert sampled * (1 - 1e-14) <= law.power_peak().value <= sampled * (1 + 1e-6)
+
+
+@pytest.mark.parametrize("nu", range(6))
+@pytest.mark.parametrize("k", [0.0, 0.21, 0.4, 0.8])
+def test_segments_have_the_derivatives_of_their_formulas(nu: int, k: float) -> None:
+    # the law's start is k = 0, so that local and global time agree
+    cases: list[tuple[Segment, Any]] = [
+        (PowerSegment(0.5, 1.5), lambda t: mpmath.sqrt(mpmath.mpf(1) / 4 + 2 * t)),
+        (PowerSegment(-1.5, -0.5), lambda t: -mpmath.sqrt(mpmath.mpf(9) / 4 - 2 * t)),
+        (
+            SineSegment(3.0, 2.5, 0.75, 0.125, (1.0, -2.0, 4.0)),
+            lambda t: (
+                mpmath.mpf(0.125)
+                + t
+                - t**2
+                + mpmath.mpf(4) / 3 * t**3
+                + mpmath.mpf(6)
+                / 5
+                * (mpmath.cos(mpmath.mpf(0.75)) - mpmath.cos(mpmath.mpf(2.5) * t + mpmath.mpf(0.75)))
+            ),
+        ),
+    ]
+    for segment, b in cases:
+        with mpmath.workdps(30):
+            exact = float(mpmath.quad(b, [0, k]) if nu == 0 else mpmath.diff(b, mpmath.mpf(k), nu - 1))
+        assert PiecewiseLaw([0, 1], [segment])(k, nu) == pytest.approx(exact, rel=1e-13, abs=1e-14)
+
+
+def test_values_at_a_break_are_right_hand_values_and_left_hand_at_the_end() -> None:
+    assert TWO_STEPS.c([0.0, 0.5 - 1e-12, 0.5, 1.0]).tolist() == [4.0, 4.0, -4.0, -4.0]
+    assert TWO_STEPS.b(0.5) == 2.0
+    assert TWO_STEPS.d([0.5 - 1e-15, 0.5]) == pytest.approx([8.0, -8.0])
+
+
+def test_peaks_look_at_both_sides_of_a_break() -> None:
+    law = PiecewiseLaw([0, 0.5, 1], [PolynomialSegment((1.0, 5.0)), PolynomialSegment((2.0, -1.0), 0.5)])
+    assert law.c(0.5) == 3.0
+    assert law.peak(2) == Peak(6.0, 0.5)
+    assert TWO_STEPS.power_peak() == Peak(8.0, 0.5)
+    assert TWO_STEPS.extrema(2) == (Peak(-4.0, 0.5), Peak(4.0, 0.0))
+
+
+def test_a_jump_makes_the_next_derivatives_infinite_where_it_is() -> None:
+    assert TWO_STEPS.jumps(2) == ((0.5, -8.0),)
+    assert [TWO_STEPS.jumps(nu) for nu in (0, 1, 3)] == [()] * 3
+    assert TWO_STEPS.peak(3) == TWO_STEPS.peak(4) == Peak(inf, 0.5)
+    # an impulse downwards; its derivative goes both ways
+    assert TWO_STEPS.extrema(3) == (Peak(-inf, 0.5), Peak(0.0, 0.0))
+    assert TWO_STEPS.extrema(4) == (Peak(-inf, 0.5), Peak(inf, 0.5))
+    assert TWO_STEPS.constants.rms_c == 4.0
+
+
+def test_a_jump_of_velocity_makes_c_d_and_rms_infinite() -> None:
+    law = PiecewiseLaw([0, 0.25, 0.75, 1], [PolynomialSegment((), b) for b in (0.5, 1.5, 0.5)])
+    assert law.a(1.0) == 1.0
+    assert law.jumps(1) == ((0.25, 1.0), (0.75, -1.0))
+    assert law.continuity == 0
+    one = law.constants
+    assert (Peak(1.5, 0.25), Peak(inf, 0.25), Peak(inf, 0.25), Peak(inf, 0.25)) == (one.B, one.C, one.D, one.J)
+    assert one.rms_c == inf
+    assert law.extrema(2) == (Peak(-inf, 0.75), Peak(inf, 0.25))
+
+
+def test_constant_power_from_rest() -> None:
+    one = TWO_POWERS.constants
+    assert Peak(2.25, 0.0) == one.D
+    assert one.C == one.J == Peak(inf, 0.0)
+    assert Peak(1.5, 0.5) == one.B
+    assert one.rms_c == inf
+    assert TWO_POWERS.d(K) == pytest.approx([2.25] * 250 + [-2.25] * 251, rel=1e-14)
+    assert TWO_POWERS.b(K[:251]) == pytest.approx(1.5 * np.sqrt(2 * K[:251]), abs=1e-15)
+    assert TWO_POWERS([0.0, 1.0], 2).tolist() == [inf, -inf]
+    assert TWO_POWERS.a([0.0, 0.5, 1.0]).tolist() == [0.0, 0.5, 1.0]
+    assert TWO_POWERS.continuity == 1
+    assert TWO_POWERS.jumps(2) == ((0.5, -3.0),)
+    assert "nan" not in TWO_POWERS._repr_html_()
+
+
+def test_a_vertical_tangent_inside_is_no_jump() -> None:
+    law = PiecewiseLaw([0, 0.5, 1], [PowerSegment(-1.0, 0.0), PowerSegment(0.0, 1.0)])
+    assert law.jumps(2) == ()
+    assert law.continuity == 1
+    assert law.peak(2) == Peak(inf, 0.5)
+    assert law.extrema(2)[0] == Peak(1.0, 0.0)
+    assert law.d(K) == pytest.approx([-1.0] * 250 + [1.0] * 251, rel=1e-14)
+    assert law.d(0.5) == 1.0
+
+
+def test_rms_of_constant_power() -> None:
+    assert cut_power(0.5, 2.0, 0.3).constants.rms_c == pytest.approx(sqrt(1.875 * log(4.0)), rel=1e-14)
+    assert PiecewiseLaw([0, 1], [PowerSegment(1.0, 1.0)]).constants.rms_c == 0.0
+
+
+@pytest.mark.parametrize(
+    ("law", "continuity"),
+    [
+        (PiecewiseLaw([0, 1], [PolynomialSegment((), 1.0)]), 9),
+        (cut(smoothstep(4), 0.3), 9),
+        (cut_sine(0.4), 9),
+        (TWO_STEPS, 1),
+        # jerk 32, -32, -32, 32
+        (
+            PiecewiseLaw(
+                [0, 0.25, 0.75, 1],
+                [
+                    PolynomialSegment((4.0, 4.0)),
+                    PolynomialSegment((0.0, -8.0), 1.0),
+                    PolynomialSegment((-4.0, 4.0), 1.0),
+                ],
+            ),
+            2,
+        ),
+    ],
+)
+def test_continuity(law: PiecewiseLaw, continuity: int) -> None:
+    assert law.continuity == continuity
+    assert law.a(1.0) == pytest.approx(1.0, abs=1e-14)
+
+
+def test_dicts_name_the_kinds_and_give_equal_laws() -> None:
+    law = PiecewiseLaw(
+        [0, 0.1, 1 / 3, 1], [PowerSegment(0, 1), SineSegment(1, 2, 3, 4, (5,)), PolynomialSegment((0.1, 0.2))], 0.7
+    )
+    back = MotionLaw.from_json(law.to_json())
+    assert back == law
+    assert hash(back) == hash(law)
+    assert json.loads(law.to_json())["segments"][0] == {"kind": "power", "b0": 0.0, "b1": 1.0}
+    assert PiecewiseLaw.from_dict(law.to_dict()) == law
+
+
+def test_a_new_kind_of_segment_is_one_class() -> None:
+    @dataclass(frozen=True)
+    class Exponential(Segment, kind="exponential"):
+        rate: float
+
+        def __post_init__(self) -> None:
+            self._check()
+
+        def derivative(self, u: Array, length: float, nu: int) -> Array:
+            return self.rate**nu * np.exp(self.rate * u * length) - (nu == 0)
+
+        def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002
+            return np.empty(0)
+
+        def power_candidates(self, length: float) -> Array:  # noqa: ARG002
+            return np.empty(0)
+
+        def square(self, length: float) -> float:
+            return self.rate**3 * float(np.expm1(2 * self.rate * length)) / 2
+
+    try:
+        law = PiecewiseLaw([0, 0.5, 1], [Exponential(1.0), PolynomialSegment((), float(np.exp(0.5)))])
+        assert MotionLaw.from_dict(law.to_dict()) == law
+        assert law.jumps(2)[0][1] == pytest.approx(-np.exp(0.5))
+        assert law.constants.C.value == pytest.approx(np.exp(0.5))
+    finally:
+        del Segment.kinds["exponential"]
+
+
+@pytest.mark.parametrize(
+    "breaks", [[0], [], [0, 0.5], [0.1, 1], [0, 0.5, 0.5, 1], [0, 0.7, 0.3, 1], [0, nan, 1], ["0", 1], None]
+)
+def test_wrong_breaks_are_refused(breaks: Any) -> None:  # noqa: ANN401
+    with pytest.raises(InputError, match="breaks"):
+        PiecewiseLaw(breaks, [PolynomialSegment(())] * 2)
+
+
+@pytest.mark.parametrize("segments", [[], [PolynomialSegment(())], [1, 2], None, [PolynomialSegment] * 2])
+def test_wrong_segments_are_refused(segments: Any) -> None:  # noqa: ANN401
+    with pytest.raises(InputError, match="segments must be 2 segments"):
+        PiecewiseLaw([0, 0.5, 1], segments)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: PowerSegment(0.0, 0.0), "power segment"),
+        (lambda: PowerSegment(-1.0, 1.0), "power segment"),
+        (lambda: PowerSegment(inf, 1.0), "b0"),
+        (lambda: SineSegment(1.0, 0.0), "frequency > 0"),
+        (lambda: SineSegment(1.0, 1.0, powers=(1.0, 2.0, 3.0, 4.0)), "three powers"),
+        (lambda: SineSegment(nan, 1.0), "amplitude"),
+        (lambda: PolynomialSegment((1.0, nan)), "acceleration"),
+        (lambda: PolynomialSegment("12"), "acceleration"),  # type: ignore[arg-type]
+        (lambda: Segment.from_dict({"kind": "spline"}), "kind of segment 'spline' is unknown; known are .*sine"),
+        (lambda: Segment.from_dict({"kind": "power", "b0": 1.0, "b2": 1.0}), "'b2' is unknown, 'b1' is missing"),
+        (lambda: Segment.from_dict([]), "a segment must be a dict"),  # type: ignore[arg-type]
+        (lambda: PiecewiseLaw.from_dict({"format": 1, "kind": "piecewise", "breaks": [0, 1]}), "'segments' is missing"),
+        (lambda: PiecewiseLaw.from_dict(TWO_STEPS.to_dict() | {"segments": 1}), "segments must be a list"),
+        (lambda: PiecewiseLaw([0, 1], [PowerSegment(1, 1)], nan), "a0"),
+    ],
+)
+def test_wrong_contents_are_refused(make: Any, message: str) -> None:  # noqa: ANN401
+    with pytest.raises(InputError, match=message):
+        make()
+
+
+def test_every_combination_of_segments_joins() -> None:
+    kinds = [
+        PolynomialSegment((1.0,), 0.5),
+        SineSegment(1.0, 4.0, 0.1, 0.5),
+        PowerSegment(0.5, 1.0),
+        PowerSegment(0.5, 0.0),
+    ]
+    for pair in itertools.product(kinds, repeat=2):
+        law = PiecewiseLaw([0, 0.4, 1], pair)
+        assert law.a(0.4) == pytest.approx(law.a(0.4 - 1e-12), abs=1e-11)
+        for nu in range(4):
+            finite = law(K, nu)
+            assert law.peak(nu).value >= np.abs(finite).max() * (1 - 1e-14)
