@@ -76,7 +76,7 @@ def solve(
     peak_velocity: float,
     order: Whole,
     degree: Whole,
-    minimise: Literal["C"] = "C",
+    minimise: str = "C",
     basis_name: Annotated[Literal["powers", "chebyshev"], Parameter(name="--basis")] = "powers",
     monotone: bool = False,
     as_json: Annotated[bool, Parameter(name="--json")] = False,
@@ -93,7 +93,7 @@ def solve(
     degree
         Degree of Z(k).
     minimise
-        The constant to minimise.
+        What to minimise: C, D, J, rms_c, ... or a sum or maximum such as "0.6*C/4 + 0.4*D/2.25".
     basis_name
         Basis of Z(k).
     monotone

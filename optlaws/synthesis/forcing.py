@@ -33,21 +33,21 @@ def held_up(
     held = replace(family, name=f"{name} at least", held=True)
     u, s, height = family.extremes(plain.x)
     inside = (u > family.domain[0]) & (u < family.domain[1])
-    candidates = np.flatnonzero(inside & (height > _WORTHY * height.max()))
-    led = (_continued(found.program, held, plain, (float(u[j]), float(s[j]), float(height[j])), low, holds) for j in candidates)
+    led = []
+    for j in np.flatnonzero(height > _WORTHY * height.max()):
+        start = plain.joined(len(found.program.families), float(u[j]), float(s[j]), free=bool(inside[j]))
+        led.append(_continued(found.program, held, start, float(height[j]), low, holds))
     return [one for one in led if one is not None]
 
 
 def _continued(
     program: Program,
     held: Family,
-    plain: ActiveSet,
-    contact: tuple[float, float, float],
+    state: ActiveSet,
+    height: float,
     low: float,
     holds: Callable[[Array], bool],
 ) -> ActiveSet | None:
-    u, s, height = contact
-    state = plain.joined(len(program.families), u, s, free=True)
     done, step = 0.0, _FIRST_STEP
     while done < 1.0:
         target = min(done + step, 1.0)
