@@ -196,7 +196,7 @@ def _show_solution(solution: Solution) -> None:
     console = Console()
     table = Table(show_header=False, box=None, pad_edge=False)
     table.add_row("status", f"{solution.status.value}: {solution.status.advice}")
-    table.add_row(solution.problem.minimise, f"{solution.objective:.10g}")
+    table.add_row(str(solution.problem.minimise), f"{solution.objective:.10g}")
     table.add_row("lower bound", f"{solution.lower_bound:.10g} (gap {solution.gap:.1e})")
     table.add_row("limit", f"{solution.limit:.10g}, which no law of any degree can beat")
     table.add_row("Z(k)", " ".join(f"{value:.9g}" for value in solution.z) + f"  ({solution.problem.basis.name})")

@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.laws import chebyshev, series
+from optlaws.laws import chebyshev
 from optlaws.laws.polynomial import PolynomialLaw
 
 Array = NDArray[np.float64]

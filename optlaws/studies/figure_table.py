@@ -63,10 +63,10 @@ def _optima(axes: Axes, curves: Curves) -> None:
     for (degree, found), shade in zip(curves.items(), plotting.BLUES[-len(curves) :], strict=True):
         line = [s.objective for s in found]
         label = "optimal, by degree of Z(k)" if degree == max(curves) else None
-        axes.plot([s.problem.B for s in found], line, color=shade, label=label)
+        axes.plot([s.constants.B.value for s in found], line, color=shade, label=label)
         axes.annotate(
             f"{degree}",
-            (found[-1].problem.B, line[-1]),
+            (found[-1].constants.B.value, line[-1]),
             xytext=(5, 0),
             textcoords="offset points",
             color=shade,

@@ -159,8 +159,9 @@ def _by_velocity(spec: Table, degree: int, values: Sequence[float]) -> dict[floa
     if degree in spec.figure.degrees:
         wanted |= set(np.linspace(spec.figure.start, spec.figure.stop, spec.figure.points).tolist())
     basis = Chebyshev(degree)
-    problems = [Problem(B=B, order=spec.order, basis=basis, monotone=spec.monotone) for B in sorted(wanted)]
-    return {solution.problem.B: solution for solution in sweep(problems)}
+    ordered = sorted(wanted)
+    problems = [Problem(B=B, order=spec.order, basis=basis, monotone=spec.monotone) for B in ordered]
+    return dict(zip(ordered, sweep(problems), strict=True))
 
 
 def _same_shape(spec: Table, line: Mapping[str, str], B: float, found: Mapping[int, Solution]) -> Solution:

@@ -35,9 +35,7 @@ def certify(problem: Problem, found: Model, optimum: ActiveSet, objective: float
     return best if best is not None else Certificate(problem, (), (), RELAXED, tangent)
 
 
-def certificate(
-    problem: Problem, found: Model, optimum: ActiveSet, program: str, tangent: float = 0.0
-) -> Certificate:
+def certificate(problem: Problem, found: Model, optimum: ActiveSet, program: str, tangent: float = 0.0) -> Certificate:
     """Contacts and multipliers of an optimum in terms of k."""
     contacts = []
     for i, family in enumerate(found.program.families):

@@ -25,8 +25,7 @@ class Range:
 
     def __post_init__(self) -> None:
         for value in (self.low, self.high):
-            if isinstance(value, bool) or not isinstance(value, Real) or not value >= 0.0:
-                raise InputError(f"bounds must be numbers of at least 0, got {value!r}")
+            _check(value)
         if not isfinite(self.low) or self.low > self.high:
             raise InputError(f"the lower bound {self.low!r} must be finite and at most the upper one, {self.high!r}")
 
@@ -34,6 +33,11 @@ class Range:
     def fixed(self) -> bool:
         """Whether the constant has one value."""
         return self.low == self.high
+
+
+def _check(value: Any) -> None:  # noqa: ANN401 - it is checked here
+    if isinstance(value, bool) or not isinstance(value, Real) or not float(value) >= 0.0:
+        raise InputError(f"bounds must be numbers of at least 0, got {value!r}")
 
 
 def between(low: float, high: float) -> Range:

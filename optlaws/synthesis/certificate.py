@@ -171,7 +171,10 @@ def _charge(found: Model, certificate: Certificate, slope: Array, claim: float) 
         if slope[place] < 0.0:
             beyond += -slope[place] * greatest.get(name, inf)
     return beyond + min(
-        (mean * np.abs(_extension(found.space, nu) @ slope[:terms]).sum() for nu, mean in _means(certificate, found.space, greatest)),
+        (
+            mean * np.abs(_extension(found.space, nu) @ slope[:terms]).sum()
+            for nu, mean in _means(certificate, found.space, greatest)
+        ),
         default=0.0 if not slope[:terms].any() else inf,
     )
 
@@ -222,13 +225,16 @@ def _means(certificate: Certificate, space: PolynomialSpace, greatest: dict[str,
     for nu, mean in means:
         if isfinite(mean):
             least[nu] = min(least.get(nu, inf), mean)
-    return [(nu, mean + float(space.cached(("RMS", nu), lambda nu=nu: _base_rms(space, nu))[0])) for nu, mean in least.items()]
+    return [(nu, mean + _base_rms(space, nu)) for nu, mean in least.items()]
 
 
-def _base_rms(space: PolynomialSpace, nu: int) -> Array:
-    series = space.series(nu)[:, -1]
-    u, weights = legendre.leggauss(len(series) + 1)
-    return np.sqrt(np.array([weights @ chebyshev.chebval(u, series) ** 2 / 2.0]))
+def _base_rms(space: PolynomialSpace, nu: int) -> float:
+    def computed() -> Array:
+        series = space.series(nu)[:, -1]
+        u, weights = legendre.leggauss(len(series) + 1)
+        return np.sqrt(np.array([weights @ chebyshev.chebval(u, series) ** 2 / 2.0], dtype=np.float64))
+
+    return float(space.cached(("RMS", nu), computed)[0])
 
 
 def _extension(space: PolynomialSpace, nu: int) -> Array:

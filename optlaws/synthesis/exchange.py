@@ -9,7 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.active_set import ActiveSet, newton
-from optlaws.synthesis.contacts import VIOLATION, completed, settled
+from optlaws.synthesis.contacts import completed, settled
 from optlaws.synthesis.rows import EvenFamily, Family, Points, Program
 from optlaws.synthesis.transcription import Answer, solve_on_points
 

@@ -58,7 +58,7 @@ class Expression:
     def __post_init__(self) -> None:
         gathered: dict[Term, float] = {}
         for weight, term in self.terms:
-            if not isinstance(weight, Real) or not isfinite(weight) or weight <= 0.0:
+            if not _number(weight) or not isfinite(weight) or weight <= 0.0:
                 raise InputError(f"weights in an objective must be finite numbers above 0, got {weight!r} for {term!r}")
             gathered[term] = gathered.get(term, 0.0) + float(weight)
         object.__setattr__(self, "terms", tuple((weight, term) for term, weight in gathered.items()))
@@ -77,14 +77,14 @@ class Expression:
         return Expression(self.terms + other.expression().terms)
 
     def __mul__(self, factor: float) -> Expression:
-        if isinstance(factor, bool) or not isinstance(factor, Real):
+        if not _number(factor):
             return NotImplemented
         return Expression(tuple((weight * float(factor), term) for weight, term in self.terms))
 
     __rmul__ = __mul__
 
     def __truediv__(self, divisor: float) -> Expression:
-        if isinstance(divisor, bool) or not isinstance(divisor, Real):
+        if not _number(divisor):
             return NotImplemented
         if divisor == 0:
             raise InputError("an objective cannot be divided by 0")
@@ -92,6 +92,10 @@ class Expression:
 
     def __repr__(self) -> str:
         return " + ".join(repr(t) if w == 1.0 else f"{w!r}*{t!r}" for w, t in self.terms)
+
+
+def _number(value: object) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)
 
 
 @dataclass(frozen=True, repr=False)

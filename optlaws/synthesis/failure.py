@@ -9,7 +9,7 @@ from optlaws.synthesis.bounding import violation_certificate
 from optlaws.synthesis.certificate import Certificate
 from optlaws.synthesis.exchange import Outcome, solve
 from optlaws.synthesis.problem import Problem
-from optlaws.synthesis.programs import Model, extreme_velocity, least_violation
+from optlaws.synthesis.programs import extreme_velocity, least_violation
 
 _TEXT = {
     "chord": "b <= B",
@@ -22,7 +22,7 @@ _TEXT = {
 }
 
 
-def failure(problem: Problem, found: Model, outcome: Outcome) -> InfeasibleProblem | SolverFailure:
+def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFailure:
     """The error to raise; an elastic phase tells which constraints contradict each other."""
     tried = f"IPOPT said {outcome.status!r} after {outcome.iterations} iterations, {outcome.rounds} rounds of exchange"
     elastic = least_violation(problem)

@@ -25,9 +25,7 @@ _LEAST_STEP = 1e-3
 _WORTHY = 0.2
 
 
-def held_up(
-    found: Model, plain: ActiveSet, name: str, low: float, holds: Callable[[Array], bool]
-) -> list[ActiveSet]:
+def held_up(found: Model, plain: ActiveSet, name: str, low: float, holds: Callable[[Array], bool]) -> list[ActiveSet]:
     """Optima in which the constant `name` is held at `low` at one of its extrema, from the optimum without that."""
     (family,) = FUNCTIONALS[name].families(found.space, np.zeros(found.program.size), 0.0)
     held = replace(family, name=f"{name} at least", held=True)
@@ -36,18 +34,14 @@ def held_up(
     led = []
     for j in np.flatnonzero(height > _WORTHY * height.max()):
         start = plain.joined(len(found.program.families), float(u[j]), float(s[j]), free=bool(inside[j]))
-        led.append(_continued(found.program, held, start, float(height[j]), low, holds))
+        led.append(_continued(found.program, held, start, (float(height[j]), low), holds))
     return [one for one in led if one is not None]
 
 
 def _continued(
-    program: Program,
-    held: Family,
-    state: ActiveSet,
-    height: float,
-    low: float,
-    holds: Callable[[Array], bool],
+    program: Program, held: Family, state: ActiveSet, heights: tuple[float, float], holds: Callable[[Array], bool]
 ) -> ActiveSet | None:
+    height, low = heights
     done, step = 0.0, _FIRST_STEP
     while done < 1.0:
         target = min(done + step, 1.0)

@@ -7,7 +7,6 @@ One more constant is one class: say how it reads off a law (`value`), which rows
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable
 from dataclasses import dataclass
 from typing import TYPE_CHECKING
 

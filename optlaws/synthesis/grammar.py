@@ -1,8 +1,8 @@
 """The small grammar of objectives written as text. Nothing is ever evaluated as Python.
 
-    sum     = product { "+" product }
-    product = factor { ("*" | "/") factor }
-    factor  = number | name | "max" "(" sum { "," sum } ")" | "(" sum ")"
+sum     = product { "+" product }
+product = factor { ("*" | "/") factor }
+factor  = number | name | "max" "(" sum { "," sum } ")" | "(" sum ")"
 """
 
 from __future__ import annotations
@@ -16,7 +16,9 @@ from optlaws.errors import InputError
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.expression import Expression, Term, maximum
 
-_TOKEN = re.compile(r"\s*(?:(?P<number>\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)|(?P<sign>[-+*/(),]))")
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)|(?P<sign>[-+*/(),]))"
+)
 
 Value = float | Expression
 
@@ -113,7 +115,7 @@ class _Reader:
             return first * second
         if isinstance(first, float):
             return self._scaled(second, first, place)
-        self.refuse("two constants of the law cannot be multiplied", place)
+        return self.refuse("two constants of the law cannot be multiplied", place)
 
     def _divided(self, first: Value, second: Value, place: int) -> Value:
         if not isinstance(second, float):
@@ -140,7 +142,7 @@ class _Reader:
             return self._maximum()
         if token.kind == "name":
             return self._named()
-        self.refuse("expected a number, a constant, max or (")
+        return self.refuse("expected a number, a constant, max or (")
 
     def _named(self) -> Expression:
         token = self.token

@@ -60,7 +60,7 @@ class PolynomialSpace(LawSpace):
     @cached_property
     def _shapes(self) -> tuple[Array, Array, Array, Array]:
         """Displacement, velocity, acceleration and Z of the free functions at the Chebyshev points, and their scale."""
-        l, m, u = self.order, self.index, self._u  # noqa: E741 - the field's name
+        l, m, u = self.order, self.index, self._u
         weight = 1.0 - u * u
         top = int(m[-1])
         velocity = weight ** (l - 1) * gegenbauer(l - 0.5, top, u)[m]
@@ -85,7 +85,9 @@ class PolynomialSpace(LawSpace):
         if nu not in self._series:
             if nu > 2:
                 lower = self.series(nu - 1)
-                found = -2.0 * np.asarray(chebyshev.chebder(lower)) if len(lower) > 1 else np.zeros_like(lower)
+                found: Array = np.zeros_like(lower)
+                if len(lower) > 1:
+                    found = -2.0 * np.asarray(chebyshev.chebder(lower), dtype=np.float64)
             else:
                 base = self.base(self._k, nu)
                 values = np.column_stack([(self._shapes[nu] * self.scale[:, None]).T, base])

@@ -200,9 +200,7 @@ class _Writer:
         self.families.append(RootFamily("b / sqrt(2k)", root, 0.0, (1.0, -1.0), domain, series=series))
         if not self.space.symmetric:
             mirrored = series * (-1.0) ** np.arange(len(series))[:, None]
-            self.families.append(
-                MirroredFamily("b / sqrt(2 - 2k)", root, 0.0, (1.0, -1.0), domain, series=mirrored)
-            )
+            self.families.append(MirroredFamily("b / sqrt(2 - 2k)", root, 0.0, (1.0, -1.0), domain, series=mirrored))
         self.row("tangent", 2.0 * self.tangent * root - slack, bound + self.tangent**2)
 
     def equation(self, row: Array, right: float) -> None:

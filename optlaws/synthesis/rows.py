@@ -203,7 +203,7 @@ class MirroredFamily(RootFamily):
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class RatioFamily(EvenFamily):
-    """An even family whose columns are Gegenbauer polynomials, `scale` times; the last one, of degree 0, has no variable.
+    """An even family whose columns are Gegenbauer polynomials, `scale` times; the last one, of degree 0, is the base's.
 
     Their values grow so much toward k = 0 that a series would lose the digits of the others.
     """

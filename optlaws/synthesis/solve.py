@@ -19,8 +19,8 @@ from optlaws.synthesis.exchange import Outcome, solve
 from optlaws.synthesis.failure import failure
 from optlaws.synthesis.forcing import held_up
 from optlaws.synthesis.functionals import FUNCTIONALS
-from optlaws.synthesis.problem_limits import known_limit
 from optlaws.synthesis.problem import CONSTANTS, Problem
+from optlaws.synthesis.problem_limits import known_limit
 from optlaws.synthesis.programs import Model, model
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.worth import shortfalls, worth
@@ -70,7 +70,7 @@ def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
         tries += [_attempt(problem, found, None, point) for point in starts.points(problem, found)]
     sound = sorted((one for one in tries if one.law is not None), key=lambda one: one.objective)
     if not sound:
-        raise failure(problem, found, tries[0].outcome)
+        raise failure(problem, tries[0].outcome)
     plain = sound[0]
     best = _raised(problem, found, plain)
     objectives = tuple(one.objective for one in sound) if not problem.convex and best is plain else ()
@@ -129,9 +129,10 @@ def _check_types(problem: object, start: object) -> None:
 
 
 def _neighbours(first: Problem, second: Problem) -> bool:
-    plain = {name: None for name in CONSTANTS}
     same_kind = all(type(getattr(first, name)) is type(getattr(second, name)) for name in CONSTANTS)
-    alike = replace(first, minimise="C", **plain) == replace(second, minimise="C", basis=first.basis, **plain)
+    alike = all(
+        getattr(first, name) == getattr(second, name) for name in ("order", "monotone", "symmetric", "boundary")
+    )
     weighted = [term for _, term in first.objective.terms] == [term for _, term in second.objective.terms]
     return same_kind and alike and weighted and first.terms == second.terms
 

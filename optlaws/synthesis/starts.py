@@ -30,7 +30,9 @@ def points(problem: Problem, found: Model) -> list[Array]:
         return []
     generator = np.random.default_rng(_SEED)
     size = max(float(np.abs(convex[0]).max()), 1.0)
-    around = [convex[i % len(convex)] + _SPREAD * size * generator.normal(size=found.space.terms) for i in range(_RANDOM)]
+    around = [
+        convex[i % len(convex)] + _SPREAD * size * generator.normal(size=found.space.terms) for i in range(_RANDOM)
+    ]
     return [_completed(found, coordinates) for coordinates in (*convex, *around)]
 
 

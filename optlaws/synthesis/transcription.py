@@ -47,9 +47,7 @@ class Answer:
         return self.success or self.status == "Solved_To_Acceptable_Level"
 
 
-def solve_on_points(
-    program: Program, points: list[Points], start: Array | None, *, careful: bool = False
-) -> Answer:
+def solve_on_points(program: Program, points: list[Points], start: Array | None, *, careful: bool = False) -> Answer:
     """Solve the program with its families held at the points only.
 
     `careful` goes without the quick steps for linear programs, which may diverge.
@@ -65,10 +63,8 @@ def solve_on_points(
 
     products = [(f, p) for f, p in pairs if isinstance(f, ProductFamily)]
     first, second, slack, bound = _product_rows(products, program.size)
-    norms = [f for f in (f for f, _ in pairs) if isinstance(f, NormFamily)]
-    solver = _solver(
-        program.size, len(rows), len(first), tuple(len(f.matrix) for f in norms), careful=careful
-    )
+    norms = [f for f in program.families if isinstance(f, NormFamily)]
+    solver = _solver(program.size, len(rows), len(first), tuple(len(f.matrix) for f in norms), careful=careful)
     parts = [rows / length[:, None], first, second, slack, *(f.matrix for f in norms), *(f.slack[None] for f in norms)]
     parameters = np.concatenate([*(part.ravel(order="F") for part in parts), program.objective])
     upper = np.concatenate([right / length, bound, [f.bound for f in norms]])
@@ -115,9 +111,8 @@ def _split(pairs: list[tuple[Any, Points]], weights: Array, rows: int, equations
 
 
 @lru_cache(maxsize=512)
-def _solver(  # noqa: ANN202 - a casadi Function, imported late
-    size: int, linear: int, products: int, norms: tuple[int, ...], *, careful: bool
-):
+def _solver(size: int, linear: int, products: int, norms: tuple[int, ...], *, careful: bool) -> Any:  # noqa: ANN401
+    # a casadi Function, imported late
     import casadi as ca
 
     x = ca.MX.sym("x", size)

@@ -10,7 +10,6 @@ from optlaws.synthesis.expression import Expression, Maximum
 from optlaws.synthesis.functionals import FUNCTIONALS, Functional
 from optlaws.synthesis.problem import Problem
 
-
 _SHORT = 1e-9
 
 
