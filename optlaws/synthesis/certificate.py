@@ -36,6 +36,11 @@ class Contact:
     """A constraint at one k: which family of rows, with which sign, and its multiplier (dimensionless).
 
     `direction` belongs to an RMS alone: the unit vector by which the norm is bounded from below.
+
+    Examples
+    --------
+    >>> Contact("C", 1.0, 0.25, 0.5).multiplier
+    0.5
     """
 
     constraint: str
@@ -134,7 +139,7 @@ def excess(certificate: Certificate) -> float:
     for row, right, weight in zip(program.equalities, program.right, certificate.equations, strict=False):
         slope += weight * row
         value -= weight * float(right)
-    return value - _charge(found, certificate, slope, value)
+    return float(value - _charge(found, certificate, slope, value))
 
 
 def _model(certificate: Certificate) -> Model:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 from functools import lru_cache
 from math import isfinite
+from numbers import Real
 from typing import Any
 
 from optlaws.errors import InputError
@@ -177,7 +178,7 @@ def _canonical(minimise: Any) -> str | Expression:  # noqa: ANN401 - it is check
 
 
 def _constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - it is checked here
-    if name == "B" and isinstance(value, int | float) and not isinstance(value, bool) and not value > 1:
+    if name == "B" and value is not None and not isinstance(value, Range | tuple | list) and not _velocity(value):
         raise InputError(f"B must be a finite number above 1 (the mean velocity is 1), got {value!r}")
     found = as_range(value, name)
     if found is None:
@@ -187,6 +188,10 @@ def _constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - 
     if found.high <= 0.0:
         raise InputError(f"{name} must be able to exceed 0, got {value!r}")
     return found.high if found.fixed else found
+
+
+def _velocity(value: Any) -> bool:  # noqa: ANN401 - it is checked here
+    return isinstance(value, Real) and not isinstance(value, bool) and isfinite(value) and float(value) > 1.0
 
 
 def _order(order: Any, boundary: BoundaryConditions | None) -> int:  # noqa: ANN401 - it is checked here

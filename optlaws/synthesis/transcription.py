@@ -100,12 +100,12 @@ def _product_rows(products: list[tuple[ProductFamily, Points]], size: int) -> tu
 
 def _split(pairs: list[tuple[Any, Points]], weights: Array, rows: int, equations: int) -> list[Array]:
     products = sum(len(p.u) for f, p in pairs if isinstance(f, ProductFamily))
-    next_of = {LinearFamily: 0, ProductFamily: rows, NormFamily: rows + products}
+    begins = [0, rows, rows + products]
     found = []
     for family, points in pairs:
-        kind = next(kind for kind in next_of if isinstance(family, kind))
-        begin = next_of[kind]
-        next_of[kind] += len(points.u)
+        kind = 0 if isinstance(family, LinearFamily) else 1 if isinstance(family, ProductFamily) else 2
+        begin = begins[kind]
+        begins[kind] += len(points.u)
         found.append(weights[begin : begin + len(points.u)])
     return [*found, weights[rows - equations : rows]]
 
