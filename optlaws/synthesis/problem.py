@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, field, fields
-from functools import lru_cache
+from dataclasses import dataclass, field, fields, replace
+from functools import cached_property, lru_cache
 from math import isfinite
 from numbers import Real
 from typing import Any
@@ -90,7 +90,7 @@ class Problem:
         """Number of free coefficients of Z: where symmetric, of those odd about k = 1/2."""
         return (self.basis.degree + 1) // 2 if self.symmetric else self.basis.degree + 1
 
-    @property
+    @cached_property
     def objective(self) -> Expression:
         """What is minimised."""
         return _parsed(self.minimise) if isinstance(self.minimise, str) else self.minimise
@@ -100,7 +100,7 @@ class Problem:
         """The end conditions."""
         return self.boundary if self.boundary is not None else BoundaryConditions.rest(self.order)
 
-    @property
+    @cached_property
     def convex(self) -> bool:
         """Whether every constant in the objective and every bounded one is convex in the law."""
         names = {name for name in CONSTANTS if getattr(self, name) is not None}
@@ -108,7 +108,16 @@ class Problem:
 
     def range(self, name: str) -> Range | None:
         """What is asked of the constant B, C, D or J."""
-        return as_range(getattr(self, name), name)
+        return self._ranges[name]
+
+    @cached_property
+    def _ranges(self) -> dict[str, Range | None]:
+        return {name: as_range(getattr(self, name), name) for name in CONSTANTS}
+
+    @cached_property
+    def shape(self) -> Problem:
+        """The problem with a fixed B replaced by 2: problems of one shape share their program."""
+        return replace(self, B=2.0) if isinstance(self.B, float) and self.B != 2.0 else self
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict.
@@ -191,7 +200,7 @@ def _constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - 
 
 
 def _velocity(value: Any) -> bool:  # noqa: ANN401 - it is checked here
-    return isinstance(value, Real) and not isinstance(value, bool) and isfinite(value) and float(value) > 1.0
+    return value is not True and isinstance(value, Real) and isfinite(value) and float(value) > 1.0
 
 
 def _order(order: Any, boundary: BoundaryConditions | None) -> int:  # noqa: ANN401 - it is checked here

@@ -35,14 +35,13 @@ class Model:
 def model(problem: Problem) -> Model:
     """The program of a problem. Built once per shape: a fixed B only enters the right side of an equation."""
     if isinstance(problem.B, float):
-        shape = _model(replace(problem, B=_ANY))
+        shape = _model(problem.shape)
         right = shape.program.right.copy()
-        right[0] += problem.B - _ANY
+        right[0] += problem.B - 2.0
         return replace(shape, program=replace(shape.program, right=right))
     return _model(problem)
 
 
-_ANY = 2.0
 ROOT = "root of D"
 
 

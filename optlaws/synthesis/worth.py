@@ -43,7 +43,9 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
 
 def shortfalls(problem: Problem, law: MotionLaw) -> dict[str, float]:
     """Constants that are below their lower bound, with that bound: a peak can be held down by rows, but not up."""
-    asked = {name: problem.range(name) for name in ("B", "C", "D", "J")}
+    # at rest at both ends an equation makes b(1/2) the asked B
+    names = ("C", "D", "J") if problem.boundary is None else ("B", "C", "D", "J")
+    asked = {name: problem.range(name) for name in names}
     return {
         name: wanted.low
         for name, wanted in asked.items()
