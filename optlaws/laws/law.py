@@ -145,13 +145,20 @@ class MotionLaw(Stored):
         """
         return peaks.peak(*self._candidate_values(nu))
 
-    def extrema(self, nu: int) -> tuple[Peak, Peak]:
-        """Minimum and maximum, signed, of the derivative of order nu over the whole interval.
+    def extrema(self, nu: int, within: tuple[float, float] = (0.0, 1.0)) -> tuple[Peak, Peak]:
+        """Minimum and maximum, signed, of the derivative of order nu over the whole interval or a part of it.
+
+        Parameters
+        ----------
+        nu
+            Order of the derivative.
+        within
+            The part: its first and its last k.
 
         Raises
         ------
         InputError
-            If `nu` is not an integer of at least 0.
+            If `nu` is not an integer of at least 0, or the part is not in [0, 1].
 
         Examples
         --------
@@ -159,7 +166,12 @@ class MotionLaw(Stored):
         >>> smoothstep(2).extrema(2)
         (Peak(value=-6.0, k=1.0), Peak(value=6.0, k=0.0))
         """
-        return peaks.extremes(*self._candidate_values(nu))
+        if within == (0.0, 1.0):
+            return peaks.extremes(*self._candidate_values(nu))
+        ends = times(within)
+        k = self._candidates(whole(nu, "nu"))
+        k = np.concatenate([ends, k[(k > ends[0]) & (k < ends[1])]])
+        return peaks.extremes(k, self._derivative(k, nu))
 
     def power_peak(self) -> Peak:
         """Peak of |d| over the whole interval, d = b c.

@@ -143,8 +143,13 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
         k, values = self._sides(whole(nu, "nu"))
         return _top(k, np.abs(values))
 
-    def extrema(self, nu: int) -> tuple[Peak, Peak]:  # noqa: D102
+    def extrema(self, nu: int, within: tuple[float, float] = (0.0, 1.0)) -> tuple[Peak, Peak]:  # noqa: D102
         k, values = self._sides(whole(nu, "nu"))
+        if within != (0.0, 1.0):
+            ends = times(within)
+            inside = (k >= ends[0]) & (k <= ends[1])
+            k = np.concatenate([ends, k[inside]])
+            values = np.concatenate([self._derivative(ends, nu), values[inside]])
         low = _top(k, -values)
         return Peak(-low.value if low.value else 0.0, low.k), _top(k, values)
 

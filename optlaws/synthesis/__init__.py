@@ -10,6 +10,7 @@ from optlaws.synthesis.limits import acceleration_limit, limit
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import sweep, synthesize
+from optlaws.synthesis.windows import Window, via
 
 __all__ = [
     "FUNCTIONALS",
@@ -33,6 +34,7 @@ __all__ = [
     "Solution",
     "Status",
     "Term",
+    "Window",
     "acceleration_limit",
     "at_least",
     "at_most",
@@ -46,4 +48,5 @@ __all__ = [
     "rms_j",
     "sweep",
     "synthesize",
+    "via",
 ]

@@ -10,14 +10,14 @@ from typing import Any
 from optlaws.errors import InputError
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Range:
     """A constant between two values, dimensionless; `low` is 0 where there is none, `high` infinite.
 
     Examples
     --------
     >>> between(1.5, 1.8)
-    Range(low=1.5, high=1.8)
+    between(1.5, 1.8)
     """
 
     low: float = 0.0
@@ -28,6 +28,11 @@ class Range:
             _check(value)
         if not isfinite(self.low) or self.low > self.high:
             raise InputError(f"the lower bound {self.low!r} must be finite and at most the upper one, {self.high!r}")
+
+    def __repr__(self) -> str:
+        if self.high == inf:
+            return f"at_least({self.low!r})"
+        return f"at_most({self.high!r})" if self.low == 0.0 else f"between({self.low!r}, {self.high!r})"
 
     @property
     def fixed(self) -> bool:
@@ -67,7 +72,7 @@ def at_most(high: float) -> Range:
     Examples
     --------
     >>> at_most(60)
-    Range(low=0.0, high=60)
+    at_most(60)
     """
     return Range(0.0, high)
 
@@ -99,7 +104,7 @@ def as_range(value: Any, name: str) -> Range | None:  # noqa: ANN401 - it is che
     Examples
     --------
     >>> as_range(2, "B")
-    Range(low=2.0, high=2.0)
+    between(2.0, 2.0)
     """
     if value is None or isinstance(value, Range):
         return value

@@ -9,7 +9,9 @@ from optlaws.synthesis.bounding import violation_certificate
 from optlaws.synthesis.certificate import Certificate
 from optlaws.synthesis.exchange import Outcome, solve
 from optlaws.synthesis.problem import Problem
-from optlaws.synthesis.programs import extreme_velocity, least_violation
+from optlaws.synthesis.programs import Model, extreme_velocity, least_violation
+
+_WEIGHTLESS = 1e-9
 
 _TEXT = {
     "chord": "b <= B",
@@ -30,7 +32,9 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
     if trial.optimum is not None:
         proof = violation_certificate(problem, elastic, trial.optimum)
         if proof.proves_infeasible:
-            return InfeasibleProblem(_why(problem, proof), problem=problem, proof=proof, tried=_contradiction(proof))
+            return InfeasibleProblem(
+                _why(problem, proof, elastic), problem=problem, proof=proof, tried=_contradiction(proof)
+            )
         tried += f"; the constraints leave {-trial.optimum.x[-1]:.3e} to spare"
     msg = "no law was found, and none was shown not to exist; try a degree higher or lower by 2, or other numbers"
     return SolverFailure(msg, problem=problem, tried=tried)
@@ -41,14 +45,27 @@ def _contradiction(proof: Certificate) -> str:
     return f"the constraints contradict each other at k = {places} (error.proof is the certificate)"
 
 
-def _why(problem: Problem, proof: Certificate) -> str:
-    names = dict.fromkeys(_TEXT.get(c.constraint, c.constraint) for c in proof.contacts if c.multiplier > 0.0)
-    asked = " and ".join(names)
-    middle = f"b(1/2) = B = {problem.B:g} and " if isinstance(problem.B, float) else ""
+def _why(problem: Problem, proof: Certificate, elastic: Model) -> str:
+    """Which constraints contradict each other: those with a multiplier in the proof."""
+    names = [_named(problem, c.constraint) for c in proof.contacts if c.multiplier > 0.0]
+    names += [
+        f"{name} = {problem.B:g}" if name == "b(1/2) = B" and isinstance(problem.B, float) else name
+        for name, weight in zip(elastic.equation_names, proof.equations, strict=True)
+        if abs(weight) > _WEIGHTLESS
+    ]
+    asked = " and ".join(dict.fromkeys(reversed(names)))
     return (
-        f"no law of order {problem.order} with Z of degree {problem.basis.degree} has {middle}{asked} everywhere. "
+        f"no law of order {problem.order} with Z of degree {problem.basis.degree} has {asked}. "
         f"A higher degree of Z or a lower order helps{_possible(problem)}"
     )
+
+
+def _named(problem: Problem, constraint: str) -> str:
+    if constraint.startswith("window "):
+        return repr(problem.windows[int(constraint.split(",", maxsplit=1)[0].removeprefix("window ")) - 1])
+    text = _TEXT.get(constraint, constraint)
+    value = getattr(problem, text[-1], None) if text[-1] in "CDJ" else None
+    return f"{text} = {value!r} everywhere" if value is not None else f"{text} everywhere"
 
 
 def _possible(problem: Problem) -> str:

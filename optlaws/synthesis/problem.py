@@ -18,6 +18,7 @@ from optlaws.synthesis.bounds import Range, as_range
 from optlaws.synthesis.expression import Expression, Term, leaves
 from optlaws.synthesis.functionals import FUNCTIONALS
 from optlaws.synthesis.grammar import parse
+from optlaws.synthesis.windows import Window
 
 CONSTANTS = ("B", "C", "D", "J")
 
@@ -45,6 +46,8 @@ class Problem:
         way (the mean of a solution and its mirror image is no worse).
     boundary
         End conditions; rest to rest unless given. Others make the law unsymmetric.
+    windows
+        Values and windows of a, b, c, j: `via("a", 0.3, at=0.4)`, `Window("b", high=1.2, start=0.2, stop=0.3)`.
 
     Raises
     ------
@@ -67,9 +70,11 @@ class Problem:
     D: float | Range | None = None
     J: float | Range | None = None
     boundary: BoundaryConditions | None = None
+    windows: tuple[Window, ...] = ()
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "order", _order(self.order, self.boundary))
+        object.__setattr__(self, "windows", _windows(self.windows))
         _check_choices(self.basis, monotone=self.monotone, symmetric=self.symmetric)
         object.__setattr__(self, "minimise", _canonical(self.minimise))
         for name in CONSTANTS:
@@ -137,6 +142,8 @@ class Problem:
         if self.boundary is not None:
             found["start"] = [float(v) for v in self.boundary.start]
             found["end"] = [float(v) for v in self.boundary.end]
+        if self.windows:
+            found["windows"] = [window.to_dict() for window in self.windows]
         return found
 
     @classmethod
@@ -148,7 +155,7 @@ class Problem:
         InputError
             If a key is unknown (the nearest right one is named) or missing, or a value is out of range.
         """
-        known = ("minimise", *CONSTANTS, "order", "basis", "degree", "monotone", "symmetric", "start", "end")
+        known = ("minimise", *CONSTANTS, "order", "basis", "degree", "monotone", "symmetric", "start", "end", "windows")
         for key in data:
             if key not in known:
                 raise InputError(unknown_key(key, known))
@@ -158,6 +165,7 @@ class Problem:
         chosen = basis(given.pop("basis", "chebyshev"), given.pop("degree", 9))
         if "start" in given or "end" in given:
             given["boundary"] = BoundaryConditions(tuple(given.pop("start", ())), tuple(given.pop("end", ())))
+        given["windows"] = tuple(Window.from_dict(window) for window in given.pop("windows", ()))
         return cls(basis=chosen, **given)
 
     def __repr__(self) -> str:
@@ -197,6 +205,14 @@ def _constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - 
     if found.high <= 0.0:
         raise InputError(f"{name} must be able to exceed 0, got {value!r}")
     return found.high if found.fixed else found
+
+
+def _windows(windows: Any) -> tuple[Window, ...]:  # noqa: ANN401 - they are checked here
+    found = tuple(windows) if isinstance(windows, list | tuple) else (windows,)
+    for window in found:
+        if not isinstance(window, Window):
+            raise InputError(f"windows must be Window values such as via('a', 0.3, at=0.4), got {window!r}")
+    return found
 
 
 def _velocity(value: Any) -> bool:  # noqa: ANN401 - it is checked here

@@ -7,6 +7,7 @@ from functools import lru_cache
 from math import isfinite
 
 import numpy as np
+from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.synthesis.bounds import Range
@@ -15,6 +16,7 @@ from optlaws.synthesis.functionals import FUNCTIONALS, D, Functional
 from optlaws.synthesis.polynomial_space import PolynomialSpace, polynomial_space
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.rows import Family, LinearFamily, MirroredFamily, Program, RootFamily
+from optlaws.synthesis.windows import Window
 
 Array = NDArray[np.float64]
 
@@ -24,12 +26,13 @@ class Model:
     """A program with the space it is written over and the places of its variables beyond the coordinates.
 
     `places` has the variables that bound the objective's constants from above, by their names, those of maxima, and
-    "B" where the peak velocity is a variable.
+    "B" where the peak velocity is a variable. `equation_names` says what each equation is.
     """
 
     space: PolynomialSpace
     program: Program
     places: dict[str, int]
+    equation_names: tuple[str, ...]
 
 
 def model(problem: Problem) -> Model:
@@ -43,6 +46,7 @@ def model(problem: Problem) -> Model:
 
 
 ROOT = "root of D"
+_SIDES = {1.0: "above", -1.0: "below"}
 
 
 @lru_cache(maxsize=256)
@@ -124,6 +128,7 @@ class _Writer:
         self.families: list[Family] = []
         self.equalities: list[Array] = []
         self.right: list[float] = []
+        self.equation_names: list[str] = []
 
     def unit(self, name: str, weight: float = 1.0) -> Array:
         row = np.zeros(self.size)
@@ -157,6 +162,9 @@ class _Writer:
             self.families.append(self.space.forward(self.spare))
         for name in ("C", "D", "J"):
             self._at_most(name, problem.range(name))
+        for i, window in enumerate(problem.windows, 1):
+            for part in window.first_half() if problem.symmetric else (window,):
+                self._window(f"window {i}", part)
 
     def _peak_velocity(self, wanted: Range, problem: Problem) -> None:
         if problem.symmetric:
@@ -192,6 +200,18 @@ class _Writer:
         else:
             self.families += FUNCTIONALS[name].families(self.space, self.spare, wanted.high)
 
+    def _window(self, name: str, window: Window) -> None:
+        ends = (1.0 - 2.0 * window.stop, 1.0 - 2.0 * window.start)
+        if window.value:
+            columns = self.space.widened(self.space.series(window.order), self.size)
+            row = np.asarray(chebyshev.chebval(np.array([ends[0]]), columns))[:, 0]
+            self.equation(row[:-1], window.high - float(row[-1]), repr(window))
+            return
+        for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
+            if isfinite(bound):
+                family = self.space.derivative(window.order, f"{name}, {_SIDES[sign]}", self.spare, bound, (sign,))
+                self.families.append(replace(family, domain=ends))
+
     def _power(self, slack: Array, bound: float) -> None:
         """Rows b <= r sqrt(2k), b >= -r sqrt(2k) from either end, and 2 t r - t² <= D."""
         root, domain = self.unit(ROOT), (0.0, 1.0)
@@ -202,11 +222,12 @@ class _Writer:
             self.families.append(MirroredFamily("b / sqrt(2 - 2k)", root, 0.0, (1.0, -1.0), domain, series=mirrored))
         self.row("tangent", 2.0 * self.tangent * root - slack, bound + self.tangent**2)
 
-    def equation(self, row: Array, right: float) -> None:
+    def equation(self, row: Array, right: float, name: str = "b(1/2) = B") -> None:
+        self.equation_names.append(name)
         self.equalities.append(row)
         self.right.append(right)
 
     def model(self) -> Model:
         equalities = np.array(self.equalities).reshape(-1, self.size)
         program = Program(tuple(self.families), equalities, np.array(self.right), self.cost)
-        return Model(self.space, program, self.places)
+        return Model(self.space, program, self.places, tuple(self.equation_names))

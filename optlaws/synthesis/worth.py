@@ -38,6 +38,9 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
         if wanted is not None and isfinite(wanted.high):
             value = values[name] if name in values else FUNCTIONALS[name].value(law)
             excess = max(excess, value / wanted.high - 1.0)
+    for window in problem.windows:
+        lowest, highest = law.extrema(window.order, within=(window.start, window.stop))
+        excess = max(excess, highest.value - window.high, window.low - lowest.value)
     return Worth(objective, excess)
 
 

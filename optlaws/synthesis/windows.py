@@ -1,0 +1,158 @@
+"""Values and windows of a, b, c or j at given k or over an interval: via points, forbidden zones, inflexions."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import inf, isfinite
+from numbers import Real
+from typing import Any
+
+from optlaws.errors import InputError
+from optlaws.suggest import unknown_key
+
+QUANTITIES = {"a": 0, "b": 1, "c": 2, "j": 3}
+
+
+@dataclass(frozen=True, repr=False)
+class Window:
+    """A quantity of the law stays between two values at one k or over an interval (dimensionless).
+
+    Parameters
+    ----------
+    quantity
+        "a", "b", "c" or "j".
+    low, high
+        The least and the greatest value; infinite where there is none, equal for a given value.
+    start, stop
+        The interval of k in [0, 1]; equal for one k.
+
+    Raises
+    ------
+    InputError
+        If the quantity is unknown or the numbers are out of order or out of range.
+
+    Examples
+    --------
+    >>> Window("a", 0.4, 0.6, 0.45, 0.55).order
+    0
+    >>> via("a", 0.3, at=0.4)
+    via('a', 0.3, at=0.4)
+    """
+
+    quantity: str
+    low: float = -inf
+    high: float = inf
+    start: float = 0.0
+    stop: float = 1.0
+
+    def __post_init__(self) -> None:
+        if self.quantity not in QUANTITIES:
+            raise InputError(unknown_key(str(self.quantity), QUANTITIES, "quantity"))
+        for name in ("low", "high", "start", "stop"):
+            object.__setattr__(self, name, _number(getattr(self, name), name))
+        if (
+            self.low > self.high
+            or self.low == inf
+            or self.high == -inf
+            or not (isfinite(self.low) or isfinite(self.high))
+        ):
+            raise InputError(f"a window needs low <= high and one of them finite, got {self.low!r} and {self.high!r}")
+        if not 0.0 <= self.start <= self.stop <= 1.0:
+            raise InputError(f"a window needs 0 <= start <= stop <= 1, got {self.start!r} and {self.stop!r}")
+
+    def __repr__(self) -> str:
+        if self.value:
+            return f"via({self.quantity!r}, {self.low!r}, at={self.start!r})"
+        ends = {"low": (self.low, -inf), "high": (self.high, inf), "start": (self.start, 0.0), "stop": (self.stop, 1.0)}
+        shown = [f"{name}={value!r}" for name, (value, default) in ends.items() if value != default]
+        return f"Window({', '.join([repr(self.quantity), *shown])})"
+
+    @property
+    def order(self) -> int:
+        """Order of the derivative."""
+        return QUANTITIES[self.quantity]
+
+    @property
+    def point(self) -> bool:
+        """Whether it speaks of one k."""
+        return self.start == self.stop
+
+    @property
+    def value(self) -> bool:
+        """Whether it gives a value at one k."""
+        return self.point and self.low == self.high
+
+    def mirrored(self) -> Window:
+        """What it asks of a symmetric law on the other side: a(k) + a(1-k) = 1, b and j even, c odd about 1/2."""
+        low, high = self.low, self.high
+        if self.order == 0:
+            low, high = 1.0 - high, 1.0 - low
+        elif self.order == 2:
+            low, high = -high, -low
+        return Window(self.quantity, low, high, 1.0 - self.stop, 1.0 - self.start)
+
+    def first_half(self) -> tuple[Window, ...]:
+        """The windows on k <= 1/2 that ask the same of a symmetric law."""
+        if self.stop <= 0.5:
+            return (self,)
+        if self.start >= 0.5:
+            return (self.mirrored(),)
+        left = Window(self.quantity, self.low, self.high, self.start, 0.5)
+        right = Window(self.quantity, self.low, self.high, 0.5, self.stop)
+        return left, right.mirrored()
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict; None for infinite values.
+
+        Examples
+        --------
+        >>> Window.from_dict(Window("b", high=1.5).to_dict()) == Window("b", high=1.5)
+        True
+        """
+        ends = {name: value if isfinite(value) else None for name, value in (("low", self.low), ("high", self.high))}
+        return {"quantity": self.quantity, **ends, "start": self.start, "stop": self.stop}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Window:
+        """Read what `to_dict` wrote, or a part of it: `at` may stand for start and stop, `value` for low and high.
+
+        Raises
+        ------
+        InputError
+            If a key is unknown, the quantity is missing, or a value is out of range.
+        """
+        given = {name: value for name, value in data.items() if value is not None}
+        for key, pair in (("at", ("start", "stop")), ("value", ("low", "high"))):
+            if key in given:
+                both = given.pop(key)
+                given |= dict.fromkeys(pair, both)
+        known = ("quantity", "low", "high", "start", "stop")
+        for key in given:
+            if key not in known:
+                raise InputError(unknown_key(key, (*known, "at", "value")))
+        if "quantity" not in given:
+            raise InputError("a window needs a quantity: a, b, c or j")
+        return cls(**given)
+
+
+def via(quantity: str, value: float, *, at: float) -> Window:
+    """A value at one k: a via point, or with `via("c", 0, at=0.4)` an inflexion.
+
+    Raises
+    ------
+    InputError
+        If the quantity is unknown, the value not finite or k out of [0, 1].
+
+    Examples
+    --------
+    >>> via("c", 0, at=0.4).value
+    True
+    """
+    return Window(quantity, value, value, at, at)
+
+
+def _number(value: Any, name: str) -> float:  # noqa: ANN401 - it is checked here
+    if value is True or value is False or not isinstance(value, Real) or value != value:  # noqa: PLR0124 - NaN
+        raise InputError(f"{name} of a window must be a number, got {value!r}")
+    return float(value)
