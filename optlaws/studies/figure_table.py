@@ -17,7 +17,7 @@ if TYPE_CHECKING:
     from optlaws.studies.optimal_table import Curves, Row, Table
 
 
-_FEWEST = 2  # coefficients of an odd cubic
+_FEWEST = 5  # coefficients of Z: a cubic, or one of degree 4 that has no more odd ones
 
 
 def draw(spec: Table, rows: Sequence[Row], curves: Curves) -> dict[str, bytes]:
@@ -41,7 +41,7 @@ def draw(spec: Table, rows: Sequence[Row], curves: Curves) -> dict[str, bytes]:
 
 
 def _printed(axes: Axes, spec: Table, rows: Sequence[Row]) -> None:
-    plain = [row for row in rows if row.same.problem.order == spec.order and row.same.problem.terms == _FEWEST]
+    plain = [row for row in rows if row.same.problem.order == spec.order and len(row.cells["z"].split()) <= _FEWEST]
     others = [row for row in rows if row not in plain]
     for some, face, label in (
         (plain, plotting.WARM, "laws of the paper with cubic Z(k)"),

@@ -22,6 +22,7 @@ from optlaws.suggest import unknown_key
 from optlaws.synthesis import (
     BoundaryConditions,
     Chebyshev,
+    PolynomialBasis,
     Problem,
     Solution,
     acceleration_limit,
@@ -228,7 +229,7 @@ def _cells(spec: Table, rows: Sequence[Row]) -> tuple[list[str], list[list[table
         line += [constants.D.value, round(constants.D.k, 4), constants.J.value]
         line += [
             same.problem.order,
-            same.problem.basis.degree,
+            _degree(same),
             same.objective,
             same.lower_bound,
             _decade(same.gap),
@@ -238,6 +239,11 @@ def _cells(spec: Table, rows: Sequence[Row]) -> tuple[list[str], list[list[table
         line += [acceleration_limit(row.B), acceleration_limit(row.B, monotone=True)]
         cells.append(line)
     return headings, cells
+
+
+def _degree(solution: Solution) -> int:
+    basis = solution.problem.basis
+    return basis.degree if isinstance(basis, PolynomialBasis) else 0
 
 
 def _decade(gap: float) -> str:

@@ -1,6 +1,6 @@
 """How an optimal law is found: problems, their solution by CasADi and IPOPT, lower bounds and limits."""
 
-from optlaws.synthesis.bases import Basis, Chebyshev, Powers, basis
+from optlaws.synthesis.bases import Basis, Bernstein, Chebyshev, Pieces, PolynomialBasis, Powers, basis
 from optlaws.synthesis.boundary import BoundaryConditions, construct
 from optlaws.synthesis.bounds import Range, at_least, at_most, between
 from optlaws.synthesis.certificate import Certificate, Contact
@@ -16,6 +16,7 @@ __all__ = [
     "FUNCTIONALS",
     "B",
     "Basis",
+    "Bernstein",
     "BoundaryConditions",
     "C",
     "C_minus",
@@ -28,6 +29,8 @@ __all__ = [
     "Functional",
     "J",
     "Maximum",
+    "Pieces",
+    "PolynomialBasis",
     "Powers",
     "Problem",
     "Range",

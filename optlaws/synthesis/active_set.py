@@ -20,6 +20,8 @@ _STEPS = 14
 _CONVERGED = 1e-13
 _STALLED = 1e-10
 _FAR = 1.05
+_WILD = 1e6
+_RANK = 1e-11
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,7 +60,7 @@ def newton(program: Program, start: ActiveSet) -> ActiveSet | None:
     previous = np.inf
     for _ in range(_STEPS):
         step = _step(program, state)
-        if step is None or not np.isfinite(step).all():
+        if not np.isfinite(step).all():
             return None
         state = _moved(state, step)
         if np.any(np.abs(state.u) > _FAR):
@@ -70,7 +72,7 @@ def newton(program: Program, start: ActiveSet) -> ActiveSet | None:
     return None
 
 
-def _step(program: Program, state: ActiveSet) -> Array | None:
+def _step(program: Program, state: ActiveSet) -> Array:
     n, p = program.size, len(state.u)
     value, slope, curvature = np.empty((3, p))
     rows, slopes = np.empty((2, p, n))
@@ -106,7 +108,10 @@ def _step(program: Program, state: ActiveSet) -> Array | None:
     try:
         step: Array = np.linalg.solve(system, -defect).astype(np.float64, copy=False)
     except np.linalg.LinAlgError:
-        return None
+        step = np.full(len(defect), np.inf)
+    if not np.abs(step).max() < _WILD:
+        # where the optimum is not unique the shortest step leads to one of them
+        step = np.linalg.lstsq(system, -defect, rcond=_RANK)[0].astype(np.float64, copy=False)
     return step
 
 

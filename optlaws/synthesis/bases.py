@@ -5,20 +5,56 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any, ClassVar
+from fractions import Fraction
+from math import comb
+from typing import Any, ClassVar, cast
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.laws.chebyshev import chebyshev_from_powers, powers_from_chebyshev
+from optlaws.laws.chebyshev import (
+    chebyshev_from_powers,
+    exact_powers,
+    fractions,
+    powers_from_chebyshev,
+    rounded,
+)
 from optlaws.laws.checks import whole
 
 Array = NDArray[np.float64]
 
+_MIRROR = 1e-12
+
+
+class Basis(ABC):
+    """In what a law is sought; subclasses are frozen values. `name` calls it in problem files.
+
+    Examples
+    --------
+    >>> sorted(Basis.kinds)
+    ['bernstein', 'chebyshev', 'pieces', 'powers']
+    """
+
+    name: ClassVar[str]
+    kinds: ClassVar[dict[str, type[Basis]]] = {}
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:  # noqa: ANN401 - whatever a subclass declares
+        super().__init_subclass__(**kwargs)
+        if "name" in cls.__dict__:
+            Basis.kinds[cls.name] = cls
+
+    @abstractmethod
+    def check(self, *, symmetric: bool) -> None:
+        """Refuse what leaves no freedom, by an InputError."""
+
+    @abstractmethod
+    def to_dict(self) -> dict[str, Any]:
+        """Its name and its parameters, plain."""
+
 
 @dataclass(frozen=True)
-class Basis(ABC):
+class PolynomialBasis(Basis):
     """A chosen basis W_0, ..., W_degree for Z(k), dimensionless; subclasses say which.
 
     A new basis is one subclass: give it a `name` and the two conversions.
@@ -35,12 +71,6 @@ class Basis(ABC):
     """
 
     degree: int
-    name: ClassVar[str]
-    kinds: ClassVar[dict[str, type[Basis]]] = {}
-
-    def __init_subclass__(cls, **kwargs: Any) -> None:  # noqa: ANN401 - whatever a subclass declares
-        super().__init_subclass__(**kwargs)
-        Basis.kinds[cls.name] = cls
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "degree", whole(self.degree, "degree of Z"))
@@ -49,6 +79,18 @@ class Basis(ABC):
     def size(self) -> int:
         """Number of basis functions, degree + 1."""
         return self.degree + 1
+
+    def check(self, *, symmetric: bool) -> None:
+        """Refuse a degree that leaves no freedom."""
+        if self.degree < (1 if symmetric else 0):
+            raise InputError(
+                f"degree {self.degree} leaves no freedom: b(1/2) = B takes the one coefficient of Z that is "
+                "odd about k = 1/2, so the degree of Z must be at least 1 (3 or more to optimise)"
+            )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Name and degree."""
+        return {"basis": self.name, "degree": self.degree}
 
     @abstractmethod
     def coefficients(self, series: Array) -> tuple[float, ...]:
@@ -59,7 +101,7 @@ class Basis(ABC):
         """Chebyshev series in 2k - 1 of Z(k) = sum z_i W_i(k)."""
 
 
-class Powers(Basis):
+class Powers(PolynomialBasis):
     """W_i(k) = k^i, the basis of the paper; coefficients in ascending powers.
 
     Examples
@@ -79,7 +121,7 @@ class Powers(Basis):
         return np.asarray(chebyshev_from_powers(_sized(z, self)), dtype=float)
 
 
-class Chebyshev(Basis):
+class Chebyshev(PolynomialBasis):
     """W_i(k) = T_i(2k - 1), well conditioned at any degree.
 
     Examples
@@ -99,13 +141,115 @@ class Chebyshev(Basis):
         return np.asarray(_sized(z, self), dtype=float)
 
 
-def basis(name: str, degree: int) -> Basis:
-    """The basis called `name` with the given degree.
+class Bernstein(PolynomialBasis):
+    """W_i(k) = C(n, i) k^i (1-k)^(n-i), n the degree: Z lies within the hull of its coefficients.
+
+    Examples
+    --------
+    >>> Bernstein(1).coefficients(np.array([0.0, 3.0]))
+    (-3.0, 3.0)
+    """
+
+    name = "bernstein"
+
+    def coefficients(self, series: Array) -> tuple[float, ...]:
+        """Bernstein coefficients, converted by exact arithmetic and rounded once."""
+        n = self.degree
+        powers = exact_powers(fractions(_fitted(series, self.size), "series"))
+        return rounded(
+            sum((powers[j] * Fraction(comb(i, j), comb(n, j)) for j in range(i + 1)), Fraction(0)) for i in range(n + 1)
+        )
+
+    def series(self, z: Sequence[float]) -> Array:
+        """Chebyshev series, converted by exact arithmetic and rounded once."""
+        n = self.degree
+        exact = fractions(_sized(z, self), "z")
+        powers = [
+            comb(n, j) * sum(((-1) ** (j - i) * comb(j, i) * exact[i] for i in range(j + 1)), Fraction(0))
+            for j in range(n + 1)
+        ]
+        return np.asarray(chebyshev_from_powers(powers), dtype=float)
+
+
+@dataclass(frozen=True)
+class Pieces(Basis):
+    """A free law, polynomial between breaks, in place of a Z: few pieces come near the limits.
+
+    Parameters
+    ----------
+    breaks
+        Dimensionless times from 0 to 1, increasing; a number asks for so many pieces of equal length. Symmetric
+        laws need 1/2 among them and the breaks symmetric about it.
+    degree
+        Degree of a(k) on each piece, at least 2.
+    continuity
+        Order up to which the derivatives of a are continuous at the breaks, 1 to degree - 1: 2 for a continuous
+        acceleration, 3 for a continuous jerk.
 
     Raises
     ------
     InputError
-        If the name is unknown or the degree is not an integer of at least 0.
+        If the breaks do not increase from 0 to 1 or the orders do not fit.
+
+    Examples
+    --------
+    >>> Pieces(4).breaks
+    (0.0, 0.25, 0.5, 0.75, 1.0)
+    """
+
+    breaks: tuple[float, ...]
+    degree: int = 5
+    continuity: int = 3
+    name = "pieces"
+
+    def __init__(self, breaks: int | Sequence[float], degree: int = 5, continuity: int = 3) -> None:
+        places = _even_breaks(breaks) if isinstance(breaks, int) else tuple(float(k) for k in breaks)
+        object.__setattr__(self, "breaks", places)
+        object.__setattr__(self, "degree", whole(degree, "degree of the pieces", least=2))
+        object.__setattr__(self, "continuity", whole(continuity, "continuity", least=1))
+        steps = np.diff(np.array(places)) if len(places) > 1 else np.zeros(1)
+        if len(places) < 2 or places[0] != 0.0 or places[-1] != 1.0 or not (steps > 0.0).all():
+            raise InputError(f"breaks must increase from 0 to 1, got {places!r}")
+        if self.continuity >= self.degree:
+            raise InputError(f"continuity must be below the degree {self.degree}, got {self.continuity}")
+
+    @classmethod
+    def around(cls, places: Sequence[float], width: float, degree: int = 4, continuity: int = 3) -> Pieces:
+        """Pieces that leave room for quick changes of acceleration around the given places, `width` each.
+
+        Take the breaks of a limit law: the optimum then comes near the limit as the width goes to 0.
+
+        Examples
+        --------
+        >>> Pieces.around((0.0, 0.5, 1.0), 0.02).breaks
+        (0.0, 0.02, 0.49, 0.5, 0.51, 0.98, 1.0)
+        """
+        half = width / 2.0
+        found = {0.0, 0.5, 1.0}
+        for k in places:
+            found |= {width} if k == 0.0 else {1.0 - width} if k == 1.0 else {k - half, k + half}
+        return cls(sorted({round(k, 15) for k in found}), degree, continuity)
+
+    def check(self, *, symmetric: bool) -> None:
+        """Refuse breaks that are not symmetric where the law is to be."""
+        k = np.array(self.breaks)
+        if symmetric and (0.5 not in self.breaks or np.abs(k + k[::-1] - 1.0).max() > _MIRROR):
+            raise InputError(
+                f"a symmetric law needs breaks symmetric about 1/2 and 1/2 among them, got {self.breaks!r}"
+            )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Name, breaks, degree and continuity."""
+        return {"basis": self.name, "breaks": list(self.breaks), "degree": self.degree, "continuity": self.continuity}
+
+
+def basis(name: str, degree: int, **parameters: Any) -> Basis:  # noqa: ANN401 - the basis checks them
+    """The basis called `name` with the given degree and, for pieces, breaks and continuity.
+
+    Raises
+    ------
+    InputError
+        If the name is unknown or a parameter does not fit.
 
     Examples
     --------
@@ -113,12 +257,20 @@ def basis(name: str, degree: int) -> Basis:
     Chebyshev(degree=9)
     """
     if name not in Basis.kinds:
-        msg = f"basis {name!r} is unknown; known are {', '.join(sorted(Basis.kinds))}"
-        raise InputError(msg)
-    return Basis.kinds[name](degree)
+        raise InputError(f"basis {name!r} is unknown; known are {', '.join(sorted(Basis.kinds))}")
+    kind: Any = Basis.kinds[name]
+    try:
+        return cast("Basis", kind(degree=degree, **parameters))
+    except TypeError as error:
+        raise InputError(f"basis {name!r} does not take these parameters: {error}") from None
 
 
-def _sized(z: Sequence[float], chosen: Basis) -> Sequence[float]:
+def _even_breaks(count: int) -> tuple[float, ...]:
+    number = whole(count, "number of pieces", least=1)
+    return tuple(i / number for i in range(number + 1))
+
+
+def _sized(z: Sequence[float], chosen: PolynomialBasis) -> Sequence[float]:
     if len(z) != chosen.size:
         msg = f"{chosen!r} takes {chosen.size} coefficients z, got {len(z)}"
         raise InputError(msg)

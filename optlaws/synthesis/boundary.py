@@ -12,7 +12,7 @@ from optlaws.errors import InputError
 from optlaws.laws import PolynomialLaw
 from optlaws.laws.chebyshev import exact_powers, fractions
 from optlaws.laws.checks import whole
-from optlaws.synthesis.bases import Basis, Powers
+from optlaws.synthesis.bases import PolynomialBasis, Powers
 
 Polynomial = list[Fraction]
 
@@ -86,7 +86,9 @@ class BoundaryConditions:
         return _shifted(_times(wanted, inverse)[:order], -1)
 
 
-def construct(boundary: BoundaryConditions, z: Iterable[Any] = (), basis: Basis | None = None) -> PolynomialLaw:
+def construct(
+    boundary: BoundaryConditions, z: Iterable[Any] = (), basis: PolynomialBasis | None = None
+) -> PolynomialLaw:
     """The law a(k) = a0(k) + k^l [a1(k) + (k-1)^l Z(k)] (eq. 8), built in exact arithmetic and rounded once.
 
     Parameters
@@ -117,7 +119,7 @@ def construct(boundary: BoundaryConditions, z: Iterable[Any] = (), basis: Basis 
     return PolynomialLaw.from_powers(_plus(boundary.a0(), [Fraction(0)] * order + bracket))
 
 
-def _powers_of(z: Sequence[Any], basis: Basis | None) -> Polynomial:
+def _powers_of(z: Sequence[Any], basis: PolynomialBasis | None) -> Polynomial:
     if basis is None or isinstance(basis, Powers):
         if basis is not None and len(z) != basis.size:
             raise InputError(f"{basis!r} takes {basis.size} coefficients z, got {len(z)}")

@@ -16,15 +16,14 @@ from math import inf, isfinite
 from typing import Any
 
 import numpy as np
-from numpy.polynomial import chebyshev, legendre
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.synthesis.expression import Expression, Maximum
-from optlaws.synthesis.polynomial_space import PolynomialSpace
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.programs import ROOT, Model, least_violation, model, relaxed
 from optlaws.synthesis.rows import Family, LinearFamily, NormFamily
+from optlaws.synthesis.space import LawSpace
 
 Array = NDArray[np.float64]
 
@@ -199,7 +198,7 @@ def _greatest(certificate: Certificate, found: Model, claim: float) -> dict[str,
         bounds[ROOT] = bounds["D"] ** 0.5
     if "B" in found.places and not isfinite(bounds["B"]):
         curved = min(bounds.get(name, inf) * factor for name, factor in _STEEP)
-        bounds["B"] = abs(float(found.space.base.b(0.0))) + curved
+        bounds["B"] = abs(found.space.start_velocity) + curved
     return bounds
 
 
@@ -216,13 +215,13 @@ def _spread(expression: Expression, claim: float, bounds: dict[str, float]) -> N
                 _spread(part, claim / weight, bounds)
 
 
-def _means(certificate: Certificate, space: PolynomialSpace, greatest: dict[str, float]) -> list[tuple[int, float]]:
+def _means(certificate: Certificate, space: LawSpace, greatest: dict[str, float]) -> list[tuple[int, float]]:
     """Orders of derivatives whose mean magnitude is bounded, with the bound for law and base law together."""
-    drop = abs(float(space.base.b(1.0)) - float(space.base.b(0.0)))
+    drop = abs(space.velocity_change)
     means = [(2, greatest.get("C", inf)), (2, greatest.get("rms_c", inf)), (3, greatest.get("J", inf))]
     means += [(2, 2.0 * greatest.get(name, inf) + drop) for name in ("C_plus", "C_minus")]
     means += [(3, greatest.get("rms_j", inf)), (4, greatest.get("jounce", inf))]
-    stroke = abs(float(space.base.a(1.0)) - float(space.base.a(0.0)))
+    stroke = abs(space.stroke)
     means += [(1, 2.0 * greatest.get("B", inf) + stroke)]
     if certificate.problem.monotone:
         means += [(1, stroke)]
@@ -233,27 +232,24 @@ def _means(certificate: Certificate, space: PolynomialSpace, greatest: dict[str,
     return [(nu, mean + _base_rms(space, nu)) for nu, mean in least.items()]
 
 
-def _base_rms(space: PolynomialSpace, nu: int) -> float:
+def _base_rms(space: LawSpace, nu: int) -> float:
     def computed() -> Array:
-        series = space.series(nu)[:, -1]
-        u, weights = legendre.leggauss(len(series) + 1)
-        return np.sqrt(np.array([weights @ chebyshev.chebval(u, series) ** 2 / 2.0], dtype=np.float64))
+        rule = space.quadrature(nu)
+        return np.sqrt(np.array([rule.weights @ rule.values[:, -1] ** 2], dtype=np.float64))
 
     return float(space.cached(("RMS", nu), computed)[0])
 
 
-def _extension(space: PolynomialSpace, nu: int) -> Array:
-    """Matrix from a functional's values on the free functions to weights of their Legendre moments.
+def _extension(space: LawSpace, nu: int) -> Array:
+    """Matrix from a functional's values on the free functions to weights of moments of the derivative of order nu.
 
-    A moment is the integral of P_m(2k-1) times the derivative of order nu: at most its mean magnitude.
+    A moment is the integral of the derivative times a function that is nowhere above 1 in magnitude, so at most its
+    mean magnitude; for polynomials these are Legendre's.
     """
-    return space.cached(("extension", nu), lambda: _computed_extension(space, nu))
 
+    def computed() -> Array:
+        rule = space.quadrature(nu)
+        moments = rule.moments.T @ (rule.weights[:, None] * rule.values[:, :-1])
+        return np.asarray(np.linalg.pinv(moments.T), dtype=np.float64)
 
-def _computed_extension(space: PolynomialSpace, nu: int) -> Array:
-    series = space.series(nu)[:, :-1]
-    count = len(series) + 1
-    u, weights = legendre.leggauss(count)
-    free = chebyshev.chebvander(u, len(series) - 1) @ series
-    moments = legendre.legvander(u, count - 1).T @ (0.5 * weights[:, None] * free)
-    return np.asarray(np.linalg.pinv(moments.T), dtype=np.float64)
+    return space.cached(("extension", nu), computed)

@@ -59,7 +59,9 @@ def completed(program: Program, state: ActiveSet) -> ActiveSet:
             if len(pinned):
                 better = better.moved(int(pinned[0]), float(u[j]))
             else:
-                better = better.joined(i, float(u[j]), float(s[j]), free=bool(low < u[j] < high))
+                better = better.joined(
+                    i, float(u[j]), float(s[j]), free=bool(low < u[j] < high and not family.pinned(u[j : j + 1])[0])
+                )
     return better
 
 

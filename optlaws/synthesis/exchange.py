@@ -93,6 +93,9 @@ def _points(family: Family, size: int, even_share: float) -> Points:
     low, high = family.domain
     if low == high:
         return Points(np.repeat([low], len(family.signs)), np.array(family.signs))
+    own = family.nodes()
+    if own is not None:
+        return Points(np.tile(own, len(family.signs)), np.repeat(family.signs, len(own)))
     u, s = [], []
     for i, sign in enumerate(family.signs):
         if isinstance(family, EvenFamily):
@@ -129,7 +132,7 @@ def _identified(program: Program, points: list[Points], answer: Answer) -> Activ
             higher = (s == mine.s[j]) & (residual >= jet.value[j] - 1e-9)
             distance = np.where(higher, np.abs(u - mine.u[j]), np.inf)
             gathered[np.argmin(distance)] += weights[j]
-        inside = (u > family.domain[0]) & (u < family.domain[1])
+        inside = (u > family.domain[0]) & (u < family.domain[1]) & ~family.pinned(u)
         found += [(i, u[j], s[j], inside[j], gathered[j]) for j in np.flatnonzero(gathered)]
     family_of, places, signs, free, multipliers = zip(*found, strict=True) if found else ((),) * 5
     return ActiveSet(

@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import ceil, floor
 
 from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.synthesis.bases import PolynomialBasis
 from optlaws.synthesis.bounding import violation_certificate
 from optlaws.synthesis.certificate import Certificate
 from optlaws.synthesis.exchange import Outcome, solve
@@ -53,9 +54,11 @@ def _why(problem: Problem, proof: Certificate, elastic: Model) -> str:
         for name, weight in zip(elastic.equation_names, proof.equations, strict=True)
         if abs(weight) > _WEIGHTLESS
     ]
+    basis = problem.basis
+    shape = f"Z of degree {basis.degree}" if isinstance(basis, PolynomialBasis) else repr(basis)
     asked = " and ".join(dict.fromkeys(reversed(names)))
     return (
-        f"no law of order {problem.order} with Z of degree {problem.basis.degree} has {asked}. "
+        f"no law of order {problem.order} with {shape} has {asked}. "
         f"A higher degree of Z or a lower order helps{_possible(problem)}"
     )
 

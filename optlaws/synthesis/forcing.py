@@ -30,7 +30,7 @@ def held_up(found: Model, plain: ActiveSet, name: str, low: float, holds: Callab
     (family,) = FUNCTIONALS[name].families(found.space, np.zeros(found.program.size), 0.0)
     held = replace(family, name=f"{name} at least", held=True)
     u, s, height = family.extremes(plain.x)
-    inside = (u > family.domain[0]) & (u < family.domain[1])
+    inside = (u > family.domain[0]) & (u < family.domain[1]) & ~family.pinned(u)
     led = []
     for j in np.flatnonzero(height > _WORTHY * height.max()):
         start = plain.joined(len(found.program.families), float(u[j]), float(s[j]), free=bool(inside[j]))

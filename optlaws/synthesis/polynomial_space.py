@@ -10,14 +10,14 @@ from __future__ import annotations
 from functools import cached_property, lru_cache
 
 import numpy as np
-from numpy.polynomial import chebyshev
+from numpy.polynomial import chebyshev, legendre
 from numpy.typing import NDArray
 
 from optlaws.laws import PolynomialLaw
 from optlaws.synthesis.boundary import BoundaryConditions, construct
 from optlaws.synthesis.polynomials import chebyshev_series, gegenbauer
-from optlaws.synthesis.rows import EvenFamily, Family, RatioFamily
-from optlaws.synthesis.space import LawSpace
+from optlaws.synthesis.rows import EvenFamily, Family, LinearFamily, NormFamily, ProductFamily, RatioFamily
+from optlaws.synthesis.space import LawSpace, Quadrature
 
 Array = NDArray[np.float64]
 
@@ -49,6 +49,9 @@ class PolynomialSpace(LawSpace):
         self.order = boundary.order
         self.domain = (0.0, 1.0) if symmetric else (-1.0, 1.0)
         self.base = construct(boundary)
+        self.start_velocity = float(self.base.b(0.0))
+        self.velocity_change = float(self.base.b(1.0)) - self.start_velocity
+        self.stroke = float(self.base.a(1.0)) - float(self.base.a(0.0))
         #: degrees of the free velocities' Gegenbauer polynomials; Z has one degree less
         self.index = np.arange(2, degree + 2, 2) if symmetric else np.arange(1, degree + 2)
         self.terms = len(self.index)
@@ -127,10 +130,40 @@ class PolynomialSpace(LawSpace):
             found[::2] = 0.0
         return found
 
+    def derivative(
+        self, nu: int, name: str, slack: Array, bound: float = 0.0, signs: tuple[float, ...] = (1.0, -1.0)
+    ) -> LinearFamily:
+        """Rows s a^(nu) <= slack . x + bound."""
+        series = self.widened(self.series(nu), len(slack))
+        return LinearFamily(name, slack, bound, signs, self.domain, series=series)
+
+    def power(self, name: str, slack: Array, bound: float = 0.0) -> ProductFamily:
+        """Rows |b c| <= slack . x + bound."""
+        first, second = (self.derivative(nu, name, slack) for nu in (1, 2))
+        return ProductFamily(name, slack, bound, (1.0, -1.0), self.domain, first=first, second=second)
+
+    def norm(self, nu: int, name: str, slack: Array, bound: float = 0.0) -> NormFamily:
+        """The row RMS of a^(nu) <= slack . x + bound."""
+        rule = self.quadrature(nu)
+        matrix = np.sqrt(rule.weights)[:, None] * rule.values
+        return NormFamily(name, slack, bound, matrix=self.widened(matrix, len(slack)))
+
+    def quadrature(self, nu: int) -> Quadrature:
+        """Gauss points; moments are Legendre polynomials."""
+        series = self.series(nu)
+        u, weights = legendre.leggauss(len(series) + 1)
+        values = chebyshev.chebvander(u, len(series) - 1) @ series
+        moments = np.asarray(legendre.legvander(u, len(series)), dtype=np.float64)
+        return Quadrature(weights / 2.0, values, moments)
+
+    def row(self, nu: int, k: float) -> Array:
+        """The derivative of order nu at k: free functions, then the base law."""
+        return np.asarray(chebyshev.chebval(1.0 - 2.0 * k, self.series(nu)))
+
     @cached_property
     def middle(self) -> Array:
         """b(1/2) as a row: free functions, then the base law."""
-        return np.asarray(chebyshev.chebval(0.0, self.series(1)))
+        return self.row(1, 0.5)
 
     @cached_property
     def base_ratio(self) -> float:

@@ -84,16 +84,7 @@ class Problem:
                 object.__setattr__(self, "boundary", None)
             elif self.symmetric:
                 raise InputError("a law with these boundary conditions is not symmetric: ask symmetric=False")
-        if self.basis.degree < (1 if self.symmetric else 0):
-            raise InputError(
-                f"degree {self.basis.degree} leaves no freedom: b(1/2) = B takes the one coefficient of Z that is "
-                "odd about k = 1/2, so the degree of Z must be at least 1 (3 or more to optimise)"
-            )
-
-    @property
-    def terms(self) -> int:
-        """Number of free coefficients of Z: where symmetric, of those odd about k = 1/2."""
-        return (self.basis.degree + 1) // 2 if self.symmetric else self.basis.degree + 1
+        self.basis.check(symmetric=self.symmetric)
 
     @cached_property
     def objective(self) -> Expression:
@@ -133,7 +124,7 @@ class Problem:
         True
         """
         found: dict[str, Any] = {"minimise": str(self.minimise), "order": self.order}
-        found |= {"basis": self.basis.name, "degree": self.basis.degree}
+        found |= self.basis.to_dict()
         found |= {"monotone": self.monotone, "symmetric": self.symmetric}
         for name in CONSTANTS:
             value = getattr(self, name)
@@ -155,14 +146,27 @@ class Problem:
         InputError
             If a key is unknown (the nearest right one is named) or missing, or a value is out of range.
         """
-        known = ("minimise", *CONSTANTS, "order", "basis", "degree", "monotone", "symmetric", "start", "end", "windows")
+        known: tuple[str, ...] = (
+            "minimise",
+            *CONSTANTS,
+            "order",
+            "basis",
+            "degree",
+            "monotone",
+            "symmetric",
+            "start",
+            "end",
+            "windows",
+        )
+        known = (*known, "breaks", "continuity")
         for key in data:
             if key not in known:
                 raise InputError(unknown_key(key, known))
         if "order" not in data and "start" not in data:
             raise InputError("the problem lacks order")
         given = dict(data)
-        chosen = basis(given.pop("basis", "chebyshev"), given.pop("degree", 9))
+        shape = {name: given.pop(name) for name in ("breaks", "continuity") if name in given}
+        chosen = basis(given.pop("basis", "chebyshev"), given.pop("degree", 9), **shape)
         if "start" in given or "end" in given:
             given["boundary"] = BoundaryConditions(tuple(given.pop("start", ())), tuple(given.pop("end", ())))
         given["windows"] = tuple(Window.from_dict(window) for window in given.pop("windows", ()))

@@ -7,15 +7,16 @@ from functools import lru_cache
 from math import isfinite
 
 import numpy as np
-from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.synthesis.bounds import Range
 from optlaws.synthesis.expression import Expression, Maximum, leaves
 from optlaws.synthesis.functionals import FUNCTIONALS, D, Functional
-from optlaws.synthesis.polynomial_space import PolynomialSpace, polynomial_space
+from optlaws.synthesis.polynomial_space import PolynomialSpace
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.rows import Family, LinearFamily, MirroredFamily, Program, RootFamily
+from optlaws.synthesis.space import LawSpace
+from optlaws.synthesis.spaces import space_of
 from optlaws.synthesis.windows import Window
 
 Array = NDArray[np.float64]
@@ -29,7 +30,7 @@ class Model:
     "B" where the peak velocity is a variable. `equation_names` says what each equation is.
     """
 
-    space: PolynomialSpace
+    space: LawSpace
     program: Program
     places: dict[str, int]
     equation_names: tuple[str, ...]
@@ -98,8 +99,8 @@ def extreme_velocity(problem: Problem, *, greatest: bool) -> Model:
     return writer.model()
 
 
-def _space(problem: Problem) -> PolynomialSpace:
-    return polynomial_space(problem.conditions, problem.basis.degree, symmetric=problem.symmetric)
+def _space(problem: Problem) -> LawSpace:
+    return space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
 
 
 def _maxima(expression: Expression) -> list[Maximum]:
@@ -113,7 +114,7 @@ def _maxima(expression: Expression) -> list[Maximum]:
 
 
 class _Writer:
-    def __init__(self, space: PolynomialSpace, names: list[str], problem: Problem, extra: str | None = None) -> None:
+    def __init__(self, space: LawSpace, names: list[str], problem: Problem, extra: str | None = None) -> None:
         wanted = problem.range("B")
         if wanted is not None and not (problem.symmetric and wanted.fixed):
             names = [*names, "B"]
@@ -162,6 +163,10 @@ class _Writer:
             self.families.append(self.space.forward(self.spare))
         for name in ("C", "D", "J"):
             self._at_most(name, problem.range(name))
+        for one in self.space.equations():
+            row = np.zeros(self.size)
+            row[: self.space.terms] = one.row
+            self.equation(row, one.right, one.name)
         for i, window in enumerate(problem.windows, 1):
             for part in window.first_half() if problem.symmetric else (window,):
                 self._window(f"window {i}", part)
@@ -170,10 +175,10 @@ class _Writer:
         if problem.symmetric:
             self.families.append(self.space.below(self.spare))
             middle = np.zeros(self.size)
-            middle[: self.space.terms] = self.space.middle[:-1]
+            *free, base = self.space.row(1, 0.5).tolist()
+            middle[: self.space.terms] = free
             if not wanted.fixed:
                 middle -= self.unit("B")
-            base = float(self.space.middle[-1])
             self.equation(middle, (wanted.high if wanted.fixed else 0.0) - base)
         else:
             signs = (1.0,) if problem.monotone else (1.0, -1.0)
@@ -182,8 +187,9 @@ class _Writer:
                 self.equation(self.unit("B"), wanted.high)
             if problem.boundary is None and wanted.low > 0.0:
                 middle = np.zeros(self.size)
-                middle[: self.space.terms] = self.space.middle[:-1]
-                self.equation(middle - self.unit("B"), -float(self.space.middle[-1]))
+                *free, base = self.space.row(1, 0.5).tolist()
+                middle[: self.space.terms] = free
+                self.equation(middle - self.unit("B"), -base)
         if not wanted.fixed:
             if isfinite(wanted.high):
                 self.row("B at most", self.unit("B"), wanted.high)
@@ -203,8 +209,7 @@ class _Writer:
     def _window(self, name: str, window: Window) -> None:
         ends = (1.0 - 2.0 * window.stop, 1.0 - 2.0 * window.start)
         if window.value:
-            columns = self.space.widened(self.space.series(window.order), self.size)
-            row = np.asarray(chebyshev.chebval(np.array([ends[0]]), columns))[:, 0]
+            row = self.space.widened(self.space.row(window.order, window.start)[None, :], self.size)[0]
             self.equation(row[:-1], window.high - float(row[-1]), repr(window))
             return
         for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
@@ -214,6 +219,8 @@ class _Writer:
 
     def _power(self, slack: Array, bound: float) -> None:
         """Rows b <= r sqrt(2k), b >= -r sqrt(2k) from either end, and 2 t r - t² <= D."""
+        if not isinstance(self.space, PolynomialSpace):
+            return
         root, domain = self.unit(ROOT), (0.0, 1.0)
         series = self.space.widened(self.space.series(1), self.size)
         self.families.append(RootFamily("b / sqrt(2k)", root, 0.0, (1.0, -1.0), domain, series=series))

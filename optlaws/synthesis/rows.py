@@ -70,6 +70,14 @@ class Family(ABC):
     def stationary(self, x: Array) -> Array:
         """Points of [-1, 1] among which every stationary point of f is."""
 
+    def nodes(self) -> Array | None:
+        """Where to hold the family first; None leaves the choice to the exchange."""
+        return None
+
+    def pinned(self, u: Array) -> NDArray[np.bool_]:
+        """Whether a contact at u is a kink that stays where it is."""
+        return np.zeros(len(u), dtype=np.bool_)
+
     def k(self, u: Array) -> Array:
         """The k in [0, 1] that belongs to u = 1 - 2k."""
         places: Array = (1.0 - u) / 2.0

@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.laws import Constants, PolynomialLaw
+from optlaws.laws import Constants, MotionLaw
 from optlaws.synthesis.active_set import ActiveSet
-from optlaws.synthesis.bases import Powers
+from optlaws.synthesis.bases import PolynomialBasis, Powers
 from optlaws.synthesis.certificate import Certificate
 from optlaws.synthesis.problem import Problem
 
@@ -76,7 +76,7 @@ class Solution:
     """
 
     problem: Problem
-    law: PolynomialLaw
+    law: MotionLaw
     z_series: tuple[float, ...]
     objective: float
     certificate: Certificate
@@ -94,14 +94,18 @@ class Solution:
         return self.law.constants
 
     @cached_property
-    def z(self) -> tuple[float, ...]:
-        """Coefficients of Z in the problem's basis."""
-        return self.problem.basis.coefficients(np.array(self.z_series))
+    def z(self) -> tuple[float, ...] | None:
+        """Coefficients of Z in the problem's basis; None for a law of pieces, which has no Z."""
+        basis = self.problem.basis
+        return basis.coefficients(np.array(self.z_series)) if isinstance(basis, PolynomialBasis) else None
 
     @cached_property
-    def z_powers(self) -> tuple[float, ...]:
-        """Coefficients of Z in ascending powers of k, whatever the problem's basis."""
-        return Powers(self.problem.basis.degree).coefficients(np.array(self.z_series))
+    def z_powers(self) -> tuple[float, ...] | None:
+        """Coefficients of Z in ascending powers of k, whatever the problem's basis; None for a law of pieces."""
+        basis = self.problem.basis
+        return (
+            Powers(basis.degree).coefficients(np.array(self.z_series)) if isinstance(basis, PolynomialBasis) else None
+        )
 
     @property
     def gap(self) -> float:
@@ -122,7 +126,7 @@ class Solution:
             "gap": self.gap,
             "limit": self.limit,
             "constants": self.constants.to_dict(),
-            "z": list(self.z_powers),
+            "z": None if self.z_powers is None else list(self.z_powers),
             "law": self.law.to_dict(),
             "iterations": self.iterations,
             "seconds": self.seconds,

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError, SolverFailure
-from optlaws.laws import PolynomialLaw
+from optlaws.laws import MotionLaw
 from optlaws.synthesis import starts
 from optlaws.synthesis.active_set import ActiveSet
 from optlaws.synthesis.bounding import certify, lower_bound
@@ -23,6 +23,7 @@ from optlaws.synthesis.problem import CONSTANTS, Problem
 from optlaws.synthesis.problem_limits import known_limit
 from optlaws.synthesis.programs import Model, model
 from optlaws.synthesis.solution import Solution, Status
+from optlaws.synthesis.spaces import space_of
 from optlaws.synthesis.worth import shortfalls, worth
 
 GAP = 1e-8
@@ -94,12 +95,18 @@ def sweep(problems: Iterable[Problem]) -> Iterator[Solution]:
         yield previous
 
 
+def _same_space(first: Problem, second: Problem) -> bool:
+    return space_of(first.basis, first.conditions, symmetric=first.symmetric) is space_of(
+        second.basis, second.conditions, symmetric=second.symmetric
+    )
+
+
 @dataclass(eq=False)
 class _Attempt:
     """One start: how it ended, and the law recomputed over the whole interval; None where that breaks a constraint."""
 
     outcome: Outcome
-    law: PolynomialLaw | None = None
+    law: MotionLaw | None = None
     objective: float = np.inf
     excess: float = np.inf
 
@@ -110,7 +117,6 @@ def _attempt(problem: Problem, found: Model, warm: ActiveSet | None, point: Arra
 
     def holds(x: Array) -> bool:
         law = found.space.law(x[: found.space.terms])
-        assert isinstance(law, PolynomialLaw)  # noqa: S101
         measured = worth(problem, law)
         attempt.law, attempt.objective, attempt.excess = law, measured.objective, measured.excess
         return measured.excess <= _ROUNDING and measured.objective <= float(claim @ x) * (1.0 + _ROUNDING)
@@ -134,7 +140,7 @@ def _neighbours(first: Problem, second: Problem) -> bool:
         getattr(first, name) == getattr(second, name) for name in ("order", "monotone", "symmetric", "boundary")
     )
     weighted = [term for _, term in first.objective.terms] == [term for _, term in second.objective.terms]
-    return same_kind and alike and weighted and first.terms == second.terms
+    return same_kind and alike and weighted and len(first.windows) == len(second.windows) and _same_space(first, second)
 
 
 def _raised(problem: Problem, found: Model, plain: _Attempt) -> _Attempt:
@@ -173,7 +179,7 @@ def _solution(
     limit = known_limit(problem)
     proof = certify(problem, found, bounding, best.objective)
     bound = lower_bound(proof, limit)
-    if (best.objective - bound) / best.objective <= GAP:
+    if abs(best.objective - bound) <= GAP * best.objective:
         status = Status.OPTIMAL
     else:
         status = Status.INACCURATE if problem.convex and best is plain else Status.LOCAL

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Hashable
-from functools import cache
+from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial import chebyshev, legendre
 from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
@@ -16,11 +15,42 @@ from optlaws.synthesis.rows import Family, LinearFamily, NormFamily, ProductFami
 Array = NDArray[np.float64]
 
 
+@dataclass(frozen=True, eq=False)
+class Equation:
+    """A condition on the coordinates that every law of the space keeps: row . x = right."""
+
+    name: str
+    row: Array
+    right: float
+
+
+@dataclass(frozen=True, eq=False)
+class Quadrature:
+    """Weights (sum 1 over the interval), a derivative's columns at the points, and moment functions there, |.| <= 1."""
+
+    weights: Array
+    values: Array
+    moments: Array
+
+
 class LawSpace(ABC):
-    """Laws base + sum x_i f_i; subclasses give their series. Variables beyond `terms` belong to the program."""
+    """Laws base + sum x_i f_i. Variables beyond `terms` belong to the program.
+
+    Attributes
+    ----------
+    terms
+        Number of coordinates.
+    symmetric
+        Whether the laws are; then constraints need to hold on the first half only.
+    start_velocity, velocity_change, stroke
+        b(0), b(1) - b(0) and a(1) - a(0) of the base law.
+    """
 
     terms: int
-    domain: tuple[float, float]
+    symmetric: bool
+    start_velocity: float
+    velocity_change: float
+    stroke: float
 
     def __init__(self) -> None:
         self._kept: dict[Hashable, Array] = {}
@@ -32,42 +62,30 @@ class LawSpace(ABC):
         return self._kept[key]
 
     @abstractmethod
-    def series(self, nu: int) -> Array:
-        """Chebyshev series in u = 1 - 2k of the derivative of order nu: a column for each f_i, the base law last."""
-
-    @abstractmethod
     def law(self, coordinates: Array) -> MotionLaw:
         """The law with the given coordinates."""
 
     @abstractmethod
     def z_series(self, coordinates: Array) -> Array:
-        """Chebyshev series of Z in 2k - 1."""
+        """Chebyshev series of Z in 2k - 1; empty where the laws have none."""
 
-    def widened(self, columns: Array, size: int) -> Array:
-        """Columns for `size` variables: those beyond the coordinates are zero, the base law's stays last."""
-        wide = np.zeros((len(columns), size + 1))
-        wide[:, : self.terms] = columns[:, :-1]
-        wide[:, -1] = columns[:, -1]
-        return wide
-
+    @abstractmethod
     def derivative(
         self, nu: int, name: str, slack: Array, bound: float = 0.0, signs: tuple[float, ...] = (1.0, -1.0)
     ) -> LinearFamily:
         """Rows s a^(nu) <= slack . x + bound."""
-        series = self.widened(self.series(nu), len(slack))
-        return LinearFamily(name, slack, bound, signs, self.domain, series=series)
 
+    @abstractmethod
     def power(self, name: str, slack: Array, bound: float = 0.0) -> ProductFamily:
         """Rows |b c| <= slack . x + bound."""
-        first, second = (self.derivative(nu, name, slack) for nu in (1, 2))
-        return ProductFamily(name, slack, bound, (1.0, -1.0), self.domain, first=first, second=second)
 
+    @abstractmethod
     def norm(self, nu: int, name: str, slack: Array, bound: float = 0.0) -> NormFamily:
         """The row RMS of a^(nu) <= slack . x + bound."""
-        series = self.series(nu)
-        u, weights = _gauss(len(series) + 1)
-        matrix = np.sqrt(weights / 2.0)[:, None] * chebyshev.chebvander(u, len(series) - 1) @ series
-        return NormFamily(name, slack, bound, matrix=self.widened(matrix, len(slack)))
+
+    @abstractmethod
+    def row(self, nu: int, k: float) -> Array:
+        """The derivative of order nu at k: free functions, then the base law."""
 
     @abstractmethod
     def below(self, slack: Array) -> Family:
@@ -77,8 +95,17 @@ class LawSpace(ABC):
     def forward(self, slack: Array) -> Family:
         """Rows b >= 0."""
 
+    @abstractmethod
+    def quadrature(self, nu: int) -> Quadrature:
+        """A rule that is exact for the squares of the derivative of order nu, and moments that determine it."""
 
-@cache
-def _gauss(count: int) -> tuple[Array, Array]:
-    u, weights = legendre.leggauss(count)
-    return u, weights
+    def equations(self) -> list[Equation]:
+        """Conditions that the coordinates must keep; none where the free functions keep them all."""
+        return []
+
+    def widened(self, columns: Array, size: int) -> Array:
+        """Columns for `size` variables: those beyond the coordinates are zero, the base law's stays last."""
+        wide = np.zeros((len(columns), size + 1))
+        wide[:, : self.terms] = columns[:, :-1]
+        wide[:, -1] = columns[:, -1]
+        return wide

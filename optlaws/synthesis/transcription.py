@@ -13,6 +13,9 @@ from optlaws.synthesis.rows import LinearFamily, NormFamily, Points, ProductFami
 
 Array = NDArray[np.float64]
 
+# keeps the norm's slope finite where it vanishes; Newton's method on the exact active set goes without it
+_SMOOTH = 1e-12
+_EMPTY = 1e-13
 _QUIET = {"print_time": False, "ipopt.print_level": 0, "ipopt.sb": "yes"}
 _REPEATABLE = {
     "ipopt.max_iter": 200,
@@ -59,7 +62,11 @@ def solve_on_points(program: Program, points: list[Points], start: Array | None,
     rows = np.vstack([*(a for a, _ in linear), program.equalities])
     right = np.concatenate([*(h for _, h in linear), program.right])
     length = np.linalg.norm(rows, axis=1)
-    length[length == 0.0] = 1.0
+    # a row such as b >= 0 at rest says nothing, and IPOPT would have no room to say it in
+    empty = length < _EMPTY
+    empty[len(rows) - len(program.right) :] = False
+    length[length < _EMPTY] = 1.0
+    right = np.where(empty, np.inf, right)
 
     products = [(f, p) for f, p in pairs if isinstance(f, ProductFamily)]
     first, second, slack, bound = _product_rows(products, program.size)
@@ -130,7 +137,7 @@ def _solver(size: int, linear: int, products: int, norms: tuple[int, ...], *, ca
     matrices, rooms = symbols[4 : 4 + len(norms)], symbols[4 + len(norms) : -1]
     p = ca.vertcat(*(ca.vec(s) for s in symbols))
     curved = [(first @ point) * (second @ point) - slack @ x] if products else []
-    curved += [ca.norm_2(m @ point) - room @ x for m, room in zip(matrices, rooms, strict=True)]
+    curved += [ca.sqrt(ca.sumsqr(m @ point) + _SMOOTH) - room @ x for m, room in zip(matrices, rooms, strict=True)]
     program: Any = {"x": x, "p": p, "f": ca.dot(symbols[-1], x), "g": ca.vertcat(rows @ x, *curved)}
     options: Any = {**_QUIET, **_REPEATABLE, "ipopt.tol": 1e-9}
     if not curved:

@@ -1,0 +1,40 @@
+"""Which space of laws belongs to a basis: one line for each kind."""
+
+from __future__ import annotations
+
+from functools import singledispatch
+
+from optlaws.errors import InputError
+from optlaws.synthesis.bases import Basis, Pieces, PolynomialBasis
+from optlaws.synthesis.boundary import BoundaryConditions
+from optlaws.synthesis.piece_space import PieceSpace, piece_space
+from optlaws.synthesis.polynomial_space import PolynomialSpace, polynomial_space
+from optlaws.synthesis.space import LawSpace
+
+
+@singledispatch
+def space_of(basis: Basis, boundary: BoundaryConditions, *, symmetric: bool) -> LawSpace:
+    """The space of laws with the given basis and end conditions; register one for a new kind of basis.
+
+    Raises
+    ------
+    InputError
+        If none is registered.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis.bases import Chebyshev
+    >>> space_of(Chebyshev(9), BoundaryConditions.rest(4), symmetric=True).terms
+    5
+    """
+    raise InputError(f"no space of laws is registered for {basis!r} (boundary {boundary!r}, symmetric {symmetric!r})")
+
+
+@space_of.register
+def _(basis: PolynomialBasis, boundary: BoundaryConditions, *, symmetric: bool) -> PolynomialSpace:
+    return polynomial_space(boundary, basis.degree, symmetric=symmetric)
+
+
+@space_of.register
+def _(basis: Pieces, boundary: BoundaryConditions, *, symmetric: bool) -> PieceSpace:
+    return piece_space(boundary, basis.breaks, basis.degree, basis.continuity, symmetric=symmetric)
