@@ -6,6 +6,7 @@ from optlaws.synthesis.bounds import Range, at_least, at_most, between
 from optlaws.synthesis.certificate import Certificate, Contact
 from optlaws.synthesis.expression import Expression, Maximum, Term, maximum
 from optlaws.synthesis.functionals import FUNCTIONALS, B, C, C_minus, C_plus, D, Functional, J, jounce, rms_c, rms_j
+from optlaws.synthesis.limit_laws import limit_law
 from optlaws.synthesis.limits import acceleration_limit, limit
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.solution import Solution, Status
@@ -46,6 +47,7 @@ __all__ = [
     "construct",
     "jounce",
     "limit",
+    "limit_law",
     "maximum",
     "rms_c",
     "rms_j",

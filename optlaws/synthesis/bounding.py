@@ -12,10 +12,14 @@ from optlaws.synthesis.programs import ROOT, Model, relaxed
 from optlaws.synthesis.rows import NormFamily
 
 _TANGENTS = 4
+_NEAR = 0.9
 
 
-def certify(problem: Problem, found: Model, optimum: ActiveSet, objective: float) -> Certificate:
-    """The certificate of an optimum; of the relaxed program, solved here, where the problem is not convex."""
+def certify(problem: Problem, found: Model, optimum: ActiveSet, objective: float, limit: float | None) -> Certificate:
+    """The certificate of an optimum; of the relaxed program, solved here, where the problem is not convex.
+
+    The tangent is moved to where the relaxed optimum asks for it, as long as that may pay: not below the limit.
+    """
     if problem.convex:
         return certificate(problem, found, optimum, OBJECTIVE)
     tangent = float(np.sqrt(objective))
@@ -28,6 +32,8 @@ def certify(problem: Problem, found: Model, optimum: ActiveSet, objective: float
         proof = certificate(problem, loose, outcome.optimum, RELAXED, tangent)
         if best is None or proof.bound > best.bound:
             best = proof
+        if limit is not None and best.bound < _NEAR * limit:
+            break
         moved = float(outcome.optimum.x[loose.places[ROOT]])
         if abs(moved - tangent) < 1e-6 * tangent:
             break

@@ -64,6 +64,8 @@ class Solution:
         How it went: IPOPT's iterations (0 where a neighbour was continued) and the wall time.
     starts
         Where the problem is not convex: the objectives that the starts led to, ascending.
+    active_set
+        Contacts and multipliers in the solver's own terms, from which a neighbouring problem is continued.
     versions
         Versions of optlaws and of the libraries that took part.
 

@@ -177,7 +177,7 @@ def _solution(
         raise SolverFailure("no start led to a law", problem=problem)
     objectives, iterations, began = history
     limit = known_limit(problem)
-    proof = certify(problem, found, bounding, best.objective)
+    proof = certify(problem, found, bounding, best.objective, limit)
     bound = lower_bound(proof, limit)
     if abs(best.objective - bound) <= GAP * best.objective:
         status = Status.OPTIMAL

@@ -14,7 +14,7 @@ from optlaws.synthesis.programs import Model, model
 Array = NDArray[np.float64]
 
 _SEED = 20010
-_RANDOM = 3
+_RANDOM = 2
 _SPREAD = 0.3
 
 
