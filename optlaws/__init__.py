@@ -1,6 +1,6 @@
 """Optimal motion laws for cam mechanisms and servo axes, with proof of their optimality."""
 
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
+from optlaws.errors import InfeasibleProblem, InputError, NotNormalised, OptlawsError, SolverFailure
 from optlaws.laws import Constants, MotionLaw, Peak, PolynomialLaw, smoothstep
 from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.savin import savin
@@ -63,6 +63,7 @@ __all__ = [
     "InputError",
     "J",
     "MotionLaw",
+    "NotNormalised",
     "OptlawsError",
     "Peak",
     "Pieces",

@@ -15,7 +15,7 @@ from rich.table import Table
 
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.laws import Constants
-from optlaws.synthesis import BoundaryConditions, Problem, Solution, basis, construct, synthesize
+from optlaws.synthesis import BoundaryConditions, Problem, Range, Solution, at_most, basis, construct, synthesize
 
 BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 2, 3, 4, 130
 
@@ -73,12 +73,16 @@ def run(*files: Path, out: Path | None = None) -> None:
 @app.command
 def solve(
     *,
-    peak_velocity: float,
     order: Whole,
     degree: Whole,
     minimise: str = "C",
-    basis_name: Annotated[Literal["powers", "chebyshev"], Parameter(name="--basis")] = "powers",
+    peak_velocity: float | None = None,
+    most_acceleration: float | None = None,
+    most_power: float | None = None,
+    most_jerk: float | None = None,
+    basis_name: Annotated[Literal["powers", "chebyshev", "bernstein"], Parameter(name="--basis")] = "powers",
     monotone: bool = False,
+    unsymmetric: bool = False,
     as_json: Annotated[bool, Parameter(name="--json")] = False,
     output: Path | None = None,
 ) -> None:
@@ -86,25 +90,41 @@ def solve(
 
     Parameters
     ----------
-    peak_velocity
-        B, above 1 (dimensionless; the mean velocity is 1).
     order
         Number l of boundary conditions at each end: 2 for velocity 0, 3 for acceleration 0 too, 4 for jerk 0 too.
     degree
         Degree of Z(k).
     minimise
         What to minimise: C, D, J, rms_c, ... or a sum or maximum such as "0.6*C/4 + 0.4*D/2.25".
+    peak_velocity
+        B, above 1 (dimensionless; the mean velocity is 1); free unless given.
+    most_acceleration
+        C at most this.
+    most_power
+        D at most this.
+    most_jerk
+        J at most this.
     basis_name
         Basis of Z(k).
     monotone
         Ask b >= 0 too: no return within the motion.
+    unsymmetric
+        Seek among unsymmetric laws too.
     as_json
         Print one JSON object on stdout and nothing else.
     output
         Write the whole solution, with its problem and certificate, to this JSON file.
     """
     problem = Problem(
-        B=peak_velocity, order=order, basis=basis(basis_name, degree), minimise=minimise, monotone=monotone
+        B=peak_velocity,
+        C=_at_most(most_acceleration),
+        D=_at_most(most_power),
+        J=_at_most(most_jerk),
+        order=order,
+        basis=basis(basis_name, degree),
+        minimise=minimise,
+        monotone=monotone,
+        symmetric=not unsymmetric,
     )
     solution = synthesize(problem)
     if output is not None:
@@ -113,6 +133,10 @@ def solve(
         print(json.dumps(_summary(solution)))  # noqa: T201
     else:
         _show_solution(solution)
+
+
+def _at_most(value: float | None) -> Range | None:
+    return None if value is None else at_most(value)
 
 
 @app.command
@@ -198,7 +222,10 @@ def _show_solution(solution: Solution) -> None:
     table.add_row("status", f"{solution.status.value}: {solution.status.advice}")
     table.add_row(str(solution.problem.minimise), f"{solution.objective:.10g}")
     table.add_row("lower bound", f"{solution.lower_bound:.10g} (gap {solution.gap:.1e})")
-    table.add_row("limit", f"{solution.limit:.10g}, which no law of any degree can beat")
+    if solution.limit is not None:
+        table.add_row("limit", f"{solution.limit:.10g}, which no law of any degree can beat")
+    if solution.starts:
+        table.add_row("starts", f"{len(solution.starts)}, from {solution.starts[0]:.10g} to {solution.starts[-1]:.10g}")
     z = solution.z or ()
     table.add_row("Z(k)", " ".join(f"{value:.9g}" for value in z) + f"  ({solution.problem.basis.name})")
     table.add_row("solved", f"{solution.problem!r}")

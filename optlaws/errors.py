@@ -24,6 +24,16 @@ class InputError(OptlawsError, ValueError):
     """
 
 
+class NotNormalised(UserWarning):
+    """A mixed objective whose parts differ much in size, so that only one of them counts.
+
+    Examples
+    --------
+    >>> issubclass(NotNormalised, UserWarning)
+    True
+    """
+
+
 class InfeasibleProblem(OptlawsError):  # noqa: N818
     """No law meets the conditions of the problem.
 

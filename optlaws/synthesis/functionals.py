@@ -32,7 +32,7 @@ class Functional(Term):
     name
         Its name in expressions, problem files and results.
     reference
-        The least value that rest-to-rest laws can have, by which mixtures are normalised.
+        The least value that rest-to-rest laws can have, by which mixtures are normalised; NaN where there is none.
     convex
         Whether it is convex in the law; then optima are proven, otherwise only bounded.
     """
@@ -127,8 +127,9 @@ C_plus = Peak("C_plus", 4.0, convex=True, nu=2, signs=(1.0,))
 C_minus = Peak("C_minus", 4.0, convex=True, nu=2, signs=(-1.0,))
 D = Power("D", 2.25, convex=False)
 J = Peak("J", 12.0, convex=True, nu=3)
-jounce = Peak("jounce", 1.0, convex=True, nu=4)
+jounce = Peak("jounce", np.nan, convex=True, nu=4)
 rms_c = RootMeanSquare("rms_c", np.sqrt(12.0), convex=True, nu=2)
-rms_j = RootMeanSquare("rms_j", 1.0, convex=True, nu=3)
+rms_j = RootMeanSquare("rms_j", np.nan, convex=True, nu=3)
 
 FUNCTIONALS: dict[str, Functional] = {f.name: f for f in (B, C, C_plus, C_minus, D, J, jounce, rms_c, rms_j)}
+ALIASES: dict[str, Functional] = {"rms": rms_c}

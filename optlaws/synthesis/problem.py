@@ -16,7 +16,7 @@ from optlaws.synthesis.bases import Basis, Chebyshev, basis
 from optlaws.synthesis.boundary import BoundaryConditions
 from optlaws.synthesis.bounds import Range, as_range
 from optlaws.synthesis.expression import Expression, Term, leaves
-from optlaws.synthesis.functionals import FUNCTIONALS
+from optlaws.synthesis.functionals import ALIASES, FUNCTIONALS
 from optlaws.synthesis.grammar import parse
 from optlaws.synthesis.windows import Window
 
@@ -184,7 +184,7 @@ def _given(problem: Problem, one: Any) -> bool:  # noqa: ANN401 - a dataclass fi
 
 @lru_cache(maxsize=256)
 def _parsed(text: str) -> Expression:
-    return parse(text, FUNCTIONALS)
+    return parse(text, FUNCTIONALS | ALIASES)
 
 
 def _canonical(minimise: Any) -> str | Expression:  # noqa: ANN401 - it is checked here

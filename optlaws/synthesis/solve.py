@@ -19,6 +19,7 @@ from optlaws.synthesis.exchange import Outcome, solve
 from optlaws.synthesis.failure import failure
 from optlaws.synthesis.forcing import held_up
 from optlaws.synthesis.functionals import FUNCTIONALS
+from optlaws.synthesis.mixtures import warn_of_mixture
 from optlaws.synthesis.problem import CONSTANTS, Problem
 from optlaws.synthesis.problem_limits import known_limit
 from optlaws.synthesis.programs import Model, model
@@ -64,6 +65,7 @@ def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
     """
     began = perf_counter()
     _check_types(problem, start)
+    warn_of_mixture(problem.objective)
     found = model(problem)
     warm = start.active_set if start is not None and _neighbours(problem, start.problem) else None
     tries = [_attempt(problem, found, warm, None)]
