@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
 from collections.abc import Sequence
 from contextlib import nullcontext
@@ -183,6 +184,10 @@ def exit_code(arguments: Sequence[str]) -> int:
         text, code = f"infeasible: {error}", INFEASIBLE
     except OptlawsError as error:
         text, code = str(error), SOLVER_FAILURE
+    except BrokenPipeError:
+        # whoever read us has seen enough; the interpreter must not try to flush what is left
+        os.dup2(os.open(os.devnull, os.O_WRONLY), sys.stdout.fileno())
+        return 0
     except OSError as error:
         text, code = f"{error.strerror or error}{f': {error.filename}' if error.filename else ''}", BAD_INPUT
     except KeyboardInterrupt:

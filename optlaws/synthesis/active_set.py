@@ -22,6 +22,7 @@ _STALLED = 1e-10
 _FAR = 1.05
 _WILD = 1e6
 _RANK = 1e-11
+_FULFILLED = 1e-7
 
 
 @dataclass(frozen=True, eq=False)
@@ -58,8 +59,11 @@ def newton(program: Program, start: ActiveSet) -> ActiveSet | None:
     """Solve the optimality conditions from `start`; None where that does not converge."""
     state = start
     previous = np.inf
+    deficient = False
     for _ in range(_STEPS):
-        step = _step(program, state)
+        system, defect = _conditions(program, state)
+        step, full = _step(system, defect)
+        deficient = deficient or not full
         if not np.isfinite(step).all():
             return None
         state = _moved(state, step)
@@ -67,12 +71,18 @@ def newton(program: Program, start: ActiveSet) -> ActiveSet | None:
             return None
         size = float(np.abs(step[: program.size]).max() / max(1.0, np.abs(state.x).max()))
         if size < _CONVERGED or (size < _STALLED and size > previous / 4):
-            return state
+            return state if not deficient or _fulfilled(program, state) else None
         previous = size
     return None
 
 
-def _step(program: Program, state: ActiveSet) -> Array:
+def _fulfilled(program: Program, state: ActiveSet) -> bool:
+    # the shortest step of a deficient system may vanish where the conditions do not hold
+    return bool(np.abs(_conditions(program, state)[1]).max() < _FULFILLED)
+
+
+def _conditions(program: Program, state: ActiveSet) -> tuple[Array, Array]:
+    """The optimality conditions' defect and its derivative."""
     n, p = program.size, len(state.u)
     value, slope, curvature = np.empty((3, p))
     rows, slopes = np.empty((2, p, n))
@@ -105,14 +115,19 @@ def _step(program: Program, state: ActiveSet) -> Array:
     defect[n : n + m] = slope[free]
     defect[n + m : last] = value
     defect[last:] = program.equalities @ state.x - program.right
+    return system, defect
+
+
+def _step(system: Array, defect: Array) -> tuple[Array, bool]:
+    """Newton's step, and whether the system had full rank; otherwise it is the shortest of the best steps."""
     try:
         step: Array = np.linalg.solve(system, -defect).astype(np.float64, copy=False)
     except np.linalg.LinAlgError:
         step = np.full(len(defect), np.inf)
-    if not np.abs(step).max() < _WILD:
-        # where the optimum is not unique the shortest step leads to one of them
-        step = np.linalg.lstsq(system, -defect, rcond=_RANK)[0].astype(np.float64, copy=False)
-    return step
+    if np.abs(step).max(initial=0.0) < _WILD:
+        return step, True
+    # where the optimum is not unique the shortest step leads to one of them
+    return np.linalg.lstsq(system, -defect, rcond=_RANK)[0].astype(np.float64, copy=False), False
 
 
 def _moved(state: ActiveSet, step: Array) -> ActiveSet:

@@ -72,4 +72,4 @@ def _nothing_between(state: ActiveSet, mine: NDArray[np.bool_], u: float) -> NDA
         bool(mine[i]) and not np.any(mine & ((state.u - u) * (state.u[i] - u) > 0) & (distance < distance[i]))
         for i in range(len(state.u))
     ]
-    return np.array(same_side)
+    return np.array(same_side, dtype=np.bool_)

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.active_set import ActiveSet, newton
 from optlaws.synthesis.contacts import completed, settled
-from optlaws.synthesis.rows import EvenFamily, Family, Points, Program
+from optlaws.synthesis.rows import EvenFamily, Family, NormFamily, Points, Program
 from optlaws.synthesis.transcription import Answer, solve_on_points
 
 Array = NDArray[np.float64]
@@ -19,6 +19,7 @@ _ROUNDS = 12
 _CORRECTIONS = 8
 _WEIGHTLESS = 1e-7
 _LOST = 1e7
+_AMPLE = 1.2
 
 
 @dataclass(frozen=True, eq=False)
@@ -47,6 +48,12 @@ def solve(
         if optimum is not None:
             return Outcome(optimum, 0, 0, "continued from a neighbour")
     points = _first_points(program)
+    if start is None and program.curved:
+        start = _lifted(program, points)
+        guess = _norms_only(program, start)
+        optimum = polished(program, guess, holds) if guess is not None else None
+        if optimum is not None:
+            return Outcome(optimum, 0, 0, "least squares")
     iterations = 0
     status = ""
     for attempt in range(1, _ROUNDS + 1):
@@ -63,8 +70,10 @@ def solve(
         optimum = polished(program, _identified(program, points, answer), holds)
         if optimum is not None:
             return Outcome(optimum, iterations, attempt, status)
+        asked = points
         points = [_exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
-    return Outcome(None, iterations, _ROUNDS, status)
+    rough = _as_answered(asked, answer) if not program.curved else None
+    return Outcome(rough, iterations, _ROUNDS, status)
 
 
 def polished(program: Program, start: ActiveSet, holds: Callable[[Array], bool] | None) -> ActiveSet | None:
@@ -80,6 +89,39 @@ def polished(program: Program, start: ActiveSet, holds: Callable[[Array], bool] 
         if guess is optimum:
             return optimum
     return None
+
+
+def _norms_only(program: Program, x: Array) -> ActiveSet | None:
+    """A guess in which RMS alone bind, where they alone are minimised: it may need no IPOPT, which dislikes norms."""
+    norms = [i for i, one in enumerate(program.families) if isinstance(one, NormFamily)]
+    weighed = {int(place) for i in norms for place in np.flatnonzero(program.families[i].slack)}
+    if weighed != set(np.flatnonzero(program.objective).tolist()):
+        return None
+    family = np.array(norms, dtype=np.intp)
+    ones = np.ones(len(family))
+    x = x + _least_squares(program, [one for one in program.families if isinstance(one, NormFamily)])
+    free = np.zeros(len(family), dtype=np.bool_)
+    return ActiveSet(x, family, ones, ones, free, ones, np.zeros(len(program.right)))
+
+
+def _least_squares(program: Program, norms: list[NormFamily]) -> Array:
+    """Coordinates that make the sum of the squares of the norms least under the equations."""
+    matrix = np.vstack([one.matrix for one in norms])
+    square = matrix[:, :-1].T @ matrix[:, :-1]
+    count = len(program.right)
+    system = np.block([[square, program.equalities.T], [program.equalities, np.zeros((count, count))]])
+    right = np.concatenate([-matrix[:, :-1].T @ matrix[:, -1], program.right])
+    return np.asarray(np.linalg.lstsq(system, right, rcond=None)[0][: program.size], dtype=np.float64)
+
+
+def _lifted(program: Program, points: list[Points]) -> Array:
+    """The base law with room for its own constants: from below them curved programs are hard to enter."""
+    x = np.zeros(program.size)
+    for family, mine in zip(program.families, points, strict=True):
+        needed = float((mine.s * family.value(np.zeros(program.size), mine.u)).max()) - family.bound
+        places = family.slack > 0.0
+        x[places] = np.maximum(x[places], _AMPLE * needed / family.slack[places])
+    return x
 
 
 def _first_points(program: Program) -> list[Points]:
@@ -143,6 +185,21 @@ def _identified(program: Program, points: list[Points], answer: Answer) -> Activ
         free=np.asarray(free, dtype=np.bool_),
         multipliers=np.asarray(multipliers, dtype=np.float64),
         equality_multipliers=answer.multipliers[-1],
+    )
+
+
+def _as_answered(points: list[Points], answer: Answer) -> ActiveSet:
+    """IPOPT's own contacts, for optima that are flat somewhere, where no exact active set exists."""
+    weights = answer.multipliers
+    kept = [np.flatnonzero(w > _WEIGHTLESS * max(1.0, float(w.max(initial=0.0)))) for w in weights[:-1]]
+    return ActiveSet(
+        x=answer.x,
+        family=np.concatenate([np.full(len(j), i, dtype=np.intp) for i, j in enumerate(kept)]),
+        u=np.concatenate([mine.u[j] for mine, j in zip(points, kept, strict=True)]),
+        s=np.concatenate([mine.s[j] for mine, j in zip(points, kept, strict=True)]),
+        free=np.zeros(sum(map(len, kept)), dtype=np.bool_),
+        multipliers=np.concatenate([w[j] for w, j in zip(weights[:-1], kept, strict=True)]),
+        equality_multipliers=weights[-1],
     )
 
 

@@ -47,6 +47,7 @@ class PolynomialSpace(LawSpace):
         super().__init__()
         self.boundary, self.degree, self.symmetric = boundary, degree, symmetric
         self.order = boundary.order
+        self.at_rest = boundary == BoundaryConditions.rest(self.order)
         self.domain = (0.0, 1.0) if symmetric else (-1.0, 1.0)
         self.base = construct(boundary)
         self.start_velocity = float(self.base.b(0.0))
@@ -176,12 +177,15 @@ class PolynomialSpace(LawSpace):
         return EvenFamily("chord", slack, series=chord)
 
     def forward(self, slack: Array) -> Family:
-        """Rows b >= 0, of symmetric laws as b / (k(1-k))^(l-1) >= 0 (in units of the base law's)."""
-        if not self.symmetric:
+        """Rows b >= 0, from rest to rest as b / (k(1-k))^(l-1) >= 0 (in units of the base law's)."""
+        if not self.at_rest:
             return self.derivative(1, "forward", slack, signs=(-1.0,))
         scale = np.append(self._ratio_scale, 1.0)
         columns = gegenbauer(self.order - 0.5, int(self.index[-1]), self._u)[np.append(self.index, 0)] * scale[:, None]
-        ratio = self.widened(-chebyshev_series(columns.T, self._angle)[::2], len(slack))
+        series = -chebyshev_series(columns.T, self._angle)
+        if not self.symmetric:
+            return LinearFamily("ratio", slack, domain=self.domain, series=self.widened(series, len(slack)))
+        ratio = self.widened(series[::2], len(slack))
         return RatioFamily("ratio", slack, series=ratio, index=self.order - 0.5, scale=-scale)
 
     @cached_property

@@ -30,6 +30,8 @@ from optlaws.synthesis.worth import shortfalls, worth
 GAP = 1e-8
 # what passes without a look at the divided rows, in which a contact pinned to the middle may hide a larger excess
 _ROUNDING = 1e-13
+# an objective that is zero but for rounding, such as the jounce of a cubic, is judged absolutely
+_NOTHING = 1e-6
 
 Array = NDArray[np.float64]
 
@@ -124,7 +126,10 @@ def _attempt(problem: Problem, found: Model, warm: ActiveSet | None, point: Arra
         return measured.excess <= _ROUNDING and measured.objective <= float(claim @ x) * (1.0 + _ROUNDING)
 
     attempt.outcome = solve(found.program, warm, start=point, holds=holds)
-    if attempt.outcome.optimum is None or attempt.excess > 10.0 * VIOLATION:
+    optimum = attempt.outcome.optimum
+    if optimum is not None:
+        holds(optimum.x)
+    if optimum is None or attempt.excess > 10.0 * VIOLATION:
         attempt.law = None
     return attempt
 
@@ -181,7 +186,7 @@ def _solution(
     limit = known_limit(problem)
     proof = certify(problem, found, bounding, best.objective, limit)
     bound = lower_bound(proof, limit)
-    if abs(best.objective - bound) <= GAP * best.objective:
+    if abs(best.objective - bound) <= GAP * (best.objective if best.objective > _NOTHING else 1.0):
         status = Status.OPTIMAL
     else:
         status = Status.INACCURATE if problem.convex and best is plain else Status.LOCAL

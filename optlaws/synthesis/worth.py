@@ -31,6 +31,8 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
         lowest, highest = law.extrema(1)
         if wanted is not None:
             excess = max(excess, highest.value / wanted.high - 1.0)
+            if problem.boundary is None and wanted.low > 0.0:
+                excess = max(excess, 1.0 - highest.value / wanted.low)
         if problem.monotone:
             excess = max(excess, -lowest.value)
     for name in ("C", "D", "J"):
