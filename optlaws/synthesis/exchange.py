@@ -145,7 +145,7 @@ def _points(family: Family, size: int, even_share: float) -> Points:
             places = np.cos(np.arange(count) * np.pi / (count - 1))
         elif low == 0.0:
             count = int((1.5, 0.75)[i] * size) + 4
-            places = np.cos((np.arange(count) + 0.5) * np.pi / (2 * count))
+            places = high * np.cos((np.arange(count) + 0.5) * np.pi / (2 * count))
         else:
             count = int(1.5 * size) + 4
             places = (high + low) / 2 + (high - low) / 2 * np.cos((np.arange(count) + 0.5) * np.pi / count)

@@ -1,0 +1,100 @@
+"""Values and windows of a, b, c, j: kept on the whole interval, mirrored where symmetric, named in a contradiction."""
+
+import numpy as np
+import pytest
+
+from optlaws import Chebyshev, InfeasibleProblem, InputError, Pieces, Problem, Window, synthesize, via
+
+CASES = [
+    Problem(B=1.7, order=3, windows=(via("a", 0.08, at=0.2),)),
+    Problem(B=1.7, order=3, windows=(via("a", 0.92, at=0.8),)),
+    Problem(B=1.8, order=3, windows=(Window("b", high=1.0, start=0.2, stop=0.3),), basis=Chebyshev(15)),
+    Problem(B=1.8, order=3, windows=(Window("b", high=1.0, start=0.7, stop=0.8),), basis=Chebyshev(15)),
+    Problem(B=1.8, order=2, windows=(Window("j", low=-20, high=20, start=0, stop=0),), basis=Chebyshev(15)),
+    Problem(B=1.9, order=3, windows=(Window("a", low=0.2, high=0.8, start=0.3, stop=0.7),), basis=Chebyshev(11)),
+    Problem(order=3, symmetric=False, windows=(via("a", 0.3, at=0.3), via("c", 0, at=0.4)), basis=Chebyshev(11)),
+    Problem(order=3, minimise="J", symmetric=False, windows=(Window("c", high=5, start=0, stop=0.2),)),
+    Problem(order=3, minimise="D", symmetric=False, windows=(via("a", 0.25, at=0.3),)),
+    Problem(B=1.8, order=3, windows=(via("b", 0.9, at=0.2),), basis=Pieces(16, degree=3, continuity=2)),
+]
+
+
+@pytest.mark.parametrize("problem", CASES, ids=range(len(CASES)))
+def test_windows_hold_on_the_whole_of_their_interval(problem: Problem) -> None:
+    law = synthesize(problem).law
+    for window in problem.windows:
+        k = np.linspace(window.start, window.stop, 2001)
+        values = law(k, window.order)
+        assert np.all(values <= window.high + 1e-8)
+        assert np.all(values >= window.low - 1e-8)
+
+
+def test_a_window_and_its_mirror_image_ask_the_same_of_a_symmetric_law() -> None:
+    first, second = (synthesize(CASES[i]) for i in (0, 1))
+    assert first.objective == pytest.approx(second.objective, rel=1e-11)
+    third, fourth = (synthesize(CASES[i]) for i in (2, 3))
+    assert third.objective == pytest.approx(fourth.objective, rel=1e-11)
+
+
+@pytest.mark.parametrize("quantity", "abcj")
+def test_mirroring_twice_changes_nothing(quantity: str) -> None:
+    window = Window(quantity, -0.25, 0.5, 0.125, 0.375)
+    assert window.mirrored().mirrored() == window
+    assert window.first_half() == (window,)
+    assert all(part.stop <= 0.5 for part in Window(quantity, -0.25, 0.5, 0.25, 0.875).first_half())
+
+
+def test_a_window_can_only_make_the_objective_greater() -> None:
+    plain = synthesize(Problem(B=1.8, order=3, basis=Chebyshev(15)))
+    narrowed = [
+        synthesize(Problem(B=1.8, order=3, basis=Chebyshev(15), windows=(Window("b", high=h, start=0.2, stop=0.3),)))
+        for h in (1.3, 1.2, 1.1, 1.0)
+    ]
+    objectives = [plain.objective, *(one.objective for one in narrowed)]
+    assert objectives == sorted(objectives)
+    assert all(one.status == "optimal" for one in narrowed)
+    wide = Problem(B=1.8, order=3, basis=Chebyshev(15), windows=(Window("b", high=2.0),))
+    assert synthesize(wide).objective == pytest.approx(plain.objective, rel=1e-10)
+
+
+def test_a_contradiction_names_the_window() -> None:
+    problem = Problem(B=1.8, order=3, basis=Chebyshev(7), monotone=True, windows=(via("a", 0.4, at=0.2),))
+    with pytest.raises(InfeasibleProblem, match=r"via\('a', 0.4, at=0.2\)") as caught:
+        synthesize(problem)
+    assert caught.value.proof.proves_infeasible  # type: ignore[attr-defined] # it is a certificate
+    upper = Window("b", high=0.3, start=0.3, stop=0.4)
+    with pytest.raises(InfeasibleProblem, match=r"Window\('b', high=0.3, start=0.3, stop=0.4\)"):
+        synthesize(Problem(B=1.5, order=4, basis=Chebyshev(5), windows=(upper,)))
+
+
+@pytest.mark.parametrize("problem", CASES, ids=range(len(CASES)))
+def test_problems_with_windows_survive_dicts_and_text(problem: Problem) -> None:
+    assert Problem.from_dict(problem.to_dict()) == problem
+    names = {"Problem": Problem, "Window": Window, "via": via, "Chebyshev": Chebyshev, "Pieces": Pieces}
+    assert eval(repr(problem), names) == problem  # noqa: S307 - a repr of our own
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (("e", 0.0, 1.0), "unknown quantity"),
+        (("a", 1.0, 0.0), "low <= high"),
+        (("a",), "finite"),
+        (("a", 0.0, 1.0, 0.6, 0.4), "start <= stop"),
+        (("a", 0.0, 1.0, -0.1, 0.4), "0 <= start"),
+        (("a", float("nan"), 1.0), "low of a window"),
+        (("a", "0", 1.0), "low of a window"),
+        (("a", True, 1.0), "low of a window"),
+    ],
+)
+def test_windows_that_make_no_sense_are_refused(arguments: tuple[object, ...], text: str) -> None:
+    with pytest.raises(InputError, match=text):
+        Window(*arguments)  # type: ignore[arg-type] # that is the point
+
+
+def test_other_windows_are_refused() -> None:
+    with pytest.raises(InputError, match="Window values"):
+        Problem(B=1.7, order=3, windows=((0.2, 0.3),))  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="did you mean 'start'"):
+        Window.from_dict({"quantity": "a", "low": 0.1, "strat": 0.2})
+    assert Window.from_dict({"quantity": "c", "value": 0, "at": 0.4}) == via("c", 0, at=0.4)
