@@ -14,11 +14,13 @@ from cyclopts import App, CycloptsError, Parameter, Token
 from rich.console import Console
 from rich.table import Table
 
+from optlaws.cli_front import front
+from optlaws.cli_verify import NotProven, verify
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.laws import Constants
 from optlaws.synthesis import BoundaryConditions, Problem, Range, Solution, at_most, basis, construct, synthesize
 
-BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 2, 3, 4, 130
+NOT_PROVEN, BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 1, 2, 3, 4, 130
 
 
 def _version() -> str:
@@ -169,8 +171,15 @@ def constants(
         Console().print(_constants_table(found))
 
 
+app.command(verify)
+app.command(front)
+
+
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Run the command and exit: 0 done, 2 bad input, 3 infeasible, 4 solver failure, 130 interrupted."""
+    """Run the command and exit.
+
+    0 done, 1 a claim is not proven, 2 bad input, 3 infeasible, 4 solver failure, 130 interrupted.
+    """
     sys.exit(exit_code(sys.argv[1:] if arguments is None else arguments))
 
 
@@ -182,6 +191,8 @@ def exit_code(arguments: Sequence[str]) -> int:
         text, code = str(error), BAD_INPUT
     except InfeasibleProblem as error:
         text, code = f"infeasible: {error}", INFEASIBLE
+    except NotProven as error:
+        text, code = str(error), NOT_PROVEN
     except OptlawsError as error:
         text, code = str(error), SOLVER_FAILURE
     except BrokenPipeError:

@@ -10,7 +10,11 @@ from typing import TYPE_CHECKING, Any
 from optlaws.export.files import MARK
 
 if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
+
+    from optlaws.synthesis.fronts import Front
 
 BLUES = ("#b3cde3", "#74add1", "#4292c6", "#2166ac", "#08306b")
 WARM = "#d95f02"
@@ -52,6 +56,34 @@ def figure(width: float = 7.2, height: float = 4.6) -> Figure:
     from matplotlib.figure import Figure
 
     return Figure(figsize=(width, height), layout="constrained")
+
+
+_AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D", "J": "peak jerk J"}
+
+
+def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
+    """Draw a front into axes, new ones unless given, and return the artists; a third constant gives the colour.
+
+    Examples
+    --------
+    >>> from optlaws import Problem
+    >>> from optlaws.synthesis.pareto import pareto_front
+    >>> (line,) = draw_front(pareto_front(Problem(order=4), points=3), color=GREEN)
+    >>> line.axes.get_xlabel()
+    'peak velocity B (dimensionless)'
+    """
+    if axes is None:
+        axes = figure().subplots()
+    for axis, name in zip("xy", front.over, strict=False):
+        axes.set(**{f"{axis}label": f"{_AXES.get(name, name)} (dimensionless)"})
+    values = front.values
+    if len(front.over) == 2:
+        return list(axes.plot(*values.T, **style))
+    style = {"s": 18.0, "c": values[:, 2], **{key: one for key, one in style.items() if key != "color"}}
+    points = axes.scatter(values[:, 0], values[:, 1], **style)
+    bar = axes.get_figure(root=True).colorbar(points, ax=axes)  # type: ignore[union-attr] # these axes have a figure
+    bar.set_label(f"{_AXES.get(front.over[2], front.over[2])} (dimensionless)")
+    return [points]
 
 
 def rendered(drawing: Figure, kind: str) -> bytes:

@@ -10,17 +10,20 @@ from tests.documents import ROOT
 from tests.imports import Import, cycles, imports
 
 BASE = {"errors", "suggest"}
-CORE = BASE | {"laws", "synthesis", "mechanisms"}
+CORE = BASE | {"laws", "synthesis", "mechanisms", "verification"}
 MAY_IMPORT = {
     "suggest": set[str](),
     "errors": {"suggest"},
     "laws": BASE,
     "synthesis": BASE | {"laws"},
     "mechanisms": BASE | {"laws", "synthesis"},
+    "verification": BASE | {"laws", "synthesis"},
     "export": CORE,
     "plotting": CORE | {"export"},
     "studies": CORE | {"export", "plotting"},
-    "cli": CORE | {"export", "plotting", "studies", "optlaws"},
+    "cli_front": CORE | {"export", "plotting"},
+    "cli_verify": BASE | {"verification"},
+    "cli": CORE | {"export", "plotting", "studies", "optlaws", "cli_front", "cli_verify"},
     "__main__": {"cli"},
 }
 MUST_NOT_IMPORT = {
@@ -28,6 +31,7 @@ MUST_NOT_IMPORT = {
     "laws": {"casadi", "matplotlib", "scipy"},
     "synthesis": {"matplotlib"},
     "mechanisms": {"matplotlib"},
+    "verification": {"casadi", "matplotlib", "scipy"},
 }
 
 

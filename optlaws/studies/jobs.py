@@ -7,13 +7,13 @@ from pathlib import Path
 from typing import Any
 
 from optlaws.errors import InputError
-from optlaws.studies import optimal_table
+from optlaws.studies import fronts, optimal_table, solutions
 from optlaws.studies.problem_file import read
 from optlaws.suggest import unknown_key
 
 Job = Callable[[Mapping[str, Any], Path, Path], list[Path]]
 
-JOBS: dict[str, Job] = {"optimal table": optimal_table.run}
+JOBS: dict[str, Job] = {"fronts": fronts.run, "optimal table": optimal_table.run, "solutions": solutions.run}
 
 
 def run(file: Path, out: Path | None = None) -> list[Path]:

@@ -5,9 +5,11 @@ from optlaws.synthesis.boundary import BoundaryConditions, construct
 from optlaws.synthesis.bounds import Range, at_least, at_most, between
 from optlaws.synthesis.certificate import Certificate, Contact
 from optlaws.synthesis.expression import Expression, Maximum, Term, maximum
+from optlaws.synthesis.fronts import Front
 from optlaws.synthesis.functionals import FUNCTIONALS, B, C, C_minus, C_plus, D, Functional, J, jounce, rms_c, rms_j
 from optlaws.synthesis.limit_laws import limit_law
 from optlaws.synthesis.limits import acceleration_limit, limit
+from optlaws.synthesis.pareto import pareto_front
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import sweep, synthesize
@@ -27,6 +29,7 @@ __all__ = [
     "Contact",
     "D",
     "Expression",
+    "Front",
     "Functional",
     "J",
     "Maximum",
@@ -49,6 +52,7 @@ __all__ = [
     "limit",
     "limit_law",
     "maximum",
+    "pareto_front",
     "rms_c",
     "rms_j",
     "sweep",

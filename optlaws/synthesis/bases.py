@@ -256,13 +256,17 @@ def basis(name: str, degree: int, **parameters: Any) -> Basis:  # noqa: ANN401 -
     >>> basis("chebyshev", 9)
     Chebyshev(degree=9)
     """
-    if name not in Basis.kinds:
+    if not _known(name):
         raise InputError(f"basis {name!r} is unknown; known are {', '.join(sorted(Basis.kinds))}")
     kind: Any = Basis.kinds[name]
     try:
         return cast("Basis", kind(degree=degree, **parameters))
     except TypeError as error:
         raise InputError(f"basis {name!r} does not take these parameters: {error}") from None
+
+
+def _known(name: object) -> bool:
+    return isinstance(name, str) and name in Basis.kinds
 
 
 def _even_breaks(count: int) -> tuple[float, ...]:

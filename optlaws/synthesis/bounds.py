@@ -109,7 +109,8 @@ def as_range(value: Any, name: str) -> Range | None:  # noqa: ANN401 - it is che
     if value is None or isinstance(value, Range):
         return value
     if isinstance(value, list | tuple) and len(value) == 2:
-        return Range(*value)
+        low, high = value
+        return Range(0.0 if low is None else low, inf if high is None else high)
     if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value):
         raise InputError(f"{name} must be a finite number, a range such as between(1.5, 1.8), or None, got {value!r}")
     return Range(float(value), float(value))

@@ -22,7 +22,7 @@ from optlaws.errors import InputError
 from optlaws.synthesis.expression import Expression, Maximum
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.programs import ROOT, Model, least_violation, model, relaxed
-from optlaws.synthesis.rows import Family, LinearFamily, NormFamily
+from optlaws.synthesis.rows import LinearFamily, NormFamily, Program
 from optlaws.synthesis.space import LawSpace
 
 Array = NDArray[np.float64]
@@ -83,6 +83,12 @@ class Certificate:
     program: str = OBJECTIVE
     tangent: float = 0.0
 
+    def __post_init__(self) -> None:
+        if self.program not in {OBJECTIVE, RELAXED, VIOLATION}:
+            raise InputError(f"program of a certificate must be objective, relaxed or violation, got {self.program!r}")
+        if not all(map(isfinite, (*self.equations, self.tangent))):
+            raise InputError("the equations' multipliers and the tangent of a certificate must be finite numbers")
+
     @cached_property
     def bound(self) -> float:
         """The proven lower bound of the objective, recomputed from the contacts by numpy; -inf for a mere violation."""
@@ -131,7 +137,7 @@ def excess(certificate: Certificate) -> float:
     slope = program.objective.copy()
     value = 0.0
     for contact in certificate.contacts:
-        row, right = _row(program.families, contact)
+        row, right = _row(program, contact)
         weight = max(contact.multiplier, 0.0)
         slope += weight * row
         value -= weight * right
@@ -149,9 +155,9 @@ def _model(certificate: Certificate) -> Model:
     return model(certificate.problem)
 
 
-def _row(families: tuple[Family, ...], contact: Contact) -> tuple[Array, float]:
+def _row(program: Program, contact: Contact) -> tuple[Array, float]:
     """The row of a contact and its right side: row . x <= right for every law of the problem."""
-    for family in families:
+    for family in program.families:
         if family.name != contact.constraint or contact.sign not in family.signs:
             continue
         u = np.clip(family.u(np.array([contact.k])), *family.domain)
@@ -162,7 +168,7 @@ def _row(families: tuple[Family, ...], contact: Contact) -> tuple[Array, float]:
             direction = np.array(contact.direction)
             row = (direction / np.linalg.norm(direction)) @ family.matrix
             return row[:-1] - family.slack, family.bound - float(row[-1])
-    return np.zeros(len(families[0].slack)), 0.0
+    return np.zeros(program.size), 0.0
 
 
 def _charge(found: Model, certificate: Certificate, slope: Array, claim: float) -> float:

@@ -65,7 +65,7 @@ def _why(problem: Problem, proof: Certificate, elastic: Model) -> str:
 
 def _named(problem: Problem, constraint: str) -> str:
     if constraint.startswith("window "):
-        return repr(problem.windows[int(constraint.split(",", maxsplit=1)[0].removeprefix("window ")) - 1])
+        return repr(problem.windows[int(constraint.split()[1].rstrip(",")) - 1])
     text = _TEXT.get(constraint, constraint)
     value = getattr(problem, text[-1], None) if text[-1] in "CDJ" else None
     return f"{text} = {value!r} everywhere" if value is not None else f"{text} everywhere"

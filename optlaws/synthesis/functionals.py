@@ -35,6 +35,11 @@ class Functional(Term):
         The least value that rest-to-rest laws can have, by which mixtures are normalised; NaN where there is none.
     convex
         Whether it is convex in the law; then optima are proven, otherwise only bounded.
+
+    Examples
+    --------
+    >>> C.name, C.reference, D.convex
+    ('C', 4.0, False)
     """
 
     name: str

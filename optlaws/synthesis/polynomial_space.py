@@ -95,7 +95,8 @@ class PolynomialSpace(LawSpace):
             else:
                 base = self.base(self._k, nu)
                 values = np.column_stack([(self._shapes[nu] * self.scale[:, None]).T, base])
-                found = chebyshev_series(values, self._angle)
+                # what lies beyond the degree is rounding
+                found = chebyshev_series(values, self._angle)[: 2 * self.order + self.degree + 1 - nu]
                 if self.symmetric:
                     # a - 1/2 and c are odd about the middle, b is even: rounding must not blur it
                     found[(1 if nu == 1 else (2 if nu == 0 else 0)) :: 2] = 0.0

@@ -12,11 +12,11 @@ from typing import Any
 from optlaws.errors import InputError
 from optlaws.laws.checks import whole
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.bases import Basis, Chebyshev, basis
+from optlaws.synthesis.bases import Basis, Chebyshev, PolynomialBasis, basis
 from optlaws.synthesis.boundary import BoundaryConditions
 from optlaws.synthesis.bounds import Range, as_range
 from optlaws.synthesis.expression import Expression, Term, leaves
-from optlaws.synthesis.functionals import ALIASES, FUNCTIONALS
+from optlaws.synthesis.functionals import ALIASES, FUNCTIONALS, C_minus, C_plus
 from optlaws.synthesis.grammar import parse
 from optlaws.synthesis.windows import Window
 
@@ -102,6 +102,13 @@ class Problem:
         names = {name for name in CONSTANTS if getattr(self, name) is not None}
         return "D" not in names and all(leaf.convex for _, leaf in leaves(self.objective))  # type: ignore[attr-defined]
 
+    @property
+    def mirrored(self) -> bool:
+        """Whether unsymmetric laws are sought although the mean of a law and its mirror image is never worse."""
+        one_sided = any(leaf in {C_plus, C_minus} for _, leaf in leaves(self.objective))
+        plain = self.boundary is None and not self.windows and isinstance(self.basis, PolynomialBasis)
+        return not self.symmetric and self.convex and plain and not one_sided
+
     def range(self, name: str) -> Range | None:
         """What is asked of the constant B, C, D or J."""
         return self._ranges[name]
@@ -168,8 +175,9 @@ class Problem:
         shape = {name: given.pop(name) for name in ("breaks", "continuity") if name in given}
         chosen = basis(given.pop("basis", "chebyshev"), given.pop("degree", 9), **shape)
         if "start" in given or "end" in given:
-            given["boundary"] = BoundaryConditions(tuple(given.pop("start", ())), tuple(given.pop("end", ())))
-        given["windows"] = tuple(Window.from_dict(window) for window in given.pop("windows", ()))
+            start, end = (_listed(given.pop(name, ()), name) for name in ("start", "end"))
+            given["boundary"] = BoundaryConditions(start, end)
+        given["windows"] = tuple(Window.from_dict(window) for window in _listed(given.pop("windows", ()), "windows"))
         return cls(basis=chosen, **given)
 
     def __repr__(self) -> str:
@@ -209,6 +217,12 @@ def _constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - 
     if found.high <= 0.0:
         raise InputError(f"{name} must be able to exceed 0, got {value!r}")
     return found.high if found.fixed else found
+
+
+def _listed(values: Any, name: str) -> tuple[Any, ...]:  # noqa: ANN401 - it is checked here
+    if not isinstance(values, list | tuple):
+        raise InputError(f"{name} must be a list, got {values!r}")
+    return tuple(values)
 
 
 def _windows(windows: Any) -> tuple[Window, ...]:  # noqa: ANN401 - they are checked here

@@ -47,6 +47,7 @@ def model(problem: Problem) -> Model:
 
 
 ROOT = "root of D"
+_REST = 1e-15
 _SIDES = {1.0: "above", -1.0: "below"}
 
 
@@ -168,8 +169,9 @@ class _Writer:
             row[: self.space.terms] = one.row
             self.equation(row, one.right, one.name)
         for i, window in enumerate(problem.windows, 1):
-            for part in window.first_half() if problem.symmetric else (window,):
-                self._window(f"window {i}", part)
+            parts = window.first_half() if problem.symmetric else (window,)
+            for part, side in zip(parts, ("", " mirrored"), strict=False):
+                self._window(f"window {i}{side}", part)
 
     def _peak_velocity(self, wanted: Range, problem: Problem) -> None:
         if problem.symmetric:
@@ -219,12 +221,15 @@ class _Writer:
 
     def _power(self, slack: Array, bound: float) -> None:
         """Rows b <= r sqrt(2k), b >= -r sqrt(2k) from either end, and 2 t r - t² <= D."""
-        if not isinstance(self.space, PolynomialSpace):
+        if not isinstance(self.space, PolynomialSpace) or self.space.order == 1:
             return
         root, domain = self.unit(ROOT), (0.0, 1.0)
         series = self.space.widened(self.space.series(1), self.size)
-        self.families.append(RootFamily("b / sqrt(2k)", root, 0.0, (1.0, -1.0), domain, series=series))
-        if not self.space.symmetric:
+        # each row counts on rest at its end
+        end_velocity = self.space.start_velocity + self.space.velocity_change
+        if self.space.start_velocity == 0.0:
+            self.families.append(RootFamily("b / sqrt(2k)", root, 0.0, (1.0, -1.0), domain, series=series))
+        if not self.space.symmetric and abs(end_velocity) < _REST:
             mirrored = series * (-1.0) ** np.arange(len(series))[:, None]
             self.families.append(MirroredFamily("b / sqrt(2 - 2k)", root, 0.0, (1.0, -1.0), domain, series=mirrored))
         self.row("tangent", 2.0 * self.tangent * root - slack, bound + self.tangent**2)

@@ -16,6 +16,7 @@ from optlaws.synthesis.polynomials import even_gegenbauer_jet
 Array = NDArray[np.float64]
 
 _END = 1e-9
+_NO_NORM = 1e-12  # at standstill and in uniform motion the norm has no slope
 
 
 @dataclass(frozen=True, eq=False)
@@ -287,7 +288,7 @@ class NormFamily(Family):
     def jet(self, x: Array, u: Array, s: Array) -> Jet:
         """The residual with its gradient."""
         image = self.matrix @ np.append(x, 1.0)
-        norm = float(np.linalg.norm(image))
+        norm = max(float(np.linalg.norm(image)), _NO_NORM)
         zero, flat = np.zeros(len(u)), np.zeros((len(u), len(x)))
         gradient = s[:, None] * (image @ self.matrix[:, :-1] / norm) - self.slack
         return Jet(s * norm - self.room(x), zero, zero, gradient, flat)
@@ -295,7 +296,7 @@ class NormFamily(Family):
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002
         """Of the norm, times the sum of weights."""
         image = self.matrix @ np.append(x, 1.0)
-        norm = float(np.linalg.norm(image))
+        norm = max(float(np.linalg.norm(image)), _NO_NORM)
         direction = image @ self.matrix[:, :-1] / norm
         curved: Array = self.matrix[:, :-1].T @ self.matrix[:, :-1] - np.outer(direction, direction)
         return curved * (float(weights.sum()) / norm)

@@ -6,6 +6,7 @@ from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cache, cached_property
 from importlib.metadata import version
+from math import isfinite
 from typing import Any
 
 import numpy as np
@@ -15,6 +16,9 @@ from optlaws.synthesis.active_set import ActiveSet
 from optlaws.synthesis.bases import PolynomialBasis, Powers
 from optlaws.synthesis.certificate import Certificate
 from optlaws.synthesis.problem import Problem
+
+# an objective that is zero but for rounding, such as the jounce of a cubic, is judged absolutely
+NOTHING = 1e-6
 
 
 class Status(StrEnum):
@@ -111,8 +115,8 @@ class Solution:
 
     @property
     def gap(self) -> float:
-        """(objective - lower bound) / objective."""
-        return (self.objective - self.lower_bound) / self.objective
+        """(objective - lower bound) / objective; the difference itself where the objective is 0 but for rounding."""
+        return (self.objective - self.lower_bound) / (self.objective if self.objective > NOTHING else 1.0)
 
     @property
     def versions(self) -> dict[str, str]:
@@ -124,8 +128,8 @@ class Solution:
         return {
             "status": self.status.value,
             "objective": self.objective,
-            "lower_bound": self.lower_bound,
-            "gap": self.gap,
+            "lower_bound": self.lower_bound if isfinite(self.lower_bound) else None,
+            "gap": self.gap if isfinite(self.gap) else None,
             "limit": self.limit,
             "constants": self.constants.to_dict(),
             "z": None if self.z_powers is None else list(self.z_powers),

@@ -23,15 +23,13 @@ from optlaws.synthesis.mixtures import warn_of_mixture
 from optlaws.synthesis.problem import CONSTANTS, Problem
 from optlaws.synthesis.problem_limits import known_limit
 from optlaws.synthesis.programs import Model, model
-from optlaws.synthesis.solution import Solution, Status
+from optlaws.synthesis.solution import NOTHING, Solution, Status
 from optlaws.synthesis.spaces import space_of
 from optlaws.synthesis.worth import shortfalls, worth
 
 GAP = 1e-8
 # what passes without a look at the divided rows, in which a contact pinned to the middle may hide a larger excess
 _ROUNDING = 1e-13
-# an objective that is zero but for rounding, such as the jounce of a cubic, is judged absolutely
-_NOTHING = 1e-6
 
 Array = NDArray[np.float64]
 
@@ -74,6 +72,9 @@ def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
     if not problem.convex and warm is None:
         tries += [_attempt(problem, found, None, point) for point in starts.points(problem, found)]
     sound = sorted((one for one in tries if one.law is not None), key=lambda one: one.objective)
+    if not sound and problem.mirrored:
+        # the optimum is flat among unsymmetric laws; the mean of a law and its mirror image is no worse
+        return replace(synthesize(replace(problem, symmetric=True)), problem=problem)
     if not sound:
         raise failure(problem, tries[0].outcome)
     plain = sound[0]
@@ -186,7 +187,7 @@ def _solution(
     limit = known_limit(problem)
     proof = certify(problem, found, bounding, best.objective, limit)
     bound = lower_bound(proof, limit)
-    if abs(best.objective - bound) <= GAP * (best.objective if best.objective > _NOTHING else 1.0):
+    if abs(best.objective - bound) <= GAP * (best.objective if best.objective > NOTHING else 1.0):
         status = Status.OPTIMAL
     else:
         status = Status.INACCURATE if problem.convex and best is plain else Status.LOCAL

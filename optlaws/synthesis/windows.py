@@ -122,6 +122,8 @@ class Window:
         InputError
             If a key is unknown, the quantity is missing, or a value is out of range.
         """
+        if not isinstance(data, Mapping):
+            raise InputError(f"a window must be a table with a quantity and values, got {data!r}")
         given = {name: value for name, value in data.items() if value is not None}
         for key, pair in (("at", ("start", "stop")), ("value", ("low", "high"))):
             if key in given:

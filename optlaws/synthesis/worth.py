@@ -35,6 +35,8 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
                 excess = max(excess, 1.0 - highest.value / wanted.low)
         if problem.monotone:
             excess = max(excess, -lowest.value)
+        elif wanted is not None and not problem.symmetric:
+            excess = max(excess, -lowest.value / wanted.high - 1.0)
     for name in ("C", "D", "J"):
         wanted = problem.range(name)
         if wanted is not None and isfinite(wanted.high):

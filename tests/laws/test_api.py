@@ -79,5 +79,5 @@ def test_errors_survive_other_processes(error: OptlawsError) -> None:
 
 def test_errors_are_one_tree() -> None:
     for name, member in inspect.getmembers(errors, inspect.isclass):
-        assert issubclass(member, OptlawsError), name
+        assert issubclass(member, OptlawsError | Warning), name
         assert ">>>" in (inspect.getdoc(member) or "")

@@ -1,0 +1,123 @@
+"""Figures of fronts, with known laws and limits beside them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optlaws import plotting
+from optlaws.laws import MotionLaw, smoothstep
+from optlaws.laws.savin import FAMILIES, alpha_range, savin
+from optlaws.synthesis import FUNCTIONALS, Problem
+from optlaws.synthesis.fronts import Front
+from optlaws.synthesis.problem_limits import known_limit
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+    from optlaws.studies.fronts import Picture
+
+Pair = tuple[float, float]
+
+_STROKES: dict[str, Any] = {"I": ":", "II": "-.", "III": "--", "IV": (0, (5, 1))}
+_MARGIN = 0.06
+
+
+def draw(picture: Picture, fronts: Sequence[Front]) -> dict[str, bytes]:
+    """The figure as svg and png."""
+    x, y = (_window(picture, fronts, axis) for axis in (0, 1))
+    with plotting.style():
+        figure = plotting.figure(8.6, 5.0)
+        axes = figure.subplots()
+        shades = plotting.BLUES[-len(fronts) :]
+        for curve, front, shade in zip(picture.front, fronts, shades, strict=True):
+            plotting.draw_front(front, axes, color=shade, label=curve.label, marker="o", markersize=2.2, zorder=4)
+        _catalogue(axes, picture, x, y)
+        if picture.limits and picture.over[0] == "B":
+            _limit_curves(axes, picture, fronts, x)
+        elif picture.limits:
+            _corners(axes, picture, fronts, shades)
+        axes.set(xlim=x, ylim=y, title=picture.title)
+        figure.legend(loc="outside right upper")
+        return {kind: plotting.rendered(figure, kind) for kind in ("svg", "png")}
+
+
+def _window(picture: Picture, fronts: Sequence[Front], axis: int) -> Pair:
+    given = (picture.x, picture.y)[axis]
+    if given is not None:
+        return given[0], given[1]
+    values = np.concatenate([front.values[:, axis] for front in fronts])
+    low, high = float(values.min()), float(values.max())
+    return low - _MARGIN * (high - low), high + _MARGIN * (high - low)
+
+
+def _catalogue(axes: Axes, picture: Picture, x: Pair, y: Pair) -> None:
+    for family in (name for name in picture.catalogue if name != "smoothstep"):
+        laws = [savin(family, float(alpha)) for alpha in np.linspace(*alpha_range(family), 61)]
+        points = np.array([_point(law, picture) for law in laws])
+        if not any(_inside(point, x, y) for point in points.tolist()):
+            continue
+        style: dict[str, Any] = {"color": plotting.GREEN, "linestyle": _STROKES[family], "linewidth": 1.2, "zorder": 3}
+        axes.plot(*points.T, label=f"Savin's family {family} (l = {FAMILIES[family] + 2})", **style)
+    if "smoothstep" in picture.catalogue:
+        label = "smoothsteps, by order l"
+        for order in (2, 3, 4, 5):
+            point = _point(smoothstep(order), picture)
+            if _inside(point, x, y):
+                ring: dict[str, Any] = {
+                    "color": plotting.WARM,
+                    "markerfacecolor": "white",
+                    "markersize": 11.0,
+                    "zorder": 5,
+                }
+                axes.plot(*point, "o", label=label, **ring)
+                centred: dict[str, Any] = {"ha": "center", "va": "center_baseline", "fontsize": 8.0, "zorder": 6}
+                axes.annotate(f"{order}", point, color=plotting.WARM, **centred)
+                label = "_nolegend_"
+
+
+def _inside(point: Sequence[float], x: Pair, y: Pair) -> bool:
+    return x[0] <= point[0] <= x[1] and y[0] <= point[1] <= y[1]
+
+
+def _point(law: MotionLaw, picture: Picture) -> Pair:
+    x, y = (FUNCTIONALS[name].value(law) for name in picture.over)
+    return x, y
+
+
+def _limit_curves(axes: Axes, picture: Picture, fronts: Sequence[Front], x: Pair) -> None:
+    """What no law can beat at each B; fronts of different orders mostly share it."""
+    values = np.linspace(max(x[0], 1.0 + 1e-3), x[1], 200)
+    drawn: list[list[float | None]] = []
+    for front in fronts:
+        asked = front[0].problem
+        found = [known_limit(replace(asked, B=float(B), minimise=picture.over[1])) for B in values]
+        if None in found or found in drawn:
+            continue
+        label = "limit of all laws" if not drawn else f"the same of order {asked.order}"
+        stroke = ("-", "-.")[min(len(drawn), 1)]
+        axes.plot(
+            values, np.array(found, dtype=float), label=label, color=plotting.GREY, linewidth=1.2, linestyle=stroke
+        )
+        drawn.append(found)
+
+
+def _corners(axes: Axes, picture: Picture, fronts: Sequence[Front], shades: Sequence[str]) -> None:
+    """What no law can beat in either constant, which no one law need reach in both."""
+    axes.plot([], [], color=plotting.GREY, linestyle=(0, (1, 2)), label="limit of each constant alone")
+    for front, shade in zip(fronts, shades, strict=True):
+        asked = _freed(front[0].problem, picture.over[0])
+        limits = [known_limit(replace(asked, minimise=name)) for name in picture.over]
+        for line, value in zip((axes.axvline, axes.axhline), limits, strict=True):
+            if value is not None:
+                style: dict[str, Any] = {"color": shade, "linewidth": 1.1, "linestyle": (0, (1, 2)), "zorder": 2}
+                draw_line: Callable[..., Any] = line
+                draw_line(value, **style)
+
+
+def _freed(problem: Problem, name: str) -> Problem:
+    changed: dict[str, Any] = {name: None}
+    return replace(problem, **changed)

@@ -1,0 +1,224 @@
+"""Exchanges between constants: how little of one a law can have for how much of another."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import replace
+from math import inf, sqrt
+from numbers import Real
+from typing import Any
+
+import numpy as np
+
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.laws.checks import whole
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.bounds import Range
+from optlaws.synthesis.exchange import solve
+from optlaws.synthesis.fronts import Front, undominated, value_of
+from optlaws.synthesis.functionals import FUNCTIONALS
+from optlaws.synthesis.problem import CONSTANTS, Problem
+from optlaws.synthesis.programs import extreme_velocity
+from optlaws.synthesis.solution import Solution, Status
+from optlaws.synthesis.solve import synthesize
+
+# how far above its least value a constant is held while the next one is minimised: as near as the solver can go
+_ABOVE = (1e-9, 1e-7, 1e-5)
+_BENT = 2.0
+_SAME = 1e-9
+
+
+def pareto_front(
+    problem: Problem,
+    over: Sequence[str] = ("B", "C"),
+    *,
+    points: int = 50,
+    between: tuple[float, float] | None = None,
+) -> Front:
+    """Laws that exchange two or three constants for one another, from the least of the first to the least of the last.
+
+    With over=("B", "C") each law has the least C at its B; with over=("C", "D") the least D among laws of at most
+    its C. Points lie evenly along the curve in logarithms of the constants, closer where it bends. Where the problem
+    is convex every point is the optimum of its problem; with D no worse than a single `synthesize` of it.
+
+    Parameters
+    ----------
+    problem
+        What else is asked; its `minimise` does not count.
+    over
+        Two or three constants. The last may be any that can be minimised, the others of B, C, D, J.
+    points
+        How many laws; fewer where some are no better than others in any constant, or with three constants.
+    between
+        Least and greatest value of the first constant; where it pays unless given. Beyond the value that the law of
+        least last constant has, both constants get worse, so no points lie there.
+
+    Raises
+    ------
+    InputError
+        If the constants are unknown, repeated or already given by the problem, or nothing is left between the values.
+    InfeasibleProblem, SolverFailure
+        If no law of an end of the front exists or is found.
+
+    Examples
+    --------
+    >>> front = pareto_front(Problem(B=1.641, order=4), over=("C", "D"), points=3)
+    >>> [[round(value, 4) for value in row] for row in front.values.tolist()]
+    [[5.0807, 5.3968], [6.0243, 3.905], [7.1432, 3.4583]]
+    """
+    names = _checked(problem, over, between)
+    count = whole(points, "points", least=2)
+    if len(names) == 2:
+        return _Curve(problem, names, between).grow(count)
+    return _surface(problem, names, count, between)
+
+
+class _Curve:
+    """The front of two constants while it grows: solutions by the asked value of the first."""
+
+    def __init__(self, problem: Problem, over: tuple[str, ...], between: tuple[float, float] | None) -> None:
+        self.problem = replace(problem, minimise=over[1])
+        self.over = over
+        self.failed: list[float] = []
+        low, high = between if between is not None else (0.0, inf)
+        best = synthesize(_with(self.problem, over[0], Range(1.0 if over[0] == "B" else 0.0, inf)))
+        pays = value_of(best, over[0])
+        if low >= pays * (1.0 - _SAME):
+            raise InputError(
+                f"{over[1]} is least at {over[0]} = {pays:.7g}: nothing is exchanged above, got {between!r}"
+            )
+        self.found = [self._first(low), self._last(best, pays, high)]
+
+    def grow(self, count: int) -> Front:
+        """Put a point into the stretch that wants one most, and so on."""
+        dead: set[float] = set()
+        while len(self.found) < count:
+            widths = [0.0 if self.found[i][0] in dead else width for i, width in enumerate(self._widths())]
+            i = int(np.argmax(widths))
+            if widths[i] < _SAME:
+                break
+            (low, left), (high, right) = self.found[i : i + 2]
+            value = sqrt(low * high)
+            solution = self._solved(value, left, right)
+            if solution is None:
+                self.failed.append(value)
+                dead.add(low)
+            else:
+                self.found.insert(i + 1, (value, solution))
+        return Front(self.over, tuple(undominated([s for _, s in self.found], self.over)), tuple(sorted(self.failed)))
+
+    def _asked(self, value: float) -> Problem:
+        return _at_most(self.problem, self.over[0], value)
+
+    def _first(self, low: float) -> tuple[float, Solution]:
+        """At the least value of the first constant, or at `low` where that can be had."""
+        if low > (1.0 if self.over[0] == "B" else 0.0):
+            try:
+                return low, synthesize(self._asked(low))
+            except InfeasibleProblem:
+                pass
+        least = _least(self.problem, self.over[0])
+        for above in _ABOVE[:-1]:
+            try:
+                return least * (1.0 + above), synthesize(self._asked(least * (1.0 + above)))
+            except (InfeasibleProblem, SolverFailure):
+                continue
+        value = least * (1.0 + _ABOVE[-1])
+        return value, synthesize(self._asked(value))
+
+    def _last(self, best: Solution, pays: float, high: float) -> tuple[float, Solution]:
+        """At the least value of the last constant, or at `high`; a problem of the same kind as the others."""
+        value = min(pays if self.over[0] == "B" else pays * (1.0 + _SAME), high)
+        try:
+            return value, synthesize(self._asked(value))
+        except (InfeasibleProblem, SolverFailure):
+            if value == high:
+                raise
+            return pays, best
+
+    def _widths(self) -> list[float]:
+        """How much each stretch wants a point: its length in normalised logarithms, more where the front turns."""
+        logs = np.log([[value, value_of(solution, self.over[1])] for value, solution in self.found])
+        span = np.abs(logs[-1] - logs[0])
+        steps = np.diff(logs, axis=0) / np.where(span > 0.0, span, 1.0)
+        lengths = np.hypot(*steps.T)
+        turns = np.abs(np.diff(np.arctan2(steps[:, 1], steps[:, 0])))
+        ends = np.pad(turns, 1, mode="edge") if len(turns) else np.zeros(2)
+        widths: list[float] = (lengths * (1.0 + _BENT * (ends[:-1] + ends[1:]))).tolist()
+        return widths
+
+    def _solved(self, value: float, left: Solution, right: Solution) -> Solution | None:
+        asked = self._asked(value)
+        if asked.convex:
+            near = _tried(asked, left)
+            return near if near is not None and near.status is Status.OPTIMAL else _tried(asked, None)
+        # a branch of local optima may cease to be the best, so it is only continued where the starts lead to worse
+        found = _tried(asked, None)
+        if found is None or found.objective > left.objective or found.objective < right.objective:
+            tries = [one for one in (found, _tried(asked, left), _tried(asked, right)) if one is not None]
+            found = min(tries, key=lambda one: one.objective, default=None)
+        return found
+
+
+def _surface(problem: Problem, over: tuple[str, ...], points: int, between: tuple[float, float] | None) -> Front:
+    """Curves of the second and the third constant at values of the first, as many as each curve has points."""
+    across = max(2, round(sqrt(points)))
+    spines = [_Curve(problem, (over[0], name), between) for name in over[1:]]
+    spine = max(spines, key=lambda one: one.found[-1][0]).grow(across)
+    failed = list(spine.failed)
+    found: list[Solution] = []
+    for value in spine.values[:, 0].tolist():
+        part = _at_most(problem, over[0], value)
+        try:
+            found += _Curve(part, over[1:], None).grow(max(2, points // across)).points
+        except (InfeasibleProblem, SolverFailure):
+            failed.append(value)
+    return Front(over, tuple(undominated(found, over)), tuple(sorted(failed)))
+
+
+def _at_most(problem: Problem, name: str, value: float) -> Problem:
+    return _with(problem, name, value if name == "B" else Range(0.0, value))
+
+
+def _with(problem: Problem, name: str, asked: float | Range) -> Problem:
+    changed: dict[str, Any] = {name: asked}
+    return replace(problem, **changed)
+
+
+def _tried(asked: Problem, start: Solution | None) -> Solution | None:
+    try:
+        return synthesize(asked, start=start)
+    except (InfeasibleProblem, SolverFailure):
+        return None
+
+
+def _least(problem: Problem, name: str) -> float:
+    if name != "B":
+        return synthesize(replace(problem, minimise=name)).objective
+    found = extreme_velocity(problem, greatest=False)
+    optimum = solve(found.program).optimum
+    if optimum is None:
+        raise SolverFailure("the least B of these conditions was not found: give between", problem=problem)
+    return float(optimum.x[found.places["B"]])
+
+
+def _checked(problem: object, over: Sequence[str], between: tuple[float, float] | None) -> tuple[str, ...]:
+    if not isinstance(problem, Problem):
+        raise InputError(f"pareto_front takes a Problem, got {type(problem).__name__}")
+    names = tuple(over) if not isinstance(over, str) else tuple(name.strip() for name in over.split(","))
+    if len(names) not in (2, 3) or len(set(names)) != len(names):
+        raise InputError(f"over must name two or three constants, each once, such as ('B', 'C'); got {over!r}")
+    for name, known in zip(names, [CONSTANTS] * (len(names) - 1) + [tuple(FUNCTIONALS)], strict=True):
+        if name not in known:
+            raise InputError(unknown_key(str(name), known, "constant"))
+        if getattr(problem, name, None) is not None:
+            raise InputError(f"{name} is exchanged: leave it out of the problem, got {getattr(problem, name)!r}")
+    if between is not None:
+        pair = tuple(between)
+        if len(pair) != 2 or not all(_positive(value) for value in pair) or pair[0] >= pair[1]:
+            raise InputError(f"between must be two numbers above 0 in ascending order, got {between!r}")
+    return names
+
+
+def _positive(value: Any) -> bool:  # noqa: ANN401 - it is checked here
+    return value is not True and isinstance(value, Real) and 0.0 < float(value) < inf

@@ -1,0 +1,73 @@
+"""Between Python's numbers and python-flint's: exact one way, rounded outward the other."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from math import ceil, floor, inf, nextafter
+
+from flint import arb, ctx, fmpq, fmpq_poly
+
+_PLACES, _EXACT = 128, 4096
+
+
+def rational(value: float | Fraction) -> fmpq:
+    """The exact value of a float or Fraction.
+
+    Examples
+    --------
+    >>> rational(0.25)
+    1/4
+    """
+    exact = Fraction(value)
+    return fmpq(exact.numerator, exact.denominator)
+
+
+def ball(value: float | Fraction | fmpq) -> arb:
+    """A ball around the value, at the precision at work."""
+    return arb(value if isinstance(value, fmpq) else rational(value))
+
+
+def lower(value: arb) -> Fraction:
+    """A number that is nowhere above the ball, to 128 binary places."""
+    mantissa, exponent = (int(part) for part in _end(value).man_exp())
+    return Fraction(floor(Fraction(mantissa) * Fraction(2) ** (exponent + _PLACES)), 2**_PLACES)
+
+
+def upper(value: arb) -> Fraction:
+    """A number that is nowhere below the ball, to 128 binary places."""
+    mantissa, exponent = (int(part) for part in _end(value, upper=True).man_exp())
+    return Fraction(ceil(Fraction(mantissa) * Fraction(2) ** (exponent + _PLACES)), 2**_PLACES)
+
+
+def down(value: Fraction) -> float:
+    """The greatest float that is not above the value.
+
+    Examples
+    --------
+    >>> down(Fraction(1, 10)) <= Fraction(1, 10) < down(Fraction(1, 10)) + 1e-16
+    True
+    """
+    near = float(value)
+    return near if Fraction(near) <= value else nextafter(near, -inf)
+
+
+def up(value: Fraction) -> float:
+    """The least float that is not below the value."""
+    return -down(-value)
+
+
+def enclosure(value: arb) -> tuple[float, float]:
+    """Floats below and above the ball."""
+    return down(lower(value)), up(upper(value))
+
+
+def at(polynomial: fmpq_poly, x: arb) -> arb:
+    """The polynomial's value."""
+    found: arb = polynomial.numer()(x) / arb(polynomial.denom())
+    return found
+
+
+def _end(value: arb, *, upper: bool = False) -> arb:
+    # every operation on a ball rounds to the precision at work, this one too
+    with ctx.workprec(_EXACT):
+        return value.upper() if upper else value.lower()

@@ -1,0 +1,257 @@
+"""What every law of a problem obeys, by the names that certificates use, in exact or ball arithmetic."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from fractions import Fraction
+from math import isfinite
+from operator import mul
+
+from flint import arb, fmpq_poly
+
+from optlaws.errors import InputError
+from optlaws.synthesis.certificate import RELAXED, VIOLATION, Certificate, Contact
+from optlaws.synthesis.expression import Expression, Maximum, leaves
+from optlaws.synthesis.functionals import FUNCTIONALS, Functional, Peak, Power, RootMeanSquare
+from optlaws.synthesis.windows import Window
+from optlaws.verification.balls import ball
+from optlaws.verification.exact_space import ExactSpace, values
+
+ROOT = "root of D"
+_NEAR = Fraction(1, 10**9)
+
+Names = Mapping[str, float | arb]
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """functions . (z, 1) + sum of constants + right; at most 0, or 0 for an equation, in every law of the problem."""
+
+    functions: list[arb]
+    constants: Names = field(default_factory=dict)
+    right: arb | float = 0.0
+
+    def vector(self, names: list[str]) -> list[arb]:
+        """Coefficients of z and of the named constants, then what is constant."""
+        *free, base = self.functions
+        return [*free, *(arb(self.constants.get(name, 0.0)) for name in names), base + self.right]
+
+
+Maker = Callable[[Contact, Fraction], Row]
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A window on k <= 1/2 (or anywhere for unsymmetric laws) in exact numbers."""
+
+    order: int
+    low: Fraction | None
+    high: Fraction | None
+    start: Fraction
+    stop: Fraction
+
+
+class ExactRows:
+    """The rows that a certificate may use. The constants are variables that every law meets with its own values.
+
+    Parameters
+    ----------
+    certificate
+        Which problem, and which program: with D relaxed, or for a proof that no law exists.
+
+    Raises
+    ------
+    InputError
+        If the laws are not polynomials or the objective has a constant that is no peak, power or RMS.
+    """
+
+    def __init__(self, certificate: Certificate) -> None:
+        self.problem = problem = certificate.problem
+        self.space = ExactSpace(problem)
+        self.tangent = ball(certificate.tangent)
+        self.relaxed = certificate.program == RELAXED
+        self.names: list[str] = []
+        self.cost: dict[str, float] = {}
+        self._makers: dict[tuple[str, float], list[Maker]] = {}
+        self.equations: list[Row] = []
+        if certificate.program != VIOLATION:
+            self._objective(problem.objective)
+        wanted = problem.range("B")
+        if wanted is not None and not (problem.symmetric and wanted.fixed):
+            self.names.append("B")
+        if self.relaxed:
+            self.names.append(ROOT)
+        self.names = list(dict.fromkeys(self.names))
+        self._constraints()
+
+    def row(self, contact: Contact, k: Fraction | None = None) -> Row | None:
+        """The row of a contact, or of one like it at another k; None if the problem asks for nothing of the kind."""
+        place = Fraction(contact.k) if k is None else k
+        found = []
+        for make in self._makers.get((contact.constraint, contact.sign), ()):
+            with suppress(LookupError):
+                found.append(make(contact, place))
+        # the two halves of a window share a name: only the tighter one can bind
+        return max(found, key=lambda row: float(arb(row.right))) if found else None
+
+    def _add(self, name: str, maker: Maker, signs: tuple[float, ...] = (1.0,)) -> None:
+        for sign in signs:
+            self._makers.setdefault((name, sign), []).append(maker)
+
+    def _objective(self, expression: Expression) -> None:
+        self.cost = expression.weights()
+        found = list(dict.fromkeys(leaf for _, leaf in leaves(expression)))
+        maxima = list(dict.fromkeys(_maxima(expression)))
+        self.names += [repr(one) for one in (*found, *maxima)]
+        for leaf in found:
+            if not isinstance(leaf, Functional):
+                raise InputError(f"there are no exact rows for {leaf!r}")
+            self._bounded(leaf, {leaf.name: -1.0}, 0.0)
+        for term in maxima:
+            for i, part in enumerate(term.parts, 1):
+                self._single(f"part {i} of {term!r}", {**part.weights(), repr(term): -1.0}, 0.0)
+
+    def _bounded(self, leaf: Functional, slack: Names, high: float) -> None:
+        """Rows of `leaf <= -slack + high`."""
+        if isinstance(leaf, Peak):
+            self._everywhere(leaf.name, self.space.derivative(leaf.nu), leaf.signs, slack, high)
+        elif isinstance(leaf, RootMeanSquare):
+            self._add(leaf.name, lambda contact, _: self._norm(leaf.nu, contact, slack, high))
+        elif isinstance(leaf, Power):
+            if self.relaxed:
+                self._power(slack, high)
+        else:
+            raise InputError(f"there are no exact rows for {leaf!r}: it is no peak, power or RMS")
+
+    def _everywhere(
+        self, name: str, functions: list[fmpq_poly], signs: tuple[float, ...], slack: Names, high: float = 0.0
+    ) -> None:
+        def make(contact: Contact, k: Fraction) -> Row:
+            found = values(functions, _x(k))
+            return Row([one * contact.sign for one in found], slack, -ball(high))
+
+        self._add(name, make, signs)
+
+    def _single(self, name: str, constants: Names, high: float | arb) -> None:
+        nothing = [arb(0)] * (self.space.terms + 1)
+        self._add(name, lambda _, __: Row(nothing, constants, -arb(high)))
+
+    def _power(self, slack: Names, high: float) -> None:
+        """b² <= 2 D k wherever b(0) = 0, b² <= 2 D (1-k) wherever b(1) = 0; 2 t r - t² <= D for r the root of D."""
+        start, change, _ = self.space.bounds
+
+        def from_end(contact: Contact, k: Fraction, way: Fraction) -> Row:
+            found = values(self.space.derivative(1), _x(k))
+            left = ball(2 * way).sqrt()
+            return Row([one * contact.sign / left if way else arb(0) for one in found], {ROOT: -1.0})
+
+        if start is not None and change is not None and start == 0:
+            self._add("b / sqrt(2k)", lambda one, k: from_end(one, k, k), (1.0, -1.0))
+        if start is not None and change is not None and start + change == 0:
+            self._add("b / sqrt(2 - 2k)", lambda one, k: from_end(one, k, 1 - k), (1.0, -1.0))
+        self._single("tangent", {ROOT: 2 * self.tangent, **slack}, ball(high) + self.tangent**2)
+
+    def _norm(self, nu: int, contact: Contact, slack: Names, high: float) -> Row:
+        """A direction times the values at Gauss points, each by the root of its weight: at most the norm (Cauchy)."""
+        functions = self.space.derivative(nu)
+        count = len(contact.direction)
+        if count <= max(one.degree() for one in functions):
+            raise LookupError
+        direction = [ball(value) for value in contact.direction]
+        length = sum((one * one for one in direction), arb(0)).sqrt()
+        # the solver's points ascend in u = 1 - 2k
+        rule = sorted(
+            (arb.legendre_p_root(count, i, weight=True) for i in range(count)), key=lambda one: -float(one[0])
+        )
+        columns = zip(*(values(functions, x) for x, _ in rule), strict=True)
+        weights = [one * (weight / 2).sqrt() / length for one, (_, weight) in zip(direction, rule, strict=True)]
+        return Row([sum(map(mul, weights, column), arb(0)) for column in columns], slack, -ball(high))
+
+    def _constraints(self) -> None:
+        problem = self.problem
+        self._peak_velocity()
+        if problem.monotone:
+            if problem.symmetric:
+                self._everywhere("ratio", self.space.ratio, (1.0,), {})
+            else:
+                self._everywhere("forward", self.space.derivative(1), (-1.0,), {})
+        for name in ("C", "D", "J"):
+            wanted = problem.range(name)
+            if wanted is None or not isfinite(wanted.high):
+                continue
+            if name in self.names:
+                self._single(f"{name} at most", {name: 1.0}, ball(wanted.high))
+            else:
+                self._bounded(FUNCTIONALS[name], {}, wanted.high)
+        for i, window in enumerate(problem.windows, 1):
+            for part in parts(window, symmetric=problem.symmetric):
+                self._window(f"window {i}", window, part)
+
+    def _peak_velocity(self) -> None:
+        problem, b = self.problem, self.space.derivative(1)
+        wanted = problem.range("B")
+        if wanted is None:
+            return
+        middle = values(b, arb(0))
+        if problem.symmetric:
+            self._everywhere("chord", self.space.chord, (1.0,), {})
+            constants: Names = {} if wanted.fixed else {"B": -1.0}
+            self.equations.append(Row(middle, constants, -ball(wanted.high) if wanted.fixed else 0.0))
+        else:
+            self._everywhere("b", b, (1.0,) if problem.monotone else (1.0, -1.0), {"B": -1.0})
+            if wanted.fixed:
+                self.equations.append(Row([arb(0)] * len(middle), {"B": 1.0}, -ball(wanted.high)))
+            if problem.boundary is None and wanted.low > 0.0:
+                self.equations.append(Row(middle, {"B": -1.0}))
+        if not wanted.fixed:
+            if isfinite(wanted.high):
+                self._single("B at most", {"B": 1.0}, ball(wanted.high))
+            if wanted.low > 0.0:
+                self._single("B at least", {"B": -1.0}, -ball(wanted.low))
+
+    def _window(self, name: str, window: Window, part: Part) -> None:
+        functions = self.space.derivative(part.order)
+        if window.value:
+            found = values(functions, _x(part.start))
+            self.equations.append(Row(found, {}, -ball(part.high or Fraction(0))))
+            return
+
+        def make(contact: Contact, k: Fraction) -> Row:
+            bound = part.high if contact.sign > 0.0 else part.low
+            if bound is None or not part.start - _NEAR <= k <= part.stop + _NEAR:
+                raise LookupError
+            found = values(functions, _x(min(max(k, part.start), part.stop)))
+            return Row([one * contact.sign for one in found], {}, -contact.sign * ball(bound))
+
+        for side, sign in (("above", 1.0), ("below", -1.0)):
+            self._add(f"{name}, {side}", make, (sign,))
+
+
+def parts(window: Window, *, symmetric: bool) -> Iterator[Part]:
+    """What a window asks; of symmetric laws, for which a(k) + a(1-k) = 1, on the first half only."""
+    low, high = (Fraction(one) if isfinite(one) else None for one in (window.low, window.high))
+    start, stop = Fraction(window.start), Fraction(window.stop)
+    half = Fraction(1, 2)
+    if not symmetric or stop <= half:
+        yield Part(window.order, low, high, start, stop)
+        return
+    if start < half:
+        yield Part(window.order, low, high, start, half)
+    if window.order % 2 == 0:
+        whole = 1 - window.order // 2
+        low, high = (None if one is None else whole - one for one in (high, low))
+    yield Part(window.order, low, high, 1 - stop, 1 - max(start, half))
+
+
+def _x(k: Fraction) -> arb:
+    return ball(2 * k - 1)
+
+
+def _maxima(expression: Expression) -> Iterator[Maximum]:
+    for _, term in expression.terms:
+        if isinstance(term, Maximum):
+            yield term
+            for part in term.parts:
+                yield from _maxima(part)

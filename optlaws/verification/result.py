@@ -1,0 +1,103 @@
+"""What a verification found."""
+
+from __future__ import annotations
+
+from dataclasses import asdict, dataclass, field
+from typing import Any
+
+from optlaws.synthesis.problem import Problem
+
+
+@dataclass(frozen=True)
+class Claim:
+    """Something a file says or implies, whether it is proven, and the numbers.
+
+    Examples
+    --------
+    >>> print(Claim("end conditions", True, "off by at most 1e-16"))
+    proven      end conditions: off by at most 1e-16
+    """
+
+    name: str
+    proven: bool
+    detail: str
+
+    def __str__(self) -> str:
+        return f"{'proven' if self.proven else 'NOT PROVEN':<12}{self.name}: {self.detail}"
+
+
+@dataclass(frozen=True, kw_only=True)
+class Verification:
+    """What is proven of a solution, or of a certificate alone. Every number is rounded to the safe side.
+
+    Attributes
+    ----------
+    problem
+        Of which problem it speaks.
+    bound
+        No law of the problem has a smaller objective: by the certificate, or beside a law also by the limit of C or D.
+        None where nothing is proven.
+    infeasible
+        Whether it is proven that the problem has no law.
+    objective, constants
+        Floats below and above the law's objective, B, C, D, J and rms_c; None and empty without a law.
+    gap
+        (objective - bound) / objective, at most. Below 0 by rounding where the law breaks a constraint by rounding.
+    excesses
+        By how much the law breaks each condition at most; 0 or less where it keeps it.
+    charge
+        What the bound lost to moments that had to be charged; mostly 0.
+    claims
+        Everything that was checked.
+
+    Examples
+    --------
+    >>> from optlaws import smoothstep, Certificate, Contact
+    >>> from optlaws.verification import verify
+    >>> problem = Problem(order=2)
+    >>> verify(Certificate(problem, (Contact("C", 1.0, 0.0, 1.0),), ()).to_dict()).bound
+    0.0
+    """
+
+    problem: Problem
+    bound: float | None
+    infeasible: bool = False
+    objective: tuple[float, float] | None = None
+    gap: float | None = None
+    constants: dict[str, tuple[float, float]] = field(default_factory=dict)
+    excesses: dict[str, float] = field(default_factory=dict)
+    charge: float = 0.0
+    claims: tuple[Claim, ...] = ()
+
+    @property
+    def proven(self) -> bool:
+        """Whether every claim is."""
+        return all(claim.proven for claim in self.claims)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict."""
+        return {
+            "proven": self.proven,
+            "bound": self.bound,
+            "infeasible": self.infeasible,
+            "objective": None if self.objective is None else list(self.objective),
+            "gap": self.gap,
+            "constants": {name: list(pair) for name, pair in self.constants.items()},
+            "excesses": dict(self.excesses),
+            "charge": self.charge,
+            "claims": [asdict(claim) for claim in self.claims],
+            "problem": self.problem.to_dict(),
+        }
+
+    def __str__(self) -> str:
+        lines = [f"{self.problem!r}"]
+        if self.infeasible:
+            lines.append("no law of the problem exists")
+        if self.objective is not None:
+            lines.append(f"objective    in [{self.objective[0]!r}, {self.objective[1]!r}]")
+        if self.bound is not None:
+            lines.append(f"lower bound  {self.bound!r}")
+        if self.gap is not None:
+            lines.append(f"gap          at most {self.gap:.2e}")
+        lines += [f"{name:<12} in [{low!r}, {high!r}]" for name, (low, high) in self.constants.items()]
+        return "\n".join([*lines, *map(str, self.claims)])

@@ -1,0 +1,285 @@
+"""What a file claims is checked without a solver and with every rounding enclosed."""
+
+import copy
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from optlaws import (
+    BoundaryConditions,
+    Certificate,
+    Chebyshev,
+    Contact,
+    InfeasibleProblem,
+    InputError,
+    Problem,
+    synthesize,
+    verification,
+)
+from optlaws.synthesis import Window, at_most, via
+from optlaws.verification import Verification, enclosures, exact_bound, verify
+
+pytest.importorskip("flint")
+
+MOVING = BoundaryConditions((0, 0.3), (1, 0.1))
+CONVEX = [
+    Problem(B=1.859, order=4, basis=Chebyshev(9)),
+    Problem(B=1.5, order=5, basis=Chebyshev(21)),
+    Problem(B=2.5, order=4, basis=Chebyshev(9), monotone=True),
+    Problem(B=1.4, order=2, basis=Chebyshev(15)),
+    Problem(B=2.1, order=6, basis=Chebyshev(9)),
+    Problem(B=1.8, order=3, basis=Chebyshev(9), minimise="J"),
+    Problem(B=1.8, order=3, basis=Chebyshev(9), minimise="rms_c"),
+    Problem(B=1.8, order=3, basis=Chebyshev(9), minimise="max(C/4, J/30)"),
+    Problem(B=1.8, order=3, basis=Chebyshev(9), minimise="0.5*C/4 + 0.5*J/12"),
+    Problem(B=1.8, order=4, basis=Chebyshev(11), J=80.0),
+    Problem(B=at_most(1.6), order=4, basis=Chebyshev(9)),
+    Problem(B=1.859, order=4, basis=Chebyshev(9), symmetric=False),
+    Problem(order=2, basis=Chebyshev(7), symmetric=False, boundary=MOVING),
+    Problem(order=3, basis=Chebyshev(9), windows=(via("a", 0.3, at=0.4),), symmetric=False),
+    Problem(order=3, basis=Chebyshev(9), windows=(Window("c", -6.0, 2.0, 0.3, 0.6),)),
+]
+LOCAL = [
+    Problem(B=1.7, order=4, basis=Chebyshev(9), minimise="D"),
+    Problem(B=1.7, order=4, basis=Chebyshev(9), minimise="0.5*C/4 + 0.5*D/2.25"),
+    Problem(B=1.7, order=4, basis=Chebyshev(9), D=8.0),
+]
+INFEASIBLE = [
+    Problem(B=1.53, order=4, basis=Chebyshev(1)),
+    Problem(B=2.9, order=2, basis=Chebyshev(3), monotone=True),
+    Problem(B=1.7, order=4, basis=Chebyshev(5), C=4.5),
+    Problem(B=1.2, order=4, basis=Chebyshev(3), symmetric=False),
+]
+FIRST = CONVEX[0]
+
+Data = dict[str, Any]
+
+
+@cache
+def text_of(problem: Problem) -> str:
+    return json.dumps(synthesize(problem).to_dict())
+
+
+@cache
+def proof_text(problem: Problem) -> str:
+    with pytest.raises(InfeasibleProblem) as caught:
+        synthesize(problem)
+    assert isinstance(caught.value.proof, Certificate)
+    return json.dumps(caught.value.proof.to_dict())
+
+
+def data_of(problem: Problem) -> Data:
+    found: Data = json.loads(text_of(problem))
+    return found
+
+
+@pytest.mark.parametrize("problem", CONVEX, ids=repr)
+def test_an_optimum_is_proven(problem: Problem) -> None:
+    data = data_of(problem)
+    found = verify(data)
+    assert found.proven, str(found)
+    assert found.bound is not None
+    assert found.gap is not None
+    assert found.objective is not None
+    assert found.bound == pytest.approx(data["certificate"]["bound"], rel=1e-9)
+    assert found.bound <= found.objective[1] * (1.0 + 1e-12)
+    assert abs(found.gap) < 1e-11
+    certificate = Certificate.from_dict(data["certificate"])
+    exact = exact_bound(certificate)
+    assert exact is not None
+    assert 0.0 <= exact - found.bound < 1e-14 * found.bound
+
+
+@pytest.mark.parametrize("problem", LOCAL, ids=repr)
+def test_where_d_is_relaxed_the_gap_is_proven(problem: Problem) -> None:
+    found = verify(data_of(problem))
+    assert found.proven, str(found)
+    assert found.gap is not None
+    assert 0.0 < found.gap < 0.3
+
+
+@pytest.mark.parametrize("problem", INFEASIBLE, ids=repr)
+def test_that_no_law_exists_is_proven(problem: Problem) -> None:
+    data = json.loads(proof_text(problem))
+    found = verify(data)
+    assert found.proven
+    assert found.infeasible
+    assert "no law of the problem exists" in str(found)
+    for contact in data["contacts"]:
+        contact["multiplier"] = 0.0
+    assert not verify(data).infeasible
+
+
+def test_a_bound_needs_no_charge_where_places_and_multipliers_have_the_freedom_of_the_law() -> None:
+    assert verify(data_of(FIRST)).charge == 0.0
+    assert 0.0 < verify(data_of(CONVEX[6])).charge < 1e-12
+
+
+def _law(data: Data) -> None:
+    data["law"]["acceleration"][3] *= 1.0 + 1e-7
+
+
+def _sign(data: Data) -> None:
+    data["certificate"]["contacts"][0]["multiplier"] *= -1.0
+
+
+def _raised(data: Data) -> None:
+    data["certificate"]["bound"] += 1e-7
+
+
+def _raised_lower_bound(data: Data) -> None:
+    data["lower_bound"] *= 1.0 + 1e-7
+
+
+def _other_velocity(data: Data) -> None:
+    data["problem"]["B"] += 1e-7
+
+
+def _other_velocity_everywhere(data: Data) -> None:
+    data["problem"]["B"] += 1e-7
+    data["certificate"]["problem"]["B"] += 1e-7
+
+
+def _moved(data: Data) -> None:
+    interior = [one for one in data["certificate"]["contacts"] if 0.0 < one["k"] < 0.5]
+    interior[0]["k"] += 1e-3
+
+
+def _heavier(data: Data) -> None:
+    data["certificate"]["contacts"][0]["multiplier"] *= 1.01
+
+
+def _renamed(data: Data) -> None:
+    data["certificate"]["contacts"][0]["constraint"] = "ratio"
+
+
+def _objective(data: Data) -> None:
+    data["objective"] *= 1.0 - 1e-9
+
+
+def _constant(data: Data) -> None:
+    data["constants"]["J"]["value"] *= 1.0 + 1e-9
+
+
+def _degree(data: Data) -> None:
+    data["problem"]["degree"] = data["certificate"]["problem"]["degree"] = 7
+
+
+def _monotone(data: Data) -> None:
+    data["problem"]["minimise"] = data["certificate"]["problem"]["minimise"] = "J"
+
+
+TAMPER: dict[Callable[[Data], None], str] = {
+    _law: "derivative",
+    _sign: "multipliers",
+    _raised: "the certificate's bound",
+    _raised_lower_bound: "the lower bound",
+    _other_velocity: "b(1/2) = B",
+    _other_velocity_everywhere: "b(1/2) = B",
+    _moved: "the certificate's bound",
+    _heavier: "sum of the rows",
+    _renamed: "contacts",
+    _objective: "the objective",
+    _constant: "J",
+    _degree: "terms beyond the degree",
+    _monotone: "the objective",
+}
+
+
+@pytest.mark.parametrize("change", TAMPER, ids=lambda one: one.__name__)
+def test_a_tampered_file_fails(change: Callable[[Data], None]) -> None:
+    data = copy.deepcopy(data_of(FIRST))
+    change(data)
+    found = verify(data)
+    assert not found.proven
+    failed = [claim.name for claim in found.claims if not claim.proven]
+    assert any(name.startswith(TAMPER[change]) for name in failed), failed
+
+
+@settings(max_examples=60)
+@given(st.sampled_from(CONVEX), st.data())
+def test_whatever_a_certificate_says_no_bound_exceeds_the_optimum(problem: Problem, data: st.DataObject) -> None:
+    solution = data_of(problem)
+    certificate = Certificate.from_dict(solution["certificate"])
+    size = st.sampled_from([0.0, 1e-9, 1e-6, 1e-3, 0.1])
+    contacts = tuple(
+        replace(
+            one,
+            k=min(max(one.k + data.draw(size) * data.draw(st.floats(-1.0, 1.0)), 0.0), 1.0),
+            multiplier=one.multiplier * (1.0 + data.draw(size) * data.draw(st.floats(-2.0, 2.0))),
+        )
+        for one in certificate.contacts
+    )
+    found = exact_bound(replace(certificate, contacts=contacts))
+    assert found is None or found <= solution["objective"] * (1.0 + 1e-12)
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        {},
+        {"contacts": []},
+        {"problem": {}, "law": {}, "certificate": {}},
+        {"problem": 1, "law": {}, "certificate": {}},
+        {"problem": {"order": 4}, "law": {}, "certificate": {}},
+    ],
+)
+def test_what_is_no_solution_is_refused(data: Data) -> None:
+    with pytest.raises(InputError):
+        verify(data)
+
+
+def test_numbers_must_be_numbers() -> None:
+    data = data_of(FIRST)
+    with pytest.raises(InputError, match="objective must be a finite number"):
+        verify(data | {"objective": "4.6"})
+    with pytest.raises(InputError, match="constants must be"):
+        verify(data | {"constants": 3})
+
+
+def test_without_python_flint_the_extra_is_named(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(verification, "find_spec", lambda _: None)
+    with pytest.raises(InputError, match=r"optlaws\[verify\]"):
+        verify({})
+    with pytest.raises(InputError, match=r"optlaws\[verify\]"):
+        enclosures(synthesize(FIRST).law)
+
+
+def test_no_solver_takes_part(tmp_path: Path) -> None:
+    file = tmp_path / "solution.json"
+    file.write_text(text_of(CONVEX[6]), "utf-8")
+    script = (
+        "import sys\n"
+        "sys.modules['casadi'] = sys.modules['scipy'] = None\n"
+        "from optlaws.verification import verify\n"
+        f"sys.exit(not verify({str(file)!r}).proven)"
+    )
+    subprocess.run([sys.executable, "-c", script], check=True)
+
+
+def test_a_verification_is_plain_data() -> None:
+    found = verify(data_of(FIRST))
+    assert isinstance(found, Verification)
+    assert json.loads(json.dumps(found.to_dict()))["proven"] is True
+    assert "lower bound" in str(found)
+
+
+@pytest.mark.parametrize("B", [1.2, 1.5])
+def test_a_row_that_needs_rest_at_the_ends_counts_for_nothing_without(B: float) -> None:
+    problem = Problem(order=1, B=B, basis=Chebyshev(7), minimise="D")
+    solution = synthesize(problem)
+    claim = Certificate(
+        problem, (Contact("b / sqrt(2k)", 1.0, 0.5, 2.0), Contact("tangent", 1.0, 1.0, 1.0)), (-2.0,), "relaxed", 1.0
+    )
+    for certificate in (solution.certificate, claim):
+        found = exact_bound(certificate)
+        assert found is None or found <= solution.objective
