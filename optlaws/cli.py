@@ -89,7 +89,7 @@ def solve(
     as_json: Annotated[bool, Parameter(name="--json")] = False,
     output: Path | None = None,
 ) -> None:
-    """Find the law with the least peak constant at a given peak velocity, and prove it.
+    """Find the law with the least peak constant or mixture of constants, and prove it.
 
     Parameters
     ----------

@@ -228,6 +228,9 @@ def _means(certificate: Certificate, space: LawSpace, greatest: dict[str, float]
     means += [(2, 2.0 * greatest.get(name, inf) + drop) for name in ("C_plus", "C_minus")]
     means += [(3, greatest.get("rms_j", inf)), (4, greatest.get("jounce", inf))]
     stroke = abs(space.stroke)
+    if "D" in greatest and certificate.problem.order > 1 and space.start_velocity == 0.0:
+        # b² <= 2 D k from rest
+        means += [(1, greatest["D"] ** 0.5)]
     means += [(1, 2.0 * greatest.get("B", inf) + stroke)]
     if certificate.problem.monotone:
         means += [(1, stroke)]

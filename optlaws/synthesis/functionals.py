@@ -81,7 +81,9 @@ class Peak(Functional):
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """The derivative's own family."""
-        return (space.derivative(self.nu, self.name, slack, bound, self.signs),)
+        # over the whole interval one sign of a derivative that is odd about k = 1/2 is both over the half
+        signs = (1.0, -1.0) if space.symmetric and self.nu % 2 == 0 else self.signs
+        return (space.derivative(self.nu, self.name, slack, bound, signs),)
 
 
 @dataclass(frozen=True, repr=False)
@@ -128,12 +130,12 @@ class RootMeanSquare(Functional):
 
 B = Peak("B", 1.0, convex=True, nu=1)
 C = Peak("C", 4.0, convex=True, nu=2)
-C_plus = Peak("C_plus", 4.0, convex=True, nu=2, signs=(1.0,))
-C_minus = Peak("C_minus", 4.0, convex=True, nu=2, signs=(-1.0,))
+C_plus = Peak("C_plus", 2.0, convex=True, nu=2, signs=(1.0,))
+C_minus = Peak("C_minus", 2.0, convex=True, nu=2, signs=(-1.0,))
 D = Power("D", 2.25, convex=False)
 J = Peak("J", 12.0, convex=True, nu=3)
 jounce = Peak("jounce", np.nan, convex=True, nu=4)
-rms_c = RootMeanSquare("rms_c", np.sqrt(12.0), convex=True, nu=2)
+rms_c = RootMeanSquare("rms_c", 12.0**0.5, convex=True, nu=2)
 rms_j = RootMeanSquare("rms_j", np.nan, convex=True, nu=3)
 
 FUNCTIONALS: dict[str, Functional] = {f.name: f for f in (B, C, C_plus, C_minus, D, J, jounce, rms_c, rms_j)}

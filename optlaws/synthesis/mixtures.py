@@ -16,7 +16,7 @@ _warned: set[str] = set()
 def warn_of_mixture(objective: Expression) -> None:
     """Warn, once for each objective, if a part of a mixture outweighs another many times over.
 
-    Parts are compared at the constants' least values: C counts 4, D 2.25, J 12. An objective such as C + J is hardly
+    Parts are compared at the constants' least values: C counts 4, D 2.25, J 12. An objective such as C + 3*J is hardly
     a mixture; 0.5*C/4 + 0.5*J/32 is.
 
     Examples

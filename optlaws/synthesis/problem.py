@@ -42,8 +42,8 @@ class Problem:
     monotone
         Ask b >= 0 too.
     symmetric
-        Ask a(k) + a(1-k) = 1. Where the objective is convex and the ends are at rest the optimum is the same either
-        way (the mean of a solution and its mirror image is no worse).
+        Ask a(k) + a(1-k) = 1. From rest to rest the optimum is the same either way where the objective is convex and
+        treats rise and fall alike and there are no windows (the mean of a law and its mirror image is no worse).
     boundary
         End conditions; rest to rest unless given. Others make the law unsymmetric.
     windows
@@ -104,10 +104,14 @@ class Problem:
 
     @property
     def mirrored(self) -> bool:
-        """Whether unsymmetric laws are sought although the mean of a law and its mirror image is never worse."""
+        """Whether unsymmetric laws are sought but every bound of symmetric ones holds for them too.
+
+        Where the objective is convex the mean of a law and its mirror image is no worse; where D is in it, that is
+        so for the relaxed program.
+        """
         one_sided = any(leaf in {C_plus, C_minus} for _, leaf in leaves(self.objective))
         plain = self.boundary is None and not self.windows and isinstance(self.basis, PolynomialBasis)
-        return not self.symmetric and self.convex and plain and not one_sided
+        return not self.symmetric and plain and not one_sided
 
     def range(self, name: str) -> Range | None:
         """What is asked of the constant B, C, D or J."""

@@ -73,7 +73,7 @@ def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
         tries += [_attempt(problem, found, None, point) for point in starts.points(problem, found)]
     sound = sorted((one for one in tries if one.law is not None), key=lambda one: one.objective)
     if not sound and problem.mirrored:
-        # the optimum is flat among unsymmetric laws; the mean of a law and its mirror image is no worse
+        # the optimum is flat among unsymmetric laws, and a symmetric one is among them
         return replace(synthesize(replace(problem, symmetric=True)), problem=problem)
     if not sound:
         raise failure(problem, tries[0].outcome)

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.exchange import solve
+from optlaws.synthesis.polynomial_space import PolynomialSpace
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.programs import Model, model
 
@@ -26,6 +27,8 @@ def points(problem: Problem, found: Model) -> list[Array]:
         optimum = solve(near.program).optimum
         if optimum is not None:
             convex.append(optimum.x[: found.space.terms])
+    if not problem.symmetric and problem.boundary is None:
+        convex += _from_symmetric(problem, found)
     if not convex:
         return []
     generator = np.random.default_rng(_SEED)
@@ -34,6 +37,17 @@ def points(problem: Problem, found: Model) -> list[Array]:
         convex[i % len(convex)] + _SPREAD * size * generator.normal(size=found.space.terms) for i in range(_RANDOM)
     ]
     return [_completed(found, coordinates) for coordinates in (*convex, *around)]
+
+
+def _from_symmetric(problem: Problem, found: Model) -> list[Array]:
+    """Coordinates of the best symmetric law that the default start leads to: it belongs to the problem too."""
+    half = model(replace(problem, symmetric=True))
+    optimum = solve(half.program).optimum
+    if optimum is None or not isinstance(half.space, PolynomialSpace) or not isinstance(found.space, PolynomialSpace):
+        return []
+    lifted = np.zeros(found.space.terms)
+    lifted[np.isin(found.space.index, half.space.index)] = optimum.x[: half.space.terms]
+    return [lifted]
 
 
 def _completed(found: Model, coordinates: Array) -> Array:
