@@ -13,6 +13,7 @@ from optlaws.synthesis.rows import NormFamily
 
 _TANGENTS = 4
 _NEAR = 0.9
+_NO_NORM = 1e-300
 
 
 def certify(problem: Problem, found: Model, optimum: ActiveSet, objective: float, limit: float | None) -> Certificate:
@@ -49,7 +50,7 @@ def certificate(problem: Problem, found: Model, optimum: ActiveSet, program: str
         direction: tuple[float, ...] = ()
         if isinstance(family, NormFamily):
             image = family.matrix @ np.append(optimum.x, 1.0)
-            direction = tuple((image / np.linalg.norm(image)).tolist())
+            direction = tuple((image / max(float(np.linalg.norm(image)), _NO_NORM)).tolist())
         for j, k in zip(mine, family.k(optimum.u[mine]), strict=True):
             multiplier = float(optimum.multipliers[j])
             place = float(min(max(k, 0.0), 1.0))

@@ -144,7 +144,7 @@ def excess(certificate: Certificate) -> float:
     for row, right, weight in zip(program.equalities, program.right, certificate.equations, strict=False):
         slope += weight * row
         value -= weight * float(right)
-    return float(value - _charge(found, certificate, slope, value))
+    return float(found.unit * (value - _charge(found, certificate, slope, found.unit * value)))
 
 
 def _model(certificate: Certificate) -> Model:
@@ -166,7 +166,8 @@ def _row(program: Program, contact: Contact) -> tuple[Array, float]:
             return rows[0], float(right[0])
         if isinstance(family, NormFamily):
             direction = np.array(contact.direction)
-            row = (direction / np.linalg.norm(direction)) @ family.matrix
+            # a shorter direction bounds the norm too
+            row = (direction / max(float(np.linalg.norm(direction)), 1.0)) @ family.matrix
             return row[:-1] - family.slack, family.bound - float(row[-1])
     return np.zeros(program.size), 0.0
 

@@ -106,6 +106,8 @@ def _norms_only(program: Program, x: Array) -> ActiveSet | None:
 
 def _least_squares(program: Program, norms: list[NormFamily]) -> Array:
     """Coordinates that make the sum of the squares of the norms least under the equations."""
+    if not norms:
+        return np.zeros(program.size)
     matrix = np.vstack([one.matrix for one in norms])
     square = matrix[:, :-1].T @ matrix[:, :-1]
     count = len(program.right)

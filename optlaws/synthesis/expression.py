@@ -6,6 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from math import isfinite
 from numbers import Real
+from typing import Any
 
 from optlaws.errors import InputError
 
@@ -57,7 +58,9 @@ class Expression:
 
     def __post_init__(self) -> None:
         gathered: dict[Term, float] = {}
-        for weight, term in self.terms:
+        for weight, term in _pairs(self.terms):
+            if not isinstance(term, Term):
+                raise InputError(f"an objective is made of constants of the law and maxima, got {term!r}")
             if not _number(weight) or not isfinite(weight) or weight <= 0.0:
                 raise InputError(f"weights in an objective must be finite numbers above 0, got {weight!r} for {term!r}")
             gathered[term] = gathered.get(term, 0.0) + float(weight)
@@ -92,6 +95,13 @@ class Expression:
 
     def __repr__(self) -> str:
         return " + ".join(repr(t) if w == 1.0 else f"{w!r}*{t!r}" for w, t in self.terms)
+
+
+def _pairs(terms: Any) -> list[tuple[float, Term]]:  # noqa: ANN401 - it is checked here
+    found = list(terms) if isinstance(terms, list | tuple) else [terms]
+    if not found or not all(isinstance(pair, tuple) and len(pair) == 2 for pair in found):
+        raise InputError(f"an objective needs pairs of a weight and a constant, at least one, got {terms!r}")
+    return found
 
 
 def _number(value: object) -> bool:
@@ -131,7 +141,14 @@ def maximum(*parts: Term | Expression) -> Maximum:
     """
     if len(parts) < 2:
         raise InputError("a maximum needs at least two parts")
+    for part in parts:
+        _check_part(part)
     return Maximum(tuple(part.expression() for part in parts))
+
+
+def _check_part(part: object) -> None:
+    if not isinstance(part, Term | Expression):
+        raise InputError(f"a part of a maximum must be a constant of the law or a sum of them, got {part!r}")
 
 
 def leaves(expression: Expression) -> Iterator[tuple[float, Term]]:

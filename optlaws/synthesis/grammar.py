@@ -22,6 +22,8 @@ _TOKEN = re.compile(
 
 Value = float | Expression
 
+_DEPTH = 40
+
 
 @dataclass(frozen=True)
 class Token:
@@ -54,6 +56,12 @@ def parse(text: str, names: Mapping[str, Term]) -> Expression:
     0.125*C + 0.25*D
     """
     reader = _Reader(text, names)
+    depth = greatest = 0
+    for character in text:
+        depth += (character == "(") - (character == ")")
+        greatest = max(greatest, depth)
+    if greatest > _DEPTH:
+        raise InputError(f"an objective may have {_DEPTH} brackets within each other, got {greatest}")
     value = reader.sum()
     if reader.token.kind != "end":
         reader.refuse("expected + * / or the end")
@@ -153,8 +161,9 @@ class _Reader:
 
     def _maximum(self) -> Expression:
         self.take()
-        if self.take().text != "(":
+        if self.token.text != "(":
             self.refuse("expected ( after max")
+        self.take()
         parts = [self._part()]
         while self.token.text == ",":
             self.take()

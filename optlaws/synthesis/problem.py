@@ -241,7 +241,9 @@ def _velocity(value: Any) -> bool:  # noqa: ANN401 - it is checked here
     return value is not True and isinstance(value, Real) and isfinite(value) and float(value) > 1.0
 
 
-def _order(order: Any, boundary: BoundaryConditions | None) -> int:  # noqa: ANN401 - it is checked here
+def _order(order: Any, boundary: Any) -> int:  # noqa: ANN401 - they are checked here
+    if boundary is not None and not isinstance(boundary, BoundaryConditions):
+        raise InputError(f"boundary must be BoundaryConditions(start, end), got {boundary!r}")
     if boundary is not None and order in {0, boundary.order}:
         return boundary.order
     found = whole(order, "order", least=1)

@@ -27,13 +27,15 @@ class Model:
     """A program with the space it is written over and the places of its variables beyond the coordinates.
 
     `places` has the variables that bound the objective's constants from above, by their names, those of maxima, and
-    "B" where the peak velocity is a variable. `equation_names` says what each equation is.
+    "B" where the peak velocity is a variable. `equation_names` says what each equation is; the
+    program's objective is the problem's divided by `unit`.
     """
 
     space: LawSpace
     program: Program
     places: dict[str, int]
     equation_names: tuple[str, ...]
+    unit: float = 1.0
 
 
 def model(problem: Problem) -> Model:
@@ -48,6 +50,7 @@ def model(problem: Problem) -> Model:
 
 ROOT = "root of D"
 _REST = 1e-15
+_LEAST_WEIGHT, _GREATEST_WEIGHT = 1e-3, 1e3
 _SIDES = {1.0: "above", -1.0: "below"}
 
 
@@ -127,6 +130,7 @@ class _Writer:
         self.spare = np.zeros(self.size)
         self.cost = np.zeros(self.size)
         self.tangent = 0.0
+        self.cost_unit = 1.0
         self.families: list[Family] = []
         self.equalities: list[Array] = []
         self.right: list[float] = []
@@ -142,6 +146,11 @@ class _Writer:
 
     def objective(self, expression: Expression) -> None:
         self.cost = self.sum(expression)
+        size = float(self.cost.max())
+        if not _LEAST_WEIGHT < size < _GREATEST_WEIGHT:
+            # tolerances are made for objectives near 1
+            self.cost /= size
+            self.cost_unit = size
         for leaf in dict.fromkeys(leaf for _, leaf in leaves(expression)):
             if leaf == D and ROOT in self.places:
                 self._power(self.unit("D"), 0.0)
@@ -242,4 +251,4 @@ class _Writer:
     def model(self) -> Model:
         equalities = np.array(self.equalities).reshape(-1, self.size)
         program = Program(tuple(self.families), equalities, np.array(self.right), self.cost)
-        return Model(self.space, program, self.places, tuple(self.equation_names))
+        return Model(self.space, program, self.places, tuple(self.equation_names), self.cost_unit)

@@ -118,7 +118,7 @@ class _Attempt:
 
 def _attempt(problem: Problem, found: Model, warm: ActiveSet | None, point: Array | None) -> _Attempt:
     attempt = _Attempt(Outcome(None, 0, 0, ""))
-    claim = found.program.objective
+    claim = found.program.objective * found.unit
 
     def holds(x: Array) -> bool:
         law = found.space.law(x[: found.space.terms])
