@@ -1,7 +1,7 @@
 """Compare two folders of results: the same files, the same words, the same numbers but for rounding.
 
-Tables must agree to their digits, give or take one in the last; of JSON files the figures that a reader would quote count,
-not the coefficients behind them. Pictures carry fonts and renderer versions and are left out.
+Tables must agree to their digits, give or take one in the last; of JSON files the figures that a reader would quote
+count, not the coefficients behind them. Pictures carry fonts and renderer versions and are left out.
 """
 
 import json

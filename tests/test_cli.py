@@ -97,7 +97,12 @@ def test_solve_writes_the_whole_solution(capsys: Capture, tmp_path: Path) -> Non
         (["--peak-velocity", "1.6", "--order", "4"], "--degree"),
         (["--peak-velocity", "fast", "--order", "4", "--degree", "3"], "--peak-velocity"),
         (["--peak-velocity", "1.6", "--order", "2.5", "--degree", "3"], "--order"),
-        (["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "--minimise", "X"], "--minimise"),
+        (["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "--minimise", "X"], "unknown constant 'X'"),
+        (
+            ["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "--minimise", "C/4 + Q/2"],
+            "  C/4 + Q/2\n        ^",
+        ),
+        (["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "--minimise", ""], "expected a number"),
         (["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "--basis", "splines"], "--basis"),
         (["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "--monoton"], "--monotone"),
         (["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "extra"], "extra"),

@@ -164,7 +164,7 @@ def _row(program: Program, contact: Contact) -> tuple[Array, float]:
         if isinstance(family, LinearFamily):
             rows, right = family.rows(u, np.array([contact.sign]))
             return rows[0], float(right[0])
-        if isinstance(family, NormFamily):
+        if isinstance(family, NormFamily) and len(contact.direction) == len(family.matrix):
             direction = np.array(contact.direction)
             # a shorter direction bounds the norm too
             row = (direction / max(float(np.linalg.norm(direction)), 1.0)) @ family.matrix

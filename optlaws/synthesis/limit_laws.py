@@ -15,6 +15,8 @@ from optlaws.synthesis.limits import best_velocity, limit
 Pair = tuple[float, float]
 Piece = TypeVar("Piece")
 
+_STANDSTILL = 1e-6  # a motion back so slow that its times, of the square of this, would be lost in rounding
+
 
 def limit_law(
     constant: str, B: float | None = None, *, order: int = 3, monotone: bool = False, J: float | None = None
@@ -129,9 +131,9 @@ def _jerk_steps(B: float, J: float, *, monotone: bool, free: bool) -> PiecewiseL
 def _constant_power(B: float, D: float, *, monotone: bool) -> PiecewiseLaw:
     if B <= 1.5:
         return _straight_squares([1.5 * (B - 1.0) / B, 0.5], [(0.0, B), (B, B)], D)
-    if monotone:
-        return _straight_squares([0.5 - 0.75 / B, 0.5], [(0.0, 0.0), (0.0, B)], D)
     speed = back_velocity(B)
+    if monotone or speed < _STANDSTILL:
+        return _straight_squares([0.5 - 0.75 / B, 0.5], [(0.0, 0.0), (0.0, B)], D)
     time = speed * speed / D
     return _straight_squares([0.5 * time, time, 0.5], [(0.0, -speed), (-speed, 0.0), (0.0, B)], D)
 

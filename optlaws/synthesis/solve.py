@@ -68,6 +68,8 @@ def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
     warn_of_mixture(problem.objective)
     found = model(problem)
     warm = start.active_set if start is not None and _neighbours(problem, start.problem) else None
+    if warm is not None and len(warm.x) != found.program.size:
+        warm = None  # a symmetric law stands for an unsymmetric one
     tries = [_attempt(problem, found, warm, None)]
     if not problem.convex and warm is None:
         tries += [_attempt(problem, found, None, point) for point in starts.points(problem, found)]
@@ -81,7 +83,10 @@ def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
     best = _raised(problem, found, plain)
     objectives = tuple(one.objective for one in sound) if not problem.convex and best is plain else ()
     iterations = sum(one.outcome.iterations for one in tries)
-    return _solution(problem, found, plain, best, (objectives, iterations, began))
+    solution = _solution(problem, found, plain, best, (objectives, iterations, began))
+    if problem.mirrored and solution.status is Status.INACCURATE:
+        return replace(synthesize(replace(problem, symmetric=True)), problem=problem)
+    return solution
 
 
 def sweep(problems: Iterable[Problem]) -> Iterator[Solution]:

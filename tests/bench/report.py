@@ -17,11 +17,12 @@ from rich.table import Table
 
 import optlaws
 from optlaws import Chebyshev, Problem, Solution, sweep, synthesize
-from tests.bench.plain import Answer, Rows, highs, opti
+from tests.bench.plain import Answer, Claim, Rows, highs, opti, power_by_opti, power_by_slsqp
 from tests.documents import ROOT
 
 DEGREES = (3, 9, 19, 41)
 FIRST = Problem(B=1.641, order=4, monotone=True)
+POWER = Problem(B=1.641, order=4, basis=Chebyshev(9), minimise="D")
 VELOCITIES = np.linspace(1.55, 2.5, 100)
 REPEATS = 7
 COLD = (
@@ -36,6 +37,14 @@ COLD = (
 
 
 @dataclass(frozen=True)
+class Cost:
+    """Seconds of a plain way: the program and its solution with rows given, and with rows made and the result read."""
+
+    solver: float
+    whole: float
+
+
+@dataclass(frozen=True)
 class Row:
     """Seconds a law takes, by way of asking, and what the plain ways answer."""
 
@@ -44,8 +53,8 @@ class Row:
     cold: float
     single: float
     swept: float
-    by_opti: float
-    by_highs: float
+    by_opti: Cost
+    by_highs: Cost
     from_opti: Answer
     from_highs: Answer
 
@@ -66,6 +75,24 @@ def python(*arguments: str) -> str:
     return done.stdout
 
 
+def cost(solve: Callable[[Rows, float], Claim], problem: Problem, rows: Rows) -> Cost:
+    """What a plain way costs; its rows do not depend on B, and a careful user keeps them."""
+    assert isinstance(problem.B, float)
+    B = problem.B
+
+    def whole() -> None:
+        own = Rows(problem)
+        own.read(solve(own, B))
+
+    return Cost(seconds(lambda: solve(rows, B)), seconds(whole))
+
+
+def judged(solve: Callable[[Rows, float], Claim], problem: Problem, rows: Rows) -> Answer:
+    """What its answer is worth."""
+    assert isinstance(problem.B, float)
+    return rows.judged(solve(rows, problem.B))
+
+
 def measured(degree: int) -> Row:
     """All ways of asking for one degree."""
     problem = replace(FIRST, basis=Chebyshev(degree))
@@ -73,44 +100,99 @@ def measured(degree: int) -> Row:
     # a cold law is the first of its shape, in a process that has loaded CasADi and IPOPT
     cold = median(float(python("-c", COLD.format(problem=problem))) for _ in range(3))
     solution = synthesize(problem)
-    # their rows do not depend on B and are made beforehand, as those of a known shape are in optlaws
     rows = Rows(problem)
-    from_opti, from_highs = (rows.judged(solve(rows, problem.B)) for solve in (opti, highs))
     return Row(
         problem=problem,
         solution=solution,
         cold=cold,
         single=seconds(lambda: synthesize(problem), 15),
         swept=seconds(lambda: list(sweep(family)), 3) / len(family),
-        by_opti=seconds(lambda: opti(rows, problem.B)),
-        by_highs=seconds(lambda: highs(rows, problem.B)),
-        from_opti=from_opti,
-        from_highs=from_highs,
+        by_opti=cost(opti, problem, rows),
+        by_highs=cost(highs, problem, rows),
+        from_opti=judged(opti, problem, rows),
+        from_highs=judged(highs, problem, rows),
     )
 
 
 def times_table(rows: Sequence[Row]) -> Table:
     """Milliseconds a law."""
-    headings = ("degree of Z", "cold", "single", "along B", "Opti, IPOPT", "linprog, HiGHS")
+    headings = (
+        "degree of Z",
+        "cold",
+        "single",
+        "along B",
+        "Opti",
+        "Opti, rows given",
+        "linprog",
+        "linprog, rows given",
+    )
     table = Table(*headings, title="ms a law: l = 4, 0 <= b <= B = 1.641; along B: 1.55 to 2.5")
     for row in rows:
-        times = (row.cold, row.single, row.swept, row.by_opti, row.by_highs)
-        table.add_row(str(row.problem.basis.degree), *(f"{1e3 * value:.2f}" for value in times))
+        plain = (row.by_opti.whole, row.by_opti.solver, row.by_highs.whole, row.by_highs.solver)
+        times = (row.cold, row.single, row.swept, *plain)
+        table.add_row(degree_of(row.problem), *(f"{1e3 * value:.2f}" for value in times))
     return table
 
 
 def ratios_table(rows: Sequence[Row]) -> Table:
     """Ratios to the plain ways, beside the aims."""
-    headings = ("degree of Z", "single / Opti", "single / linprog", "along B / Opti")
+    headings = (
+        "degree of Z",
+        "single / Opti",
+        "... rows given",
+        "single / linprog",
+        "... rows given",
+        "along B / Opti",
+        "... rows given",
+    )
     table = Table(*headings, title="ratios (aims: at most 1/10, 2 and 1/100; * missed)")
     for row in rows:
         found = (
-            (row.single / row.by_opti, 0.1),
-            (row.single / row.by_highs, 2.0),
-            (row.swept / row.by_opti, 0.01),
+            (row.single / row.by_opti.whole, 0.1),
+            (row.single / row.by_opti.solver, 0.1),
+            (row.single / row.by_highs.whole, 2.0),
+            (row.single / row.by_highs.solver, 2.0),
+            (row.swept / row.by_opti.whole, 0.01),
+            (row.swept / row.by_opti.solver, 0.01),
         )
-        table.add_row(str(row.problem.basis.degree), *(f"{value:.4f}{missed(value, aim)}" for value, aim in found))
+        table.add_row(degree_of(row.problem), *(f"{value:.4f}{missed(value, aim)}" for value, aim in found))
     return table
+
+
+def degree_of(problem: Problem) -> str:
+    """The degree of Z."""
+    return str(problem.basis.to_dict()["degree"])
+
+
+def power_tables() -> list[Table]:
+    """The law of least D: times beside the plain ways, and what the answers are worth."""
+    problem, rows = POWER, Rows(POWER)
+    solution = synthesize(problem)
+    own = seconds(lambda: synthesize(problem), 15)
+    ways = (("Opti, IPOPT", power_by_opti, 1 / 3), ("SLSQP", power_by_slsqp, 1 / 2))
+    times = Table("solver", "ms a law", "ms, rows given", "optlaws / it", "... rows given", "aim")
+    times.title = f"least D: l = 4, degree 9, b <= B = 1.641; optlaws {1e3 * own:.2f} ms, {len(solution.starts)} starts"
+    worth = Table("solver", "D claimed", "off optlaws", "true peak over claim", "b over B")
+    worth.title = "accuracy: true extremes of each law; one start and 200 points but for optlaws"
+    B, low_high = POWER.B, solution.law.extrema(1)
+    assert isinstance(B, float)
+    peak = solution.law.power_peak().value
+    gap = f"bound {solution.lower_bound:.6f}"
+    worth.add_row(
+        "optlaws", f"{solution.objective:.9f}", gap, *worth_of(solution.objective, peak, low_high[1].value / B)
+    )
+    for name, solve, aim in ways:
+        found, answer = cost(solve, problem, rows), judged(solve, problem, rows)
+        ratios = (f"{ratio:.4f}{missed(ratio, aim)}" for ratio in (own / found.whole, own / found.solver))
+        times.add_row(name, f"{1e3 * found.whole:.2f}", f"{1e3 * found.solver:.2f}", *ratios, f"{aim:.3f}")
+        off = f"{answer.claimed / solution.objective - 1.0:+.1e}"
+        worth.add_row(name, f"{answer.claimed:.9f}", off, *worth_of(answer.claimed, answer.power, answer.velocity / B))
+    return [times, worth]
+
+
+def worth_of(claimed: float, power: float, velocity: float) -> tuple[str, str]:
+    """True peak over claim and b over B, as text."""
+    return f"{power / claimed - 1.0:+.1e}", f"{max(0.0, velocity - 1.0):.1e}"
 
 
 def accuracy_table(rows: Sequence[Row]) -> Table:
@@ -127,8 +209,10 @@ def accuracy_table(rows: Sequence[Row]) -> Table:
     table = Table(*headings, title="accuracy: C claimed against the certified optimum, and the law's true extremes")
     for row in rows:
         best, B = row.solution.objective, row.problem.B
+        assert isinstance(B, float)
         low, high = row.solution.law.extrema(1)
-        own = Answer(best, row.solution.law.peak(2).value, high.value, -low.value)
+        law = row.solution.law
+        own = Answer(best, law.peak(2).value, law.power_peak().value, high.value, -low.value)
         for name, one in (
             ("optlaws", own),
             ("Opti, 200 points", row.from_opti),
@@ -136,7 +220,7 @@ def accuracy_table(rows: Sequence[Row]) -> Table:
         ):
             off = row.solution.gap if one is own else one.claimed / best - 1.0
             table.add_row(
-                str(row.problem.basis.degree),
+                degree_of(row.problem),
                 name,
                 f"{one.claimed:.9f}",
                 f"{off:+.1e}" if one is not own else f"gap {off:.0e}",
@@ -175,7 +259,7 @@ def main() -> None:
         f"NumPy {np.__version__}, Python {sys.version.split()[0]}, one BLAS thread, medians"
     )
     rows = [measured(degree) for degree in DEGREES]
-    for table in (times_table(rows), ratios_table(rows), accuracy_table(rows)):
+    for table in (times_table(rows), ratios_table(rows), accuracy_table(rows), *power_tables()):
         console.print(table)
     job, imported = table_job(), import_time()
     console.print(f"the whole table, cold: {job:.2f} s (aim: less than 3 s){missed(job, 3.0)}")

@@ -207,7 +207,7 @@ def test_a_new_kind_of_segment_is_one_class() -> None:
         def power_candidates(self, length: float) -> Array:  # noqa: ARG002
             return np.empty(0)
 
-        def square(self, length: float, nu: int) -> float:
+        def square(self, length: float, nu: int) -> float:  # noqa: ARG002 - its derivatives are all alike
             return self.rate**3 * float(np.expm1(2 * self.rate * length)) / 2
 
     try:

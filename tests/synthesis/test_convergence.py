@@ -23,6 +23,7 @@ def excesses(order: int, B: float, *, monotone: bool = False) -> np.ndarray:
         problem = Problem(B=B, order=order, basis=Chebyshev(int(degree)), monotone=monotone)
         solution = synthesize(problem)
         assert solution.gap <= 1e-8
+        assert solution.limit is not None
         found.append(solution.objective - solution.limit)
     return np.array(found)
 
@@ -84,4 +85,6 @@ def test_a_free_sign_of_b_lowers_c(B: float) -> None:
     )
     assert free.objective < asked.objective
     assert free.law.extrema(1)[0].value < -1e-3
+    assert free.limit is not None
+    assert asked.limit is not None
     assert free.limit < asked.limit

@@ -13,22 +13,35 @@ import pytest
 
 import optlaws
 from optlaws import (
+    Bernstein,
     BoundaryConditions,
+    C,
     Certificate,
     Chebyshev,
     Contact,
+    D,
     InfeasibleProblem,
     InputError,
+    J,
     OptlawsError,
+    Pieces,
     Powers,
     Problem,
     SolverFailure,
+    Window,
     acceleration_limit,
+    at_least,
+    at_most,
+    between,
     construct,
+    maximum,
+    rms_c,
     sweep,
     synthesize,
+    via,
 )
-from optlaws.synthesis import basis, exchange, solve, transcription
+from optlaws.synthesis import basis, bounding, exchange, solve, transcription
+from optlaws.synthesis.rows import Points, Program
 
 GOOD: dict[str, Any] = {"B": 1.859, "order": 4}
 
@@ -37,12 +50,39 @@ def problem(**changes: Any) -> Problem:  # noqa: ANN401
     return Problem(**{**GOOD, **changes})
 
 
-@pytest.mark.parametrize("B", [1.0, 1, 0.5, 0.0, -1.641, nan, inf, -inf, True, "1.6", None, [1.6], 1.6j])
+@pytest.mark.parametrize("B", [1.0, 1, 0.5, 0.0, -1.641, nan, inf, -inf, True, "1.6", 1.6j, {1.6}])
 def test_a_wrong_peak_velocity_is_named(B: object) -> None:
     with pytest.raises(
         InputError, match=re.escape(f"B must be a finite number above 1 (the mean velocity is 1), got {B!r}")
     ):
         problem(B=B)
+
+
+@pytest.mark.parametrize(
+    ("B", "message"),
+    [
+        ([1.6], "B must be a finite number, a range"),
+        ([1.6, 1.7, 1.8], "B must be a finite number, a range"),
+        ((1.8, 1.5), "the lower bound 1.8 must be finite and at most the upper one, 1.5"),
+        ((nan, 1.8), "bounds must be numbers of at least 0, got nan"),
+        ((1.5, nan), "bounds must be numbers of at least 0, got nan"),
+        ((1.5, "1.8"), "bounds must be numbers of at least 0, got '1.8'"),
+        ((inf, inf), "the lower bound inf must be finite"),
+        ((0.2, 1.0), "B must be able to exceed 1"),
+        ((0.0, 0.9), "B must be able to exceed 1"),
+        ((True, 1.8), "bounds must be numbers of at least 0, got True"),
+    ],
+)
+def test_a_wrong_range_of_the_peak_velocity_is_named(B: object, message: str) -> None:
+    with pytest.raises(InputError, match=re.escape(message)):
+        problem(B=B)
+
+
+@pytest.mark.parametrize("name", ["C", "D", "J"])
+@pytest.mark.parametrize("wrong", [nan, inf, -inf, True, "5", [5.0], 5j, {5.0}, -1.0, 0.0, (0.0, 0.0)])
+def test_a_wrong_constant_is_named(name: str, wrong: object) -> None:
+    with pytest.raises(InputError, match=rf"\b{name} must|bounds must be numbers of at least 0, got -1.0"):
+        problem(**{name: wrong})
 
 
 @pytest.mark.parametrize("order", [0, -1, True, 2.0, "4", None, nan])
@@ -70,9 +110,17 @@ def test_a_wrong_basis_is_named(wrong: object) -> None:
         problem(basis=wrong)
 
 
-@pytest.mark.parametrize("wrong", ["c", "D", "J", None, 2])
+@pytest.mark.parametrize("wrong", [None, 2, 2.5, [], ["C"], {"C": 1.0}, max, b"C"])
 def test_a_wrong_objective_is_named(wrong: object) -> None:
-    with pytest.raises(InputError, match=re.escape(f"minimise must be 'C', got {wrong!r}")):
+    with pytest.raises(
+        InputError, match=re.escape(f"minimise must be a constant such as 'C', a sum or an expression, got {wrong!r}")
+    ):
+        problem(minimise=wrong)
+
+
+@pytest.mark.parametrize("wrong", ["c", "Q", "CC", "rms_q", "peak"])
+def test_an_unknown_objective_is_named_with_the_known_ones(wrong: str) -> None:
+    with pytest.raises(InputError, match=re.escape(f"unknown constant {wrong!r}")):
         problem(minimise=wrong)
 
 
@@ -84,8 +132,8 @@ def test_a_wrong_switch_is_named(name: str, wrong: object) -> None:
 
 
 def test_an_unknown_basis_is_named_with_the_known_ones() -> None:
-    with pytest.raises(InputError, match="'bernstein' is unknown; known are chebyshev, powers"):
-        basis("bernstein", 3)
+    with pytest.raises(InputError, match="'splines' is unknown; known are bernstein, chebyshev, pieces, powers"):
+        basis("splines", 3)
 
 
 @pytest.mark.parametrize(
@@ -93,9 +141,15 @@ def test_an_unknown_basis_is_named_with_the_known_ones() -> None:
     [
         ({"B": 1.859, "ordr": 4}, "did you mean 'order'"),
         ({"B": 1.859, "order": 4, "monoton": True}, "did you mean 'monotone'"),
-        ({"order": 4}, "lacks B"),
         ({"B": 1.859}, "lacks order"),
-        ({}, "lacks B and order"),
+        ({}, "lacks order"),
+        ({"B": 1.859, "order": 4, "minimize": "D"}, "did you mean 'minimise'"),
+        ({"B": 1.859, "order": 4, "C": "5"}, "C must be"),
+        ({"B": 1.859, "order": 4, "start": [0, 0]}, "boundary conditions need as many"),
+        ({"B": 1.859, "order": 3, "start": [0, 0], "end": [1, 0]}, "order 3 does not fit 2 boundary conditions"),
+        ({"B": 1.859, "order": 4, "basis": ["chebyshev"]}, "basis"),
+        ({"B": 1.859, "order": 4, "windows": 3}, "windows"),
+        ({"B": 1.859, "order": 4, "start": 3, "end": 4}, "boundary conditions|start"),
         ({"B": nan, "order": 4}, "B must be"),
         ({"B": 1.859, "order": 4, "degree": 1.5}, "degree"),
         ({"B": 1.859, "order": 4, "basis": "splines"}, "splines"),
@@ -133,8 +187,8 @@ def test_a_start_that_is_no_solution_is_refused(wrong: Any) -> None:  # noqa: AN
         lambda: acceleration_limit(2.0, monoton=True),  # type: ignore[call-arg]
         lambda: synthesize(Problem(B=1.5, order=2), strat=None),  # type: ignore[call-arg]
         lambda: sweep(problem=[]),  # type: ignore[call-arg]
-        lambda: Contact("c <= C", 0.1, weight=1.0),  # type: ignore[call-arg]
-        lambda: Certificate(order=2, degree=3, B=2.0, monotone=False, contact=()),  # type: ignore[call-arg]
+        lambda: Contact("C", 1.0, 0.1, weight=1.0),  # type: ignore[call-arg]
+        lambda: Certificate(problem(), contact=(), equations=()),  # type: ignore[call-arg]
         lambda: optlaws.savin("I", alfa=1.0),  # type: ignore[call-arg]
         lambda: optlaws.smoothstep(ordr=1),  # type: ignore[call-arg]
         lambda: InfeasibleProblem("", prof=1),  # type: ignore[call-arg]
@@ -152,6 +206,13 @@ PROBLEMS = [
     problem(),
     problem(B=2, basis=Powers(3)),
     problem(B=2.123456789012345, order=2, basis=Chebyshev(41), monotone=True, symmetric=False),
+    problem(B=None),
+    problem(B=between(1.5, 1.8), C=at_most(60), J=at_least(40.5), D=3),
+    problem(B=at_least(1.5), minimise="0.6*C/4 + 0.4*D/2.25"),
+    problem(minimise=maximum(C / 4, D / 2.25 + J / 64) + 0.1 * rms_c),
+    problem(order=2, symmetric=False, boundary=BoundaryConditions((0, 0.5), (1, -0.25))),
+    problem(basis=Bernstein(7), windows=(via("a", 0.3, at=0.4), Window("b", high=1.2, start=0.2, stop=0.3))),
+    problem(basis=Pieces(4, 5, 3)),
 ]
 
 
@@ -207,12 +268,13 @@ def test_the_law_that_one_coefficient_gives_does_break_b() -> None:
 
 
 def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) -> None:
-    def failed(rows: np.ndarray, right: np.ndarray, *_: object, **__: object) -> transcription.Answer:
+    def failed(program: Program, points: list[Points], *_: object, **__: object) -> transcription.Answer:
+        weights = [np.zeros(len(mine.u)) for mine in points]
         return transcription.Answer(
-            np.full(rows.shape[1], nan), np.zeros(len(right)), success=False, status="Restoration_Failed", iterations=7
+            np.full(program.size, nan), weights, success=False, status="Restoration_Failed", iterations=7
         )
 
-    monkeypatch.setattr(exchange, "solve_rows", failed)
+    monkeypatch.setattr(exchange, "solve_on_points", failed)
     one = problem(B=1.7001)
     with pytest.raises(SolverFailure, match="no law was found") as caught:
         synthesize(one)
@@ -225,13 +287,14 @@ def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) ->
 def test_multipliers_that_are_wrong_give_no_false_claim(monkeypatch: pytest.MonkeyPatch, shift: float) -> None:
     one = problem(B=1.7002)
     true = synthesize(one).objective
-    honest = transcription.solve_rows
+    honest = transcription.solve_on_points
 
     def lying(*args: Any, **kwargs: Any) -> transcription.Answer:  # noqa: ANN401
         answer = honest(*args, **kwargs)
-        return replace(answer, x=answer.x + shift, multipliers=answer.multipliers * (1.0 + shift))
+        wrong = [weights * (1.0 + shift) for weights in answer.multipliers]
+        return replace(answer, x=answer.x + shift, multipliers=wrong)
 
-    monkeypatch.setattr(exchange, "solve_rows", lying)
+    monkeypatch.setattr(exchange, "solve_on_points", lying)
     try:
         solution = synthesize(one)
     except SolverFailure:
@@ -241,7 +304,7 @@ def test_multipliers_that_are_wrong_give_no_false_claim(monkeypatch: pytest.Monk
 
 
 def test_a_law_without_a_meeting_bound_is_not_called_optimal(monkeypatch: pytest.MonkeyPatch) -> None:
-    honest = solve.certify
+    honest = bounding.certify
 
     def poor(*args: Any) -> Certificate:  # noqa: ANN401
         found = honest(*args)

@@ -1,0 +1,168 @@
+"""What a solution of any problem with polynomial Z claims, judged by numpy.polynomial from the stored law alone."""
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import inf, isfinite, sqrt
+
+import numpy as np
+from numpy.polynomial import Chebyshev
+from numpy.typing import NDArray
+
+from optlaws import Expression, MotionLaw, Problem, Range, Solution
+from optlaws.synthesis import Maximum
+from tests.synthesis.independent import DENSE, UNIT, extremes
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Judged:
+    """A law as three numpy series, and its constants over the whole interval."""
+
+    law: MotionLaw
+
+    @cached_property
+    def derivatives(self) -> list[Chebyshev]:
+        """a, b, c, c', c''."""
+        stored = self.law.to_dict()
+        c = Chebyshev(np.array([*stored["acceleration"], 0.0, 0.0]), domain=UNIT)
+        b = c.integ(lbnd=0.0) + stored["b0"]
+        a = b.integ(lbnd=0.0) + stored["a0"]
+        return [a, b, c, c.deriv(), c.deriv(2)]
+
+    def peak(self, nu: int) -> float:
+        """Greatest magnitude."""
+        return float(max(np.abs(extremes(self.derivatives[nu]))))
+
+    def rms(self, nu: int) -> float:
+        """By the exact integral of the square."""
+        square = self.derivatives[nu] ** 2
+        return sqrt(float(square.integ(lbnd=0.0)(1.0)))
+
+    @cached_property
+    def constants(self) -> dict[str, float]:
+        """Every constant by its name."""
+        lowest, highest = extremes(self.derivatives[2])
+        power = self.derivatives[1] * self.derivatives[2]
+        # the product cancels in its own coefficients: at its stationary points the factors are multiplied
+        inner = np.real(power.deriv().roots())
+        k = np.concatenate([DENSE, inner[(inner > 0.0) & (inner < 1.0)]])
+        d = self.derivatives[1](k) * self.derivatives[2](k)
+        return {
+            "B": self.peak(1),
+            "C": max(-lowest, highest),
+            "C_plus": highest,
+            "C_minus": -lowest,
+            "D": float(np.abs(d).max()),
+            "J": self.peak(3),
+            "jounce": self.peak(4),
+            "rms_c": self.rms(2),
+            "rms_j": self.rms(3),
+        }
+
+    def worth(self, expression: Expression) -> float:
+        """The objective."""
+        total = 0.0
+        for weight, term in expression.terms:
+            if isinstance(term, Maximum):
+                total += weight * max(self.worth(part) for part in term.parts)
+            else:
+                total += weight * self.constants[repr(term)]
+        return total
+
+
+def broken(problem: Problem, law: MotionLaw, allowed: float = 1e-8) -> list[str]:
+    """The constraints of the problem that the law breaks by more than `allowed`, relative to what is asked."""
+    one = Judged(law)
+    b = one.derivatives[1]
+    found = [] if problem.boundary is None else ends_broken(problem, one)
+    if problem.boundary is None:
+        found += rest_broken(problem.order, one)
+    if problem.symmetric:
+        off = float(np.abs(one.derivatives[0](DENSE) + one.derivatives[0](1.0 - DENSE) - 1.0).max())
+        found += [f"symmetry by {off:.1e}"] * (off > 1e-11)
+    lowest, highest = extremes(b)
+    if problem.monotone and lowest < -allowed:
+        found.append(f"b >= 0 by {-lowest:.1e}")
+    wanted = as_range(problem.B)
+    if wanted is not None:
+        found += velocity_broken(problem, wanted, (lowest, highest, float(b(0.5))), allowed)
+    for name in ("C", "D", "J"):
+        asked = as_range(getattr(problem, name))
+        if asked is not None:
+            value = one.constants[name]
+            found += [f"{name} = {value!r} over {asked!r}"] * (value > asked.high * (1.0 + allowed))
+            found += [f"{name} = {value!r} under {asked!r}"] * (value < asked.low * (1.0 - allowed))
+    return found
+
+
+def as_range(value: float | Range | None) -> Range | None:
+    """A number as a Range."""
+    return value if value is None or isinstance(value, Range) else Range(float(value), float(value))
+
+
+def velocity_broken(problem: Problem, wanted: Range, b: tuple[float, float, float], allowed: float) -> list[str]:
+    """What a law does that is not asked of its velocity: least, greatest and middle value."""
+    lowest, highest, middle = b
+    # between rests B stands in the middle, unless nothing but an upper bound is asked of unsymmetric laws
+    in_the_middle = problem.symmetric or (problem.boundary is None and wanted.low > 0.0)
+    found = []
+    value = middle if in_the_middle else max(highest, -lowest)
+    if highest > (middle if in_the_middle else inf) * (1.0 + allowed):
+        found.append(f"b <= b(1/2) by {highest - middle:.1e}")
+    if isfinite(wanted.high) and value > wanted.high * (1.0 + allowed):
+        found.append(f"B = {value!r} over {wanted!r}")
+    if value < wanted.low * (1.0 - allowed):
+        found.append(f"B = {value!r} under {wanted!r}")
+    return found
+
+
+def rest_broken(order: int, one: Judged) -> list[str]:
+    """From 0 to 1, at rest to the order."""
+    a, *derivatives = one.derivatives
+    found = [f"a{k}" for k, value in ((0.0, 0.0), (1.0, 1.0)) if abs(a(k) - value) > 1e-11]
+    for nu, series in enumerate(derivatives[: order - 1], 1):
+        size = float(np.abs(series(DENSE)).max())
+        found += [f"derivative {nu} at {k}" for k in (0.0, 1.0) if abs(series(k)) > 1e-9 * size]
+    return found
+
+
+def ends_broken(problem: Problem, one: Judged) -> list[str]:
+    """The values asked at the ends."""
+    assert problem.boundary is not None
+    found = []
+    for k, values in ((0.0, problem.boundary.start), (1.0, problem.boundary.end)):
+        for nu, value in enumerate(values[:5]):
+            series = one.derivatives[nu]
+            size = max(1.0, float(np.abs(series(DENSE)).max()))
+            if abs(series(k) - float(value)) > 1e-9 * size:
+                found.append(f"derivative {nu} at {k}: {series(k)!r} for {value!r}")
+    return found
+
+
+def judge(solution: Solution) -> None:
+    """Everything a solution claims."""
+    problem = solution.problem
+    assert broken(problem, solution.law) == [], problem
+    worth = Judged(solution.law).worth(problem.objective)
+    assert abs(worth - solution.objective) <= 1e-9 * worth, problem
+    assert solution.lower_bound <= solution.objective * (1.0 + 1e-11), problem
+    assert solution.lower_bound == max(
+        solution.certificate.bound, -inf if solution.limit is None else solution.limit
+    ), problem
+    status = solution.status.value
+    assert status in {"optimal", "local"}, f"{status}: {problem!r}"
+    if status == "optimal":
+        assert abs(solution.gap) <= 1e-8, problem
+    else:
+        assert not problem.convex or lower_bounded(problem), f"local though convex: {problem!r}"
+    if solution.starts:
+        assert list(solution.starts) == sorted(solution.starts)
+        assert solution.starts[0] == solution.objective
+
+
+def lower_bounded(problem: Problem) -> bool:
+    """Whether a peak has a lower bound, which is not convex."""
+    ranges = [as_range(getattr(problem, name)) for name in ("C", "D", "J")]
+    ranges += [as_range(problem.B)] if not problem.symmetric else []
+    return any(one is not None and one.low > 0.0 for one in ranges)

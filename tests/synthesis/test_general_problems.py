@@ -1,0 +1,294 @@
+"""Whatever is asked: a law that keeps it and says how good it is, or a proof or a clear word that there is none."""
+
+from collections import Counter
+from dataclasses import replace
+from itertools import pairwise
+from time import perf_counter
+from typing import Any
+
+import pytest
+
+from optlaws import (
+    Certificate,
+    Chebyshev,
+    InfeasibleProblem,
+    Problem,
+    SolverFailure,
+    at_most,
+    between,
+    sweep,
+    synthesize,
+)
+from tests.synthesis.judge import Judged, judge, lower_bounded
+from tests.synthesis.random_general import random_problems
+from tests.synthesis.reference import Undecided, least
+
+pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
+PROBLEMS = random_problems(7, 300)
+
+
+def refused(error: InfeasibleProblem, problem: Problem) -> str:
+    assert error.problem == problem
+    assert isinstance(error.proof, Certificate)
+    assert error.proof.proves_infeasible
+    return "infeasible"
+
+
+def outcome(problem: Problem) -> str:
+    try:
+        solution = synthesize(problem)
+    except InfeasibleProblem as error:
+        return refused(error, problem)
+    except SolverFailure:
+        # none was found and none shown not to exist: no answer to a convex problem
+        assert not problem.convex or lower_bounded(problem), problem
+        return "failed"
+    judge(solution)
+    return solution.status.value
+
+
+@pytest.mark.parametrize("first", range(20, 60, 10))
+def test_random_problems_are_solved_and_judged(first: int) -> None:
+    found = Counter(outcome(problem) for problem in PROBLEMS[first : first + 10])
+    assert found["failed"] <= 1
+    assert found["optimal"] + found["local"] >= 7
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("first", range(0, 300, 20))
+def test_300_random_problems_are_solved_and_judged(first: int) -> None:
+    found = Counter(outcome(problem) for problem in PROBLEMS[first : first + 20])
+    assert found["failed"] <= 1
+    assert found["optimal"] + found["local"] >= 17
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(100, 110))
+def test_2000_more_random_problems(seed: int) -> None:
+    found = Counter(outcome(problem) for problem in random_problems(seed, 200))
+    assert found["failed"] <= 6
+
+
+CONVEX = [one for one in PROBLEMS if one.convex and not lower_bounded(one)]
+
+
+def agrees(problem: Problem) -> bool:
+    try:
+        wanted = least(problem)
+    except Undecided:
+        return False
+    try:
+        solution = synthesize(problem)
+    except InfeasibleProblem:
+        assert wanted is None, problem
+        return True
+    assert wanted is not None, problem
+    assert solution.objective == pytest.approx(wanted, rel=1e-7), problem
+    return True
+
+
+@pytest.mark.parametrize("first", range(0, 30, 10))
+def test_highs_and_clarabel_agree_on_random_problems(first: int) -> None:
+    assert sum(agrees(problem) for problem in CONVEX[first : first + 10]) >= 9
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("first", range(30, 220, 20))
+def test_highs_and_clarabel_agree_on_the_rest(first: int) -> None:
+    problems = CONVEX[first : first + 20]
+    assert sum(agrees(problem) for problem in problems) >= len(problems) - 1
+
+
+@pytest.mark.long
+def test_no_random_problem_takes_long() -> None:
+    # the slowest of the 300 to this day: unsymmetric, a mixture with D, J bounded
+    began = perf_counter()
+    outcome(PROBLEMS[10])
+    assert perf_counter() - began < 5.0
+
+
+# --- unsymmetric laws, whose optimum is known from symmetric ones ---
+
+
+@pytest.mark.parametrize(
+    ("B", "order", "degree"),
+    [(1.2, 3, 9), (1.5, 3, 9), (1.641, 4, 9), (1.53, 5, 13), (1.4, 2, 15), (1.9, 6, 15), (2.3, 2, 9)],
+)
+@pytest.mark.parametrize("minimise", ["C", "J"])
+def test_unsymmetric_laws_with_a_flat_top_are_solved(B: float, order: int, degree: int, minimise: str) -> None:
+    # b stays at B about the middle: undivided, b <= B is ill posed there
+    one = Problem(B=B, order=order, basis=Chebyshev(degree), minimise=minimise)
+    wanted = synthesize(one)
+    found = synthesize(replace(one, symmetric=False))
+    judge(found)
+    assert found.status.value == "optimal"
+    assert found.objective == pytest.approx(wanted.objective, rel=1e-10)
+
+
+@pytest.mark.parametrize("minimise", ["C_plus", "C_minus"])
+@pytest.mark.parametrize("B", [None, 1.7, 2.1, 2.5], ids=str)
+def test_one_sided_peaks_of_unsymmetric_laws(B: float | None, minimise: str) -> None:
+    one = Problem(B=B, order=3, minimise=minimise, symmetric=False)
+    solution = synthesize(one)
+    judge(solution)
+    assert solution.objective == pytest.approx(least(one), rel=1e-8)
+    mirror = synthesize(replace(one, minimise="C_minus" if minimise == "C_plus" else "C_plus"))
+    assert mirror.objective == pytest.approx(solution.objective, rel=1e-10)
+
+
+@pytest.mark.parametrize("minimise", ["C_plus", "C_minus"])
+@pytest.mark.parametrize("B", [None, 1.641, 2.3], ids=str)
+def test_one_sided_peaks_of_symmetric_laws_are_the_peak(B: float | None, minimise: str) -> None:
+    one, other = (synthesize(Problem(B=B, order=4, minimise=m)) for m in (minimise, "C"))
+    judge(one)
+    assert one.objective == pytest.approx(other.objective, rel=1e-10)
+
+
+@pytest.mark.parametrize("minimise", ["C", "J", "rms_c", "rms_j", "jounce", "C_plus", "C_minus", "max(C/4, J/32)"])
+@pytest.mark.parametrize("order", [2, 3, 4, 5])
+@pytest.mark.parametrize("symmetric", [True, False], ids=["symmetric", "unsymmetric"])
+def test_with_a_free_b_every_objective_has_an_optimum(minimise: str, order: int, symmetric: bool) -> None:  # noqa: FBT001
+    one = Problem(order=order, minimise=minimise, symmetric=symmetric)
+    solution = synthesize(one)
+    judge(solution)
+    assert solution.status.value == "optimal"
+
+
+# --- mixtures ---
+
+
+@pytest.mark.parametrize(("first", "second"), [("C/4", "J/32"), ("C/4", "rms_c/3.5"), ("rms_c/3.5", "J/32")])
+@pytest.mark.parametrize("B", [None, 1.7], ids=str)
+def test_a_mixture_leads_from_one_optimum_to_the_other(first: str, second: str, B: float | None) -> None:
+    shares = [1e-3, 0.2, 0.4, 0.6, 0.8, 1 - 1e-3]
+    found = [
+        synthesize(Problem(B=B, order=4, minimise=f"{share!r}*{first} + {1 - share!r}*{second}")) for share in shares
+    ]
+    a, b = ([Judged(s.law).constants[name.partition("/")[0]] for s in found] for name in (first, second))
+    for values in (a, b[::-1]):
+        assert all(later <= earlier * (1 + 1e-8) for earlier, later in pairwise(values))
+    # the worth of a mixture is concave in the share
+    for left, middle, right in zip(found[1:], found[2:], found[3:], strict=False):
+        assert middle.objective >= (left.objective + right.objective) / 2 * (1 - 1e-10)
+    ends = [synthesize(Problem(B=B, order=4, minimise=name)) for name in (first, second)]
+    assert found[-1].objective == pytest.approx(ends[0].objective, rel=1e-2)
+    assert found[0].objective == pytest.approx(ends[1].objective, rel=1e-2)
+
+
+# --- continuation ---
+
+STARTS: list[tuple[dict[str, Any], dict[str, Any]]] = [
+    ({"B": 1.7}, {"B": 1.72}),
+    ({"B": 1.7, "minimise": "J"}, {"B": 1.75}),
+    ({"B": 1.7, "minimise": "jounce"}, {"B": 1.71}),
+    ({"B": 1.7, "minimise": "rms_c"}, {"B": 1.6}),
+    ({"B": 1.7, "minimise": "rms_j"}, {"B": 1.65}),
+    ({"B": 1.7, "minimise": "C_plus"}, {"B": 1.72}),
+    ({"B": 2.1, "minimise": "C_minus", "symmetric": False, "order": 3}, {"B": 2.12}),
+    ({"minimise": "0.5*C/4 + 0.5*J/32"}, {"minimise": "0.52*C/4 + 0.48*J/32"}),
+    ({"minimise": "max(C/4, J/32)"}, {"minimise": "max(C/4, J/33)"}),
+    ({"minimise": "0.5*rms_c/3.5 + 0.5*J/32", "B": 1.8}, {"minimise": "0.6*rms_c/3.5 + 0.4*J/32"}),
+    ({"minimise": "J", "B": 1.8, "C": at_most(5.1)}, {"C": at_most(5.2)}),
+    ({"minimise": "C", "B": between(1.5, 1.6)}, {"B": between(1.52, 1.62)}),
+    ({"minimise": "C", "B": 2.5, "order": 3, "monotone": True}, {"B": 2.45}),
+    ({"minimise": "J", "B": 2.5, "order": 3, "symmetric": False}, {"B": 2.55}),
+]
+
+
+@pytest.mark.parametrize(("given", "change"), STARTS, ids=str)
+def test_a_start_leads_to_the_cold_answer(given: dict[str, Any], change: dict[str, Any]) -> None:
+    chosen: dict[str, Any] = {"order": 4, "basis": Chebyshev(9), **given}
+    first = Problem(**chosen)
+    second = replace(first, **change)
+    warm, cold = synthesize(second, start=synthesize(first)), synthesize(second)
+    judge(warm)
+    assert warm.objective == pytest.approx(cold.objective, rel=1e-10)
+    assert warm.lower_bound == pytest.approx(cold.lower_bound, rel=1e-10)
+    assert warm.status == cold.status
+
+
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"order": 3, "B": 1.2},
+        {"order": 4, "B": 1.641},
+        {"order": 4, "B": 1.641, "minimise": "jounce"},
+        {"order": 3, "B": 2.5, "minimise": "C_plus"},
+        {"order": 3, "B": 1.8, "minimise": "D"},
+    ],
+    ids=str,
+)
+def test_an_unsymmetric_solution_is_a_start_too(given: dict[str, Any]) -> None:
+    first = Problem(**given, symmetric=False)
+    start = synthesize(first)
+    second = replace(first, B=first.B + 0.01)  # type: ignore[operator]
+    warm, cold = synthesize(second, start=start), synthesize(second)
+    judge(warm)
+    assert warm.objective == pytest.approx(cold.objective, rel=1e-10 if first.convex else 1e-6)
+
+
+@pytest.mark.parametrize(
+    "given", [{"order": 3, "B": 1.2}, {"order": 4, "B": 1.859}, {"order": 2, "minimise": "D"}], ids=str
+)
+def test_the_certificate_of_a_solution_speaks_of_its_own_problem(given: dict[str, Any]) -> None:
+    for symmetric in (True, False):
+        one = Problem(**given, symmetric=symmetric)
+        solution = synthesize(one)
+        assert solution.problem == one
+        # the proof of a mirrored problem is that of symmetric laws, whose mean with their mirror images is no worse
+        assert solution.certificate.problem in (one, replace(one, symmetric=True))
+
+
+@pytest.mark.parametrize("B", [None, 1.5, at_most(1.8)], ids=repr)
+@pytest.mark.parametrize("symmetric", [True, False], ids=["symmetric", "unsymmetric"])
+def test_an_optimum_whose_jerk_is_constant_is_proven(B: Any, symmetric: bool) -> None:  # noqa: ANN401, FBT001
+    # b = 6k(1-k): every k is a contact
+    solution = synthesize(Problem(B=B, order=2, minimise="J", symmetric=symmetric))
+    judge(solution)
+    assert solution.status.value == "optimal"
+    assert solution.objective == pytest.approx(12.0, rel=1e-9)
+
+
+@pytest.mark.parametrize("minimise", ["J", "rms_c", "jounce", "C/8 + J/64"])
+def test_a_sweep_gives_what_each_problem_gives_alone(minimise: str) -> None:
+    first = Problem(B=1.5, order=4, basis=Chebyshev(9), minimise=minimise)
+    problems = [replace(first, B=1.5 + 0.08 * i) for i in range(10)]
+    for warm, one in zip(sweep(problems), problems, strict=True):
+        assert warm.objective == pytest.approx(synthesize(one).objective, rel=1e-10)
+
+
+def test_a_start_of_another_kind_is_left_aside() -> None:
+    one = Problem(B=1.7, order=4, minimise="J")
+    alone = synthesize(one)
+    for other in (
+        replace(one, minimise="C"),
+        replace(one, B=None),
+        replace(one, symmetric=False, B=2.4),
+        replace(one, C=at_most(9.0)),
+        replace(one, B=between(1.6, 1.8)),
+    ):
+        found = synthesize(one, start=synthesize(other))
+        assert (found.objective, found.z) == (alone.objective, alone.z)
+
+
+def test_a_start_for_power_is_no_worse_than_none() -> None:
+    first = Problem(B=1.7, order=4, minimise="D")
+    warm = synthesize(replace(first, B=1.72), start=synthesize(first))
+    judge(warm)
+    assert warm.objective <= synthesize(replace(first, B=1.72)).objective * (1 + 1e-6)
+
+
+def test_the_same_problem_gives_the_same_floats_whatever_was_solved_before() -> None:
+    for one in PROBLEMS[:8]:
+        try:
+            first = synthesize(one)
+        except (InfeasibleProblem, SolverFailure):
+            continue
+        synthesize(Problem(B=1.9, order=3, minimise="D"))
+        again = synthesize(one)
+        assert (again.objective, again.lower_bound, again.z, again.starts) == (
+            first.objective,
+            first.lower_bound,
+            first.z,
+            first.starts,
+        )
