@@ -1,13 +1,15 @@
 """What the tests ask and the engine does not yet do: each must fail, so that a cure is noticed and the line goes.
 
-None of these is silent: the engine raises SolverFailure or says "inaccurate".
+Only _RANGE is silent; for the others the engine raises SolverFailure or says "inaccurate".
 """
 
 _ONE_SIDED = "one-sided peaks of unsymmetric laws at a fixed B: the undivided rows b <= B are ill posed at b(1/2) = B"
 _FLAT = "J at order 2 with free end accelerations: the optimum is flat, and the bound misses it by some 1e-8 to 1e-7"
 _HELD = "a peak given exactly, of unsymmetric laws: it is held up at one extremum where two would have to rise"
+_RANGE = "b beyond b(1/2) by up to 3e-4, called optimal: B in a range, unsymmetric, and worth() looks at its end only"
 
 KNOWN_DEFECTS = {
+    "test_the_peak_velocity_of_a_range_stands_in_the_middle_of_unsymmetric_laws[": _RANGE,
     "test_one_sided_peaks_of_unsymmetric_laws[1.7-": _ONE_SIDED,
     "test_one_sided_peaks_of_unsymmetric_laws[2.1-": _ONE_SIDED,
     "test_one_sided_peaks_of_unsymmetric_laws[2.5-": _ONE_SIDED,

@@ -125,6 +125,22 @@ def test_unsymmetric_laws_with_a_flat_top_are_solved(B: float, order: int, degre
     assert found.objective == pytest.approx(wanted.objective, rel=1e-10)
 
 
+@pytest.mark.parametrize(
+    "given",
+    [
+        {"B": between(2.5435, 2.7435), "order": 2, "basis": Chebyshev(12), "minimise": "C_plus", "monotone": True}
+        | {"J": at_most(166.876)},
+        {"B": between(2.4751, 2.6751), "order": 4, "basis": Chebyshev(10), "minimise": "max(C/4, J/32)"},
+    ],
+    ids=lambda given: str(given["minimise"]),
+)
+def test_the_peak_velocity_of_a_range_stands_in_the_middle_of_unsymmetric_laws(given: dict[str, Any]) -> None:
+    # b may not pass b(1/2) even where it stays below the upper end of the range
+    solution = synthesize(Problem(**given, symmetric=False))
+    judge(solution)
+    assert solution.objective == pytest.approx(least(solution.problem), rel=1e-8)
+
+
 @pytest.mark.parametrize("minimise", ["C_plus", "C_minus"])
 @pytest.mark.parametrize("B", [None, 1.7, 2.1, 2.5], ids=str)
 def test_one_sided_peaks_of_unsymmetric_laws(B: float | None, minimise: str) -> None:
