@@ -15,11 +15,12 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.laws import peaks
 from optlaws.laws.checks import times, whole
+from optlaws.laws.fractional import FractionalSegment  # noqa: F401  # declares its kind
 from optlaws.laws.html import page
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.peaks import Peak
 from optlaws.laws.segments import Segment, number, numbers
-from optlaws.laws.sines import SineSegment  # noqa: F401  # declares its kind
+from optlaws.laws.sines import SineSegment  # noqa: F401  # declares its kinds
 
 Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[Any]

@@ -1,62 +1,90 @@
-"""Savin's families of laws: a base law whose acceleration is multiplied by y = 1 + alpha (k² - k + M)."""
+"""Savin's laws: members of his families by alpha or by a peak constant."""
 
 from __future__ import annotations
 
-from fractions import Fraction
-from math import comb, factorial, isfinite
-
 from optlaws.errors import InputError
 from optlaws.laws.polynomial import PolynomialLaw
+from optlaws.laws.savin_family import SavinFamily
 
-FAMILIES = {"I": 0, "II": 1, "III": 2, "IV": 3}
 
+def savin(
+    family: str | int,
+    alpha: float | None = None,
+    *,
+    B: float | None = None,
+    C: float | None = None,
+    D: float | None = None,
+    branch: str | None = None,
+) -> PolynomialLaw:
+    """A member of Savin's families I to IV (eq. 1.10, 1.14, 1.15, 1.16) or of those beyond, dimensionless.
 
-def savin(family: str, alpha: float) -> PolynomialLaw:
-    """The member `alpha` of Savin's family I, II, III or IV (eq. 1.10, 1.14, 1.15, 1.16), dimensionless.
+    Its acceleration is c = H (k(1-k))^u (1/2-k) y with y = 1 + alpha (k² - k + M), M such that the stroke is 1;
+    alpha = 0 gives the base law.
 
-    Its acceleration is c = H (k(1-k))^u (1/2-k) y with u = 0 to 3 and y = 1 + alpha (k² - k + M), M such that the
-    stroke is 1; alpha = 0 gives the base law.
+    Parameters
+    ----------
+    family
+        "I", "II", "III", "IV", or the exponent u of the base law, any integer of at least 0; family I is u = 0.
+    alpha
+        Parameter of the member; or else exactly one of the next three.
+    B, C, D
+        The peak that the member shall have. B has one member, C and D may have two.
+    branch
+        "lower" or "upper", which of two members: alpha below or above that of the least C, or D.
 
     Raises
     ------
     InputError
-        If the family is unknown, or alpha is outside the range in which y >= 0.
+        If the family is unknown, alpha is outside the range in which y >= 0, no member has the peak, or two have it
+        and `branch` does not say which.
 
     Examples
     --------
     >>> savin("III", 0.0) == savin("II", -7.0)
     True
-    >>> round(savin("III", 7.2).constants.B.value, 6)
-    1.859375
+    >>> savin("III", alpha=7.2)
+    PolynomialLaw(degree=9, B=1.85938, C=6.76096, D=7.16667, J=54.3787)
+    >>> savin("I", B=1.45)
+    PolynomialLaw(degree=5, B=1.45, C=6.8, D=3.29666, J=21.6)
     """
-    if family not in FAMILIES:
-        raise InputError(f"family {family!r} is unknown; known are {', '.join(FAMILIES)}")
-    u = FAMILIES[family]
-    low, high = alpha_range(family)
-    if not isfinite(alpha) or not low <= alpha <= high:
-        raise InputError(f"alpha of family {family} must be between {low} and {high} (y >= 0), got {alpha!r}")
-    mean = Fraction(u + 1, 2 * (2 * u + 5))
-    scale = Fraction(2 * factorial(2 * u + 3), factorial(u) * factorial(u + 1))
-    exact = Fraction(alpha)
-    multiplier = [1 + exact * mean, -exact, exact]
-    acceleration = [Fraction(0)] * (2 * u + 4)
-    for i in range(u + 1):
-        for m, factor in enumerate(multiplier):
-            part = scale * (-1) ** i * comb(u, i) * factor
-            acceleration[u + i + m] += part / 2
-            acceleration[u + i + m + 1] -= part
-    displacement = [Fraction(0), Fraction(0)]
-    displacement += [value / ((n + 1) * (n + 2)) for n, value in enumerate(acceleration)]
-    return PolynomialLaw.from_powers(displacement)
+    found = SavinFamily.of(family)
+    given = [name for name, value in (("alpha", alpha), ("B", B), ("C", C), ("D", D)) if value is not None]
+    if len(given) != 1:
+        raise InputError(f"a member is given by one of alpha, B, C and D, got {' and '.join(given) or 'none'}")
+    if alpha is not None:
+        if branch is not None:
+            raise InputError("branch tells two members of one C or D apart; alpha alone names a member")
+        return found.law(alpha)
+    if branch not in (None, "lower", "upper"):
+        raise InputError(f"branch must be 'lower' or 'upper', got {branch!r}")
+    members = found.alphas(B=B, C=C, D=D)
+    if len(members) == 1:
+        return found.law(members[0])
+    if branch is None:
+        both = " and ".join(f"{one:.9g}" for one in members)
+        raise InputError(
+            f"{found} has two members of this {given[0]}, alpha = {both}; say branch='lower' or branch='upper'"
+        )
+    return found.law(members[0 if branch == "lower" else 1])
 
 
-def alpha_range(family: str) -> tuple[float, float]:
+def alpha_range(family: str | int) -> tuple[float, float]:
     """Least and greatest alpha of a family, -1/M and 1/(1/4 - M), between which y >= 0.
+
+    Parameters
+    ----------
+    family
+        "I", "II", "III", "IV" or the exponent u of its base law.
+
+    Raises
+    ------
+    InputError
+        If the family is unknown.
 
     Examples
     --------
     >>> alpha_range("III")
     (-6.0, 12.0)
     """
-    u = FAMILIES[family]
-    return -2.0 * (2 * u + 5) / (u + 1), 4.0 * (2 * u + 5) / 3.0
+    low, high = SavinFamily.of(family).range
+    return float(low), float(high)

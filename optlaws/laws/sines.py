@@ -1,24 +1,19 @@
-"""Sine segments of piecewise laws, for cycloids, modified sines and modified trapezoids."""
+"""Sine segments of piecewise laws, for cycloids, modified sines and trapezoids; sums of sines, for harmonics."""
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
-from math import ceil, cos, pi
+from functools import cached_property
+from math import cos
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.laws import series
-from optlaws.laws.peaks import polished
+from optlaws.laws.panels import wave_roots, wave_square
 from optlaws.laws.segments import Segment
 
 Array = NDArray[np.float64]
-
-PANEL = 10.0  # radians of a sine, and of its square, that one interpolant of COUNT values resolves to rounding
-COUNT = 41
 
 
 @dataclass(frozen=True)
@@ -69,48 +64,87 @@ class SineSegment(Segment, kind="sine"):
         return np.asarray(start + steady.integ(2 - nu)(s) + self.amplitude / w * swing, dtype=np.float64)
 
     def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
-        def slope(u: Array) -> tuple[Array, Array]:
-            return self.derivative(u, length, nu + 1), self.derivative(u, length, nu + 2)
-
-        return self._roots(slope, length)
+        return candidates(self, self.frequency, length, nu)
 
     def power_candidates(self, length: float) -> Array:  # noqa: D102
-        def slope(u: Array) -> tuple[Array, Array]:
-            b, c, j, s = (self.derivative(u, length, nu) for nu in (1, 2, 3, 4))
-            return c * c + b * j, 3.0 * c * j + b * s
-
-        return self._roots(slope, length)
+        return power_candidates(self, self.frequency, length)
 
     def square(self, length: float, nu: int) -> float:  # noqa: D102
-        x, change = _interpolation()
-        total = 0.0
-        for start, half in self._panels(length):
-            values = change @ self.derivative(start + half * (x + 1.0), length, nu)
-            total += 2.0 * half * length * series.mean_product(values, values)
-        return total
-
-    def _panels(self, length: float) -> list[tuple[float, float]]:
-        count = max(1, ceil(self.frequency * length / PANEL))
-        return [(i / count, 0.5 / count) for i in range(count)]
-
-    def _roots(self, residual: Callable[[Array], tuple[Array, Array]], length: float) -> Array:
-        nodes, change = _interpolation()
-        found = []
-        for start, half in self._panels(length):
-
-            def local(x: Array, start: float = start, half: float = half) -> tuple[Array, Array]:
-                value, slope = residual(np.clip(start + half * (x + 1.0), 0.0, 1.0))
-                return value, slope * (half * length)
-
-            x = polished(series.real_parts_of_roots(change @ local(nodes)[0]), local)
-            found.append(np.clip(start + half * (x + 1.0), 0.0, 1.0))
-        return np.concatenate(found)
+        return wave_square(lambda u: self.derivative(u, length, nu), self.frequency, length)
 
 
-@lru_cache(maxsize=1)
-def _interpolation() -> tuple[Array, Array]:
-    """Chebyshev points and the matrix that turns values there into a Chebyshev series."""
-    x: Array = np.cos((np.arange(COUNT) + 0.5) * (pi / COUNT))
-    change = series.basis_values(x, COUNT).T * (2.0 / COUNT)
-    change[0] *= 0.5
-    return x, change
+@dataclass(frozen=True)
+class HarmonicSegment(Segment, kind="harmonics"):
+    """Acceleration c = sum of A sin(w s + phi) of s = k - start; velocity b0 at the start.
+
+    Parameters
+    ----------
+    amplitudes, frequencies, phases
+        As many A as w > 0 and phi, at least one of each; w in radians per unit of k.
+    b0
+        Velocity at the segment's start.
+
+    Examples
+    --------
+    >>> segment = HarmonicSegment(amplitudes=(6.0, 1.0), frequencies=(2 * np.pi, 6 * np.pi), phases=(0.0, 0.0))
+    >>> segment.derivative(np.array([0.25]), 1.0, 2).round(12)
+    array([5.])
+    """
+
+    amplitudes: tuple[float, ...]
+    frequencies: tuple[float, ...]
+    phases: tuple[float, ...]
+    b0: float = 0.0
+
+    def __post_init__(self) -> None:
+        self._check()
+        alike = len({len(one) for one in (self.amplitudes, self.frequencies, self.phases)}) == 1
+        if not alike or not self.amplitudes or min(self.frequencies) <= 0.0:
+            raise InputError(f"a harmonic segment needs as many amplitudes as frequencies > 0 and phases, got {self}")
+
+    @cached_property
+    def sines(self) -> tuple[SineSegment, ...]:
+        """The sines it is the sum of; the first has the velocity at the start."""
+        waves = zip(self.amplitudes, self.frequencies, self.phases, strict=True)
+        return tuple(SineSegment(*one, b0=0.0 if i else self.b0) for i, one in enumerate(waves))
+
+    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
+        return np.asarray(sum(one.derivative(u, length, nu) for one in self.sines), dtype=np.float64)
+
+    def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
+        return candidates(self, max(self.frequencies), length, nu)
+
+    def power_candidates(self, length: float) -> Array:  # noqa: D102
+        return power_candidates(self, max(self.frequencies), length)
+
+    def square(self, length: float, nu: int) -> float:  # noqa: D102
+        return wave_square(lambda u: self.derivative(u, length, nu), max(self.frequencies), length)
+
+
+def candidates(wave: Segment, frequency: float, length: float, nu: int) -> Array:
+    """Every u where the derivative of order nu of a segment that swings at most at a frequency may be extreme.
+
+    Examples
+    --------
+    >>> 0.523599 in candidates(SineSegment(1.0, 3.0), 3.0, 1.0, 2).round(6)
+    True
+    """
+    return wave_roots(
+        lambda u: (wave.derivative(u, length, nu + 1), wave.derivative(u, length, nu + 2)), frequency, length
+    )
+
+
+def power_candidates(wave: Segment, frequency: float, length: float) -> Array:
+    """Every u where d = b c of a segment that swings at most at a frequency may be extreme.
+
+    Examples
+    --------
+    >>> power_candidates(SineSegment(1.0, 1.0, b0=-1.0), 1.0, 1.0).size > 0
+    True
+    """
+
+    def slope(u: Array) -> tuple[Array, Array]:
+        b, c, j, s = (wave.derivative(u, length, nu) for nu in (1, 2, 3, 4))
+        return c * c + b * j, 3.0 * c * j + b * s
+
+    return wave_roots(slope, frequency, length)

@@ -9,9 +9,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optlaws import plotting
-from optlaws.laws import MotionLaw, smoothstep
-from optlaws.laws.savin import FAMILIES, alpha_range, savin
-from optlaws.synthesis import FUNCTIONALS, Problem
+from optlaws.studies.beside_fronts import draw_beside
+from optlaws.synthesis import Problem
 from optlaws.synthesis.fronts import Front
 from optlaws.synthesis.problem_limits import known_limit
 
@@ -22,7 +21,6 @@ if TYPE_CHECKING:
 
 Pair = tuple[float, float]
 
-_STROKES: dict[str, Any] = {"I": ":", "II": "-.", "III": "--", "IV": (0, (5, 1))}
 _MARGIN = 0.06
 
 
@@ -35,7 +33,7 @@ def draw(picture: Picture, fronts: Sequence[Front]) -> dict[str, bytes]:
         shades = plotting.BLUES[-len(fronts) :]
         for curve, front, shade in zip(picture.front, fronts, shades, strict=True):
             plotting.draw_front(front, axes, color=shade, label=curve.label, marker="o", markersize=2.2, zorder=4)
-        _catalogue(axes, picture, x, y)
+        draw_beside(axes, picture, x, y)
         if picture.limits and picture.over[0] == "B":
             _limit_curves(axes, picture, fronts, x)
         elif picture.limits:
@@ -52,40 +50,6 @@ def _window(picture: Picture, fronts: Sequence[Front], axis: int) -> Pair:
     values = np.concatenate([front.values[:, axis] for front in fronts])
     low, high = float(values.min()), float(values.max())
     return low - _MARGIN * (high - low), high + _MARGIN * (high - low)
-
-
-def _catalogue(axes: Axes, picture: Picture, x: Pair, y: Pair) -> None:
-    for family in (name for name in picture.catalogue if name != "smoothstep"):
-        laws = [savin(family, float(alpha)) for alpha in np.linspace(*alpha_range(family), 61)]
-        points = np.array([_point(law, picture) for law in laws])
-        if not any(_inside(point, x, y) for point in points.tolist()):
-            continue
-        style: dict[str, Any] = {"color": plotting.GREEN, "linestyle": _STROKES[family], "linewidth": 1.2, "zorder": 3}
-        axes.plot(*points.T, label=f"Savin's family {family} (l = {FAMILIES[family] + 2})", **style)
-    if "smoothstep" in picture.catalogue:
-        label = "smoothsteps, by order l"
-        for order in (2, 3, 4, 5):
-            point = _point(smoothstep(order), picture)
-            if _inside(point, x, y):
-                ring: dict[str, Any] = {
-                    "color": plotting.WARM,
-                    "markerfacecolor": "white",
-                    "markersize": 11.0,
-                    "zorder": 5,
-                }
-                axes.plot(*point, "o", label=label, **ring)
-                centred: dict[str, Any] = {"ha": "center", "va": "center_baseline", "fontsize": 8.0, "zorder": 6}
-                axes.annotate(f"{order}", point, color=plotting.WARM, **centred)
-                label = "_nolegend_"
-
-
-def _inside(point: Sequence[float], x: Pair, y: Pair) -> bool:
-    return x[0] <= point[0] <= x[1] and y[0] <= point[1] <= y[1]
-
-
-def _point(law: MotionLaw, picture: Picture) -> Pair:
-    x, y = (FUNCTIONALS[name].value(law) for name in picture.over)
-    return x, y
 
 
 def _limit_curves(axes: Axes, picture: Picture, fronts: Sequence[Front], x: Pair) -> None:

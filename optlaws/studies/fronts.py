@@ -12,6 +12,7 @@ import msgspec
 from optlaws.errors import InputError
 from optlaws.export import files, tables
 from optlaws.studies.asked import Asked, Text, gap, problem
+from optlaws.studies.beside_fronts import check_beside
 from optlaws.studies.figure_fronts import draw
 from optlaws.studies.problem_file import convert
 from optlaws.synthesis.fronts import HEADINGS, Front
@@ -21,7 +22,6 @@ Points = Annotated[int, msgspec.Meta(ge=2, le=1000)]
 Positive = Annotated[float, msgspec.Meta(gt=0.0, le=1e100)]
 Pair = Annotated[list[Positive], msgspec.Meta(min_length=2, max_length=2)]
 Constant = Literal["B", "C", "D", "J"]
-Catalogue = Literal["I", "II", "III", "IV", "smoothstep"]
 
 _FEW = 5
 
@@ -43,7 +43,7 @@ class Picture(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     front: Annotated[list[Curve], msgspec.Meta(min_length=1, max_length=5)]
     between: Pair | None = None
     points: Points | None = None
-    catalogue: list[Catalogue] = []
+    catalogue: list[Text] = []
     limits: bool = True
     x: Pair | None = None
     y: Pair | None = None
@@ -69,6 +69,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     names = [picture.name for picture in spec.figure]
     if len(set(names)) != len(names):
         raise InputError(f"figure: names must differ, got {', '.join(names)}")
+    for picture in spec.figure:
+        check_beside(picture)
     found: Fronts = [(picture, [_front(spec, picture, one) for one in picture.front]) for picture in spec.figure]
     about = f"{spec.title}; from {file.name}"
     lines = [

@@ -5,9 +5,15 @@ import itertools
 import numpy as np
 
 from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
+from optlaws.laws.catalogue import catalogue
+from optlaws.laws.fractional import FractionalSegment
+from optlaws.laws.multiplier import multiplied
 from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.savin import savin
 from optlaws.laws.segments import PolynomialSegment, PowerSegment, Segment
 from optlaws.laws.sines import SineSegment
+from optlaws.laws.transform import mirrored_law, reversed_law, with_end_velocity
+from optlaws.laws.trapezoids import scca, trapezoid
 
 
 def random_law(seed: int, count: int, decay: float = 1.0, b0: float = 0.0) -> PolynomialLaw:
@@ -90,4 +96,22 @@ EXAMPLES: dict[str, MotionLaw] = {
     "sine on a parabola, three pieces": cut_sine(0.25, 0.625, powers=(1.0, -3.0, 2.0), turns=3),
     "rising power": cut_power(0.8, 1.6, 0.4),
     "falling power backwards": cut_power(-1.6, -1.1),
+    "Savin III, alpha = 7.2": savin("III", 7.2),
+    "Savin, u = 6": savin(6, -2.0),
+    "S_3 with an end velocity": with_end_velocity(smoothstep(3), 0.3),
+    "unsymmetric law reversed": reversed_law(random_law(7, 6, b0=0.5)),
+    "cycloid in pieces, mirrored": mirrored_law(cut_sine(0.3)),
+    "rising power, faster": with_end_velocity(cut_power(0.8, 1.6, 0.4), -0.5),
+    "sine on a parabola, reversed": reversed_law(cut_sine(0.25, 0.625, powers=(1.0, -3.0, 2.0), turns=3)),
+    "S_3 times y": multiplied(smoothstep(3), [2, -7, 10, -6, 3]),
+    "modified sine times exp": multiplied(scca(0.25, 0.0, 0.75), lambda k: float(np.exp(4.0 * (k - 0.5) ** 2))),
+    "modified trapezoid": scca(0.25, 0.5, 0.25),
+    "sine and coast": scca(0.2, 0.1, 0.3),
+    "S-curve": trapezoid(0.1, 0.15, 0.2),
+    "cubic fall": trapezoid(0.05, 0.1, exponent=3),
+    "double harmonic": catalogue["double harmonic"].law,
+    "Freudenstein 1-3-5": catalogue["Freudenstein 1-3-5"].law,
+    "KC05": catalogue["KC05"].law,
+    "power of time": PiecewiseLaw([0, 1], [FractionalSegment(4.5, 0.2, 1.1, (1.0, -2.0), -0.1)]),
+    "fall like x^4.5": with_end_velocity(trapezoid(0.05, 0.1, exponent=4.5), 0.2),
 }

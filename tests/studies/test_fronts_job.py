@@ -25,7 +25,7 @@ name = "one"
 title = "C at given B"
 over = ["B", "C"]
 between = [1.4, 1.9]
-catalogue = ["II", "smoothstep"]
+catalogue = ["II", "smoothstep", "modified sine"]
 front = [{ label = "l = 4" }, { label = "l = 3", order = 3, points = 3 }]
 [[figure]]
 name = "two"
@@ -70,7 +70,7 @@ def test_points_can_be_solved_again(made: Path) -> None:
 
 def test_the_figures_are_pictures(made: Path) -> None:
     for name, labels in (
-        ("one", ("C at given B", "Savin", "smoothsteps", "limit of all laws")),
+        ("one", ("C at given B", "Savin", "smoothsteps", "modified sine", "limit of all laws")),
         ("two", ("J at given C", "limit of each constant alone")),
     ):
         assert (made / f"{name}.png").read_bytes().startswith(b"\x89PNG")
@@ -100,7 +100,7 @@ def test_two_runs_give_the_same_bytes(made: Path, tmp_path: Path) -> None:
         ('name = "two"', 'name = "one"', "names must differ"),
         ('name = "two"', 'name = "../two"', "name"),
         ("points = 4", "points = 1", "points"),
-        ('["II", "smoothstep"]', '["V"]', "catalogue"),
+        ('["II", "smoothstep", ', '["V", ', "figure one, catalogue: no law is called 'V'"),
     ],
 )
 def test_errors_name_the_file_and_the_entry(tmp_path: Path, old: str, new: str, match: str) -> None:
