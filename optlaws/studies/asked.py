@@ -33,8 +33,12 @@ class Asked(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     D: Asking | None = None
     J: Asking | None = None
     order: Count | None = None
-    basis: Literal["powers", "chebyshev"] | None = None
+    bounds: dict[str, Asking] | None = None
+    inflexion: Annotated[float, msgspec.Meta(gt=0.0, lt=1.0)] | None = None
+    basis: Literal["powers", "chebyshev", "bernstein", "bsplines", "pieces"] | None = None
     degree: Count | None = None
+    breaks: Count | Annotated[list[Bound], msgspec.Meta(min_length=2)] | None = None
+    continuity: Count | None = None
     monotone: bool | None = None
     symmetric: bool | None = None
 
@@ -60,7 +64,10 @@ def problem(where: str, *parts: Mapping[str, Any]) -> Problem:
     for part in parts:
         entries |= part
     try:
-        return Problem.from_dict({name: value for name, value in entries.items() if value != "free"})
+        kept = {name: value for name, value in entries.items() if value != "free"}
+        if "bounds" in kept:
+            kept["bounds"] = {name: value for name, value in kept["bounds"].items() if value != "free"}
+        return Problem.from_dict(kept)
     except InputError as error:
         raise InputError(f"{where}: {error}") from None
 
@@ -92,6 +99,8 @@ def gap(solution: Solution) -> str:
 
 def record(solution: Solution) -> dict[str, Any]:
     """What results keep of a solution: nothing that differs from run to run."""
-    kept = ("status", "objective", "lower_bound", "limit", "constants", "z", "law", "problem", "certificate")
+    kept = ["status", "objective", "lower_bound", "limit", "constants", "z", "law", "problem", "certificate"]
+    if solution.power_certificate is not None:
+        kept.append("power_certificate")
     whole = solution.to_dict()
     return {name: whole[name] for name in kept}

@@ -68,6 +68,7 @@ class Study(msgspec.Struct, forbid_unknown_fields=True):
     problem: Asked
     sweep: Annotated[list[Sweep], Some]
     text: str = ""
+    bound: Literal["quick", "tight"] = "quick"
     columns: Annotated[list[str], Some] = msgspec.field(default_factory=lambda: ["B", "C", "D", "J", *RESULTS[1:]])
     compare: list[Compare] = []
     beside: Beside | None = None
@@ -93,7 +94,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     entries = list(_entries(spec))
     beside = _beside(spec, file, entries)
     problems = [_problems(spec, i, one) for i, one in enumerate(entries, 1)]
-    rows = [_solved(one, *asked) for one, asked in zip(entries, problems, strict=True)]
+    rows = [_solved(spec, one, *asked) for one, asked in zip(entries, problems, strict=True)]
     headings, cells = _cells(spec, rows, beside)
     about = f"{spec.title}; from {file.name}"
     return [
@@ -127,11 +128,11 @@ def _problems(spec: Study, number: int, entries: Mapping[str, Any]) -> tuple[Pro
     return problem(f"row {number}", base, entries), others
 
 
-def _solved(entries: Mapping[str, Any], asked: Problem, others: Sequence[Problem]) -> Row:
+def _solved(spec: Study, entries: Mapping[str, Any], asked: Problem, others: Sequence[Problem]) -> Row:
     status = "infeasible"
     solution = None
     try:
-        solution = synthesize(asked)
+        solution = synthesize(asked, bound=spec.bound)
         status = solution.status.value
     except InfeasibleProblem:
         pass

@@ -13,11 +13,13 @@ from optlaws.synthesis.pareto import pareto_front
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import sweep, synthesize
+from optlaws.synthesis.spline_bases import BSplines, PiecewiseBasis
 from optlaws.synthesis.windows import Window, via
 
 __all__ = [
     "FUNCTIONALS",
     "B",
+    "BSplines",
     "Basis",
     "Bernstein",
     "BoundaryConditions",
@@ -34,6 +36,7 @@ __all__ = [
     "J",
     "Maximum",
     "Pieces",
+    "PiecewiseBasis",
     "PolynomialBasis",
     "Powers",
     "Problem",

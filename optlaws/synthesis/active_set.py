@@ -7,6 +7,7 @@ is quadratic, and fewer contacts than variables are no difficulty (the curvature
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -23,6 +24,7 @@ _FAR = 1.05
 _WILD = 1e6
 _RANK = 1e-11
 _FULFILLED = 1e-7
+_STILL = 1e-6
 
 
 @dataclass(frozen=True, eq=False)
@@ -55,30 +57,30 @@ class ActiveSet:
         )
 
 
-def newton(program: Program, start: ActiveSet) -> ActiveSet | None:
-    """Solve the optimality conditions from `start`; None where that does not converge."""
+def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> ActiveSet | None:
+    """Solve the optimality conditions from `start`; None where that does not converge.
+
+    `deficient` says that they are known to have no unique solution.
+    """
     state = start
     previous = np.inf
-    deficient = False
     for _ in range(_STEPS):
         system, defect = _conditions(program, state)
-        step, full = _step(system, defect)
-        deficient = deficient or not full
+        step = _step(system, defect, deficient=deficient)
         if not np.isfinite(step).all():
             return None
-        state = _moved(state, step)
+        before, state = state, _moved(state, step)
+        size = float(np.abs(step[: program.size]).max() / max(1.0, np.abs(state.x).max()))
+        # x may stand still where the conditions do not hold: in a deficient system, or where the optimum is flat
+        off = float(np.abs(defect).max())
+        if off < _FULFILLED and (size < _CONVERGED or (size < _STALLED and size > previous / 4)):
+            wandering = float(np.abs(step).max()) > _STILL
+            if not wandering or off < _STALLED:
+                return before if wandering else state
         if np.any(np.abs(state.u) > _FAR):
             return None
-        size = float(np.abs(step[: program.size]).max() / max(1.0, np.abs(state.x).max()))
-        if size < _CONVERGED or (size < _STALLED and size > previous / 4):
-            return state if not deficient or _fulfilled(program, state) else None
         previous = size
     return None
-
-
-def _fulfilled(program: Program, state: ActiveSet) -> bool:
-    # the shortest step of a deficient system may vanish where the conditions do not hold
-    return bool(np.abs(_conditions(program, state)[1]).max() < _FULFILLED)
 
 
 def _conditions(program: Program, state: ActiveSet) -> tuple[Array, Array]:
@@ -118,16 +120,15 @@ def _conditions(program: Program, state: ActiveSet) -> tuple[Array, Array]:
     return system, defect
 
 
-def _step(system: Array, defect: Array) -> tuple[Array, bool]:
-    """Newton's step, and whether the system had full rank; otherwise it is the shortest of the best steps."""
-    try:
-        step: Array = np.linalg.solve(system, -defect).astype(np.float64, copy=False)
-    except np.linalg.LinAlgError:
-        step = np.full(len(defect), np.inf)
-    if np.abs(step).max(initial=0.0) < _WILD:
-        return step, True
+def _step(system: Array, defect: Array, *, deficient: bool) -> Array:
+    """Newton's step; where the system has not full rank, the shortest of the best steps."""
+    if not deficient:
+        with suppress(np.linalg.LinAlgError):
+            step: Array = np.linalg.solve(system, -defect).astype(np.float64, copy=False)
+            if np.abs(step).max(initial=0.0) < _WILD:
+                return step
     # where the optimum is not unique the shortest step leads to one of them
-    return np.linalg.lstsq(system, -defect, rcond=_RANK)[0].astype(np.float64, copy=False), False
+    return np.linalg.lstsq(system, -defect, rcond=_RANK)[0].astype(np.float64, copy=False)
 
 
 def _moved(state: ActiveSet, step: Array) -> ActiveSet:

@@ -21,10 +21,9 @@ from optlaws.laws.chebyshev import (
     rounded,
 )
 from optlaws.laws.checks import whole
+from optlaws.synthesis.breaks import mirrored, order_of_continuity, places
 
 Array = NDArray[np.float64]
-
-_MIRROR = 1e-12
 
 
 class Basis(ABC):
@@ -33,7 +32,7 @@ class Basis(ABC):
     Examples
     --------
     >>> sorted(Basis.kinds)
-    ['bernstein', 'chebyshev', 'pieces', 'powers']
+    ['bernstein', 'bsplines', 'chebyshev', 'pieces', 'powers']
     """
 
     name: ClassVar[str]
@@ -43,6 +42,11 @@ class Basis(ABC):
         super().__init_subclass__(**kwargs)
         if "name" in cls.__dict__:
             Basis.kinds[cls.name] = cls
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether it is known to hold with every law from rest to rest its mirror image too."""
+        return False
 
     @abstractmethod
     def check(self, *, symmetric: bool) -> None:
@@ -74,6 +78,11 @@ class PolynomialBasis(Basis):
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "degree", whole(self.degree, "degree of Z"))
+
+    @property
+    def mirrored(self) -> bool:
+        """Always: Z(1-k) has the degree of Z(k)."""
+        return True
 
     @property
     def size(self) -> int:
@@ -203,19 +212,13 @@ class Pieces(Basis):
     name = "pieces"
 
     def __init__(self, breaks: int | Sequence[float], degree: int = 5, continuity: int = 3) -> None:
-        places = _even_breaks(breaks) if isinstance(breaks, int) else tuple(float(k) for k in breaks)
-        object.__setattr__(self, "breaks", places)
+        object.__setattr__(self, "breaks", places(breaks))
         object.__setattr__(self, "degree", whole(degree, "degree of the pieces", least=2))
-        object.__setattr__(self, "continuity", whole(continuity, "continuity", least=1))
-        steps = np.diff(np.array(places)) if len(places) > 1 else np.zeros(1)
-        if len(places) < 2 or places[0] != 0.0 or places[-1] != 1.0 or not (steps > 0.0).all():
-            raise InputError(f"breaks must increase from 0 to 1, got {places!r}")
-        if self.continuity >= self.degree:
-            raise InputError(f"continuity must be below the degree {self.degree}, got {self.continuity}")
+        object.__setattr__(self, "continuity", order_of_continuity(continuity, self.degree))
 
     @classmethod
-    def around(cls, places: Sequence[float], width: float, degree: int = 4, continuity: int = 3) -> Pieces:
-        """Pieces that leave room for quick changes of acceleration around the given places, `width` each.
+    def around(cls, switches: Sequence[float], width: float, degree: int = 4, continuity: int = 3) -> Pieces:
+        """Pieces that leave room for quick changes of acceleration around the given switches, `width` each.
 
         Take the breaks of a limit law: the optimum then comes near the limit as the width goes to 0.
 
@@ -226,14 +229,18 @@ class Pieces(Basis):
         """
         half = width / 2.0
         found = {0.0, 0.5, 1.0}
-        for k in places:
+        for k in switches:
             found |= {width} if k == 0.0 else {1.0 - width} if k == 1.0 else {k - half, k + half}
         return cls(sorted({round(k, 15) for k in found}), degree, continuity)
 
+    @property
+    def mirrored(self) -> bool:
+        """Where the breaks are symmetric about 1/2 and 1/2 is among them."""
+        return 0.5 in self.breaks and mirrored(self.breaks)
+
     def check(self, *, symmetric: bool) -> None:
         """Refuse breaks that are not symmetric where the law is to be."""
-        k = np.array(self.breaks)
-        if symmetric and (0.5 not in self.breaks or np.abs(k + k[::-1] - 1.0).max() > _MIRROR):
+        if symmetric and not self.mirrored:
             raise InputError(
                 f"a symmetric law needs breaks symmetric about 1/2 and 1/2 among them, got {self.breaks!r}"
             )
@@ -244,7 +251,7 @@ class Pieces(Basis):
 
 
 def basis(name: str, degree: int, **parameters: Any) -> Basis:  # noqa: ANN401 - the basis checks them
-    """The basis called `name` with the given degree and, for pieces, breaks and continuity.
+    """The basis called `name` with the given degree and, for B-splines and pieces, breaks and continuity.
 
     Raises
     ------
@@ -267,11 +274,6 @@ def basis(name: str, degree: int, **parameters: Any) -> Basis:  # noqa: ANN401 -
 
 def _known(name: object) -> bool:
     return isinstance(name, str) and name in Basis.kinds
-
-
-def _even_breaks(count: int) -> tuple[float, ...]:
-    number = whole(count, "number of pieces", least=1)
-    return tuple(i / number for i in range(number + 1))
 
 
 def _sized(z: Sequence[float], chosen: PolynomialBasis) -> Sequence[float]:

@@ -6,15 +6,17 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from math import comb, factorial
-from typing import Any, Self
+from typing import Any, Self, overload
 
 from optlaws.errors import InputError
 from optlaws.laws import PolynomialLaw
 from optlaws.laws.chebyshev import exact_powers, fractions
 from optlaws.laws.checks import whole
+from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.synthesis.bases import PolynomialBasis, Powers
-
-Polynomial = list[Fraction]
+from optlaws.synthesis.exact_polynomials import Polynomial, edge, plus, shifted, times
+from optlaws.synthesis.spline_bases import PiecewiseBasis
+from optlaws.synthesis.spline_law import piecewise_law
 
 
 @dataclass(frozen=True)
@@ -81,14 +83,24 @@ class BoundaryConditions:
         """
         order = self.order
         end = [value / factorial(i) for i, value in enumerate(fractions(self.end, "end"))]
-        wanted = [e - a for e, a in zip(end, _shifted(self.a0(), 1), strict=True)]
+        wanted = [e - a for e, a in zip(end, shifted(self.a0(), 1), strict=True)]
         inverse = [Fraction((-1) ** i * comb(order + i - 1, i)) for i in range(order)]
-        return _shifted(_times(wanted, inverse)[:order], -1)
+        return shifted(times(wanted, inverse)[:order], -1)
 
 
+@overload
 def construct(
     boundary: BoundaryConditions, z: Iterable[Any] = (), basis: PolynomialBasis | None = None
-) -> PolynomialLaw:
+) -> PolynomialLaw: ...
+@overload
+def construct(boundary: BoundaryConditions, z: Iterable[Any], basis: PiecewiseBasis) -> PiecewiseLaw: ...
+@overload
+def construct(
+    boundary: BoundaryConditions, z: Iterable[Any], basis: PolynomialBasis | PiecewiseBasis
+) -> PolynomialLaw | PiecewiseLaw: ...
+def construct(
+    boundary: BoundaryConditions, z: Iterable[Any] = (), basis: PolynomialBasis | PiecewiseBasis | None = None
+) -> PolynomialLaw | PiecewiseLaw:
     """The law a(k) = a0(k) + k^l [a1(k) + (k-1)^l Z(k)] (eq. 8), built in exact arithmetic and rounded once.
 
     Parameters
@@ -98,7 +110,7 @@ def construct(
     z
         Coefficients of Z, dimensionless; ascending powers of k unless a basis is given.
     basis
-        The basis that `z` belongs to.
+        The basis that `z` belongs to. With B-splines the law is piecewise.
 
     Raises
     ------
@@ -113,10 +125,12 @@ def construct(
     [0.0, 0.25]
     """
     order = boundary.order
-    free = _powers_of(list(z), basis)
-    end_factor = [Fraction((-1) ** (order - i) * comb(order, i)) for i in range(order + 1)]
-    bracket = _plus(boundary.a1(), _times(end_factor, free))
-    return PolynomialLaw.from_powers(_plus(boundary.a0(), [Fraction(0)] * order + bracket))
+    a0, a1 = boundary.a0(), boundary.a1()
+    if isinstance(basis, PiecewiseBasis):
+        base = plus(a0, [Fraction(0)] * order + a1)
+        return piecewise_law(base, order, basis.breaks, basis.pieces(basis.sized(list(z))))
+    bracket = plus(a1, times(edge(order)[order:], _powers_of(list(z), basis)))
+    return PolynomialLaw.from_powers(plus(a0, [Fraction(0)] * order + bracket))
 
 
 def _powers_of(z: Sequence[Any], basis: PolynomialBasis | None) -> Polynomial:
@@ -125,30 +139,3 @@ def _powers_of(z: Sequence[Any], basis: PolynomialBasis | None) -> Polynomial:
             raise InputError(f"{basis!r} takes {basis.size} coefficients z, got {len(z)}")
         return fractions(z, "z")
     return exact_powers(fractions(basis.series(z), "z"))
-
-
-def _times(first: Polynomial, second: Polynomial) -> Polynomial:
-    if not first or not second:
-        return []
-    product = [Fraction(0)] * (len(first) + len(second) - 1)
-    for i, p in enumerate(first):
-        for j, q in enumerate(second):
-            product[i + j] += p * q
-    return product
-
-
-def _plus(first: Polynomial, second: Polynomial) -> Polynomial:
-    total = [Fraction(0)] * max(len(first), len(second))
-    for polynomial in (first, second):
-        for i, value in enumerate(polynomial):
-            total[i] += value
-    return total
-
-
-def _shifted(polynomial: Polynomial, by: int) -> Polynomial:
-    """Powers of h of p(h + by)."""
-    shifted = [Fraction(0)] * len(polynomial)
-    for n, value in enumerate(polynomial):
-        for i in range(n + 1):
-            shifted[i] += value * comb(n, i) * by ** (n - i)
-    return shifted

@@ -2,12 +2,16 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
 from numbers import Real
 from typing import Any
 
 from optlaws.errors import InputError
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.functionals import ALIASES, FUNCTIONALS, MAKERS, Functional
+from optlaws.synthesis.named import is_named, named
 
 
 @dataclass(frozen=True, repr=False)
@@ -114,3 +118,93 @@ def as_range(value: Any, name: str) -> Range | None:  # noqa: ANN401 - it is che
     if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value):
         raise InputError(f"{name} must be a finite number, a range such as between(1.5, 1.8), or None, got {value!r}")
     return Range(float(value), float(value))
+
+
+class Bounds(Mapping[Functional, Range]):
+    """What is asked of constants, by constant; frozen and hashable. Names find the known ones.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, a constant is named twice, or a value is no number, range or pair.
+
+    Examples
+    --------
+    >>> Bounds({"rms_c": at_most(4), "jounce": None})
+    {'rms_c': at_most(4)}
+    """
+
+    def __init__(self, asked: Any = ()) -> None:  # noqa: ANN401 - it is checked here
+        if not isinstance(asked, Mapping) and asked != ():
+            raise InputError(f"bounds must be a dict such as {{'rms_c': at_most(5)}}, got {asked!r}")
+        self._ranges: dict[Functional, Range] = {}
+        for key, value in dict(asked).items():
+            constant = _constant(key)
+            if constant.name in {one.name for one in self._ranges}:
+                raise InputError(f"bounds name {constant.name!r} twice")
+            found = as_range(value, constant.name)
+            if found is not None and found.high <= 0.0:
+                raise InputError(f"{constant.name} must be able to exceed 0, got {value!r}")
+            if found is not None and found != Range():
+                self._ranges[constant] = found
+
+    def __getitem__(self, key: Functional | str) -> Range:
+        if isinstance(key, str):
+            return {one.name: value for one, value in self._ranges.items()}[key]
+        return self._ranges[key]
+
+    def __iter__(self) -> Iterator[Functional]:
+        return iter(self._ranges)
+
+    def __len__(self) -> int:
+        return len(self._ranges)
+
+    def __hash__(self) -> int:
+        return hash(frozenset(self._ranges.items()))
+
+    def __repr__(self) -> str:
+        known = {one: repr(one.name) if is_named(one) else repr(one) for one in self._ranges}
+        return "{" + ", ".join(f"{known[one]}: {value!r}" for one, value in self._ranges.items()) + "}"
+
+
+def _constant(key: Any) -> Functional:  # noqa: ANN401 - it is checked here
+    if isinstance(key, Functional):
+        return key
+    known = FUNCTIONALS | ALIASES
+    if not isinstance(key, str):
+        raise InputError(f"bounds are of constants such as 'rms_c' or rms_c, got {key!r}")
+    if "(" in key:
+        return named(key)
+    if key not in known:
+        raise InputError(unknown_key(key, (*known, *MAKERS), "constant"))
+    return known[key]
+
+
+def read_bounds(most: Sequence[str], least: Sequence[str] = ()) -> dict[str, Range]:
+    """Bounds from texts such as "rms_c=4": the greatest and the least values.
+
+    Raises
+    ------
+    InputError
+        If a text is not a name and a number, or a name comes twice on one side.
+
+    Examples
+    --------
+    >>> read_bounds(["rms_c=4", "jounce=900"], ["rms_c=3.5"])
+    {'rms_c': between(3.5, 4.0), 'jounce': at_most(900.0)}
+    """
+    sides: tuple[dict[str, float], dict[str, float]] = ({}, {})
+    for texts, side in ((least, sides[0]), (most, sides[1])):
+        for text in texts:
+            name, _, value = (part.strip() for part in text.rpartition("="))
+            try:
+                number = float(value)
+            except ValueError:
+                raise InputError(
+                    f"a bound is written as a constant = a number, such as rms_c=4, got {text!r}"
+                ) from None
+            if name in side:
+                raise InputError(f"{name!r} is bounded twice on one side")
+            side[name] = number
+    lows, highs = sides
+    return {name: Range(lows.get(name, 0.0), highs.get(name, inf)) for name in dict.fromkeys((*highs, *lows))}

@@ -19,9 +19,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.synthesis.cones import ConeFamily
 from optlaws.synthesis.expression import Expression, Maximum
+from optlaws.synthesis.functionals import Power
 from optlaws.synthesis.problem import Problem
-from optlaws.synthesis.programs import ROOT, Model, least_violation, model, relaxed
+from optlaws.synthesis.programs import ROOT, Model, least_violation, model, relaxed, relaxed_power
 from optlaws.synthesis.rows import LinearFamily, NormFamily, Program
 from optlaws.synthesis.space import LawSpace
 
@@ -34,7 +36,7 @@ OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
 class Contact:
     """A constraint at one k: which family of rows, with which sign, and its multiplier (dimensionless).
 
-    `direction` belongs to an RMS alone: the unit vector by which the norm is bounded from below.
+    `direction` belongs to an RMS and to a complex amplitude: the unit vector by which its size is bounded from below.
 
     Examples
     --------
@@ -137,7 +139,7 @@ def excess(certificate: Certificate) -> float:
     slope = program.objective.copy()
     value = 0.0
     for contact in certificate.contacts:
-        row, right = _row(program, contact)
+        row, right = row_of(program, contact)
         weight = max(contact.multiplier, 0.0)
         slope += weight * row
         value -= weight * right
@@ -155,7 +157,7 @@ def _model(certificate: Certificate) -> Model:
     return model(certificate.problem)
 
 
-def _row(program: Program, contact: Contact) -> tuple[Array, float]:
+def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
     """The row of a contact and its right side: row . x <= right for every law of the problem."""
     for family in program.families:
         if family.name != contact.constraint or contact.sign not in family.signs:
@@ -168,6 +170,10 @@ def _row(program: Program, contact: Contact) -> tuple[Array, float]:
             direction = np.array(contact.direction)
             # a shorter direction bounds the norm too
             row = (direction / max(float(np.linalg.norm(direction)), 1.0)) @ family.matrix
+            return row[:-1] - family.slack, family.bound - float(row[-1])
+        if isinstance(family, ConeFamily) and len(contact.direction) == 2:
+            direction = np.array(contact.direction)
+            row = family.tangent(float(u[0]), direction / max(float(np.linalg.norm(direction)), 1.0))
             return row[:-1] - family.slack, family.bound - float(row[-1])
     return np.zeros(program.size), 0.0
 
@@ -196,13 +202,15 @@ def _greatest(certificate: Certificate, found: Model, claim: float) -> dict[str,
     if certificate.program == VIOLATION:
         bounds["t"] = 0.0
     else:
-        _spread(certificate.problem.objective, claim, bounds)
-    for name in ("B", "C", "D", "J"):
-        asked = certificate.problem.range(name)
+        spread(certificate.problem.objective, claim, bounds)
+    problem = certificate.problem
+    for name in ("B", *(one.name for one, _ in problem.bounded)):
+        asked = problem.range(name)
         if asked is not None:
             bounds[name] = min(bounds.get(name, inf), asked.high)
-    if "D" in bounds:
-        bounds[ROOT] = bounds["D"] ** 0.5
+    power = relaxed_power(problem)
+    if power is not None and power.name in bounds:
+        bounds[ROOT] = bounds[power.name] ** 0.5
     if "B" in found.places and not isfinite(bounds["B"]):
         curved = min(bounds.get(name, inf) * factor for name, factor in _STEEP)
         bounds["B"] = abs(found.space.start_velocity) + curved
@@ -213,13 +221,14 @@ def _greatest(certificate: Certificate, found: Model, claim: float) -> dict[str,
 _STEEP = (("C", 0.5), ("rms_c", 0.5), ("C_plus", 1.0), ("C_minus", 1.0))
 
 
-def _spread(expression: Expression, claim: float, bounds: dict[str, float]) -> None:
+def spread(expression: Expression, claim: float, bounds: dict[str, float]) -> None:
+    """Note in `bounds` what the constants of an expression are at most, where its value is below the claim."""
     for weight, term in expression.terms:
         name = repr(term)
         bounds[name] = min(bounds.get(name, inf), claim / weight)
         if isinstance(term, Maximum):
             for part in term.parts:
-                _spread(part, claim / weight, bounds)
+                spread(part, claim / weight, bounds)
 
 
 def _means(certificate: Certificate, space: LawSpace, greatest: dict[str, float]) -> list[tuple[int, float]]:
@@ -235,6 +244,9 @@ def _means(certificate: Certificate, space: LawSpace, greatest: dict[str, float]
     means += [(1, 2.0 * greatest.get("B", inf) + stroke)]
     if certificate.problem.monotone:
         means += [(1, stroke)]
+    for one in certificate.problem.constants:
+        size = greatest.get(one.name, inf)
+        means += [(nu, factor * (size**0.5 if isinstance(one, Power) else size)) for nu, factor in one.curbs()]
     least: dict[int, float] = {}
     for nu, mean in means:
         if isfinite(mean):

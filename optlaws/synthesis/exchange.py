@@ -9,8 +9,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.active_set import ActiveSet, newton
+from optlaws.synthesis.cones import ConeFamily
 from optlaws.synthesis.contacts import completed, settled
-from optlaws.synthesis.rows import EvenFamily, Family, NormFamily, Points, Program
+from optlaws.synthesis.flat_optima import sharpened
+from optlaws.synthesis.rows import EvenFamily, Family, LinearFamily, NormFamily, Points, ProductFamily, Program
 from optlaws.synthesis.transcription import Answer, solve_on_points
 
 Array = NDArray[np.float64]
@@ -19,6 +21,7 @@ _ROUNDS = 12
 _CORRECTIONS = 8
 _WEIGHTLESS = 1e-7
 _LOST = 1e7
+_SAME = 1e-6
 _AMPLE = 1.2
 
 
@@ -38,6 +41,7 @@ def solve(
     *,
     start: Array | None = None,
     holds: Callable[[Array], bool] | None = None,
+    rounds: int = _ROUNDS,
 ) -> Outcome:
     """Solve a semi-infinite program; a neighbour's optimum as `warm` is tried before IPOPT, which begins at `start`.
 
@@ -54,26 +58,47 @@ def solve(
         optimum = polished(program, guess, holds) if guess is not None else None
         if optimum is not None:
             return Outcome(optimum, 0, 0, "least squares")
+    return _exchange(program, points, start, holds, rounds)
+
+
+def _exchange(
+    program: Program, points: list[Points], start: Array | None, holds: Callable[[Array], bool] | None, rounds: int
+) -> Outcome:
     iterations = 0
-    status = ""
-    for attempt in range(1, _ROUNDS + 1):
-        answer = solve_on_points(program, points, start)
-        iterations += answer.iterations
-        if not answer.usable and not program.curved:
-            answer = solve_on_points(program, points, start, careful=True)
-            iterations += answer.iterations
-        if not answer.usable:
+    for attempt in range(1, rounds + 1):
+        answer, spent = _answer(program, points, start, attempt)
+        iterations += spent
+        lost = not np.isfinite(answer.x).all() or np.abs(answer.x).max() > _LOST
+        if not answer.usable or lost:
             return Outcome(None, iterations, attempt, answer.status)
-        status = answer.status
-        if not np.isfinite(answer.x).all() or np.abs(answer.x).max() > _LOST:
-            return Outcome(None, iterations, attempt, status)
         optimum = polished(program, _identified(program, points, answer), holds)
+        sharp = _sharpened(program, points, answer) if optimum is None else None
+        if sharp is not None and completed(program, sharp) is sharp:
+            optimum = sharp
         if optimum is not None:
-            return Outcome(optimum, iterations, attempt, status)
-        asked = points
-        points = [_exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
-    rough = _as_answered(asked, answer) if not program.curved else None
-    return Outcome(rough, iterations, _ROUNDS, status)
+            return Outcome(optimum, iterations, attempt, answer.status)
+        asked, x = points, answer.x if sharp is None else sharp.x
+        points = [_exchanged(family, mine, x) for family, mine in zip(program.families, points, strict=True)]
+    rough = _as_answered(asked, answer) if not program.curved or _only_cones(program) else None
+    return Outcome(rough, iterations, rounds, answer.status)
+
+
+def _answer(program: Program, points: list[Points], start: Array | None, attempt: int) -> tuple[Answer, int]:
+    """IPOPT's answer, asked in other ways until one is usable, and the iterations that this took."""
+    iterations = 0
+    for way in _ways(program, attempt):
+        answer = solve_on_points(program, points, start, **way)
+        iterations += answer.iterations
+        if answer.usable:
+            break
+    return answer, iterations
+
+
+def _ways(program: Program, attempt: int) -> list[dict[str, bool]]:
+    """How to ask IPOPT, until an answer is usable."""
+    if program.curved:
+        return [{"fine": True}, {}] if attempt > 1 and _only_cones(program) else [{}]
+    return [*([{"fine": True}] if attempt > 1 else []), {}, {"careful": True}]
 
 
 def polished(program: Program, start: ActiveSet, holds: Callable[[Array], bool] | None) -> ActiveSet | None:
@@ -81,6 +106,8 @@ def polished(program: Program, start: ActiveSet, holds: Callable[[Array], bool] 
     guess = start
     for _ in range(_CORRECTIONS):
         optimum = newton(program, guess)
+        if optimum is None:
+            optimum = newton(program, guess, deficient=True)
         if optimum is None:
             return None
         guess = settled(program, optimum)
@@ -121,9 +148,16 @@ def _lifted(program: Program, points: list[Points]) -> Array:
     x = np.zeros(program.size)
     for family, mine in zip(program.families, points, strict=True):
         needed = float((mine.s * family.value(np.zeros(program.size), mine.u)).max()) - family.bound
+        if isinstance(family, ConeFamily):
+            needed = max(needed, 1.0)  # a cone's rows need room
         places = family.slack > 0.0
         x[places] = np.maximum(x[places], _AMPLE * needed / family.slack[places])
     return x
+
+
+def _only_cones(program: Program) -> bool:
+    """Whether cones alone are not affine: amplitudes may be so flat that no exact active set shows."""
+    return all(isinstance(family, LinearFamily | ConeFamily) for family in program.families)
 
 
 def _first_points(program: Program) -> list[Points]:
@@ -161,7 +195,8 @@ def _exchanged(family: Family, points: Points, x: Array) -> Points:
         return points
     u, s, residual = family.extremes(x)
     near = residual > -1e-2 * max(1.0, abs(family.room(x)))
-    return points.joined(Points(u[near], s[near]))
+    known = np.any((points.u == u[:, None]) & (points.s == s[:, None]), axis=1)
+    return points.joined(Points(u[near & ~known], s[near & ~known]))
 
 
 def _identified(program: Program, points: list[Points], answer: Answer) -> ActiveSet:
@@ -176,6 +211,7 @@ def _identified(program: Program, points: list[Points], answer: Answer) -> Activ
             higher = (s == mine.s[j]) & (residual >= jet.value[j] - 1e-9)
             distance = np.where(higher, np.abs(u - mine.u[j]), np.inf)
             gathered[np.argmin(distance)] += weights[j]
+        _merge(family, u, s, gathered)
         inside = (u > family.domain[0]) & (u < family.domain[1]) & ~family.pinned(u)
         found += [(i, u[j], s[j], inside[j], gathered[j]) for j in np.flatnonzero(gathered)]
     family_of, places, signs, free, multipliers = zip(*found, strict=True) if found else ((),) * 5
@@ -188,6 +224,26 @@ def _identified(program: Program, points: list[Points], answer: Answer) -> Activ
         multipliers=np.asarray(multipliers, dtype=np.float64),
         equality_multipliers=answer.multipliers[-1],
     )
+
+
+def _merge(family: Family, u: Array, s: Array, gathered: Array) -> None:
+    """Give an end what belongs to an extremum that IPOPT's tolerance alone sets apart from it."""
+    for end in np.flatnonzero(np.isin(u, family.domain)):
+        same = (s == s[end]) & (np.abs(u - u[end]) < _SAME)
+        total = gathered[same].sum()
+        gathered[same] = 0.0
+        gathered[end] = total
+
+
+def _sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveSet | None:
+    """The optimum on the points; None where it is not convex there or the answer does not show it."""
+    if not program.curved:
+        return sharpened(program, points, answer)
+    products = [isinstance(family, ProductFamily) for family in program.families]
+    if any((w > _WEIGHTLESS).any() for w, one in zip(answer.multipliers, products, strict=False) if one):
+        return None
+    found = newton(program, _as_answered(points, answer), deficient=True)
+    return found if found is not None and (found.multipliers >= 0.0).all() else None
 
 
 def _as_answered(points: list[Points], answer: Answer) -> ActiveSet:
@@ -207,7 +263,8 @@ def _as_answered(points: list[Points], answer: Answer) -> ActiveSet:
 
 def _binding(rows: Array, weights: Array, residual: Array) -> NDArray[np.bool_]:
     # complementarity, in units in which each row has length 1: a contact's multiplier exceeds its distance
-    squared = np.einsum("ij,ij->i", rows, rows)
-    binding: NDArray[np.bool_] = weights * squared > -residual
-    binding &= weights * np.sqrt(squared) > _WEIGHTLESS
+    length = np.linalg.norm(rows, axis=1)
+    sizes = weights * length
+    greatest = max(1.0, float(sizes.max(initial=0.0)))
+    binding: NDArray[np.bool_] = (sizes * length > -residual * greatest) & (sizes > _WEIGHTLESS * greatest)
     return binding

@@ -2,17 +2,22 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import ceil, floor
 
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.synthesis.bases import PolynomialBasis
-from optlaws.synthesis.bounding import violation_certificate
-from optlaws.synthesis.certificate import Certificate
+from optlaws.synthesis.bounding import certificate, violation_certificate
+from optlaws.synthesis.certificate import OBJECTIVE, Certificate
+from optlaws.synthesis.cones import ConeFamily
 from optlaws.synthesis.exchange import Outcome, solve
+from optlaws.synthesis.functionals import C
 from optlaws.synthesis.problem import Problem
-from optlaws.synthesis.programs import Model, extreme_velocity, least_violation
+from optlaws.synthesis.problem_limits import known_limit
+from optlaws.synthesis.programs import Model, extreme_velocity, least_violation, model
 
 _WEIGHTLESS = 1e-9
+_ROUNDING = 1e-12
 
 _TEXT = {
     "chord": "b <= B",
@@ -26,24 +31,76 @@ _TEXT = {
 
 
 def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFailure:
-    """The error to raise; an elastic phase tells which constraints contradict each other."""
+    """The error to raise; an elastic phase tells which constraints contradict each other, or a limit does."""
     tried = f"IPOPT said {outcome.status!r} after {outcome.iterations} iterations, {outcome.rounds} rounds of exchange"
-    elastic = least_violation(problem)
+    straight = _convex_part(problem)
+    elastic = least_violation(straight)
     trial = solve(elastic.program)
     if trial.optimum is not None:
-        proof = violation_certificate(problem, elastic, trial.optimum)
+        proof = violation_certificate(straight, elastic, trial.optimum)
         if proof.proves_infeasible:
             return InfeasibleProblem(
                 _why(problem, proof, elastic), problem=problem, proof=proof, tried=_contradiction(proof)
             )
         tried += f"; the constraints leave {-trial.optimum.x[-1]:.3e} to spare"
+    beyond = _beyond_limit(problem)
+    if beyond:
+        return InfeasibleProblem(beyond, problem=problem, tried=tried)
+    least = _out_of_reach(problem, elastic)
+    if least is not None:
+        return InfeasibleProblem(
+            f"no law of this problem has {least.problem.minimise} below {least.bound:.6g}, proven by error.proof. A "
+            "higher degree of Z or a lower order helps",
+            problem=problem,
+            proof=least,
+            tried=tried,
+        )
     msg = "no law was found, and none was shown not to exist; try a degree higher or lower by 2, or other numbers"
     return SolverFailure(msg, problem=problem, tried=tried)
 
 
+def _convex_part(problem: Problem) -> Problem:
+    """The problem without the bounds that are not convex: what contradicts itself there does so with them too."""
+    kept = {one: asked for one, asked in problem.bounded if one.convex}
+    if len(kept) == len(problem.bounded):
+        return problem
+    return replace(problem, C=None, D=None, J=None, bounds=kept)
+
+
+def _beyond_limit(problem: Problem) -> str:
+    """Which constant is asked to be below what no law of any degree can beat; empty if none is."""
+    for constant, asked in problem.bounded:
+        least = known_limit(replace(problem, minimise=constant.expression()))
+        if least is not None and asked.high < least * (1.0 - _ROUNDING):
+            return (
+                f"no law of any degree has {constant!r} <= {asked.high:g} with the other constraints: "
+                f"its limit is {least:.7g} (optlaws.limit). A higher bound of {constant!r} helps, or another B"
+            )
+    return ""
+
+
 def _contradiction(proof: Certificate) -> str:
-    places = ", ".join(f"{contact.k:.4g}" for contact in proof.contacts if contact.multiplier > 0.0)
-    return f"the constraints contradict each other at k = {places} (error.proof is the certificate)"
+    where = {one.name: one.where for one in proof.problem.constants}
+    acting = [contact for contact in proof.contacts if contact.multiplier > 0.0]
+    words = [where.get(one.constraint, C.where)(one.k).partition(" = ") for one in acting]
+    symbols = dict.fromkeys(symbol for symbol, _, _ in words)
+    places = ", ".join(f"{one} = {', '.join(at for symbol, _, at in words if symbol == one)}" for one in symbols)
+    return f"the constraints contradict each other at {places} (error.proof is the certificate)"
+
+
+def _out_of_reach(problem: Problem, elastic: Model) -> Certificate | None:
+    """Proof that an amplitude cannot be as small as asked, from its least under all other constraints."""
+    cones = {family.name for family in elastic.program.families if isinstance(family, ConeFamily)}
+    for one, asked in problem.bounds.items():
+        others = {other: wanted for other, wanted in problem.bounds.items() if other != one}
+        if one.name in cones:
+            least = replace(problem, minimise=one.expression(), bounds=others)
+            found = model(least)
+            optimum = solve(found.program).optimum
+            proof = None if optimum is None else certificate(least, found, optimum, OBJECTIVE)
+            if proof is not None and proof.bound > asked.high:
+                return proof
+    return None
 
 
 def _why(problem: Problem, proof: Certificate, elastic: Model) -> str:
@@ -66,6 +123,9 @@ def _why(problem: Problem, proof: Certificate, elastic: Model) -> str:
 def _named(problem: Problem, constraint: str) -> str:
     if constraint.startswith("window "):
         return repr(problem.windows[int(constraint.split()[1].rstrip(",")) - 1])
+    asked = problem.range(constraint)
+    if constraint not in _TEXT and asked is not None:
+        return f"{constraint} <= {asked.high:g}"
     text = _TEXT.get(constraint, constraint)
     value = getattr(problem, text[-1], None) if text[-1] in "CDJ" else None
     return f"{text} = {value!r} everywhere" if value is not None else f"{text} everywhere"

@@ -7,7 +7,9 @@ One more constant is one class: say how it reads off a law (`value`), which rows
 from __future__ import annotations
 
 from abc import abstractmethod
+from collections.abc import Callable
 from dataclasses import dataclass
+from fractions import Fraction
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -22,6 +24,8 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+_NO_ACCELERATION = 3  # the order from which laws begin and end without acceleration
+
 
 @dataclass(frozen=True, repr=False)
 class Functional(Term):
@@ -32,7 +36,7 @@ class Functional(Term):
     name
         Its name in expressions, problem files and results.
     reference
-        The least value that rest-to-rest laws can have, by which mixtures are normalised; NaN where there is none.
+        The least value that laws from rest to rest of any order can have; NaN where it is not known.
     convex
         Whether it is convex in the law; then optima are proven, otherwise only bounded.
 
@@ -45,6 +49,28 @@ class Functional(Term):
     name: str
     reference: float
     convex: bool
+
+    def least(self, order: int) -> float:  # noqa: ARG002 - a constant may depend on it
+        """The least value that laws from rest to rest of this order can have, by which mixtures are normalised.
+
+        Examples
+        --------
+        >>> C.least(4), J.least(2), J.least(4)
+        (4.0, 12.0, 32.0)
+        """
+        return self.reference
+
+    def curbs(self) -> tuple[tuple[int, float], ...]:
+        """Pairs of an order and a factor: the mean of |a^(order)| is at most factor times the constant, in every law.
+
+        For a power it is the constant's root. A certificate needs such a bound of the law's size; those of the
+        constants that optlaws names itself it knows.
+        """
+        return ()
+
+    def where(self, k: float) -> str:
+        """What a certificate's place says, in words."""
+        return f"k = {k:.4g}"
 
     @abstractmethod
     def value(self, law: MotionLaw) -> float:
@@ -87,6 +113,24 @@ class Peak(Functional):
 
 
 @dataclass(frozen=True, repr=False)
+class PeakJerk(Peak):
+    """Peak of the jerk, which costs more where the acceleration must begin and end with 0.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> J.value(smoothstep(3)), J.least(3)
+    (60.0, 32.0)
+    """
+
+    from_no_acceleration: float = 32.0
+
+    def least(self, order: int) -> float:
+        """The reference with order 2, 32 from order 3 on."""
+        return self.reference if order < _NO_ACCELERATION else self.from_no_acceleration
+
+
+@dataclass(frozen=True, repr=False)
 class Power(Functional):
     """Peak D of the kinetic power d = b c: not convex in the law.
 
@@ -96,6 +140,8 @@ class Power(Functional):
     >>> round(D.value(smoothstep(2)), 6)
     3.464102
     """
+
+    weights: tuple[Fraction, ...] = (Fraction(1),)
 
     def value(self, law: MotionLaw) -> float:
         """The peak, b and c evaluated separately."""
@@ -133,10 +179,12 @@ C = Peak("C", 4.0, convex=True, nu=2)
 C_plus = Peak("C_plus", 2.0, convex=True, nu=2, signs=(1.0,))
 C_minus = Peak("C_minus", 2.0, convex=True, nu=2, signs=(-1.0,))
 D = Power("D", 2.25, convex=False)
-J = Peak("J", 12.0, convex=True, nu=3)
+J = PeakJerk("J", 12.0, convex=True, nu=3)
 jounce = Peak("jounce", np.nan, convex=True, nu=4)
 rms_c = RootMeanSquare("rms_c", 12.0**0.5, convex=True, nu=2)
 rms_j = RootMeanSquare("rms_j", np.nan, convex=True, nu=3)
 
 FUNCTIONALS: dict[str, Functional] = {f.name: f for f in (B, C, C_plus, C_minus, D, J, jounce, rms_c, rms_j)}
 ALIASES: dict[str, Functional] = {"rms": rms_c}
+#: what makes a constant from arguments, by the name that text calls it by: `C_cam(nu=20)`
+MAKERS: dict[str, Callable[..., Functional]] = {}

@@ -2,13 +2,15 @@
 
 sum     = product { "+" product }
 product = factor { ("*" | "/") factor }
-factor  = number | name | "max" "(" sum { "," sum } ")" | "(" sum ")"
+factor  = number | constant | "max" "(" sum { "," sum } ")" | "(" sum ")"
+constant = name [ "(" name "=" value { "," name "=" value } ")" ]
+value   = number | "(" number "," number ")"
 """
 
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass
 from typing import NoReturn
 
@@ -17,7 +19,7 @@ from optlaws.suggest import unknown_key
 from optlaws.synthesis.expression import Expression, Term, maximum
 
 _TOKEN = re.compile(
-    r"\s*(?:(?P<number>\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)|(?P<sign>[-+*/(),]))"
+    r"\s*(?:(?P<number>\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)|(?P<sign>[-+*/(),=]))"
 )
 
 Value = float | Expression
@@ -34,7 +36,10 @@ class Token:
     place: int
 
 
-def parse(text: str, names: Mapping[str, Term]) -> Expression:
+Makers = Mapping[str, Callable[..., Term]]
+
+
+def parse(text: str, names: Mapping[str, Term], makers: Makers | None = None) -> Expression:
     """Read an objective such as `0.6*C/4 + 0.4*D/2.25` or `max(C/4, D/2.25)`.
 
     Parameters
@@ -43,6 +48,8 @@ def parse(text: str, names: Mapping[str, Term]) -> Expression:
         The objective.
     names
         The terms by name.
+    makers
+        What makes a term from arguments, by name: `C_cam(nu=20, damping=0.05)`.
 
     Raises
     ------
@@ -55,7 +62,7 @@ def parse(text: str, names: Mapping[str, Term]) -> Expression:
     >>> parse("0.5*C/4 + 0.5*D/2", FUNCTIONALS)
     0.125*C + 0.25*D
     """
-    reader = _Reader(text, names)
+    reader = _Reader(text, names, makers or {})
     depth = greatest = 0
     for character in text:
         depth += (character == "(") - (character == ")")
@@ -71,8 +78,8 @@ def parse(text: str, names: Mapping[str, Term]) -> Expression:
 
 
 class _Reader:
-    def __init__(self, text: str, names: Mapping[str, Term]) -> None:
-        self.text, self.names = text, names
+    def __init__(self, text: str, names: Mapping[str, Term], makers: Makers) -> None:
+        self.text, self.names, self.makers = text, names, makers
         self.tokens = iter(self._tokens())
         self.token = next(self.tokens)
 
@@ -154,10 +161,52 @@ class _Reader:
 
     def _named(self) -> Expression:
         token = self.token
-        if token.text not in self.names:
-            self.refuse(unknown_key(token.text, self.names, "constant"))
+        if token.text not in self.names and token.text not in self.makers:
+            self.refuse(unknown_key(token.text, (*self.names, *self.makers), "constant"))
         self.take()
-        return self.names[token.text].expression()
+        if token.text in self.names:
+            return self.names[token.text].expression()
+        return self._made(token).expression()
+
+    def _made(self, token: Token) -> Term:
+        if self.token.text != "(":
+            self.refuse(f"{token.text} needs its arguments, such as {token.text}(nu=20)")
+        given: dict[str, float | tuple[float, float]] = {}
+        while self.token.text != ")":
+            self.take()
+            name = self.take()
+            if name.kind != "name" or self.token.text != "=":
+                self.refuse(f"expected an argument of {token.text} such as nu=20", name.place)
+            if name.text in given:
+                self.refuse(f"{name.text} is given twice", name.place)
+            self.take()
+            given[name.text] = self._value()
+            if self.token.text not in {",", ")"}:
+                self.refuse("expected , or )")
+        self.take()
+        try:
+            return self.makers[token.text](**given)
+        except InputError as error:
+            self.refuse(str(error), token.place)
+        except TypeError:
+            self.refuse(f"{token.text} does not take the arguments {', '.join(given)}", token.place)
+
+    def _value(self) -> float | tuple[float, float]:
+        if self.token.text != "(":
+            return self._number()
+        self.take()
+        low = self._number()
+        if self.token.text != ",":
+            self.refuse("expected , between two numbers")
+        self.take()
+        high = self._number()
+        self._close()
+        return low, high
+
+    def _number(self) -> float:
+        if self.token.kind != "number":
+            self.refuse("expected a number")
+        return float(self.take().text)
 
     def _maximum(self) -> Expression:
         self.take()

@@ -23,9 +23,11 @@ from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import synthesize
 
 # how far above its least value a constant is held while the next one is minimised: as near as the solver can go
-_ABOVE = (1e-9, 1e-7, 1e-5)
+_ABOVE = (1e-5, 1e-7, 1e-9)
 _BENT = 2.0
 _SAME = 1e-9
+# a stretch of the first constant, relative, within which nothing is exchanged
+_NOTHING = 1e-6
 
 
 def pareto_front(
@@ -118,13 +120,15 @@ class _Curve:
             except InfeasibleProblem:
                 pass
         least = _least(self.problem, self.over[0])
-        for above in _ABOVE[:-1]:
-            try:
-                return least * (1.0 + above), synthesize(self._asked(least * (1.0 + above)))
-            except (InfeasibleProblem, SolverFailure):
-                continue
-        value = least * (1.0 + _ABOVE[-1])
-        return value, synthesize(self._asked(value))
+        value = least * (1.0 + _ABOVE[0])
+        found = synthesize(self._asked(value))
+        for above in _ABOVE[1:]:
+            # so near to its least value the constant leaves the solver no room: the contacts are continued instead
+            nearer = _tried(self._asked(least * (1.0 + above)), found)
+            if nearer is None:
+                break
+            value, found = least * (1.0 + above), nearer
+        return value, found
 
     def _last(self, best: Solution, pays: float, high: float) -> tuple[float, Solution]:
         """At the least value of the last constant, or at `high`; a problem of the same kind as the others."""
@@ -140,6 +144,8 @@ class _Curve:
         """How much each stretch wants a point: its length in normalised logarithms, more where the front turns."""
         logs = np.log([[value, value_of(solution, self.over[1])] for value, solution in self.found])
         span = np.abs(logs[-1] - logs[0])
+        if span[0] < _NOTHING:
+            return [0.0] * (len(self.found) - 1)
         steps = np.diff(logs, axis=0) / np.where(span > 0.0, span, 1.0)
         lengths = np.hypot(*steps.T)
         turns = np.abs(np.diff(np.arctan2(steps[:, 1], steps[:, 0])))
@@ -167,10 +173,11 @@ def _surface(problem: Problem, over: tuple[str, ...], points: int, between: tupl
     spine = max(spines, key=lambda one: one.found[-1][0]).grow(across)
     failed = list(spine.failed)
     found: list[Solution] = []
-    for value in spine.values[:, 0].tolist():
+    for i, value in enumerate(spine.values[:, 0].tolist()):
+        share = (points - len(found)) // (len(spine) - i)
         part = _at_most(problem, over[0], value)
         try:
-            found += _Curve(part, over[1:], None).grow(max(2, points // across)).points
+            found += _Curve(part, over[1:], None).grow(max(2, share)).points
         except (InfeasibleProblem, SolverFailure):
             failed.append(value)
     return Front(over, tuple(undominated(found, over)), tuple(sorted(failed)))

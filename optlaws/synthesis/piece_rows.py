@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
+from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -15,6 +16,7 @@ from optlaws.synthesis.rows import LinearFamily, ProductFamily
 Array = NDArray[np.float64]
 
 _FLAT = 1e-9
+_BESIDE = 2.0**-50  # far enough from a break that k tells the side too
 
 
 @dataclass(frozen=True, eq=False)
@@ -68,7 +70,7 @@ class PieceFamily(LinearFamily):
         breaks = self.pieces.breaks
         if not self.jumps:
             return breaks
-        return np.concatenate([breaks[[0, -1]], np.nextafter(breaks[1:-1], 2.0), np.nextafter(breaks[1:-1], -2.0)])
+        return np.concatenate([breaks[[0, -1]], breaks[1:-1] + _BESIDE, breaks[1:-1] - _BESIDE])
 
     def nodes(self) -> Array:
         """Corners, and inside each piece as many points as its degree."""
@@ -123,14 +125,22 @@ class PieceProductFamily(ProductFamily):
 
 
 def _stationary(family: PieceFamily, factors: list[Array]) -> Array:
+    """Roots of the derivative on every piece, the ends, and the corners that may be extrema."""
     pieces = family.pieces
-    found = [family.corners]
+    found, slopes = [], []
     for i in range(len(pieces.breaks) - 1):
         series = factors[0][i]
         if len(factors) > 1:
             series = product(factors[0][i], factors[1][i])
         slope = np.asarray(chebyshev.chebder(series), dtype=np.float64)
+        slopes.append(np.asarray(chebyshev.chebval(np.array([1.0, -1.0]), slope)))
         if np.abs(slope).max() > _FLAT * np.abs(series).max():
             roots = real_parts_of_roots(slope)
             found.append(pieces.global_places(i, roots[np.abs(roots) < 1.0]))
-    return np.concatenate(found)
+    kept = np.ones(len(family.corners), dtype=np.bool_)
+    if not family.jumps:
+        # where the function goes on rising or falling, a corner is no extremum
+        kept[1:-1] = [
+            before[1] * after[0] <= _FLAT * max(before[1] ** 2, after[0] ** 2) for before, after in pairwise(slopes)
+        ]
+    return np.concatenate([family.corners[kept], *found])

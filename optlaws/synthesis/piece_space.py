@@ -6,21 +6,23 @@ from functools import lru_cache
 from itertools import pairwise
 
 import numpy as np
-from numpy.polynomial import chebyshev, legendre
+from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.segments import PolynomialSegment
 from optlaws.synthesis.boundary import BoundaryConditions
-from optlaws.synthesis.piece_rows import PieceFamily, PieceProductFamily, PieceSeries
+from optlaws.synthesis.piece_ratio import above_rest
+from optlaws.synthesis.piece_rows import PieceFamily, PieceSeries
+from optlaws.synthesis.piecewise_space import PiecewiseSpace
 from optlaws.synthesis.polynomials import chebyshev_series
-from optlaws.synthesis.rows import Family, NormFamily
-from optlaws.synthesis.space import Equation, LawSpace, Quadrature
+from optlaws.synthesis.rows import Family
+from optlaws.synthesis.space import Equation
 
 Array = NDArray[np.float64]
 
 
-class PieceSpace(LawSpace):
+class PieceSpace(PiecewiseSpace):
     """Laws that are polynomials of a degree between breaks, with derivatives continuous up to an order.
 
     Coordinates are the coefficients of the acceleration in B-splines, which makes them local and well conditioned.
@@ -36,15 +38,14 @@ class PieceSpace(LawSpace):
     def __init__(
         self, boundary: BoundaryConditions, breaks: tuple[float, ...], degree: int, continuity: int, *, symmetric: bool
     ) -> None:
-        super().__init__()
-        self.boundary, self.symmetric, self.continuity = boundary, symmetric, continuity
-        self.domain = (0.0, 1.0) if symmetric else (-1.0, 1.0)
+        super().__init__(breaks, continuity, symmetric=symmetric)
+        self.boundary = boundary
         kept = np.array([k for k in breaks if not symmetric or k <= 0.5])
         self.k = kept
         self._order = degree - 2
         self._acceleration = self._splines(kept, self._order, self._order - (continuity - 2))
         self.terms = self._acceleration.shape[2] - 1
-        self._pieces: dict[int, PieceSeries] = {2: PieceSeries(1.0 - 2.0 * kept, self._acceleration)}
+        self._pieces[2] = PieceSeries(1.0 - 2.0 * kept, self._acceleration)
         self.start_velocity = float(boundary.start[1]) if boundary.order > 1 else 0.0
         end_velocity = float(boundary.end[1]) if boundary.order > 1 else 0.0
         self.velocity_change = end_velocity - self.start_velocity
@@ -91,55 +92,14 @@ class PieceSpace(LawSpace):
             value = np.asarray(chebyshev.chebval(-1.0, whole))
         return PieceSeries(pieces.breaks, np.stack(found))
 
-    def _wide(self, pieces: PieceSeries, size: int) -> PieceSeries:
-        wide = np.zeros((*pieces.series.shape[:2], size + 1))
-        wide[:, :, : self.terms] = pieces.series[:, :, :-1]
-        wide[:, :, -1] = pieces.series[:, :, -1]
-        return PieceSeries(pieces.breaks, wide)
-
-    def derivative(
-        self, nu: int, name: str, slack: Array, bound: float = 0.0, signs: tuple[float, ...] = (1.0, -1.0)
-    ) -> PieceFamily:
-        """Rows s a^(nu) <= slack . x + bound."""
-        pieces = self._wide(self.pieces(nu), len(slack))
-        jumps = nu > self.continuity
-        return PieceFamily(name, slack, bound, signs, self.domain, series=np.zeros((1, 1)), pieces=pieces, jumps=jumps)
-
-    def power(self, name: str, slack: Array, bound: float = 0.0) -> PieceProductFamily:
-        """Rows |b c| <= slack . x + bound."""
-        first, second = (self.derivative(nu, name, slack) for nu in (1, 2))
-        return PieceProductFamily(name, slack, bound, (1.0, -1.0), self.domain, first=first, second=second)
-
-    def norm(self, nu: int, name: str, slack: Array, bound: float = 0.0) -> NormFamily:
-        """The row RMS of a^(nu) <= slack . x + bound."""
-        rule = self.quadrature(nu)
-        matrix = np.sqrt(rule.weights)[:, None] * rule.values
-        return NormFamily(name, slack, bound, matrix=self.widened(matrix, len(slack)))
-
-    def row(self, nu: int, k: float) -> Array:
-        """The derivative of order nu at k: free functions, then the base law."""
-        return np.asarray(self.pieces(nu).values(np.array([1.0 - 2.0 * k]))[0])
-
-    def below(self, slack: Array) -> Family:
-        """Rows b <= b(1/2)."""
-        family = self.derivative(1, "b", slack, signs=(1.0,))
-        middle = np.zeros(len(slack) + 1)
-        middle[: self.terms] = self.row(1, 0.5)[:-1]
-        middle[-1] = self.row(1, 0.5)[-1]
-        series = family.pieces.series.copy()
-        series[:, 0] -= middle
-        return PieceFamily(
-            "b",
-            slack,
-            signs=(1.0,),
-            domain=self.domain,
-            series=family.series,
-            pieces=PieceSeries(family.pieces.breaks, series),
-        )
-
     def forward(self, slack: Array) -> Family:
-        """Rows b >= 0."""
-        return self.derivative(1, "forward", slack, signs=(-1.0,))
+        """Rows b >= 0, from rest to rest divided by what they vanish like at the ends."""
+        order = self.boundary.order
+        whole = len(self.k) == 2 and not self.symmetric
+        if order == 1 or whole or self.boundary != BoundaryConditions.rest(order):
+            return super().forward(slack)
+        pieces = self._wide(above_rest(self.pieces(1), self.pieces(order), order), len(slack))
+        return PieceFamily("ratio", slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces)
 
     def equations(self) -> list[Equation]:
         """The end conditions that the base law and the splines do not keep by themselves."""
@@ -179,19 +139,6 @@ class PieceSpace(LawSpace):
     def z_series(self, coordinates: Array) -> Array:  # noqa: ARG002
         """Empty: the law is not written with a Z."""
         return np.empty(0)
-
-    def quadrature(self, nu: int) -> Quadrature:
-        """Gauss points on every piece; moments are Legendre polynomials on one piece each."""
-        pieces = self.pieces(nu)
-        count = pieces.series.shape[1] + 1
-        x, weights = legendre.leggauss(count)
-        share = 2.0 if self.symmetric else 1.0
-        number = len(pieces.breaks) - 1
-        u = np.concatenate([pieces.global_places(i, x) for i in range(number)])
-        lengths = (pieces.breaks[:-1] - pieces.breaks[1:]) / 2.0
-        moments = np.asarray(np.kron(np.eye(number), legendre.legvander(x, count - 1)), dtype=np.float64)
-        weighted = np.concatenate([share * length * weights / 2.0 for length in lengths])
-        return Quadrature(weighted, pieces.values(u), moments)
 
 
 @lru_cache(maxsize=64)

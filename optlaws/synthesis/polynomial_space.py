@@ -15,8 +15,18 @@ from numpy.typing import NDArray
 
 from optlaws.laws import PolynomialLaw
 from optlaws.synthesis.boundary import BoundaryConditions, construct
+from optlaws.synthesis.chord import chord
 from optlaws.synthesis.polynomials import chebyshev_series, gegenbauer
-from optlaws.synthesis.rows import EvenFamily, Family, LinearFamily, NormFamily, ProductFamily, RatioFamily
+from optlaws.synthesis.rows import (
+    EvenFamily,
+    Family,
+    LinearFamily,
+    MirroredFamily,
+    NormFamily,
+    ProductFamily,
+    RatioFamily,
+    RootFamily,
+)
 from optlaws.synthesis.space import LawSpace, Quadrature
 
 Array = NDArray[np.float64]
@@ -136,12 +146,35 @@ class PolynomialSpace(LawSpace):
         self, nu: int, name: str, slack: Array, bound: float = 0.0, signs: tuple[float, ...] = (1.0, -1.0)
     ) -> LinearFamily:
         """Rows s a^(nu) <= slack . x + bound."""
-        series = self.widened(self.series(nu), len(slack))
+        return self.combination(nu, (1.0,), name, slack, bound, signs=signs)
+
+    def combination(
+        self,
+        nu: int,
+        weights: tuple[float, ...],
+        name: str,
+        slack: Array,
+        bound: float = 0.0,
+        *,
+        signs: tuple[float, ...] = (1.0, -1.0),
+    ) -> LinearFamily:
+        """Rows s (w0 a^(nu) + w1 a^(nu+1) + ...) <= slack . x + bound."""
+        series = self.widened(self.combined(nu, weights), len(slack))
         return LinearFamily(name, slack, bound, signs, self.domain, series=series)
 
-    def power(self, name: str, slack: Array, bound: float = 0.0) -> ProductFamily:
-        """Rows |b c| <= slack . x + bound."""
-        first, second = (self.derivative(nu, name, slack) for nu in (1, 2))
+    def combined(self, nu: int, weights: tuple[float, ...]) -> Array:
+        """Series of w0 a^(nu) + w1 a^(nu+1) + ..., the base law's as the last column."""
+        if weights == (1.0,):
+            return self.series(nu)
+        found = np.zeros_like(self.series(nu))
+        for i, weight in enumerate(weights):
+            one = self.series(nu + i)
+            found[: len(one)] += weight * one[: len(found)]
+        return found
+
+    def power(self, name: str, slack: Array, bound: float = 0.0, weights: tuple[float, ...] = (1.0,)) -> ProductFamily:
+        """Rows |b c| <= slack . x + bound; with weights, of w0 b + w1 c + ... and its derivative."""
+        first, second = (self.combination(nu, weights, name, slack) for nu in (1, 2))
         return ProductFamily(name, slack, bound, (1.0, -1.0), self.domain, first=first, second=second)
 
     def norm(self, nu: int, name: str, slack: Array, bound: float = 0.0) -> NormFamily:
@@ -172,10 +205,17 @@ class PolynomialSpace(LawSpace):
         """b / (k(1-k))^(l-1) of the base law S_l."""
         return 4.0 ** (self.order - 1) * float(self.base.b(0.5))
 
-    def below(self, slack: Array) -> Family:
-        """Rows b <= b(1/2) of symmetric laws as (b(1/2) - b) / (1-2k)² >= 0: undivided they would be ill posed."""
-        chord = self.widened(-_chord(self.series(1)[::2]), len(slack))
-        return EvenFamily("chord", slack, series=chord)
+    def below(self, slack: Array, peak: float = 0.5) -> Family:
+        """Rows b <= b(peak) of laws with c(peak) = 0, divided by (2k - 2 peak)²: else they were ill posed."""
+        if self.symmetric:
+            return EvenFamily("chord", slack, series=self.widened(-_chord(self.series(1)[::2]), len(slack)))
+        series = self._below(1.0 - 2.0 * peak)
+        return LinearFamily("chord", slack, domain=self.domain, series=self.widened(series, len(slack)))
+
+    def _below(self, centre: float) -> Array:
+        j = self.series(3)
+        values = chord(lambda u: np.asarray(chebyshev.chebval(u, j).T), self._u, centre, len(self.series(1)) - 1)
+        return chebyshev_series(values, self._angle)[: max(len(self.series(1)) - 2, 1)]
 
     def forward(self, slack: Array) -> Family:
         """Rows b >= 0, from rest to rest as b / (k(1-k))^(l-1) >= 0 (in units of the base law's)."""
@@ -188,6 +228,16 @@ class PolynomialSpace(LawSpace):
             return LinearFamily("ratio", slack, domain=self.domain, series=self.widened(series, len(slack)))
         ratio = self.widened(series[::2], len(slack))
         return RatioFamily("ratio", slack, series=ratio, index=self.order - 0.5, scale=-scale)
+
+    def from_rest(
+        self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)
+    ) -> Family:
+        """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
+        series, signs, half = self.widened(self.combined(1, weights), len(slack)), (1.0, -1.0), (0.0, 1.0)
+        if not backward:
+            return RootFamily(name, slack, 0.0, signs, half, series=series)
+        mirrored = series * (-1.0) ** np.arange(len(series))[:, None]
+        return MirroredFamily(name, slack, 0.0, signs, half, series=mirrored)
 
     @cached_property
     def _ratio_scale(self) -> Array:

@@ -4,23 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
-from functools import cached_property, lru_cache
+from functools import cached_property
 from math import isfinite
-from numbers import Real
 from typing import Any
 
 from optlaws.errors import InputError
-from optlaws.laws.checks import whole
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.bases import Basis, Chebyshev, PolynomialBasis, basis
+from optlaws.synthesis.bases import Basis, Chebyshev, basis
 from optlaws.synthesis.boundary import BoundaryConditions
-from optlaws.synthesis.bounds import Range, as_range
+from optlaws.synthesis.bounds import Bounds, Range, as_range
 from optlaws.synthesis.expression import Expression, Term, leaves
-from optlaws.synthesis.functionals import ALIASES, FUNCTIONALS, C_minus, C_plus
-from optlaws.synthesis.grammar import parse
+from optlaws.synthesis.functionals import FUNCTIONALS, C_minus, C_plus, Functional
+from optlaws.synthesis.named import expression, is_named
+from optlaws.synthesis.problem_checks import check_choices, constant, inflexion_of, listed, one_of, order_of, windows_of
 from optlaws.synthesis.windows import Window
 
 CONSTANTS = ("B", "C", "D", "J")
+_NAMED = tuple(FUNCTIONALS[name] for name in CONSTANTS)
 
 
 @dataclass(frozen=True, kw_only=True, repr=False)
@@ -37,8 +37,10 @@ class Problem:
         Peak velocity, acceleration, power and jerk: a number fixes the constant, a `Range` such as
         `between(1.5, 1.8)` or `at_most(60)` bounds it, None leaves it free. In a symmetric law B is b(1/2), and
         b <= B holds everywhere.
+    bounds
+        The same for any constant: `{"rms_c": at_most(4), "C_minus": at_most(5)}`, by its name or itself.
     basis
-        Basis of Z(k) with its degree: `Powers(9)`, `Chebyshev(9)`.
+        Basis of Z(k) with its degree: `Powers(9)`, `Chebyshev(9)`, `BSplines(8, 3)`.
     monotone
         Ask b >= 0 too.
     symmetric
@@ -46,6 +48,9 @@ class Problem:
         treats rise and fall alike and there are no windows (the mean of a law and its mirror image is no worse).
     boundary
         End conditions; rest to rest unless given. Others make the law unsymmetric.
+    inflexion
+        Where an unsymmetric law has its peak velocity: c is 0 there, b is B, and b <= B holds everywhere. Without it
+        that is k = 1/2 for laws from rest to rest with a fixed B or one bounded from below, else wherever it falls.
     windows
         Values and windows of a, b, c, j: `via("a", 0.3, at=0.4)`, `Window("b", high=1.2, start=0.2, stop=0.3)`.
 
@@ -63,7 +68,7 @@ class Problem:
     B: float | Range | None = None
     order: int = 0
     basis: Basis = field(default_factory=lambda: Chebyshev(9))
-    minimise: str | Expression = "C"
+    minimise: str | Term | Expression = "C"
     monotone: bool = False
     symmetric: bool = True
     C: float | Range | None = None
@@ -71,14 +76,20 @@ class Problem:
     J: float | Range | None = None
     boundary: BoundaryConditions | None = None
     windows: tuple[Window, ...] = ()
+    bounds: Mapping[Any, Any] = Bounds()
+    inflexion: float | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "order", _order(self.order, self.boundary))
-        object.__setattr__(self, "windows", _windows(self.windows))
-        _check_choices(self.basis, monotone=self.monotone, symmetric=self.symmetric)
+        object.__setattr__(self, "order", order_of(self.order, self.boundary))
+        object.__setattr__(self, "windows", windows_of(self.windows))
+        object.__setattr__(self, "inflexion", inflexion_of(self.inflexion, symmetric=self.symmetric))
+        check_choices(self.basis, monotone=self.monotone, symmetric=self.symmetric)
         object.__setattr__(self, "minimise", _canonical(self.minimise))
-        for name in CONSTANTS:
-            object.__setattr__(self, name, _constant(getattr(self, name), name))
+        own = {one: asked for one, asked in Bounds(self.bounds).items() if one not in _NAMED}
+        for one in _NAMED:
+            asked = one_of(getattr(self, one.name), self.bounds, one)
+            object.__setattr__(self, one.name, constant(asked, one.name))
+        object.__setattr__(self, "bounds", Bounds(own))
         if self.boundary is not None:
             if self.boundary == BoundaryConditions.rest(self.order):
                 object.__setattr__(self, "boundary", None)
@@ -89,7 +100,7 @@ class Problem:
     @cached_property
     def objective(self) -> Expression:
         """What is minimised."""
-        return _parsed(self.minimise) if isinstance(self.minimise, str) else self.minimise
+        return expression(self.minimise) if isinstance(self.minimise, str) else self.minimise.expression()
 
     @property
     def conditions(self) -> BoundaryConditions:
@@ -99,8 +110,7 @@ class Problem:
     @cached_property
     def convex(self) -> bool:
         """Whether every constant in the objective and every bounded one is convex in the law."""
-        names = {name for name in CONSTANTS if getattr(self, name) is not None}
-        return "D" not in names and all(leaf.convex for _, leaf in leaves(self.objective))  # type: ignore[attr-defined]
+        return all(one.convex for one in self.constants)
 
     @property
     def mirrored(self) -> bool:
@@ -109,17 +119,47 @@ class Problem:
         Where the objective is convex the mean of a law and its mirror image is no worse; where D is in it, that is
         so for the relaxed program.
         """
-        one_sided = any(leaf in {C_plus, C_minus} for _, leaf in leaves(self.objective))
-        plain = self.boundary is None and not self.windows and isinstance(self.basis, PolynomialBasis)
-        return not self.symmetric and plain and not one_sided
+        even = all(FUNCTIONALS.get(one.name) == one and one not in {C_plus, C_minus} for one in self.constants)
+        plain = self.boundary is None and not self.windows and self.basis.mirrored and self.inflexion is None
+        return not self.symmetric and plain and even
+
+    @property
+    def peak_in_the_middle(self) -> bool:
+        """Whether b(1/2) is the peak velocity B: not where B is free, nor where B is merely bounded from above."""
+        return self.peak_at == 0.5
+
+    @property
+    def peak_at(self) -> float | None:
+        """The k at which b is the peak velocity B and c is 0; None where it is not asked to be at any."""
+        if self.inflexion is not None:
+            return self.inflexion
+        wanted = self.range("B")
+        if wanted is None or self.boundary is not None:
+            return None
+        return 0.5 if self.symmetric or wanted.low > 0.0 else None
 
     def range(self, name: str) -> Range | None:
-        """What is asked of the constant B, C, D or J."""
-        return self._ranges[name]
+        """What is asked of a constant, by its name."""
+        return self._ranges.get(name)
+
+    @cached_property
+    def bounded(self) -> tuple[tuple[Functional, Range], ...]:
+        """The constants but B of which something is asked, and what."""
+        own = ((one, self._ranges[one.name]) for one in _NAMED if one.name != "B")
+        return (*((one, asked) for one, asked in own if asked is not None), *self.bounds.items())
 
     @cached_property
     def _ranges(self) -> dict[str, Range | None]:
-        return {name: as_range(getattr(self, name), name) for name in CONSTANTS}
+        own = {name: as_range(getattr(self, name), name) for name in CONSTANTS}
+        if self.inflexion is not None and own["B"] is None:
+            own["B"] = Range()
+        return own | {one.name: asked for one, asked in self.bounds.items()}
+
+    @cached_property
+    def constants(self) -> set[Functional]:
+        """The constants in the objective and the bounded ones."""
+        found = {leaf for _, leaf in leaves(self.objective) if isinstance(leaf, Functional)}
+        return found | {one for one, _ in self.bounded}
 
     @cached_property
     def shape(self) -> Problem:
@@ -141,6 +181,12 @@ class Problem:
             value = getattr(self, name)
             if value is not None:
                 found[name] = value if isinstance(value, float) else _plain(value)
+        if self.bounds:
+            found["bounds"] = {
+                one.name: asked.high if asked.fixed else _plain(asked) for one, asked in self.bounds.items()
+            }
+        if self.inflexion is not None:
+            found["inflexion"] = self.inflexion
         if self.boundary is not None:
             found["start"] = [float(v) for v in self.boundary.start]
             found["end"] = [float(v) for v in self.boundary.end]
@@ -160,6 +206,8 @@ class Problem:
         known: tuple[str, ...] = (
             "minimise",
             *CONSTANTS,
+            "bounds",
+            "inflexion",
             "order",
             "basis",
             "degree",
@@ -179,9 +227,9 @@ class Problem:
         shape = {name: given.pop(name) for name in ("breaks", "continuity") if name in given}
         chosen = basis(given.pop("basis", "chebyshev"), given.pop("degree", 9), **shape)
         if "start" in given or "end" in given:
-            start, end = (_listed(given.pop(name, ()), name) for name in ("start", "end"))
+            start, end = (listed(given.pop(name, ()), name) for name in ("start", "end"))
             given["boundary"] = BoundaryConditions(start, end)
-        given["windows"] = tuple(Window.from_dict(window) for window in _listed(given.pop("windows", ()), "windows"))
+        given["windows"] = tuple(Window.from_dict(window) for window in listed(given.pop("windows", ()), "windows"))
         return cls(basis=chosen, **given)
 
     def __repr__(self) -> str:
@@ -194,71 +242,15 @@ def _given(problem: Problem, one: Any) -> bool:  # noqa: ANN401 - a dataclass fi
     return bool(getattr(problem, one.name) != one.default)
 
 
-@lru_cache(maxsize=256)
-def _parsed(text: str) -> Expression:
-    return parse(text, FUNCTIONALS | ALIASES)
-
-
 def _canonical(minimise: Any) -> str | Expression:  # noqa: ANN401 - it is checked here
     if isinstance(minimise, str):
-        found = _parsed(minimise)
+        found = expression(minimise)
     elif isinstance(minimise, Term | Expression):
         found = minimise.expression()
     else:
         raise InputError(f"minimise must be a constant such as 'C', a sum or an expression, got {minimise!r}")
-    known = all(FUNCTIONALS.get(repr(leaf)) == leaf for _, leaf in leaves(found))
-    return repr(found) if known else found
-
-
-def _constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - it is checked here
-    if name == "B" and value is not None and not isinstance(value, Range | tuple | list) and not _velocity(value):
-        raise InputError(f"B must be a finite number above 1 (the mean velocity is 1), got {value!r}")
-    found = as_range(value, name)
-    if found is None:
-        return None
-    if name == "B" and found.high <= 1.0:
-        raise InputError(f"B must be able to exceed 1 (the mean velocity is 1), got {value!r}")
-    if found.high <= 0.0:
-        raise InputError(f"{name} must be able to exceed 0, got {value!r}")
-    return found.high if found.fixed else found
-
-
-def _listed(values: Any, name: str) -> tuple[Any, ...]:  # noqa: ANN401 - it is checked here
-    if not isinstance(values, list | tuple):
-        raise InputError(f"{name} must be a list, got {values!r}")
-    return tuple(values)
-
-
-def _windows(windows: Any) -> tuple[Window, ...]:  # noqa: ANN401 - they are checked here
-    found = tuple(windows) if isinstance(windows, list | tuple) else (windows,)
-    for window in found:
-        if not isinstance(window, Window):
-            raise InputError(f"windows must be Window values such as via('a', 0.3, at=0.4), got {window!r}")
-    return found
-
-
-def _velocity(value: Any) -> bool:  # noqa: ANN401 - it is checked here
-    return value is not True and isinstance(value, Real) and isfinite(value) and float(value) > 1.0
-
-
-def _order(order: Any, boundary: Any) -> int:  # noqa: ANN401 - they are checked here
-    if boundary is not None and not isinstance(boundary, BoundaryConditions):
-        raise InputError(f"boundary must be BoundaryConditions(start, end), got {boundary!r}")
-    if boundary is not None and order in {0, boundary.order}:
-        return boundary.order
-    found = whole(order, "order", least=1)
-    if boundary is not None:
-        raise InputError(f"order {found} does not fit {boundary.order} boundary conditions at each end")
-    return found
+    return repr(found) if all(is_named(leaf) for _, leaf in leaves(found)) else found
 
 
 def _plain(one: Range) -> list[float | None]:
     return [one.low, one.high if isfinite(one.high) else None]
-
-
-def _check_choices(chosen: Any, **switches: Any) -> None:  # noqa: ANN401 - they are checked here
-    if not isinstance(chosen, Basis):
-        raise InputError(f"basis must be a Basis such as Powers(9) or Chebyshev(9), got {chosen!r}")
-    for name, value in switches.items():
-        if not isinstance(value, bool):
-            raise InputError(f"{name} must be True or False, got {value!r}")

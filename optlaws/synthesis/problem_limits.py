@@ -6,9 +6,10 @@ from math import isfinite
 
 from optlaws.errors import InputError
 from optlaws.synthesis.bounds import Range
+from optlaws.synthesis.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.expression import Expression, Maximum, Term
 from optlaws.synthesis.functionals import C_minus, C_plus, Functional
-from optlaws.synthesis.limits import best_velocity, limit
+from optlaws.synthesis.limits import best_velocity, limit, power_limit
 from optlaws.synthesis.problem import Problem
 
 _NAMES = {"C": "C", "D": "D", "J": "J", "rms_c": "RMS"}
@@ -49,10 +50,14 @@ def _of_term(problem: Problem, term: Term) -> float | None:
         return None
     if term in (C_plus, C_minus) and problem.symmetric:
         return _of_constant(problem, "C")
+    if isinstance(term, CombinedPeak | CombinedPower):
+        return term.least(problem.order)
     return _of_constant(problem, _NAMES[term.name]) if term.name in _NAMES else None
 
 
 def _of_constant(problem: Problem, constant: str) -> float | None:
+    if problem.inflexion not in {None, 0.5}:
+        return _uneven(problem, constant)
     B = _best(problem.range("B"), constant, problem.order)
     jerk = problem.range("J")
     try:
@@ -64,6 +69,26 @@ def _of_constant(problem: Problem, constant: str) -> float | None:
         return limit(constant, B, order=problem.order, monotone=problem.monotone)
     except InputError:
         return None
+
+
+def _uneven(problem: Problem, constant: str) -> float | None:
+    """Of laws whose peak velocity is not in the middle: the least at any B, and what B and the place ask of C and D."""
+    if problem.order == 1:
+        return None
+    least = limit(constant, None, order=problem.order)
+    k, asked = problem.inflexion, problem.range("B")
+    if constant not in {"C", "D"} or k is None or asked is None:
+        return least
+    if constant == "D":
+        # b²/2 rises from 0 to B²/2 in the time k, and falls back in 1 - k
+        rise = max(asked.low, 1.0) ** 2 / (2.0 * min(k, 1.0 - k))
+        B = min(max(asked.low, 1.5), asked.high)
+        return max(least, rise, power_limit(B, monotone=True) if problem.monotone else B**3 / (3.0 * (B - 1.0)))
+    # c takes b from 0 to B in the time k, and back in 1 - k
+    slopes = max(asked.low, 1.0) / min(k, 1.0 - k)
+    # with no more time at B than there is, a <= B - B² / C
+    B = min(max(asked.low, 2.0), asked.high)
+    return max(least, slopes, B * B / (B - 1.0))
 
 
 def _best(asked: Range | None, constant: str, order: int) -> float | None:

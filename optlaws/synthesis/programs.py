@@ -11,10 +11,9 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.bounds import Range
 from optlaws.synthesis.expression import Expression, Maximum, leaves
-from optlaws.synthesis.functionals import FUNCTIONALS, D, Functional
-from optlaws.synthesis.polynomial_space import PolynomialSpace
+from optlaws.synthesis.functionals import Functional, Power
 from optlaws.synthesis.problem import Problem
-from optlaws.synthesis.rows import Family, LinearFamily, MirroredFamily, Program, RootFamily
+from optlaws.synthesis.rows import Family, LinearFamily, Program
 from optlaws.synthesis.space import LawSpace
 from optlaws.synthesis.spaces import space_of
 from optlaws.synthesis.windows import Window
@@ -85,6 +84,12 @@ def _relaxed(problem: Problem, tangent: float) -> Model:
     return writer.model()
 
 
+def relaxed_power(problem: Problem) -> Power | None:
+    """The power that the relaxed program bounds; of several the first by name, the others are left out."""
+    powers = sorted((one for one in problem.constants if isinstance(one, Power)), key=lambda one: one.name)
+    return powers[0] if powers else None
+
+
 def least_violation(problem: Problem) -> Model:
     """Minimise t so that every constraint holds but for t: above 0 if and only if they contradict."""
     writer = _Writer(_space(problem), [], problem, extra="t")
@@ -124,7 +129,7 @@ class _Writer:
             names = [*names, "B"]
         if extra is not None:
             names = [*names, extra]
-        self.space = space
+        self.space, self.conditions, self.power = space, problem.conditions, relaxed_power(problem)
         self.places = {name: space.terms + i for i, name in enumerate(dict.fromkeys(names))}
         self.size = space.terms + len(self.places)
         self.spare = np.zeros(self.size)
@@ -152,8 +157,8 @@ class _Writer:
             self.cost /= size
             self.cost_unit = size
         for leaf in dict.fromkeys(leaf for _, leaf in leaves(expression)):
-            if leaf == D and ROOT in self.places:
-                self._power(self.unit("D"), 0.0)
+            if isinstance(leaf, Power) and ROOT in self.places:
+                self._power(leaf, self.unit(leaf.name), 0.0)
             elif isinstance(leaf, Functional):
                 self.families += leaf.families(self.space, self.unit(repr(leaf)), 0.0)
         for term in dict.fromkeys(_maxima(expression)):
@@ -171,8 +176,8 @@ class _Writer:
             self._peak_velocity(wanted, problem)
         if problem.monotone:
             self.families.append(self.space.forward(self.spare))
-        for name in ("C", "D", "J"):
-            self._at_most(name, problem.range(name))
+        for constant, asked in problem.bounded:
+            self._bounded(constant, asked)
         for one in self.space.equations():
             row = np.zeros(self.size)
             row[: self.space.terms] = one.row
@@ -185,37 +190,50 @@ class _Writer:
     def _peak_velocity(self, wanted: Range, problem: Problem) -> None:
         if problem.symmetric:
             self.families.append(self.space.below(self.spare))
-            middle = np.zeros(self.size)
-            *free, base = self.space.row(1, 0.5).tolist()
-            middle[: self.space.terms] = free
-            if not wanted.fixed:
-                middle -= self.unit("B")
-            self.equation(middle, (wanted.high if wanted.fixed else 0.0) - base)
+            self._value(1, wanted.high if wanted.fixed else 0.0, "" if wanted.fixed else "B", "b(1/2) = B")
         else:
-            signs = (1.0,) if problem.monotone else (1.0, -1.0)
-            self.families.append(self.space.derivative(1, "b", self.unit("B") + self.spare, signs=signs))
+            signs: tuple[float, ...] = (1.0, -1.0)
             if wanted.fixed:
                 self.equation(self.unit("B"), wanted.high)
-            if problem.boundary is None and wanted.low > 0.0:
-                middle = np.zeros(self.size)
-                *free, base = self.space.row(1, 0.5).tolist()
-                middle[: self.space.terms] = free
-                self.equation(middle - self.unit("B"), -base)
+            peak = problem.peak_at
+            if peak is not None:
+                at = "1/2" if peak == 0.5 else f"{peak:g}"
+                self.families.append(self.space.below(self.spare, peak))
+                self._value(1, 0.0, "B", f"b({at}) = B", peak)
+                self._value(2, 0.0, "", f"c({at}) = 0", peak)
+                signs = (-1.0,)
+            if problem.monotone:
+                signs = tuple(sign for sign in signs if sign > 0.0)
+            if signs:
+                self.families.append(self.space.derivative(1, "b", self.unit("B") + self.spare, signs=signs))
         if not wanted.fixed:
             if isfinite(wanted.high):
                 self.row("B at most", self.unit("B"), wanted.high)
             if wanted.low > 0.0:
                 self.row("B at least", -self.unit("B"), -wanted.low)
 
-    def _at_most(self, name: str, wanted: Range | None) -> None:
-        if wanted is None or not isfinite(wanted.high):
+    def _value(self, nu: int, right: float, variable: str, name: str, k: float = 0.5) -> None:
+        """The derivative of order nu at k is `right`, or the variable."""
+        *free, base = self.space.row(nu, k).tolist()
+        row = np.zeros(self.size)
+        row[: self.space.terms] = free
+        if variable:
+            row -= self.unit(variable)
+        self.equation(row, right - base, name)
+
+    def _bounded(self, constant: Functional, wanted: Range) -> None:
+        name = constant.name
+        if name in self.places and wanted.low > 0.0:
+            # its own constant is a law's best choice of the variable
+            self.row(f"{name} at least", -self.unit(name), -wanted.low)
+        if not isfinite(wanted.high):
             return
         if name in self.places:
             self.row(f"{name} at most", self.unit(name), wanted.high)
-        elif name == "D" and ROOT in self.places:
-            self._power(np.zeros(self.size), wanted.high)
+        elif isinstance(constant, Power) and ROOT in self.places:
+            self._power(constant, np.zeros(self.size), wanted.high)
         else:
-            self.families += FUNCTIONALS[name].families(self.space, self.spare, wanted.high)
+            self.families += constant.families(self.space, self.spare, wanted.high)
 
     def _window(self, name: str, window: Window) -> None:
         ends = (1.0 - 2.0 * window.stop, 1.0 - 2.0 * window.start)
@@ -228,19 +246,22 @@ class _Writer:
                 family = self.space.derivative(window.order, f"{name}, {_SIDES[sign]}", self.spare, bound, (sign,))
                 self.families.append(replace(family, domain=ends))
 
-    def _power(self, slack: Array, bound: float) -> None:
+    def _power(self, power: Power, slack: Array, bound: float) -> None:
         """Rows b <= r sqrt(2k), b >= -r sqrt(2k) from either end, and 2 t r - t² <= D."""
-        if not isinstance(self.space, PolynomialSpace) or self.space.order == 1:
+        if self.conditions.order == 1 or power != self.power:
+            if power != self.power and slack.any():
+                self.row(f"{power.name} at least", -slack, 0.0)
             return
-        root, domain = self.unit(ROOT), (0.0, 1.0)
-        series = self.space.widened(self.space.series(1), self.size)
+        weights = tuple(map(float, power.weights))
+        root, end_velocity = self.unit(ROOT), self.space.start_velocity + self.space.velocity_change
         # each row counts on rest at its end
-        end_velocity = self.space.start_velocity + self.space.velocity_change
         if self.space.start_velocity == 0.0:
-            self.families.append(RootFamily("b / sqrt(2k)", root, 0.0, (1.0, -1.0), domain, series=series))
+            self.families.append(self.space.from_rest("b / sqrt(2k)", root, weights=weights))
+        if self.space.symmetric and any(weights[1::2]):
+            facing = tuple(-w if i % 2 else w for i, w in enumerate(weights))
+            self.families.append(self.space.from_rest("b / sqrt(2 - 2k)", root, weights=facing))
         if not self.space.symmetric and abs(end_velocity) < _REST:
-            mirrored = series * (-1.0) ** np.arange(len(series))[:, None]
-            self.families.append(MirroredFamily("b / sqrt(2 - 2k)", root, 0.0, (1.0, -1.0), domain, series=mirrored))
+            self.families.append(self.space.from_rest("b / sqrt(2 - 2k)", root, backward=True, weights=weights))
         self.row("tangent", 2.0 * self.tangent * root - slack, bound + self.tangent**2)
 
     def equation(self, row: Array, right: float, name: str = "b(1/2) = B") -> None:

@@ -16,6 +16,7 @@ from optlaws.synthesis.polynomials import even_gegenbauer_jet
 Array = NDArray[np.float64]
 
 _END = 1e-9
+_AT_END = 1e-8  # a stationary point that rounding has moved off an end by symmetry is that end
 _NO_NORM = 1e-12  # at standstill and in uniform motion the norm has no slope
 
 
@@ -99,7 +100,7 @@ class Family(ABC):
             u = np.array([low])
         else:
             inner = self.stationary(x)
-            inner = np.sort(inner[(inner > low) & (inner < high)])
+            inner = np.sort(inner[(inner > low + _AT_END) & (inner < high - _AT_END)])
             u = np.concatenate([[low], inner, [high]])
         value, room = self.value(x, u), self.room(x)
         signs = np.repeat(self.signs, len(u))

@@ -11,11 +11,13 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.laws import Constants, MotionLaw
+from optlaws.laws import Constants, MotionLaw, Peak
 from optlaws.synthesis.active_set import ActiveSet
 from optlaws.synthesis.bases import PolynomialBasis, Powers
 from optlaws.synthesis.certificate import Certificate
+from optlaws.synthesis.power_certificate import PowerCertificate
 from optlaws.synthesis.problem import Problem
+from optlaws.synthesis.spline_bases import PiecewiseBasis
 
 # an objective that is zero but for rounding, such as the jounce of a cubic, is judged absolutely
 NOTHING = 1e-6
@@ -55,13 +57,15 @@ class Solution:
     law
         The motion law.
     z_series
-        Chebyshev coefficients of Z in 2k - 1, whatever the problem's basis.
+        Chebyshev coefficients of Z in 2k - 1, whatever the problem's basis; on each piece where Z is piecewise.
     objective
         The objective, recomputed from `law`.
     certificate
         Contacts and multipliers; `certificate.bound` is a lower bound, by numpy alone.
+    power_certificate
+        Where D is in the problem and the bound was asked to be tight: the proof that closes the gap.
     lower_bound
-        The best proven lower bound of the objective over all laws of the problem: the certificate's or the limit.
+        The best proven lower bound of the objective over all laws of the problem: a certificate's or the limit.
     limit
         What no law of any degree can beat; None where it is not known.
     status, iterations, seconds
@@ -92,6 +96,7 @@ class Solution:
     iterations: int
     seconds: float
     starts: tuple[float, ...] = ()
+    power_certificate: PowerCertificate | None = field(default=None, repr=False)
     active_set: ActiveSet = field(repr=False, kw_only=True)
 
     @property
@@ -103,7 +108,9 @@ class Solution:
     def z(self) -> tuple[float, ...] | None:
         """Coefficients of Z in the problem's basis; None for a law of pieces, which has no Z."""
         basis = self.problem.basis
-        return basis.coefficients(np.array(self.z_series)) if isinstance(basis, PolynomialBasis) else None
+        if isinstance(basis, PolynomialBasis | PiecewiseBasis):
+            return basis.coefficients(np.array(self.z_series))
+        return None
 
     @cached_property
     def z_powers(self) -> tuple[float, ...] | None:
@@ -131,13 +138,14 @@ class Solution:
             "lower_bound": self.lower_bound if isfinite(self.lower_bound) else None,
             "gap": self.gap if isfinite(self.gap) else None,
             "limit": self.limit,
-            "constants": self.constants.to_dict(),
-            "z": None if self.z_powers is None else list(self.z_powers),
+            "constants": {name: _plain(getattr(self.constants, name)) for name in ("B", "C", "D", "J")},
+            "z": None if self.z is None else list(self.z_powers or self.z),
             "law": self.law.to_dict(),
             "iterations": self.iterations,
             "seconds": self.seconds,
             "problem": self.problem.to_dict(),
             "certificate": self.certificate.to_dict(),
+            "power_certificate": None if self.power_certificate is None else self.power_certificate.to_dict(),
             "starts": list(self.starts),
             "versions": self.versions,
         }
@@ -148,6 +156,11 @@ class Solution:
             f"Solution(status={self.status.value!r}, objective={self.objective:.9g}, "
             f"lower_bound={self.lower_bound:.9g}, gap={self.gap:.1e}, {limit}problem={self.problem!r})"
         )
+
+
+def _plain(peak: Peak) -> dict[str, float | None]:
+    """JSON knows no infinite J, which an acceleration that jumps has."""
+    return {"value": peak.value if isfinite(peak.value) else None, "k": peak.k}
 
 
 @cache

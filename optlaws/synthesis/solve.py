@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, replace
+from math import isfinite
 from time import perf_counter
 
 import numpy as np
@@ -11,15 +12,17 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError, SolverFailure
 from optlaws.laws import MotionLaw
+from optlaws.suggest import unknown_key
 from optlaws.synthesis import starts
 from optlaws.synthesis.active_set import ActiveSet
 from optlaws.synthesis.bounding import certify, lower_bound
 from optlaws.synthesis.contacts import VIOLATION
 from optlaws.synthesis.exchange import Outcome, solve
 from optlaws.synthesis.failure import failure
-from optlaws.synthesis.forcing import held_up
-from optlaws.synthesis.functionals import FUNCTIONALS
+from optlaws.synthesis.forcing import raised
 from optlaws.synthesis.mixtures import warn_of_mixture
+from optlaws.synthesis.power_bound import tightened
+from optlaws.synthesis.power_certificate import PowerCertificate
 from optlaws.synthesis.problem import CONSTANTS, Problem
 from optlaws.synthesis.problem_limits import known_limit
 from optlaws.synthesis.programs import Model, model
@@ -28,13 +31,16 @@ from optlaws.synthesis.spaces import space_of
 from optlaws.synthesis.worth import shortfalls, worth
 
 GAP = 1e-8
+_SAME = 1e-9
+TIGHT = "tight"
+BOUNDS = ("quick", TIGHT)
 # what passes without a look at the divided rows, in which a contact pinned to the middle may hide a larger excess
 _ROUNDING = 1e-13
 
 Array = NDArray[np.float64]
 
 
-def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
+def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = "quick") -> Solution:
     """Find the law that minimises the problem's objective and prove it, or bound how much better one could be.
 
     Parameters
@@ -44,6 +50,10 @@ def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
     start
         A solution of a neighbouring problem (the same but for numbers): its contacts are continued by Newton's
         method and IPOPT is called only where that fails. Where the problem is convex the answer is the same.
+    bound
+        How to bound a problem with D in it, which is not convex: "quick", or "tight" by a search over all laws, which
+        takes from a tenth of a second to some seconds, usually meets the objective and finds better laws if there are
+        any. Other problems are proven either way.
 
     Returns
     -------
@@ -64,26 +74,31 @@ def synthesize(problem: Problem, *, start: Solution | None = None) -> Solution:
     (5.08070242, True)
     """
     began = perf_counter()
-    _check_types(problem, start)
-    warn_of_mixture(problem.objective)
+    _check_types(problem, start, bound)
+    warn_of_mixture(problem.objective, problem.order)
     found = model(problem)
     warm = start.active_set if start is not None and _neighbours(problem, start.problem) else None
     if warm is not None and len(warm.x) != found.program.size:
         warm = None  # a symmetric law stands for an unsymmetric one
     tries = [_attempt(problem, found, warm, None)]
     if not problem.convex and warm is None:
-        tries += [_attempt(problem, found, None, point) for point in starts.points(problem, found)]
+        for point in starts.points(problem, found):
+            tries.append(_attempt(problem, found, None, point))
+            if _agree(tries):
+                break
     sound = sorted((one for one in tries if one.law is not None), key=lambda one: one.objective)
     if not sound and problem.mirrored:
         # the optimum is flat among unsymmetric laws, and a symmetric one is among them
         return replace(synthesize(replace(problem, symmetric=True)), problem=problem)
     if not sound:
         raise failure(problem, tries[0].outcome)
-    plain = sound[0]
+    plain, power = sound[0], None
+    if bound == TIGHT and not problem.convex:
+        plain, power = _tightened(problem, found, plain)
     best = _raised(problem, found, plain)
-    objectives = tuple(one.objective for one in sound) if not problem.convex and best is plain else ()
+    objectives = tuple(one.objective for one in sound) if not problem.convex and best is sound[0] else ()
     iterations = sum(one.outcome.iterations for one in tries)
-    solution = _solution(problem, found, plain, best, (objectives, iterations, began))
+    solution = _solution(problem, found, (plain, best), _History(objectives, iterations, began, power))
     if problem.mirrored and solution.status is Status.INACCURATE:
         return replace(synthesize(replace(problem, symmetric=True)), problem=problem)
     return solution
@@ -121,11 +136,19 @@ class _Attempt:
     excess: float = np.inf
 
 
+def _agree(tries: list[_Attempt]) -> bool:
+    """Whether the first start and the last led to the same objective."""
+    first, last = tries[0].objective, tries[-1].objective
+    return tries[0].law is not None and tries[-1].law is not None and abs(first - last) <= _SAME * abs(first)
+
+
 def _attempt(problem: Problem, found: Model, warm: ActiveSet | None, point: Array | None) -> _Attempt:
     attempt = _Attempt(Outcome(None, 0, 0, ""))
     claim = found.program.objective * found.unit
+    last: list[Array] = []
 
     def holds(x: Array) -> bool:
+        last[:] = [x]
         law = found.space.law(x[: found.space.terms])
         measured = worth(problem, law)
         attempt.law, attempt.objective, attempt.excess = law, measured.objective, measured.excess
@@ -133,27 +156,36 @@ def _attempt(problem: Problem, found: Model, warm: ActiveSet | None, point: Arra
 
     attempt.outcome = solve(found.program, warm, start=point, holds=holds)
     optimum = attempt.outcome.optimum
-    if optimum is not None:
+    if optimum is not None and not (last and last[0] is optimum.x):
         holds(optimum.x)
     if optimum is None or attempt.excess > 10.0 * VIOLATION:
         attempt.law = None
     return attempt
 
 
-def _check_types(problem: object, start: object) -> None:
+def _check_types(problem: object, start: object, bound: object) -> None:
     if not isinstance(problem, Problem):
         raise InputError(f"synthesize takes a Problem, got {type(problem).__name__}")
     if start is not None and not isinstance(start, Solution):
         raise InputError(f"start must be a Solution of a neighbouring problem, got {type(start).__name__}")
+    if bound not in BOUNDS:
+        raise InputError(unknown_key(str(bound), BOUNDS, "bound"))
 
 
 def _neighbours(first: Problem, second: Problem) -> bool:
     same_kind = all(type(getattr(first, name)) is type(getattr(second, name)) for name in CONSTANTS)
-    alike = all(
-        getattr(first, name) == getattr(second, name) for name in ("order", "monotone", "symmetric", "boundary")
-    )
+    kept = ("order", "monotone", "symmetric", "boundary", "inflexion")
+    alike = all(getattr(first, name) == getattr(second, name) for name in kept)
+    asked = [[(one, isfinite(wanted.high)) for one, wanted in problem.bounded] for problem in (first, second)]
     weighted = [term for _, term in first.objective.terms] == [term for _, term in second.objective.terms]
-    return same_kind and alike and weighted and len(first.windows) == len(second.windows) and _same_space(first, second)
+    return (
+        same_kind
+        and alike
+        and asked[0] == asked[1]
+        and weighted
+        and len(first.windows) == len(second.windows)
+        and _same_space(first, second)
+    )
 
 
 def _raised(problem: Problem, found: Model, plain: _Attempt) -> _Attempt:
@@ -163,35 +195,63 @@ def _raised(problem: Problem, found: Model, plain: _Attempt) -> _Attempt:
     short = shortfalls(problem, plain.law)
     if not short:
         return plain
-    name, low = next(iter(short.items()))
     optimum = plain.outcome.optimum
     tried: list[_Attempt] = []
-    for held in held_up(found, optimum, name, low, lambda _: False) if optimum is not None else []:
+    for held in raised(problem, found, optimum) if optimum is not None else []:
         law = found.space.law(held.x[: found.space.terms])
         measured = worth(problem, law)
         if measured.excess <= 10.0 * VIOLATION and not shortfalls(problem, law):
             outcome = replace(plain.outcome, optimum=held)
             tried.append(_Attempt(outcome, law, measured.objective, measured.excess))
     if not tried:
+        constant, low = next(iter(short.items()))
         raise SolverFailure(
-            f"no law with {name} at least {low:g} was found; without that, its {name} is "
-            f"{FUNCTIONALS[name].value(plain.law):.7g}",
+            f"no law with {constant!r} at least {low:g} was found; without that, its {constant!r} is "
+            f"{constant.value(plain.law):.7g}",
             problem=problem,
-            tried="every extremum was held up, step by step",
+            tried="every extremum was held up, step by step, and the peak was asked at one place after the other",
         )
     return min(tried, key=lambda one: one.objective)
 
 
-def _solution(
-    problem: Problem, found: Model, plain: _Attempt, best: _Attempt, history: tuple[tuple[float, ...], int, float]
-) -> Solution:
+def _tightened(problem: Problem, found: Model, plain: _Attempt) -> tuple[_Attempt, PowerCertificate | None]:
+    """The best law that the search for a tight bound comes upon, with its proof."""
+    better: list[_Attempt] = [plain]
+
+    def explore(x: Array) -> bool:
+        tried = _attempt(problem, found, None, x)
+        if tried.law is not None and tried.objective < better[-1].objective * (1.0 - GAP):
+            better.append(tried)
+            return True
+        return False
+
+    while True:
+        best = better[-1]
+        optimum = best.outcome.optimum
+        power = None if optimum is None else tightened(problem, best.objective, optimum.x, explore)
+        if best is better[-1]:
+            return best, power
+
+
+@dataclass(frozen=True, eq=False)
+class _History:
+    """Where the starts led, IPOPT's iterations, when it began, and the proof of a tight bound."""
+
+    objectives: tuple[float, ...]
+    iterations: int
+    began: float
+    power: PowerCertificate | None
+
+
+def _solution(problem: Problem, found: Model, attempts: tuple[_Attempt, _Attempt], history: _History) -> Solution:
+    """From the best attempt without lower bounds of constants, which bounds the objective, and the one with them."""
+    plain, best = attempts
     optimum, bounding = best.outcome.optimum, plain.outcome.optimum
     if best.law is None or optimum is None or bounding is None:
         raise SolverFailure("no start led to a law", problem=problem)
-    objectives, iterations, began = history
     limit = known_limit(problem)
     proof = certify(problem, found, bounding, best.objective, limit)
-    bound = lower_bound(proof, limit)
+    bound = max(lower_bound(proof, limit), -np.inf if history.power is None else history.power.bound)
     if abs(best.objective - bound) <= GAP * (best.objective if best.objective > NOTHING else 1.0):
         status = Status.OPTIMAL
     else:
@@ -205,8 +265,9 @@ def _solution(
         lower_bound=bound,
         limit=limit,
         status=status,
-        iterations=iterations,
-        seconds=perf_counter() - began,
-        starts=objectives,
+        iterations=history.iterations,
+        seconds=perf_counter() - history.began,
+        starts=history.objectives,
+        power_certificate=history.power,
         active_set=bounding,
     )

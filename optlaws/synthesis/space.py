@@ -10,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
+from optlaws.synthesis.boundary import BoundaryConditions
 from optlaws.synthesis.rows import Family, LinearFamily, NormFamily, ProductFamily
 
 Array = NDArray[np.float64]
@@ -38,6 +39,8 @@ class LawSpace(ABC):
 
     Attributes
     ----------
+    boundary
+        End conditions.
     terms
         Number of coordinates.
     symmetric
@@ -46,6 +49,7 @@ class LawSpace(ABC):
         b(0), b(1) - b(0) and a(1) - a(0) of the base law.
     """
 
+    boundary: BoundaryConditions
     terms: int
     symmetric: bool
     start_velocity: float
@@ -76,8 +80,21 @@ class LawSpace(ABC):
         """Rows s a^(nu) <= slack . x + bound."""
 
     @abstractmethod
-    def power(self, name: str, slack: Array, bound: float = 0.0) -> ProductFamily:
-        """Rows |b c| <= slack . x + bound."""
+    def combination(
+        self,
+        nu: int,
+        weights: tuple[float, ...],
+        name: str,
+        slack: Array,
+        bound: float = 0.0,
+        *,
+        signs: tuple[float, ...] = (1.0, -1.0),
+    ) -> LinearFamily:
+        """Rows s (w0 a^(nu) + w1 a^(nu+1) + ...) <= slack . x + bound, on the space's part of the interval."""
+
+    @abstractmethod
+    def power(self, name: str, slack: Array, bound: float = 0.0, weights: tuple[float, ...] = (1.0,)) -> ProductFamily:
+        """Rows |b c| <= slack . x + bound; with weights, of w0 b + w1 c + ... and its derivative."""
 
     @abstractmethod
     def norm(self, nu: int, name: str, slack: Array, bound: float = 0.0) -> NormFamily:
@@ -88,12 +105,18 @@ class LawSpace(ABC):
         """The derivative of order nu at k: free functions, then the base law."""
 
     @abstractmethod
-    def below(self, slack: Array) -> Family:
-        """Rows b <= b(1/2) of symmetric laws."""
+    def below(self, slack: Array, peak: float = 0.5) -> Family:
+        """Rows b <= b(peak) of laws with c(peak) = 0; symmetric ones have their peak at 1/2."""
 
     @abstractmethod
     def forward(self, slack: Array) -> Family:
         """Rows b >= 0."""
+
+    @abstractmethod
+    def from_rest(
+        self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)
+    ) -> Family:
+        """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
 
     @abstractmethod
     def quadrature(self, nu: int) -> Quadrature:

@@ -10,6 +10,8 @@ from optlaws.synthesis.boundary import BoundaryConditions
 from optlaws.synthesis.piece_space import PieceSpace, piece_space
 from optlaws.synthesis.polynomial_space import PolynomialSpace, polynomial_space
 from optlaws.synthesis.space import LawSpace
+from optlaws.synthesis.spline_bases import PiecewiseBasis
+from optlaws.synthesis.spline_space import SplineSpace, spline_space
 
 
 @singledispatch
@@ -38,3 +40,8 @@ def _(basis: PolynomialBasis, boundary: BoundaryConditions, *, symmetric: bool) 
 @space_of.register
 def _(basis: Pieces, boundary: BoundaryConditions, *, symmetric: bool) -> PieceSpace:
     return piece_space(boundary, basis.breaks, basis.degree, basis.continuity, symmetric=symmetric)
+
+
+@space_of.register
+def _(basis: PiecewiseBasis, boundary: BoundaryConditions, *, symmetric: bool) -> SplineSpace:
+    return spline_space(boundary, basis, symmetric=symmetric)

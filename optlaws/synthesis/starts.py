@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import replace
 
 import numpy as np
@@ -19,24 +20,26 @@ _RANDOM = 2
 _SPREAD = 0.3
 
 
-def points(problem: Problem, found: Model) -> list[Array]:
-    """Coordinates of the laws of least C, of least RMS of c, and some around them; D follows from the law."""
-    convex = []
-    for constant in ("C", "rms_c"):
+def points(problem: Problem, found: Model) -> Iterator[Array]:
+    """Coordinates of the laws of least RMS of c, of least C, and some around them; D follows from the law."""
+    convex: list[Array] = []
+    for constant in ("rms_c", "C"):
         near = model(replace(problem, minimise=constant, D=None))
         optimum = solve(near.program).optimum
         if optimum is not None:
             convex.append(optimum.x[: found.space.terms])
-    if not problem.symmetric and problem.boundary is None:
-        convex += _from_symmetric(problem, found)
+            yield _completed(found, convex[-1])
+    if not problem.symmetric and problem.boundary is None and problem.inflexion is None:
+        for lifted in _from_symmetric(problem, found):
+            convex.append(lifted)
+            yield _completed(found, lifted)
     if not convex:
-        return []
+        return
     generator = np.random.default_rng(_SEED)
-    size = max(float(np.abs(convex[0]).max()), 1.0)
-    around = [
-        convex[i % len(convex)] + _SPREAD * size * generator.normal(size=found.space.terms) for i in range(_RANDOM)
-    ]
-    return [_completed(found, coordinates) for coordinates in (*convex, *around)]
+    size = max(float(np.abs(convex[-1]).max()), 1.0)
+    for i in range(_RANDOM):
+        away = _SPREAD * size * generator.normal(size=found.space.terms)
+        yield _completed(found, convex[i % len(convex)] + away)
 
 
 def _from_symmetric(problem: Problem, found: Model) -> list[Array]:

@@ -2,14 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import astuple, dataclass
 from functools import lru_cache
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.rows import LinearFamily, NormFamily, Points, ProductFamily, Program
+from optlaws.synthesis.cones import ConeFamily
+from optlaws.synthesis.rows import Family, LinearFamily, NormFamily, Points, ProductFamily, Program
 
 Array = NDArray[np.float64]
 
@@ -31,6 +32,25 @@ _LINEAR = {
 }
 
 
+_FINE = {"ipopt.tol": 1e-12, "ipopt.compl_inf_tol": 1e-12, "ipopt.dual_inf_tol": 1e-6}
+_USUAL = {"ipopt.tol": 1e-9}
+
+
+_KINDS: tuple[type[Family], ...] = (LinearFamily, ProductFamily, ConeFamily, NormFamily)
+_CONE_SHARE = 2.0  # the cone's row as IPOPT sees it is twice as steep as the magnitude itself
+
+
+@dataclass(frozen=True)
+class _Counts:
+    """Numbers of variables and of rows of each kind; of the norms, their lengths."""
+
+    size: int
+    linear: int
+    products: int
+    cones: int
+    norms: tuple[int, ...]
+
+
 @dataclass(frozen=True, eq=False)
 class Answer:
     """What IPOPT returned: never reported, only a start for the exact active set.
@@ -50,10 +70,13 @@ class Answer:
         return self.success or self.status == "Solved_To_Acceptable_Level"
 
 
-def solve_on_points(program: Program, points: list[Points], start: Array | None, *, careful: bool = False) -> Answer:
+def solve_on_points(
+    program: Program, points: list[Points], start: Array | None, *, careful: bool = False, fine: bool = False
+) -> Answer:
     """Solve the program with its families held at the points only.
 
-    `careful` goes without the quick steps for linear programs, which may diverge.
+    `careful` goes without the quick steps for linear programs, which may diverge; `fine` asks for smaller tolerances,
+    by which contacts of little weight are told from points that are merely near.
 
     Linear rows are scaled to unit length before IPOPT sees them; multipliers returned belong to the rows unscaled.
     """
@@ -71,10 +94,13 @@ def solve_on_points(program: Program, points: list[Points], start: Array | None,
     products = [(f, p) for f, p in pairs if isinstance(f, ProductFamily)]
     first, second, slack, bound = _product_rows(products, program.size)
     norms = [f for f in program.families if isinstance(f, NormFamily)]
-    solver = _solver(program.size, len(rows), len(first), tuple(len(f.matrix) for f in norms), careful=careful)
-    parts = [rows / length[:, None], first, second, slack, *(f.matrix for f in norms), *(f.slack[None] for f in norms)]
+    real, imaginary, room = _cone_rows([(f, p) for f, p in pairs if isinstance(f, ConeFamily)], program.size)
+    counts = _Counts(program.size, len(rows), len(first), len(room), tuple(len(f.matrix) for f in norms))
+    solver = _solver(counts, careful=careful, fine=fine)
+    parts = [rows / length[:, None], first, second, slack, real, imaginary, room]
+    parts += [*(f.matrix for f in norms), *(f.slack[None] for f in norms)]
     parameters = np.concatenate([*(part.ravel(order="F") for part in parts), program.objective])
-    upper = np.concatenate([right / length, bound, [f.bound for f in norms]])
+    upper = np.concatenate([right / length, bound, np.zeros(len(room)), [f.bound for f in norms]])
     lower = np.full(len(upper), -np.inf)
     equations = slice(len(rows) - len(program.right), len(rows))
     lower[equations] = upper[equations]
@@ -105,23 +131,34 @@ def _product_rows(products: list[tuple[ProductFamily, Points]], size: int) -> tu
     return first, second, slack, bound
 
 
+def _cone_rows(cones: list[tuple[ConeFamily, Points]], size: int) -> tuple[Array, Array, Array]:
+    real, imaginary, room = (np.empty((0, size + 1)) for _ in range(3))
+    for family, points in cones:
+        columns = family.columns(points.u)[0]
+        real, imaginary = np.vstack([real, columns.real]), np.vstack([imaginary, columns.imag])
+        room = np.vstack([room, np.tile(np.append(family.slack, family.bound), (len(points.u), 1))])
+    return real, imaginary, room
+
+
 def _split(pairs: list[tuple[Any, Points]], weights: Array, rows: int, equations: int) -> list[Array]:
     products = sum(len(p.u) for f, p in pairs if isinstance(f, ProductFamily))
-    begins = [0, rows, rows + products]
+    cones = sum(len(p.u) for f, p in pairs if isinstance(f, ConeFamily))
+    begins = [0, rows, rows + products, rows + products + cones]
     found = []
     for family, points in pairs:
-        kind = 0 if isinstance(family, LinearFamily) else 1 if isinstance(family, ProductFamily) else 2
+        kind = next(i for i, one in enumerate(_KINDS) if isinstance(family, one))
         begin = begins[kind]
         begins[kind] += len(points.u)
-        found.append(weights[begin : begin + len(points.u)])
+        share = _CONE_SHARE if isinstance(family, ConeFamily) else 1.0
+        found.append(share * weights[begin : begin + len(points.u)])
     return [*found, weights[rows - equations : rows]]
 
 
 @lru_cache(maxsize=512)
-def _solver(size: int, linear: int, products: int, norms: tuple[int, ...], *, careful: bool) -> Any:  # noqa: ANN401
-    # a casadi Function, imported late
+def _solver(counts: _Counts, *, careful: bool, fine: bool) -> Any:  # noqa: ANN401 - a casadi Function, imported late
     import casadi as ca
 
+    size, linear, products, cones, norms = astuple(counts)
     x = ca.MX.sym("x", size)
     point = ca.vertcat(x, 1)
     symbols: list[Any] = [
@@ -129,17 +166,24 @@ def _solver(size: int, linear: int, products: int, norms: tuple[int, ...], *, ca
         ca.MX.sym("first", products, size + 1),
         ca.MX.sym("second", products, size + 1),
         ca.MX.sym("slack", products, size),
+        ca.MX.sym("real", cones, size + 1),
+        ca.MX.sym("imaginary", cones, size + 1),
+        ca.MX.sym("rooms", cones, size + 1),
         *(ca.MX.sym("norm", count, size + 1) for count in norms),
         *(ca.MX.sym("room", 1, size) for _ in norms),
         ca.MX.sym("objective", size),
     ]
-    rows, first, second, slack = symbols[:4]
-    matrices, rooms = symbols[4 : 4 + len(norms)], symbols[4 + len(norms) : -1]
+    rows, first, second, slack, real, imaginary, room = symbols[:7]
+    matrices, rooms = symbols[7 : 7 + len(norms)], symbols[7 + len(norms) : -1]
     p = ca.vertcat(*(ca.vec(s) for s in symbols))
     curved = [(first @ point) * (second @ point) - slack @ x] if products else []
+    if cones:
+        # |p| <= r as |p|²/r <= r: convex as well, and smooth where p vanishes
+        wide = room @ point
+        curved.append(((real @ point) ** 2 + (imaginary @ point) ** 2) / wide - wide)
     curved += [ca.sqrt(ca.sumsqr(m @ point) + _SMOOTH) - room @ x for m, room in zip(matrices, rooms, strict=True)]
     program: Any = {"x": x, "p": p, "f": ca.dot(symbols[-1], x), "g": ca.vertcat(rows @ x, *curved)}
-    options: Any = {**_QUIET, **_REPEATABLE, "ipopt.tol": 1e-9}
+    options: Any = {**_QUIET, **_REPEATABLE, **(_FINE if fine else _USUAL)}
     if not curved:
         flat = ca.Function(
             "hessian",
@@ -149,6 +193,9 @@ def _solver(size: int, linear: int, products: int, norms: tuple[int, ...], *, ca
             ["triu_hess_gamma_x_x"],
         )
         options |= {**_LINEAR, "hess_lag": flat}
+    if cones and fine:
+        # such an answer may be the last word, and then it must keep to its bounds
+        options["ipopt.bound_relax_factor"] = 0.0
     if careful:
         options["ipopt.mehrotra_algorithm"] = "no"
     return ca.nlpsol("program", "ipopt", program, options)

@@ -7,7 +7,7 @@ from math import isfinite
 
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.expression import Expression, Maximum
-from optlaws.synthesis.functionals import FUNCTIONALS, Functional
+from optlaws.synthesis.functionals import B, Functional
 from optlaws.synthesis.problem import Problem
 
 _SHORT = 1e-9
@@ -25,38 +25,42 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
     """Objective and greatest excess over the constraints."""
     values: dict[str, float] = {}
     objective = _total(problem.objective, law, values)
-    excess = 0.0
-    wanted = problem.range("B")
-    if wanted is not None or problem.monotone:
-        lowest, highest = law.extrema(1)
-        if wanted is not None:
-            excess = max(excess, highest.value / wanted.high - 1.0)
-            if problem.boundary is None and wanted.low > 0.0:
-                excess = max(excess, 1.0 - highest.value / wanted.low)
-        if problem.monotone:
-            excess = max(excess, -lowest.value)
-        elif wanted is not None and not problem.symmetric:
-            excess = max(excess, -lowest.value / wanted.high - 1.0)
-    for name in ("C", "D", "J"):
-        wanted = problem.range(name)
-        if wanted is not None and isfinite(wanted.high):
-            value = values[name] if name in values else FUNCTIONALS[name].value(law)
-            excess = max(excess, value / wanted.high - 1.0)
+    excess = _velocity_excess(problem, law)
+    for constant, asked in problem.bounded:
+        if isfinite(asked.high):
+            value = values[constant.name] if constant.name in values else constant.value(law)
+            excess = max(excess, value / asked.high - 1.0)
     for window in problem.windows:
         lowest, highest = law.extrema(window.order, within=(window.start, window.stop))
         excess = max(excess, highest.value - window.high, window.low - lowest.value)
     return Worth(objective, excess)
 
 
-def shortfalls(problem: Problem, law: MotionLaw) -> dict[str, float]:
+def _velocity_excess(problem: Problem, law: MotionLaw) -> float:
+    wanted = problem.range("B")
+    if wanted is None and not problem.monotone:
+        return 0.0
+    lowest, highest = law.extrema(1)
+    excess = -lowest.value if problem.monotone else 0.0
+    if wanted is None:
+        return max(excess, 0.0)
+    greatest = max(highest.value, 0.0 if problem.symmetric else -lowest.value)
+    excess = max(excess, greatest / wanted.high - 1.0)
+    if problem.peak_at is not None:
+        middle = float(law.b(problem.peak_at))
+        excess = max(excess, greatest / middle - 1.0, wanted.low and 1.0 - middle / wanted.low)
+    return excess
+
+
+def shortfalls(problem: Problem, law: MotionLaw) -> dict[Functional, float]:
     """Constants that are below their lower bound, with that bound: a peak can be held down by rows, but not up."""
     # at rest at both ends an equation makes b(1/2) the asked B
-    names = ("C", "D", "J") if problem.boundary is None else ("B", "C", "D", "J")
-    asked = {name: problem.range(name) for name in names}
+    velocity = problem.range("B") if problem.boundary is not None and problem.peak_at is None else None
+    asked = [*problem.bounded, *([] if velocity is None else [(B, velocity)])]
     return {
-        name: wanted.low
-        for name, wanted in asked.items()
-        if wanted is not None and wanted.low > 0.0 and FUNCTIONALS[name].value(law) < wanted.low * (1.0 - _SHORT)
+        constant: wanted.low
+        for constant, wanted in asked
+        if wanted.low > 0.0 and constant.value(law) < wanted.low * (1.0 - _SHORT)
     }
 
 

@@ -95,9 +95,8 @@ def functional(order: int, degree: int, b: Exact, contact: Contact) -> Fraction:
 
 
 def chord(_: int, b: Exact, k: Fraction, __: int) -> Fraction:
-    """-(b(1/2) - b) / (1-2k)² by the powers of h; odd ones belong to c(1/2) = 0 and are left out."""
-    even = [value / 4 if n % 2 == 0 else Fraction(0) for n, value in enumerate(b.powers[2:])]
-    return Exact(even or [Fraction(0)])(k)
+    """-(b(1/2) - b) / (1-2k)² by the powers of h, without that of c(1/2) = 0."""
+    return Exact([value / 4 for value in b.powers[2:]] or [Fraction(0)])(k)
 
 
 def ratio(order: int, b: Exact, k: Fraction, _: int) -> Fraction:
@@ -176,11 +175,12 @@ def weak_duality(certificate: Certificate, *, mirrored: bool = False) -> Sum:
     if problem.symmetric and not mirrored:
         free = free[1::2]
     found.constant += sum((m * functional(problem.order, degree, base, c) for c, m in halves), Fraction(0))
-    middle = _equations(found, certificate)
-    found.constant += middle * base(HALF)
+    middle, bend = _equations(found, certificate)
+    found.constant += middle * base(HALF) + bend * base.derivative()(HALF)
     for b in free:
-        terms = [m * functional(problem.order, degree, b, c) for c, m in halves] + [middle * b(HALF)]
-        size = sum((m * _largest(problem.order, degree, b, c) for c, m in halves), abs(middle * b(HALF)))
+        terms = [m * functional(problem.order, degree, b, c) for c, m in halves]
+        terms += [middle * b(HALF), bend * b.derivative()(HALF)]
+        size = sum((m * _largest(problem.order, degree, b, c) for c, m in halves), abs(terms[-2]) + abs(terms[-1]))
         found.laws.append((sum(terms, Fraction(0)), size))
     return found
 
@@ -235,28 +235,28 @@ def _right_side(found: Sum, certificate: Certificate, contact: Contact, m: Fract
         found.constant -= m * Fraction(wanted.high)
 
 
-def _equations(found: Sum, certificate: Certificate) -> Fraction:
-    """Count in the equations; returns the weight of b(1/2)."""
+def _equations(found: Sum, certificate: Certificate) -> tuple[Fraction, Fraction]:
+    """Count in the equations; returns the weights of b(1/2) and c(1/2)."""
     problem = certificate.problem
     wanted = problem.range("B")
     weights = [Fraction(w) for w in certificate.equations]
     if wanted is None:
         assert not weights
-        return Fraction(0)
+        return Fraction(0), Fraction(0)
     if problem.symmetric:
         (middle,) = weights
         if wanted.fixed:
             found.constant -= middle * Fraction(wanted.high)
         else:
             found.slack("B", -middle)
-        return middle
+        return middle, Fraction(0)
     if wanted.fixed:
         fixed = weights.pop(0)
         found.slack("B", fixed)
         found.constant -= fixed * Fraction(wanted.high)
-    middle = weights.pop(0) if weights else Fraction(0)
+    middle, bend = weights or (Fraction(0), Fraction(0))
     found.slack("B", -middle)
-    return middle
+    return middle, bend
 
 
 def _maxima(problem: Problem) -> list[Maximum]:

@@ -1,8 +1,26 @@
-"""Random problems over everything that can be asked: objectives, constants, orders, degrees, ends."""
+"""Random problems over everything that can be asked: objectives, constants, orders, bases, degrees, ends."""
+
+from dataclasses import replace
 
 import numpy as np
 
-from optlaws import BoundaryConditions, Chebyshev, Problem, Range, at_least, at_most, between
+from optlaws import (
+    Bernstein,
+    BoundaryConditions,
+    BSplines,
+    C,
+    Chebyshev,
+    D,
+    J,
+    Pieces,
+    Powers,
+    Problem,
+    Range,
+    at_least,
+    at_most,
+    between,
+)
+from tests.synthesis.independent import polynomial
 
 CONVEX = (
     "C",
@@ -69,7 +87,30 @@ def _end(numbers: np.random.Generator, place: float, order: int) -> tuple[float,
     return (place, *higher)
 
 
+def _varied(numbers: np.random.Generator, problem: Problem) -> Problem:
+    """In another basis, or with a peak bounded from below, where dice say so."""
+    kind = str(numbers.choice(["", "powers", "bernstein", "splines", "pieces"], p=[0.5, 0.15, 0.15, 0.1, 0.1]))
+    count = 2 * int(numbers.integers(2, 5))
+    degree = polynomial(problem).degree
+    if kind == "powers":
+        problem = replace(problem, basis=Powers(min(degree, 11)))
+    elif kind == "bernstein":
+        problem = replace(problem, basis=Bernstein(degree))
+    elif kind == "splines":
+        problem = replace(problem, basis=BSplines(count, 4))
+    elif kind == "pieces":
+        problem = replace(problem, basis=Pieces(count, 6, 4))
+    if numbers.random() < 0.08:
+        constant = (C, J, D)[int(numbers.integers(3))]
+        own = problem.range(constant.name)
+        low = {C: 6.0, J: 80.0, D: 5.0}[constant] * float(numbers.uniform(1.0, 1.6))
+        asked = at_least(round(low, 3)) if own is None else between(round(0.9 * own.high, 3), own.high)
+        cleared = replace(problem, C=None, J=None, D=None)
+        problem = replace(cleared, bounds={**dict(problem.bounded), constant: asked})
+    return problem
+
+
 def random_problems(seed: int, count: int) -> list[Problem]:
-    """The same ones at every run."""
-    numbers = np.random.default_rng(seed)
-    return [random_problem(numbers) for _ in range(count)]
+    """The same ones at every run, in every basis."""
+    numbers, others = np.random.default_rng(seed), np.random.default_rng([seed, 1])
+    return [_varied(others, random_problem(numbers)) for _ in range(count)]

@@ -132,7 +132,9 @@ def test_a_wrong_switch_is_named(name: str, wrong: object) -> None:
 
 
 def test_an_unknown_basis_is_named_with_the_known_ones() -> None:
-    with pytest.raises(InputError, match="'splines' is unknown; known are bernstein, chebyshev, pieces, powers"):
+    with pytest.raises(
+        InputError, match="'splines' is unknown; known are bernstein, bsplines, chebyshev, pieces, powers"
+    ):
         basis("splines", 3)
 
 
@@ -183,7 +185,7 @@ def test_a_start_that_is_no_solution_is_refused(wrong: Any) -> None:  # noqa: AN
         lambda: Chebyshev(degre=3),  # type: ignore[call-arg]
         lambda: BoundaryConditions(begin=(0,), end=(1,)),  # type: ignore[call-arg]
         lambda: BoundaryConditions.rest(l=2),  # type: ignore[call-arg]
-        lambda: construct(BoundaryConditions.rest(2), zz=[1.0]),  # type: ignore[call-arg]
+        lambda: construct(BoundaryConditions.rest(2), zz=[1.0]),  # type: ignore[call-overload]
         lambda: acceleration_limit(2.0, monoton=True),  # type: ignore[call-arg]
         lambda: synthesize(Problem(B=1.5, order=2), strat=None),  # type: ignore[call-arg]
         lambda: sweep(problem=[]),  # type: ignore[call-arg]

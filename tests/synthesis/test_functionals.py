@@ -8,7 +8,7 @@ import pytest
 
 from optlaws import Chebyshev, Powers, Problem, Solution, at_most, between, construct, synthesize
 from optlaws.synthesis import Basis
-from tests.synthesis.independent import DENSE, extremes, z_of
+from tests.synthesis.independent import DENSE, z_of
 from tests.synthesis.judge import Judged, judge
 from tests.synthesis.reference import least, least_power_of_energies, power_by_slsqp, rms_by_a_linear_system
 from tests.synthesis.test_optimal_table import PRINTED, law_of
@@ -205,7 +205,7 @@ def test_the_least_power_is_below_that_of_other_laws_and_above_the_limit(B: floa
 @every_velocity
 def test_every_start_leads_to_the_same_power_or_the_solution_says_so(B: float) -> None:
     solution = least_power(B)
-    assert len(solution.starts) >= 3
+    assert len(solution.starts) >= 2
     assert solution.starts[0] == solution.objective
     assert list(solution.starts) == sorted(solution.starts)
 
@@ -235,7 +235,7 @@ def test_random_laws_have_no_less_power() -> None:
         step[1] -= np.polynomial.Chebyshev(step).deriv()(0.0)
         law = construct(solution.problem.conditions, z + step, Chebyshev(9))
         one = Judged(law)
-        low, high = extremes(one.derivatives[1])
+        low, high = one.derivatives[1].extremes()
         if high <= 1.859 * (1 + 1e-9) and low > -np.inf:
             seen += 1
             assert one.constants["D"] >= solution.objective * (1 - 1e-7)

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, InfeasibleProblem, InputError, Pieces, Problem, Window, synthesize, via
+from tests.synthesis.grids import polynomials
 
 CASES = [
     Problem(B=1.7, order=3, windows=(via("a", 0.08, at=0.2),)),
@@ -16,6 +17,13 @@ CASES = [
     Problem(order=3, minimise="J", symmetric=False, windows=(Window("c", high=5, start=0, stop=0.2),)),
     Problem(order=3, minimise="D", symmetric=False, windows=(via("a", 0.25, at=0.3),)),
     Problem(B=1.8, order=3, windows=(via("b", 0.9, at=0.2),), basis=Pieces(16, degree=3, continuity=2)),
+    Problem(
+        order=3,
+        symmetric=False,
+        windows=(Window("a", high=0.2, start=0.0, stop=0.4), Window("a", low=0.75, start=0.6)),
+        basis=Chebyshev(15),
+    ),
+    Problem(B=1.8, order=3, windows=(Window("j", -60, 60, 0, 0), Window("j", -90, 90, 1, 1)), basis=Chebyshev(15)),
 ]
 
 
@@ -98,3 +106,26 @@ def test_other_windows_are_refused() -> None:
     with pytest.raises(InputError, match="did you mean 'start'"):
         Window.from_dict({"quantity": "a", "low": 0.1, "strat": 0.2})
     assert Window.from_dict({"quantity": "c", "value": 0, "at": 0.4}) == via("c", 0, at=0.4)
+
+
+@pytest.mark.parametrize("high", [0.2, 0.12])
+def test_highs_agrees_on_forbidden_zones(high: float) -> None:
+    windows = (Window("a", high=high, start=0.0, stop=0.4), Window("a", low=0.75, start=0.6))
+    solution = synthesize(Problem(order=3, symmetric=False, windows=windows, basis=Chebyshev(9)))
+    assert solution.status == "optimal"
+    one = polynomials(3, 9)
+    c = one.rows(2)
+    zone = np.vstack([one.rows(0, 0.0, 0.4), one.row(0, 0.4)])
+    other = -np.vstack([one.rows(0, 0.6, 1.0), one.row(0, 0.6)])
+    wanted = one.least([(c, None), (-c, None), (zone, high), (other, -0.75)])
+    assert wanted is not None
+    assert wanted * (1 - 1e-9) <= solution.objective <= wanted * (1 + 2e-5)
+
+
+def test_jerk_at_the_ends_is_limited_at_both_ends_of_a_symmetric_law() -> None:
+    free = synthesize(Problem(B=1.8, order=3, basis=Chebyshev(15)))
+    ends = synthesize(Problem(B=1.8, order=3, basis=Chebyshev(15), windows=(Window("j", -60, 60, 0, 0),)))
+    assert abs(free.law.j(0.0)) > 300
+    assert ends.status == "optimal"
+    assert max(abs(ends.law.j(0.0)), abs(ends.law.j(1.0))) == pytest.approx(60.0, rel=1e-9)
+    assert ends.objective > free.objective

@@ -1,0 +1,85 @@
+"""Breaks between which a law or its Z is one polynomial."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from numbers import Integral
+
+from optlaws.errors import InputError
+from optlaws.laws.checks import whole
+from optlaws.laws.segments import numbers
+
+_MIRROR = 1e-12
+
+
+def places(breaks: int | Sequence[float]) -> tuple[float, ...]:
+    """Breaks as floats; a number asks for so many pieces of equal length.
+
+    Raises
+    ------
+    InputError
+        If they do not increase from 0 to 1.
+
+    Examples
+    --------
+    >>> places(4), places([0, 0.3, 1])
+    ((0.0, 0.25, 0.5, 0.75, 1.0), (0.0, 0.3, 1.0))
+    """
+    if isinstance(breaks, Integral):
+        number = whole(breaks, "number of pieces", least=1)
+        return tuple(i / number for i in range(number + 1))
+    found = numbers(breaks, "breaks")
+    if len(found) < 2 or found[0] != 0.0 or found[-1] != 1.0 or not all(a < b for a, b in pairwise(found)):
+        raise InputError(f"breaks must increase from 0 to 1, got {found!r}")
+    return found
+
+
+def mirrored(breaks: Sequence[float]) -> bool:
+    """Whether the breaks are symmetric about 1/2.
+
+    Examples
+    --------
+    >>> mirrored((0.0, 0.3, 0.7, 1.0)), mirrored((0.0, 0.3, 1.0))
+    (True, False)
+    """
+    return all(abs(one + other - 1.0) <= _MIRROR for one, other in zip(breaks, reversed(breaks), strict=True))
+
+
+def order_of_continuity(continuity: int, degree: int) -> int:
+    """The order up to which derivatives are continuous at the breaks, checked.
+
+    Raises
+    ------
+    InputError
+        If it is not an integer from 1 to degree - 1.
+
+    Examples
+    --------
+    >>> order_of_continuity(2, 3)
+    2
+    """
+    found = whole(continuity, "continuity", least=1)
+    if found >= degree:
+        raise InputError(f"continuity must be below the degree {degree}, got {found}")
+    return found
+
+
+def read_breaks(text: str) -> int | list[float]:
+    """Breaks from text: a number of equal pieces, or the places separated by blanks.
+
+    Raises
+    ------
+    InputError
+        If it is neither.
+
+    Examples
+    --------
+    >>> read_breaks("8"), read_breaks("0 0.3 1")
+    (8, [0.0, 0.3, 1.0])
+    """
+    try:
+        found = [float(one) for one in text.replace(",", " ").split()]
+    except ValueError as error:
+        raise InputError(f"breaks are a number of pieces or places separated by blanks: {error}") from None
+    return int(found[0]) if len(found) == 1 and found[0].is_integer() else found

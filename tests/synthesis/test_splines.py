@@ -1,0 +1,239 @@
+"""Z in B-splines: scipy's splines, laws found again by HiGHS, and everything that works with a polynomial Z."""
+
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.interpolate import BSpline
+
+from optlaws import (
+    Basis,
+    Bernstein,
+    BoundaryConditions,
+    BSplines,
+    Certificate,
+    InfeasibleProblem,
+    InputError,
+    MotionLaw,
+    PiecewiseLaw,
+    Problem,
+    Window,
+    at_most,
+    between,
+    construct,
+    limit,
+    synthesize,
+    via,
+)
+from optlaws.synthesis import PiecewiseBasis
+from tests.synthesis.grids import splines
+
+K = np.linspace(0.0, 1.0, 301)
+UNEVEN = (0.0, 0.2, 0.5, 0.8, 1.0)
+
+bases = st.builds(
+    lambda inner, degree, lower: BSplines((0.0, *sorted(inner), 1.0), degree, max(degree - lower, 1)),
+    st.sets(st.integers(1, 15).map(lambda n: n / 16), max_size=4),
+    st.integers(2, 5),
+    st.integers(1, 3),
+)
+
+
+@given(bases, st.integers(0, 1000))
+def test_z_is_the_spline_of_scipy(basis: BSplines, seed: int) -> None:
+    z = np.random.default_rng(seed).normal(size=basis.size)
+    wanted = BSpline(basis.knots, z, basis.degree)
+    for (low, high), powers in zip(pairwise(basis.breaks), basis.pieces(z.tolist()), strict=True):
+        s = np.linspace(0.05, 0.95, 7)
+        assert np.polyval(np.array(powers, dtype=float)[::-1], s) == pytest.approx(
+            wanted(low + (high - low) * s), abs=1e-11
+        )
+    assert basis.coefficients(basis.series(z.tolist())) == pytest.approx(z, abs=1e-11)
+
+
+def test_splines_are_positive_and_add_up_to_1() -> None:
+    basis = BSplines(UNEVEN, 4, 2)
+    for powers in basis.pieces([1] * basis.size):
+        assert powers == [Fraction(1), 0, 0, 0, 0]
+    for one in np.eye(basis.size).tolist():
+        assert all(
+            float(sum(p * Fraction(i, 8) ** n for n, p in enumerate(powers))) >= 0.0
+            for powers in basis.pieces(one)
+            for i in range(9)
+        )
+
+
+def test_one_piece_is_bernstein() -> None:
+    z = [1.5, -2.0, 0.25, 3.0]
+    law, same = (construct(BoundaryConditions.rest(3), z, basis) for basis in (BSplines(1, 3), Bernstein(3)))
+    assert isinstance(law, PiecewiseLaw)
+    assert law.c(K) == pytest.approx(same.c(K), abs=1e-12)
+    found, other = (synthesize(Problem(B=1.9, order=3, basis=basis)) for basis in (BSplines(1, 5), Bernstein(5)))
+    assert found.objective == pytest.approx(other.objective, rel=1e-11)
+    assert found.z == pytest.approx(other.z, rel=1e-8, abs=1e-8)
+
+
+@given(bases, st.integers(1, 4), st.integers(0, 1000))
+def test_no_choice_of_z_breaks_the_ends_or_the_continuity(basis: BSplines, order: int, seed: int) -> None:
+    conditions = BoundaryConditions((0.0, 0.5, -1.0, 2.0)[:order], (1.0, 0.25, 3.0, 0.0)[:order])
+    law = construct(conditions, np.random.default_rng(seed).normal(size=basis.size), basis)
+    start, end = law.boundary_values(order)
+    assert start == pytest.approx(conditions.start, abs=1e-10)
+    assert end == pytest.approx(conditions.end, abs=1e-10)
+    for nu in range(1, min(basis.continuity, 3) + 1):
+        assert law.jumps(nu) == ()
+
+
+PROBLEMS = [
+    Problem(B=1.859, order=3, basis=BSplines(6, 3)),
+    Problem(B=1.859, order=3, basis=BSplines(6, 3), symmetric=False),
+    Problem(order=4, basis=BSplines(5, 4, 2), minimise="J"),
+    Problem(B=1.7, order=2, basis=BSplines(UNEVEN, 3, 1)),
+    Problem(B=between(1.5, 1.8), order=3, basis=BSplines(4, 5, 3), minimise="rms_c", J=at_most(60)),
+    Problem(B=2.5, order=3, basis=BSplines(7, 3), monotone=True),
+    Problem(B=1.8, order=3, basis=BSplines(8, 3), windows=(Window("b", high=1.2, start=0.2, stop=0.3),)),
+    Problem(order=3, basis=BSplines((0.0, 0.3, 0.6, 1.0), 4, 3), symmetric=False, windows=(via("a", 0.3, at=0.4),)),
+    Problem(B=1.8, order=3, basis=BSplines(6, 3), symmetric=False, inflexion=0.4),
+    Problem(boundary=BoundaryConditions((0, 0, 0), (1, 0.5, 0)), symmetric=False, basis=BSplines(6, 3)),
+    Problem(B=1.8, order=1, basis=BSplines(4, 3)),
+    Problem(order=3, basis=BSplines(6, 4), minimise="max(C/4, J/32)", bounds={"jounce": at_most(5000)}),
+]
+
+
+@pytest.mark.parametrize("problem", PROBLEMS, ids=range(len(PROBLEMS)))
+def test_laws_are_proven_and_their_z_makes_them(problem: Problem) -> None:
+    solution = synthesize(problem)
+    assert solution.status == "optimal"
+    assert solution.lower_bound <= solution.objective * (1 + 1e-11)
+    basis = problem.basis
+    assert isinstance(basis, BSplines)
+    assert solution.z is not None
+    law = construct(problem.conditions, solution.z, basis)
+    assert law.c(K) == pytest.approx(solution.law.c(K), abs=1e-9 * solution.constants.C.value)
+    assert law.a(K) == pytest.approx(solution.law.a(K), abs=1e-12)
+    if problem.symmetric:
+        assert solution.law.a(K) + solution.law.a(1.0 - K) == pytest.approx(1.0, abs=1e-12)
+    if problem.monotone:
+        assert solution.law.extrema(1)[0].value >= -1e-10
+    for window in problem.windows:
+        values = solution.law(np.linspace(window.start, window.stop, 1001), window.order)
+        assert window.low - 1e-9 <= values.min() <= values.max() <= window.high + 1e-9
+    assert Problem.from_dict(problem.to_dict()) == problem
+    assert MotionLaw.from_dict(solution.law.to_dict()) == solution.law
+    assert solution.to_dict()["z"] == list(solution.z)
+    proof = Certificate.from_dict(solution.certificate.to_dict())
+    assert proof.bound == solution.certificate.bound
+
+
+@pytest.mark.parametrize("peak", [0.5, 0.4])
+@pytest.mark.parametrize("B", [1.6, 2.2])
+def test_highs_finds_the_same_least_acceleration(B: float, peak: float) -> None:
+    one = splines(3, tuple(i / 6 for i in range(7)), 3, 2)
+    c, b = one.rows(2), one.rows(1)
+    at_peak = [(one.row(1, peak), B), (one.row(2, peak), 0.0)]
+    wanted = one.least([(c, None), (-c, None), (b, B), (-b, B)], at_peak)
+    problem = Problem(B=B, order=3, basis=BSplines(6, 3), symmetric=False, inflexion=None if peak == 0.5 else peak)
+    solution = synthesize(problem)
+    assert wanted is not None
+    assert solution.objective == pytest.approx(wanted, rel=1e-4)
+    assert solution.objective >= wanted * (1 - 1e-7)
+
+
+def test_peaks_are_seen_from_both_sides_of_a_break() -> None:
+    # the jerk of these laws jumps, and its peaks stand beside the breaks
+    solution = synthesize(Problem(order=3, minimise="J", basis=BSplines(8, 3)))
+    assert solution.status == "optimal"
+    one = splines(3, tuple(i / 8 for i in range(9)), 3, 2)
+    wanted = one.least([(one.rows(3), None), (-one.rows(3), None)])
+    assert wanted is not None
+    assert wanted <= solution.objective <= wanted * (1 + 1e-6)
+    assert len(solution.law.jumps(3)) > 0  # type: ignore[attr-defined] # it is piecewise
+    rough = synthesize(Problem(B=1.7, order=2, basis=BSplines(8, 3, 1)))
+    law = rough.law
+    assert isinstance(law, PiecewiseLaw)
+    assert law.continuity == 1
+    assert rough.objective == law.peak(2).value
+
+
+def test_more_pieces_come_nearer_to_the_limit() -> None:
+    excess = [
+        synthesize(Problem(B=1.859, order=3, basis=BSplines(n, 3))).objective / limit("C", 1.859) - 1.0
+        for n in (4, 8, 16, 32)
+    ]
+    rates = -np.diff(np.log(excess)) / np.log(2.0)
+    assert (rates > 0.45).all()
+    assert excess[-1] < 0.04
+
+
+@pytest.mark.parametrize("minimise", ["J", "rms_j", "jounce"])
+def test_impulses_are_refused(minimise: str) -> None:
+    with pytest.raises(InputError, match="continuity of at least"):
+        synthesize(Problem(order=2, minimise=minimise, basis=BSplines(4, 3, 1)))
+
+
+def test_a_contradiction_is_proven() -> None:
+    with pytest.raises(InfeasibleProblem) as caught:
+        synthesize(Problem(B=1.05, order=4, basis=BSplines(2, 2)))
+    assert isinstance(caught.value.proof, Certificate)
+    assert caught.value.proof.proves_infeasible
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        ((4, 1), "at least 2"),
+        ((4, 3, 3), "below the degree"),
+        ((4, 3, 0), "at least 1"),
+        ((0,), "number of pieces"),
+        ((True,), "number of pieces"),
+        (((0.0, 0.5, 0.5, 1.0),), "increase"),
+        (("0 1",), "breaks"),
+    ],
+)
+def test_splines_that_make_no_sense_are_refused(arguments: tuple[object, ...], text: str) -> None:
+    with pytest.raises(InputError, match=text):
+        BSplines(*arguments)  # type: ignore[arg-type] # that is the point
+
+
+def test_symmetric_laws_need_symmetric_breaks_but_no_break_in_the_middle() -> None:
+    with pytest.raises(InputError, match="symmetric about 1/2"):
+        Problem(B=1.7, order=3, basis=BSplines((0.0, 0.3, 1.0)))
+    assert len(synthesize(Problem(B=1.7, order=3, basis=BSplines(5))).law.breaks) == 6  # type: ignore[attr-defined]
+    with pytest.raises(InputError, match="takes 7 coefficients"):
+        construct(BoundaryConditions.rest(3), [1.0], BSplines(4))
+
+
+def test_a_basis_of_ones_own_is_one_class() -> None:
+    class Hinges(PiecewiseBasis):
+        """1, k, ..., k^n and (k - break)^n beyond each break."""
+
+        name = "hinges"
+
+        @property
+        def size(self) -> int:
+            return self.degree + len(self.breaks) - 1
+
+        def pieces(self, z: object) -> list[list[float]]:
+            z = list(map(float, z))  # type: ignore[call-overload]
+            found = []
+            for low, high in pairwise(self.breaks):
+                total = np.polynomial.Polynomial(z[: self.degree + 1])
+                for place, weight in zip(self.breaks[1:-1], z[self.degree + 1 :], strict=True):
+                    if place <= low:
+                        total += weight * np.polynomial.Polynomial([-place, 1.0]) ** self.degree
+                local = total(np.polynomial.Polynomial([low, high - low]))
+                found.append(local.coef.tolist())
+            return found
+
+    try:
+        for symmetric in (True, False):
+            problem = Problem(B=1.8, order=3, basis=Hinges(4, 3), symmetric=symmetric)
+            solution, other = (synthesize(one) for one in (problem, Problem(B=1.8, order=3, basis=BSplines(4, 3))))
+            assert solution.objective == pytest.approx(other.objective, rel=1e-9)
+            assert solution.z is not None
+            assert Problem.from_dict(problem.to_dict()) == problem
+    finally:
+        del Basis.kinds["hinges"]
