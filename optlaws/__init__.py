@@ -1,15 +1,41 @@
 """Optimal motion laws for cam mechanisms and servo axes, with proof of their optimality."""
 
+from typing import TYPE_CHECKING, Any
+
 from optlaws.errors import InfeasibleProblem, InputError, NotNormalised, OptlawsError, SolverFailure
 from optlaws.laws import Constants, MotionLaw, Peak, PolynomialLaw, smoothstep
+from optlaws.laws.catalogue import catalogue
+from optlaws.laws.multiplier import multiplied
 from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.savin import savin
+from optlaws.laws.savin_family import SavinFamily
+from optlaws.laws.transform import mirrored_law, reversed_law, with_end_velocity
+from optlaws.laws.trapezoids import scca, trapezoid
+from optlaws.mechanisms.angles import deg
+from optlaws.mechanisms.clutch import Clutch
+from optlaws.mechanisms.cycle import CycleResponse
+from optlaws.mechanisms.dwell import dwell_mechanism
+from optlaws.mechanisms.dwell_choice import compare_dwell_mechanisms
+from optlaws.mechanisms.follower import Follower
+from optlaws.mechanisms.loader import Loader, loader
+from optlaws.mechanisms.loader_optimal import BalancedLaw, balanced_law
+from optlaws.mechanisms.loader_trapezium import TrapeziumSubstitute
+from optlaws.mechanisms.off_design import Deviation, off_design
+from optlaws.mechanisms.optimal_polydyne import cam_constant
+from optlaws.mechanisms.polydyne import mass_law, polydyne
+from optlaws.mechanisms.residual import residual_functional, residual_phasor
+from optlaws.mechanisms.response import Response
+from optlaws.mechanisms.robust import residual
+from optlaws.mechanisms.spectrum import ResponseSpectrum, response_spectrum
+from optlaws.mechanisms.torsion_design import find_torsion_levers
+from optlaws.mechanisms.torsion_lever import TorsionLever
 from optlaws.synthesis import (
     FUNCTIONALS,
     B,
     Basis,
     Bernstein,
     BoundaryConditions,
+    BSplines,
     C,
     C_minus,
     C_plus,
@@ -45,9 +71,15 @@ from optlaws.synthesis import (
     via,
 )
 
+if TYPE_CHECKING:
+    from optlaws.studies.sweeps.run import run_study
+    from optlaws.studies.sweeps.study import open_study
+
 __all__ = [
     "FUNCTIONALS",
     "B",
+    "BSplines",
+    "BalancedLaw",
     "Basis",
     "Bernstein",
     "BoundaryConditions",
@@ -56,15 +88,20 @@ __all__ = [
     "C_plus",
     "Certificate",
     "Chebyshev",
+    "Clutch",
     "Constants",
     "Contact",
+    "CycleResponse",
     "D",
+    "Deviation",
     "Expression",
+    "Follower",
     "Front",
     "Functional",
     "InfeasibleProblem",
     "InputError",
     "J",
+    "Loader",
     "MotionLaw",
     "NotNormalised",
     "OptlawsError",
@@ -75,33 +112,69 @@ __all__ = [
     "Powers",
     "Problem",
     "Range",
+    "Response",
+    "ResponseSpectrum",
+    "SavinFamily",
     "Solution",
     "SolverFailure",
     "Status",
+    "TorsionLever",
+    "TrapeziumSubstitute",
     "Window",
     "acceleration_limit",
     "at_least",
     "at_most",
+    "balanced_law",
     "between",
+    "cam_constant",
+    "catalogue",
+    "compare_dwell_mechanisms",
     "construct",
+    "deg",
+    "dwell_mechanism",
+    "find_torsion_levers",
     "jounce",
     "limit",
     "limit_law",
+    "loader",
+    "mass_law",
     "maximum",
+    "mirrored_law",
+    "multiplied",
+    "off_design",
+    "open_study",
     "pareto_front",
+    "polydyne",
+    "residual",
+    "residual_functional",
+    "residual_phasor",
+    "response_spectrum",
+    "reversed_law",
     "rms_c",
     "rms_j",
+    "run_study",
     "savin",
+    "scca",
     "smoothstep",
     "sweep",
     "synthesize",
+    "trapezoid",
     "via",
+    "with_end_velocity",
 ]
 
 
-def __getattr__(name: str) -> str:
+def __getattr__(name: str) -> Any:  # noqa: ANN401 - text or a function
     if name == "__version__":
         from importlib.metadata import version
 
         return version("optlaws")
+    if name == "open_study":
+        from optlaws.studies.sweeps.study import open_study
+
+        return open_study
+    if name == "run_study":
+        from optlaws.studies.sweeps.run import run_study
+
+        return run_study
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

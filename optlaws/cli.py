@@ -14,11 +14,18 @@ from cyclopts import App, CycloptsError, Parameter, Token
 from rich.console import Console
 from rich.table import Table
 
+from optlaws.cli_atlas import atlas
+from optlaws.cli_balancing import dwell, loader
+from optlaws.cli_follower import follower
 from optlaws.cli_front import front
+from optlaws.cli_laws import catalogue, constants_table, law
+from optlaws.cli_lever import lever
+from optlaws.cli_study import study
 from optlaws.cli_verify import NotProven, verify
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
-from optlaws.laws import Constants
-from optlaws.synthesis import BoundaryConditions, Problem, Range, Solution, at_most, basis, construct, synthesize
+from optlaws.synthesis import Basis, BoundaryConditions, Problem, Range, Solution, at_most, basis, construct, synthesize
+from optlaws.synthesis.bounds import read_bounds
+from optlaws.synthesis.breaks import read_breaks
 
 NOT_PROVEN, BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 1, 2, 3, 4, 130
 
@@ -83,9 +90,17 @@ def solve(
     most_acceleration: float | None = None,
     most_power: float | None = None,
     most_jerk: float | None = None,
-    basis_name: Annotated[Literal["powers", "chebyshev", "bernstein"], Parameter(name="--basis")] = "powers",
+    most: list[str] | None = None,
+    least: list[str] | None = None,
+    inflexion: float | None = None,
+    basis_name: Annotated[
+        Literal["powers", "chebyshev", "bernstein", "bsplines", "pieces"], Parameter(name="--basis")
+    ] = "powers",
+    breaks: str | None = None,
+    continuity: Whole | None = None,
     monotone: bool = False,
     unsymmetric: bool = False,
+    bound: Literal["quick", "tight"] = "quick",
     as_json: Annotated[bool, Parameter(name="--json")] = False,
     output: Path | None = None,
 ) -> None:
@@ -96,7 +111,7 @@ def solve(
     order
         Number l of boundary conditions at each end: 2 for velocity 0, 3 for acceleration 0 too, 4 for jerk 0 too.
     degree
-        Degree of Z(k).
+        Degree of Z(k), or of the law on each piece with --basis pieces.
     minimise
         What to minimise: C, D, J, rms_c, ... or a sum or maximum such as "0.6*C/4 + 0.4*D/2.25".
     peak_velocity
@@ -107,12 +122,24 @@ def solve(
         D at most this.
     most_jerk
         J at most this.
+    most
+        Any constant at most a value, such as rms_c=4; may be repeated.
+    least
+        Any constant at least a value; may be repeated.
+    inflexion
+        The k of the peak velocity, where c is 0; asks for unsymmetric laws.
     basis_name
         Basis of Z(k).
+    breaks
+        For bsplines and pieces: where pieces begin and end, such as "0 0.3 0.7 1", or how many equal ones, such as 8.
+    continuity
+        For bsplines and pieces: order up to which the derivatives are continuous at the breaks.
     monotone
         Ask b >= 0 too: no return within the motion.
     unsymmetric
         Seek among unsymmetric laws too.
+    bound
+        Where D is in the problem: tight searches all laws, for a bound that usually meets the objective.
     as_json
         Print one JSON object on stdout and nothing else.
     output
@@ -124,18 +151,28 @@ def solve(
         D=_at_most(most_power),
         J=_at_most(most_jerk),
         order=order,
-        basis=basis(basis_name, degree),
+        basis=_basis(basis_name, degree, breaks, continuity),
         minimise=minimise,
         monotone=monotone,
-        symmetric=not unsymmetric,
+        symmetric=not unsymmetric and inflexion is None,
+        bounds=read_bounds(most or [], least or []),
+        inflexion=inflexion,
     )
-    solution = synthesize(problem)
+    solution = synthesize(problem, bound=bound)
     if output is not None:
         _save(output, solution)
     if as_json:
         print(json.dumps(_summary(solution)))  # noqa: T201
     else:
         _show_solution(solution)
+
+
+def _basis(name: str, degree: int, breaks: str | None, continuity: int | None) -> Basis:
+    piecewise = name in {"bsplines", "pieces"}
+    if piecewise != (breaks is not None) or (continuity is not None and not piecewise):
+        raise InputError("--basis bsplines and pieces need --breaks, the others take neither --breaks nor --continuity")
+    shape: dict[str, Any] = {} if breaks is None else {"breaks": read_breaks(breaks)}
+    return basis(name, degree, **shape, **({} if continuity is None else {"continuity": continuity}))
 
 
 def _at_most(value: float | None) -> Range | None:
@@ -168,11 +205,19 @@ def constants(
     if as_json:
         print(json.dumps(found.to_dict()))  # noqa: T201
     else:
-        Console().print(_constants_table(found))
+        Console().print(constants_table(found))
 
 
 app.command(verify)
 app.command(front)
+app.command(follower)
+app.command(study)
+app.command(atlas)
+app.command(lever)
+app.command(loader)
+app.command(dwell)
+app.command(law)
+app.command(catalogue)
 
 
 def main(arguments: Sequence[str] | None = None) -> NoReturn:
@@ -211,18 +256,7 @@ def exit_code(arguments: Sequence[str]) -> int:
 
 def _summary(solution: Solution) -> dict[str, Any]:
     whole = solution.to_dict()
-    names = (
-        "status",
-        "objective",
-        "lower_bound",
-        "gap",
-        "limit",
-        "constants",
-        "z",
-        "law",
-        "iterations",
-        "seconds",
-    )
+    names = ("status", "objective", "lower_bound", "gap", "limit", "constants", "z", "law", "iterations", "seconds")
     return {name: whole[name] for name in names}
 
 
@@ -242,21 +276,12 @@ def _show_solution(solution: Solution) -> None:
         table.add_row("limit", f"{solution.limit:.10g}, which no law of any degree can beat")
     if solution.starts:
         table.add_row("starts", f"{len(solution.starts)}, from {solution.starts[0]:.10g} to {solution.starts[-1]:.10g}")
-    z = solution.z or ()
-    table.add_row("Z(k)", " ".join(f"{value:.9g}" for value in z) + f"  ({solution.problem.basis.name})")
+    if solution.z is not None:
+        table.add_row("Z(k)", " ".join(f"{one:.9g}" for one in solution.z) + f"  ({solution.problem.basis.name})")
     table.add_row("solved", f"{solution.problem!r}")
     table.add_row("", f"{solution.iterations} iterations of IPOPT, {1e3 * solution.seconds:.0f} ms")
     console.print(table)
-    console.print(_constants_table(solution.constants))
-
-
-def _constants_table(found: Constants) -> Table:
-    table = Table("constant", "value", "at k", box=None, pad_edge=False)
-    for name in ("B", "C", "D", "J"):
-        peak = getattr(found, name)
-        table.add_row(name, f"{peak.value:.10g}", f"{peak.k:.6g}")
-    table.add_row("RMS of c", f"{found.rms_c:.10g}", "")
-    return table
+    console.print(constants_table(solution.constants))
 
 
 def _show_markdown(console: Console, text: str) -> None:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 from optlaws.export.files import MARK
 
@@ -14,6 +14,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from optlaws.mechanisms.spectrum import ResponseSpectrum
     from optlaws.synthesis.fronts import Front
 
 BLUES = ("#b3cde3", "#74add1", "#4292c6", "#2166ac", "#08306b")
@@ -84,6 +85,32 @@ def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Art
     bar = axes.get_figure(root=True).colorbar(points, ax=axes)  # type: ignore[union-attr] # these axes have a figure
     bar.set_label(f"{_AXES.get(front.over[2], front.over[2])} (dimensionless)")
     return [points]
+
+
+def draw_spectrum(
+    spectrum: ResponseSpectrum,
+    axes: Axes | None = None,
+    *,
+    what: Literal["residual", "peak"] = "residual",
+    over: float = 1.0,
+    **style: Any,  # noqa: ANN401 - matplotlib's
+) -> list[Artist]:
+    """Draw residual or peak acceleration over nu into axes, new ones unless given, and return the artists.
+
+    `over` divides the acceleration, for example by C of the law meant for the mass.
+
+    Examples
+    --------
+    >>> from optlaws import response_spectrum, savin
+    >>> (line,) = draw_spectrum(response_spectrum(savin("III", 7.2), [18.0, 19.0, 20.0]), color=GREEN)
+    >>> line.axes.get_ylabel()
+    'residual acceleration'
+    """
+    if axes is None:
+        axes = figure().subplots()
+    values = spectrum.residual_acceleration if what == "residual" else spectrum.peak_acceleration
+    axes.set(xlabel="nu, radians of the free vibration in the rise", ylabel=f"{what} acceleration")
+    return list(axes.plot(spectrum.nu, values / over, **style))
 
 
 def rendered(drawing: Figure, kind: str) -> bytes:

@@ -130,7 +130,7 @@ def test_a_solver_that_fails_ends_with_4(capsys: Capture, monkeypatch: pytest.Mo
 
 
 def test_an_interrupt_ends_with_130(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    def interrupted(*_: object) -> Solution:
+    def interrupted(*_: object, **__: object) -> Solution:
         raise KeyboardInterrupt
 
     monkeypatch.setattr(cli, "synthesize", interrupted)
@@ -363,3 +363,34 @@ def test_version_and_help(capsys: Capture) -> None:
     code, out, _ = called(capsys, "--help")
     assert code == 0
     assert all(name in out for name in ("run", "solve", "constants"))
+
+
+def test_solve_takes_splines_bounds_and_an_inflexion(capsys: Capture) -> None:
+    shape = ["solve", "--order", "3", "--degree", "3"]
+    bounds = ["--inflexion", "0.4", "--most", "C_minus=6", "--most", "rms_c=4.2"]
+    code, out, _ = called(capsys, *shape, "--basis", "bsplines", "--breaks", "8", *bounds, "--json")
+    found = json.loads(out)
+    assert (code, found["status"], len(found["z"])) == (0, "optimal", 11)
+    law = MotionLaw.from_dict(found["law"])
+    assert law.c(0.4) == pytest.approx(0.0, abs=1e-9)
+    assert -law.extrema(2)[0].value <= 6.0 + 1e-8
+    assert law.rms(2) <= 4.2 + 1e-8
+    code, out, _ = called(capsys, *shape, "--basis", "pieces", "--breaks", "0 .1 .3 .5 .7 .9 1", "--continuity", "2")
+    assert code == 0
+    assert "Z(k)" not in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["--basis", "bsplines"], "need --breaks"),
+        (["--breaks", "8"], "need --breaks"),
+        (["--basis", "bsplines", "--breaks", "8 x"], "breaks are a number"),
+        (["--basis", "bsplines", "--breaks", "0 0.2 1"], "symmetric about 1/2"),
+        (["--most", "rms_c"], "such as rms_c=4"),
+        (["--most", "rmsc=4"], "did you mean"),
+        (["--inflexion", "2"], "between 0 and 1"),
+    ],
+)
+def test_solve_refuses_shapes_and_bounds_that_make_no_sense(capsys: Capture, arguments: list[str], says: str) -> None:
+    assert says in refused(capsys, "solve", "--order", "3", "--degree", "3", *arguments)

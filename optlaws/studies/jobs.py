@@ -7,13 +7,49 @@ from pathlib import Path
 from typing import Any
 
 from optlaws.errors import InputError
-from optlaws.studies import fronts, optimal_table, solutions
+from optlaws.studies import (
+    atlas,
+    dwell_drawing,
+    dwell_types,
+    follower,
+    fronts,
+    lever_drawing,
+    lever_nomogram,
+    lever_parametric,
+    lever_tables,
+    loader_drawing,
+    loader_nomogram,
+    loader_optimal,
+    loader_table,
+    optimal_polydyne,
+    optimal_table,
+    savin_families,
+    solutions,
+)
 from optlaws.studies.problem_file import read
 from optlaws.suggest import unknown_key
 
 Job = Callable[[Mapping[str, Any], Path, Path], list[Path]]
 
-JOBS: dict[str, Job] = {"fronts": fronts.run, "optimal table": optimal_table.run, "solutions": solutions.run}
+JOBS: dict[str, Job] = {
+    "atlas": atlas.run,
+    "dwell drawing": dwell_drawing.run,
+    "dwell types": dwell_types.run,
+    "follower": follower.run,
+    "fronts": fronts.run,
+    "lever drawing": lever_drawing.run,
+    "lever nomogram": lever_nomogram.run,
+    "lever parametric": lever_parametric.run,
+    "lever tables": lever_tables.run,
+    "loader drawing": loader_drawing.run,
+    "loader nomogram": loader_nomogram.run,
+    "loader optimal": loader_optimal.run,
+    "loader table": loader_table.run,
+    "optimal polydyne": optimal_polydyne.run,
+    "optimal table": optimal_table.run,
+    "savin families": savin_families.run,
+    "solutions": solutions.run,
+}
 
 
 def run(file: Path, out: Path | None = None) -> list[Path]:

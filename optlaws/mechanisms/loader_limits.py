@@ -1,0 +1,81 @@
+"""What no loader can beat at a peak velocity B of its executive law: least peak velocity, least peak acceleration."""
+
+from __future__ import annotations
+
+from math import asin, cos, pi, sin, sqrt
+
+from optlaws.errors import InputError
+from optlaws.mechanisms.checks import positive
+
+HARMLESS = 4.0 / pi  # here the loader can run at constant acceleration, with C = 4
+_SHARP = 1e-13
+
+
+def loader_velocity_limit(B: float) -> float:
+    """Least peak velocity B_l of a loader: 1/B² + 1/B_l² < 1 for every symmetric law with one top.
+
+    Parameters
+    ----------
+    B
+        Peak velocity of the executive law, above 1 (dimensionless).
+
+    Raises
+    ------
+    InputError
+        If B is not above 1.
+
+    Examples
+    --------
+    >>> round(loader_velocity_limit(1.25), 12)
+    1.666666666667
+    """
+    found = _velocity(B)
+    return found / sqrt(found * found - 1.0)
+
+
+def loader_acceleration_limit(B: float) -> float:
+    """Least peak acceleration C_l of a loader whose executive link does not go back (b >= 0).
+
+    From B = 4/pi on it is (pi B/2)² / (pi B/2 - 1); for smaller B the loader has to slow down, run evenly for a
+    while, and slow down again.
+
+    Parameters
+    ----------
+    B
+        Peak velocity of the executive law, above 1 (dimensionless); the law is symmetric with one top.
+
+    Raises
+    ------
+    InputError
+        If B is not above 1.
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> round(loader_acceleration_limit(4 / pi), 9), round(loader_acceleration_limit(1.875), 6)
+    (4.0, 4.459364)
+    """
+    found = _velocity(B)
+    if found >= HARMLESS:
+        rate = 0.5 * pi * found
+        return rate * rate / (rate - 1.0)
+    from scipy.optimize import minimize_scalar
+
+    # the angle has to keep a distance from the end at which the rate is infinite
+    start = asin(1.0 / found)
+    bounds = (start + 1e-9 * (0.5 * pi - start), 0.5 * pi)
+    best = minimize_scalar(lambda angle: _two_slopes(found, angle), bounds=bounds, options={"xatol": _SHARP})
+    return float(min(best.fun, _two_slopes(found, 0.5 * pi)))
+
+
+def _two_slopes(B: float, angle: float) -> float:
+    """C_l of a loader that runs evenly at cos(angle) of its peak velocity between two equal slopes."""
+    rate = (2.0 * sin(angle) - 0.5 * pi) / (sin(angle) - 1.0 / B)
+    return rate * rate / (1.0 + cos(angle) * (rate - 2.0))
+
+
+def _velocity(B: float) -> float:
+    found = positive(B, "B")
+    if found <= 1.0:
+        raise InputError(f"B must be above 1, for the stroke is 1 and the law starts and ends at rest; got {B!r}")
+    return found

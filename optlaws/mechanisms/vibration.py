@@ -1,0 +1,124 @@
+"""Free vibration: h'' + 2 n h' + nu² h = 0, below, at and above critical damping by one formula."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from functools import cached_property
+from math import atan2, atanh, hypot, pi, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.laws import Peak
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Oscillator:
+    """The homogeneous equation of a follower.
+
+    Parameters
+    ----------
+    nu
+        Circular frequency of the undamped vibration, radians in the rise's duration.
+    damping
+        Ratio zeta = n/nu.
+
+    Examples
+    --------
+    >>> Oscillator(5.0, 0.6).frequency, Oscillator(5.0, 1.25).frequency
+    (4.0, 0.0)
+    """
+
+    nu: float
+    damping: float
+
+    @property
+    def n(self) -> float:
+        """Decay n = zeta nu."""
+        return self.damping * self.nu
+
+    @cached_property
+    def frequency(self) -> float:
+        """lambda = nu sqrt(1 - zeta²) below critical damping, else 0."""
+        return self.nu * sqrt(max(0.0, (1.0 - self.damping) * (1.0 + self.damping)))
+
+    @cached_property
+    def _spread(self) -> float:
+        return self.nu * sqrt(max(0.0, (self.damping - 1.0) * (1.0 + self.damping)))
+
+    @cached_property
+    def fastest(self) -> float:
+        """The largest magnitude of a root of the characteristic equation."""
+        return max(self.nu, self.n + self._spread)
+
+    def even_odd(self, s: Array) -> tuple[Array, Array]:
+        """exp(-n s) cos(lambda s) and exp(-n s) sin(lambda s) / lambda, or what becomes of them past critical.
+
+        Examples
+        --------
+        >>> [values.tolist() for values in Oscillator(1.0, 1.0).even_odd(np.array([0.0]))]
+        [[1.0], [0.0]]
+        """
+        if self.damping <= 1.0:
+            decay, phase = np.exp(-self.n * s), self.frequency * s
+            return decay * np.cos(phase), decay * s * np.sinc(phase / pi)
+        twice = 2.0 * self._spread * s
+        slow = np.exp(-(self.nu**2) / (self.n + self._spread) * s)
+        safe = np.where(twice == 0.0, 1.0, twice)
+        ratio = np.where(twice == 0.0, 1.0, -np.expm1(-safe) / safe)
+        return 0.5 * slow * (1.0 + np.exp(-twice)), slow * s * ratio
+
+    def motion(self, h0: float, v0: float, s: Array, order: int) -> Array:
+        """Derivative of order `order` at s of the vibration with displacement h0 and velocity v0 at s = 0.
+
+        Examples
+        --------
+        >>> Oscillator(2.0, 0.0).motion(1.0, 0.0, np.array([0.0]), 2).tolist()
+        [-4.0]
+        """
+        for _ in range(order):
+            h0, v0 = v0, -2.0 * self.n * v0 - self.nu**2 * h0
+        even, odd = self.even_odd(s)
+        return h0 * even + (v0 + self.n * h0) * odd
+
+    def amplitude(self, h0: float, v0: float) -> float:
+        """Amplitude of the envelope at s = 0 below critical damping (1.21); else the greatest |h| from s = 0 on.
+
+        Examples
+        --------
+        >>> Oscillator(2.0, 0.0).amplitude(0.3, 0.8)
+        0.5
+        """
+        if self.frequency > 0.0:
+            return hypot(h0, (v0 + self.n * h0) / self.frequency)
+        return self.peak(h0, v0, 0).value
+
+    def peak(self, h0: float, v0: float, order: int) -> Peak:
+        """Greatest magnitude of the derivative of order `order` from s = 0 on, and its place s.
+
+        Examples
+        --------
+        >>> Oscillator(2.0, 0.0).peak(0.0, 2.0, 0)
+        Peak(value=1.0, k=0.785398)
+        """
+        for _ in range(order):
+            h0, v0 = v0, -2.0 * self.n * v0 - self.nu**2 * h0
+        places = np.array([0.0, self._first_stop(h0, v0)])
+        size = np.abs(self.motion(h0, v0, places, 0))
+        best = int(np.argmax(size))
+        return Peak(float(size[best]), float(places[best]))
+
+    def _first_stop(self, h0: float, v0: float) -> float:
+        """The first s > 0 where the velocity is zero; 0 if there is none."""
+        pull = self.n * v0 + self.nu**2 * h0
+        if self.frequency > 0.0:
+            angle = atan2(self.frequency * v0, pull) if pull else 0.5 * pi
+            return (angle % pi) / self.frequency
+        if pull == 0.0 or v0 / pull <= 0.0:
+            return 0.0
+        if self._spread == 0.0:
+            return v0 / pull
+        ratio = self._spread * v0 / pull
+        return atanh(ratio) / self._spread if ratio < 1.0 else 0.0
