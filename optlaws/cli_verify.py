@@ -4,11 +4,14 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 from cyclopts import Parameter
 
 from optlaws.errors import InputError, OptlawsError
+
+if TYPE_CHECKING:
+    from optlaws.verification import Verification
 
 
 class NotProven(OptlawsError):  # noqa: N818
@@ -24,25 +27,36 @@ class NotProven(OptlawsError):  # noqa: N818
 def verify(*files: Path, as_json: Annotated[bool, Parameter(name="--json")] = False) -> None:
     """Check solutions or certificates with every rounding enclosed; no solver takes part.
 
-    Ends with 0 if every claim of every file is proven, 1 if one is false or not proven.
+    Ends with 0 if every claim of every file is proven, 1 if one is false or not proven, 2 if a file cannot be checked.
 
     Parameters
     ----------
     files
-        JSON files that `optlaws solve --output` wrote, or certificates.
+        JSON files that `optlaws solve --output` wrote, certificates, or the laws.json of a table.
     as_json
         Print one JSON object, with an entry for each file, on stdout and nothing else.
     """
-    from optlaws.verification import verify as checked
+    from optlaws.verification import verify_all
 
     if not files:
         raise InputError("name at least one file that `optlaws solve --output FILE` wrote")
-    found = {str(file): checked(file) for file in files}
+    found = {_name(file, place): one for file in files for place, one in verify_all(file).items()}
     if as_json:
-        print(json.dumps({name: one.to_dict() for name, one in found.items()}))  # noqa: T201
+        print(json.dumps({name: one.to_dict() for name, one in found.items()}, allow_nan=False))  # noqa: T201
     else:
         for name, one in found.items():
-            print(f"{name}: {'proven' if one.proven else 'NOT PROVEN'}\n{one}\n")  # noqa: T201
+            word = "proven" if one.proven else "NOT PROVEN"
+            print(f"{name}: {word}\n{one}\n" if len(found) == len(files) else _line(name, word, one))  # noqa: T201
     failed = [f"{name}: {claim}" for name, one in found.items() for claim in one.claims if not claim.proven]
     if failed:
         raise NotProven("\n".join(failed))
+
+
+def _name(file: Path, place: str) -> str:
+    return f"{file}: {place}" if place else str(file)
+
+
+def _line(name: str, word: str, one: Verification) -> str:
+    bound = "" if one.bound is None else f", no law below {one.bound!r}"
+    gap = "" if one.gap is None else f", gap at most {one.gap:.1e}"
+    return f"{name}: {word}, {len(one.claims)} claims{bound}{gap}"

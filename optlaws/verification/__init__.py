@@ -16,7 +16,7 @@ from optlaws.laws import MotionLaw
 from optlaws.synthesis.certificate import Certificate
 from optlaws.verification.result import Claim, Verification
 
-__all__ = ["Claim", "Verification", "enclosures", "exact_bound", "verify"]
+__all__ = ["Claim", "Verification", "enclosures", "exact_bound", "verify", "verify_all"]
 
 
 def verify(source: Mapping[str, Any] | Path | str) -> Verification:
@@ -31,7 +31,7 @@ def verify(source: Mapping[str, Any] | Path | str) -> Verification:
     Raises
     ------
     InputError
-        If it is neither, its laws are not polynomials, or python-flint is missing.
+        If it is neither, something in it is of an unknown kind or no finite number, or python-flint is missing.
 
     Examples
     --------
@@ -47,6 +47,30 @@ def verify(source: Mapping[str, Any] | Path | str) -> Verification:
     return checks.verify(source)
 
 
+def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification]:
+    """Check everything that a file holds, such as the laws of a table, by where it is.
+
+    Solutions and certificates are checked as by `verify`, and the constants of laws that stand alone.
+
+    Raises
+    ------
+    InputError
+        As `verify`; and if something is claimed without a certificate.
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> law = optlaws.smoothstep(2)
+    >>> found = verify_all({"printed": [{"law": law.to_dict(), "constants": law.constants.to_dict()}]})
+    >>> [(place, one.proven) for place, one in found.items()]
+    [('printed[0]', True)]
+    """
+    _need_flint()
+    from optlaws.verification import checks
+
+    return checks.verify_all(source)
+
+
 def exact_bound(certificate: Certificate) -> Fraction | None:
     """The lower bound that a certificate proves, rounded down; None if it proves nothing.
 
@@ -55,7 +79,7 @@ def exact_bound(certificate: Certificate) -> Fraction | None:
     Raises
     ------
     InputError
-        If the problem's laws are not polynomials, or python-flint is missing.
+        If its laws or one of its constants are of an unknown kind, or python-flint is missing.
 
     Examples
     --------
@@ -71,12 +95,14 @@ def exact_bound(certificate: Certificate) -> Fraction | None:
 
 
 def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
-    """Floats below and above B, C, D, J and rms_c of the very polynomial a law's numbers describe.
+    """Floats below and above B, C, D, J and rms_c of the very function a law's numbers describe.
+
+    Where a derivative jumps by more than rounding, those above it are infinite.
 
     Raises
     ------
     InputError
-        If the law is not a polynomial, or python-flint is missing.
+        If the law is not made of polynomials, sines and constant power, or python-flint is missing.
 
     Examples
     --------

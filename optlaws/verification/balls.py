@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from fractions import Fraction
 from math import ceil, floor, inf, nextafter
+from sys import float_info
 
 from flint import arb, ctx, fmpq, fmpq_poly
 
 _PLACES, _EXACT = 128, 4096
+_GREATEST = float_info.max
 
 
 def rational(value: float | Fraction) -> fmpq:
@@ -47,6 +49,8 @@ def down(value: Fraction) -> float:
     >>> down(Fraction(1, 10)) <= Fraction(1, 10) < down(Fraction(1, 10)) + 1e-16
     True
     """
+    if abs(value) > _GREATEST:
+        return _GREATEST if value > 0 else -inf
     near = float(value)
     return near if Fraction(near) <= value else nextafter(near, -inf)
 
@@ -59,6 +63,13 @@ def up(value: Fraction) -> float:
 def enclosure(value: arb) -> tuple[float, float]:
     """Floats below and above the ball."""
     return down(lower(value)), up(upper(value))
+
+
+def enclosed(value: arb) -> tuple[float, float]:
+    """The same, also of a number that may be infinite."""
+    if value.is_finite():
+        return enclosure(value)
+    return (inf, inf) if value == arb.pos_inf() else (-inf, inf)
 
 
 def at(polynomial: fmpq_poly, x: arb) -> arb:

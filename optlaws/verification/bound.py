@@ -63,7 +63,7 @@ def prove(certificate: Certificate) -> Proof:
     Raises
     ------
     InputError
-        If the problem's laws are not polynomials, or its objective has a constant that is no peak, power or RMS.
+        If the laws are of an unknown kind, or a constant that is minimised or bounded is no peak, power or RMS.
 
     Examples
     --------
@@ -128,10 +128,10 @@ class _System:
         if _NEAR < k < 1 - _NEAR and not contact.direction:
             for near in (k - _NEAR, k + _NEAR):
                 moved = self.rows.row(contact, near)
-                if moved is not None:
+                if moved is not None and self.rows.space.piece(near) == self.rows.space.piece(k):
                     self.vectors.append(moved.vector(self.rows.names))
-                    self.multipliers.append(ball(weight * _SHARE))
-            weight *= 1 - 2 * _SHARE
+                    self.multipliers.append(ball(Fraction(contact.multiplier) * _SHARE))
+                    weight -= Fraction(contact.multiplier) * _SHARE
         self.vectors.append(row.vector(self.rows.names))
         self.multipliers.append(ball(weight))
 
@@ -229,7 +229,7 @@ def greatest_values(certificate: Certificate, rows: ExactRows, claim: float) -> 
     problem = certificate.problem
     if certificate.program != VIOLATION and never_negative(problem):
         _spread(problem.objective, Fraction(max(claim, 0.0)), found)
-    for name in ("B", "C", "D", "J"):
+    for name in ("B", *(one.name for one, _ in problem.bounded)):
         asked = problem.range(name)
         if asked is not None:
             found[name] = min(found.get(name, inf), asked.high)

@@ -2,53 +2,98 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping
 from fractions import Fraction
-from math import inf, isfinite
-from numbers import Real
+from math import inf
 from pathlib import Path
 from typing import Any
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.certificate import VIOLATION, Certificate
+from optlaws.synthesis.power_certificate import PowerCertificate
 from optlaws.synthesis.problem import Problem
-from optlaws.verification.balls import down, enclosure, up
-from optlaws.verification.bound import Proof, prove
+from optlaws.verification.balls import down, enclosed, up
+from optlaws.verification.bound import Proof, never_negative, prove
 from optlaws.verification.conditions import excesses
-from optlaws.verification.exact_law import enclosures, exact
+from optlaws.verification.exact_law import ExactLaw, enclosures
 from optlaws.verification.exact_limits import exact_limit
+from optlaws.verification.exact_power import prove_power
+from optlaws.verification.reading import (
+    built,
+    certificate_of,
+    entries,
+    is_entry,
+    number,
+    power_certificate_of,
+    read,
+    unfounded,
+)
 from optlaws.verification.result import Claim, Verification
+from optlaws.verification.stated import at_most, stated_constants, stated_numbers
 
-#: how far stated numbers, computed in doubles, may be from the proven ones, relative
-_BOUND, _VALUE = 1e-9, 1e-11
-#: an optimum's greatest gap, and the greatest correction that rounding explains
-_GAP, _CORRECTION = 1e-8, 1e-6
+#: an optimum's greatest gap, the greatest correction that rounding explains, and the share that is no multiplier
+_GAP, _CORRECTION, _NOTHING = 1e-8, 1e-6, 1e-9
 
 
 def verify(source: Mapping[str, Any] | Path | str) -> Verification:
-    """Check every claim."""
-    data = _read(source)
-    if "contacts" in data:
-        return _certificate_alone(Certificate.from_dict(data), data)
-    if not {"problem", "law", "certificate"} <= data.keys():
+    """Check every claim of one solution, certificate or law."""
+    data = read(source)
+    if not is_entry(data):
+        several = ", ".join(list(entries(data))[:3])
+        inside = f"; it holds others, such as {several}: verify those with verify_all" if several else ""
         raise InputError(
-            "neither a solution (problem, law, certificate) nor a certificate (contacts): nothing to verify"
+            "neither a solution (problem, law, certificate) nor a certificate (problem, contacts) nor a law with its "
+            f"constants: nothing to verify{inside}"
         )
-    return _solution(data)
+    return _entry(data)
 
 
-def _read(source: Mapping[str, Any] | Path | str) -> Mapping[str, Any]:
-    if isinstance(source, Mapping):
-        return source
-    try:
-        data = json.loads(Path(source).read_text(encoding="utf-8"))
-    except ValueError as error:
-        raise InputError(f"{source}: not JSON: {error}") from None
-    if not isinstance(data, dict):
-        raise InputError(f"{source}: not a JSON object but {type(data).__name__}")
-    return data
+def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification]:
+    """Check every solution, certificate and law with constants, by where it is; refuse claims without a certificate."""
+    data = read(source)
+    if is_entry(data):
+        return {"": _entry(data)}
+    found = entries(data)
+    groundless = unfounded(data)
+    if groundless or not found:
+        where = f": {groundless[0] or 'it'} claims something without a certificate" if groundless else ""
+        raise InputError(f"not a file of solutions or certificates{where}")
+    return {path: built(_entry, one, path) for path, one in found.items()}
+
+
+def _entry(data: Mapping[str, Any]) -> Verification:
+    if "certificate" in data:
+        return _solution(data)
+    if "contacts" in data:
+        return _certificate_alone(built(certificate_of, data, "the certificate"), data)
+    if "steps" in data:
+        return _power_alone(built(power_certificate_of, data, "the power certificate"), data)
+    return _law_alone(data)
+
+
+def _law_alone(data: Mapping[str, Any]) -> Verification:
+    law = built(lambda one: ExactLaw(MotionLaw.from_dict(one)), data["law"], "law")
+    constants = enclosures(law.law)
+    return Verification(problem=None, bound=None, constants=constants, claims=tuple(stated_constants(data, law)))
+
+
+def _power_alone(certificate: PowerCertificate, data: Mapping[str, Any]) -> Verification:
+    proven = _power(certificate)
+    bound = None if proven is None else down(proven)
+    return Verification(problem=certificate.problem, bound=bound, claims=tuple(_of_power(certificate, proven, data)))
+
+
+def _power(certificate: PowerCertificate) -> Fraction | None:
+    # the steps count on constants of at least 0
+    return prove_power(certificate) if never_negative(certificate.problem) else None
+
+
+def _of_power(certificate: PowerCertificate, proven: Fraction | None, data: Mapping[str, Any]) -> Iterator[Claim]:
+    left = "no law has" if proven is not None else "the steps do not show that no law has"
+    yield Claim("steps", proven is not None, f"{left} an objective below {certificate.claim!r}")
+    if data.get("bound") is not None:
+        yield at_most("the power certificate's bound", number(data, "bound"), proven)
 
 
 def _certificate_alone(certificate: Certificate, data: Mapping[str, Any]) -> Verification:
@@ -62,38 +107,40 @@ def _bound(proof: Proof, certificate: Certificate, data: Mapping[str, Any]) -> I
         value = float(proof.value or 0)
         yield Claim("no law exists", value > 0.0, f"the constraints contradict each other by {value:.6g}")
     elif data.get("bound") is not None:
-        yield _at_most("the certificate's bound", _number(data, "bound"), proof.value)
+        yield at_most("the certificate's bound", number(data, "bound"), proof.value)
 
 
 def _solution(data: Mapping[str, Any]) -> Verification:
     for name in ("problem", "law", "certificate"):
         if not isinstance(data[name], Mapping):
             raise InputError(f"{name} must be an object, got {data[name]!r}")
-    problem = _problem(data["problem"])
-    certificate = Certificate.from_dict(data["certificate"])
+    problem = built(Problem.from_dict, data["problem"], "problem")
+    certificate = built(certificate_of, data["certificate"], "certificate")
     if certificate.program == VIOLATION:
         raise InputError("a proof that no law exists beside a law: verify the certificate alone")
-    law = exact(MotionLaw.from_dict(data["law"]))
+    law = built(lambda one: ExactLaw(MotionLaw.from_dict(one)), data["law"], "law")
+    same = certificate.problem == problem
     proof = prove(certificate)
-    objective = enclosure(law.sum(problem.objective))
-    bound, source = _best(proof, exact_limit(problem))
+    objective = enclosed(law.sum(problem.objective))
+    power, power_claims = _beside(data.get("power_certificate"), problem)
+    bound, source = _best(proof.value if same else None, power, exact_limit(problem))
     gap = None
-    if bound is not None:
+    if bound is not None and objective[1] < inf:
         gap = up((Fraction(objective[1]) - bound) / Fraction(objective[1])) if objective[1] else 0.0
     constants = enclosures(law.law)
     found = excesses(problem, law)
-    same = certificate.problem == problem
     claims = [
         *(Claim(e.name, e.holds, f"off by at most {max(e.by, 0.0):.1e}, {e.allowed:.1e} is allowed") for e in found),
-        *_stated(data, objective, constants),
-        Claim("the certificate's problem", same, "the file's" if same else f"another: {certificate.problem!r}"),
-        *_certificate(proof, certificate),
+        *stated_numbers(data, problem, law, objective),
+        *stated_constants(data, law),
+        _same("the certificate's problem", certificate.problem, problem),
+        *_certificate(proof, certificate, accurate=data.get("status") != "inaccurate"),
         *_bound(proof, certificate, data["certificate"]),
+        *power_claims,
     ]
-    if data.get("lower_bound") not in (None, -inf):
-        claims.append(_at_most("the lower bound", _number(data, "lower_bound"), bound, source))
-    if data.get("status") == "optimal":
-        claims.append(Claim("optimal", gap is not None and gap <= _GAP, f"the proven gap is {_shown(gap)}"))
+    if data.get("lower_bound") is not None:
+        claims.append(at_most("the lower bound", number(data, "lower_bound"), bound, source))
+    claims += _of_gap(data, gap)
     return _verification(
         problem,
         certificate,
@@ -125,64 +172,50 @@ def _verification(
     )
 
 
-def _certificate(proof: Proof, certificate: Certificate) -> Iterator[Claim]:
+def _certificate(proof: Proof, certificate: Certificate, *, accurate: bool = True) -> Iterator[Claim]:
     count = len(certificate.contacts)
     greatest = max((abs(one.multiplier) for one in certificate.contacts), default=0.0)
-    negative = [one for one in certificate.contacts if one.multiplier < -_BOUND * greatest]
+    negative = [one for one in certificate.contacts if one.multiplier < -_NOTHING * greatest]
     shown = f"{len(negative)} of {count} negative" if negative else f"{count}, none negative"
     yield Claim("multipliers", not negative, shown)
     if proof.unknown:
         detail = f"{proof.unknown} of {count} are not of constraints that this problem has"
         yield Claim("contacts", proven=False, detail=detail)
     detail = f"corrected by at most {proof.correction:.1e} of the greatest so that nothing depends on the law"
-    yield Claim("sum of the rows", proof.value is not None and proof.correction <= _CORRECTION, detail)
+    small = proof.correction <= _CORRECTION or not accurate
+    yield Claim("sum of the rows", proof.value is not None and small, detail)
 
 
-def _stated(
-    data: Mapping[str, Any], objective: tuple[float, float], constants: dict[str, tuple[float, float]]
-) -> Iterator[Claim]:
-    if "objective" in data:
-        yield _near("the objective", _number(data, "objective"), objective)
-    stated = data.get("constants", {})
-    if not isinstance(stated, Mapping):
-        raise InputError(f"constants must be an object, got {stated!r}")
-    for name, pair in constants.items():
-        if name in stated:
-            one = stated[name]
-            yield _near(name, _number(one, "value") if isinstance(one, Mapping) else _number(stated, name), pair)
+def _of_gap(data: Mapping[str, Any], gap: float | None) -> Iterator[Claim]:
+    if data.get("gap") is not None:
+        value = number(data, "gap")
+        holds = gap is not None and value >= gap - _GAP
+        yield Claim("the gap", holds, f"{value:.1e} stated, {_shown(gap)} proven")
+    if data.get("status") == "optimal":
+        yield Claim("optimal", gap is not None and gap <= _GAP, f"the proven gap is {_shown(gap)}")
 
 
-def _near(name: str, stated: float, pair: tuple[float, float]) -> Claim:
-    low, high = pair
-    room = _VALUE * max(1.0, abs(high))
-    return Claim(name, low - room <= stated <= high + room, f"{stated!r} stated, in [{low!r}, {high!r}]")
+def _beside(data: object, problem: Problem) -> tuple[Fraction | None, list[Claim]]:
+    """What a power certificate beside the other one proves."""
+    if data is None:
+        return None, []
+    if not isinstance(data, Mapping):
+        raise InputError(f"power_certificate must be an object, got {data!r}")
+    certificate = built(power_certificate_of, data, "the power certificate")
+    proven = _power(certificate)
+    same = certificate.problem == problem
+    claims = [_same("the power certificate's problem", certificate.problem, problem)]
+    return proven if same else None, [*claims, *_of_power(certificate, proven, data)]
 
 
-def _best(proof: Proof, limit: Fraction | None) -> tuple[Fraction | None, str]:
-    if limit is not None and (proof.value is None or limit > proof.value):
-        return limit, " by the limit of laws of any degree"
-    return proof.value, ""
+def _same(name: str, one: Problem, other: Problem) -> Claim:
+    return Claim(name, one == other, "the file's" if one == other else f"another: {one!r}")
 
 
-def _at_most(name: str, stated: float, proven: Fraction | None, source: str = "") -> Claim:
-    if proven is None:
-        return Claim(name, proven=False, detail=f"{stated!r} stated, nothing proven")
-    holds = Fraction(stated) <= proven + Fraction(_BOUND) * max(Fraction(1), abs(proven))
-    return Claim(name, holds, f"{stated!r} stated, {down(proven)!r} proven{source}")
-
-
-def _problem(data: Mapping[str, Any]) -> Problem:
-    try:
-        return Problem.from_dict(data)
-    except (KeyError, TypeError, ValueError) as error:
-        raise InputError(f"this is not a problem: {error}") from None
-
-
-def _number(data: Mapping[str, Any], name: str) -> float:
-    value = data.get(name)
-    if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value):
-        raise InputError(f"{name} must be a finite number, got {value!r}")
-    return float(value)
+def _best(proven: Fraction | None, power: Fraction | None, limit: Fraction | None) -> tuple[Fraction | None, str]:
+    sources = ((proven, ""), (power, " by the power certificate"), (limit, " by the limit of laws of any degree"))
+    known = [(value, source) for value, source in sources if value is not None]
+    return max(known, key=lambda one: one[0], default=(None, ""))
 
 
 def _shown(gap: float | None) -> str:

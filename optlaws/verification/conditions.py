@@ -5,20 +5,25 @@ from __future__ import annotations
 from collections.abc import Iterator
 from dataclasses import dataclass
 from fractions import Fraction
-from math import isfinite
+from itertools import pairwise
+from math import inf, isfinite
 
 from flint import arb, ctx, fmpq_poly, fmpz_poly
 
-from optlaws.synthesis.bases import PolynomialBasis
-from optlaws.synthesis.functionals import FUNCTIONALS
+from optlaws.synthesis.bounds import Range
+from optlaws.synthesis.functionals import Functional
 from optlaws.synthesis.problem import Problem
 from optlaws.verification.balls import ball, rational, up, upper
 from optlaws.verification.exact_law import ExactLaw
+from optlaws.verification.exact_pieces import PolynomialPiece, between, least_and_greatest
+from optlaws.verification.shapes import shape_of
 
 #: what an optimum may break a constraint by, in units of the constraint's bound
 _TOLERANCE = 1e-9
 #: what rounding of the law's coefficients can do, relative to what the derivative is made of
 _ROUNDING = 2.0**-44
+#: by how much rounding moves a break to its mirror image
+_APART = 2.0**-50
 
 
 @dataclass(frozen=True)
@@ -39,15 +44,17 @@ def excesses(problem: Problem, law: ExactLaw) -> list[Excess]:
     """Every condition of the problem, at the law."""
     with ctx.workprec(law.precision):
         return [
+            *_shape(problem, law),
             *_ends(problem, law),
             *_velocity(problem, law),
-            *(one for name in ("C", "D", "J") for one in _constant(problem, law, name)),
+            *(one for constant, wanted in problem.bounded for one in _constant(law, constant, wanted)),
             *_windows(problem, law),
         ]
 
 
 def _of(name: str, value: arb, scale: float = 1.0, tolerance: float = _TOLERANCE) -> Excess:
-    return Excess(name, up(upper(value)) + 0.0, tolerance * max(1.0, scale))
+    by = up(upper(value)) + 0.0 if value.is_finite() else inf
+    return Excess(name, by, tolerance * max(1.0, scale))
 
 
 def _ends(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
@@ -56,34 +63,67 @@ def _ends(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
         for nu, value in enumerate(wanted):
             off = arb(abs(law.value(nu, Fraction(k)) - rational(Fraction(value))))
             yield _of(f"derivative {nu} at k = {k}", off, _size(law, nu), _ROUNDING)
-    beyond = law.law.acceleration[max(2 * conditions.order + degree_of_z(problem) - 1, 0) :]
-    yield _of("terms beyond the degree", arb(sum(map(abs, beyond))), _size(law, 0), _ROUNDING)
     if problem.symmetric:
-        a = law.derivative(0)
-        uneven = a + a(fmpq_poly([0, -1])) - 1
-        value = law.magnitude(law.between(uneven, Fraction(0), Fraction(1)))
-        yield _of("a(k) + a(1-k) = 1", value, _size(law, 0), _ROUNDING)
+        a = law.polynomials
+        low, high = least_and_greatest([one for pair in _facing(a) for one in _uneven(*pair)])
+        yield _of("a(k) + a(1-k) = 1", law.magnitude((low, high)), _size(law, 0), _ROUNDING)
+
+
+def _shape(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
+    """The law's degree, and where it is piecewise its breaks and how smooth it is there."""
+    shape = shape_of(problem.basis, problem.order)
+    beyond = [abs(one) for piece in law.polynomials for one in piece.stored[max(shape.degree - 1, 0) :]]
+    yield _of("terms beyond the degree", arb(sum(beyond)), _size(law, 0), _ROUNDING)
+    if len(shape.breaks) != len(law.breaks):
+        detail = f"{len(law.breaks) - 1} pieces instead of {len(shape.breaks) - 1}"
+        yield Excess(detail, inf, 0.0)
+        return
+    if len(shape.breaks) == 2:
+        return
+    apart = max(abs(one - other) for one, other in zip(shape.breaks, law.breaks, strict=True))
+    yield _of("breaks", ball(apart), 1.0, _APART)
+    for nu in range(1, shape.continuity + 1):
+        sides = ((left.exact(nu, left.stop), right.exact(nu, right.start)) for left, right in pairwise(law.polynomials))
+        jump = max(abs(after - before) for before, after in sides)
+        yield _of(f"continuity of derivative {nu}", arb(jump), _size(law, nu), _ROUNDING)
+
+
+def _facing(pieces: list[PolynomialPiece]) -> Iterator[tuple[PolynomialPiece, PolynomialPiece, Fraction, Fraction]]:
+    """Pieces, with those that their mirror images meet, and from where to where."""
+    for one in pieces:
+        for other in reversed(pieces):
+            low, high = max(one.start, 1 - other.stop), min(one.stop, 1 - other.start)
+            if low < high:
+                yield one, other, low, high
+
+
+def _uneven(one: PolynomialPiece, other: PolynomialPiece, low: Fraction, high: Fraction) -> tuple[arb, arb]:
+    """Least and greatest a(k) + a(1-k) - 1."""
+    # the y of the other piece at 1 - k, as a function of this one's
+    slope = -other.rate / one.rate
+    mirrored = fmpq_poly([other.local(1 - low) - slope * one.local(low), slope])
+    return between(one.derivative(0) + other.derivative(0)(mirrored) - 1, one.local(low), one.local(high))
 
 
 def _size(law: ExactLaw, nu: int) -> float:
-    """What the derivative of order nu at the ends is made of, at most: every coefficient of c is rounded."""
-    size = 1.0 + sum(map(abs, law.law.acceleration))
-    top = fmpz_poly.chebyshev_t(len(law.law.acceleration))
+    """What the derivative of order nu is made of, at most, where every coefficient of c is rounded."""
+    return max(_size_of(piece, nu) for piece in law.polynomials)
+
+
+def _size_of(piece: PolynomialPiece, nu: int) -> float:
+    size = 1.0 + sum(map(abs, piece.stored))
+    top = fmpz_poly.chebyshev_t(len(piece.stored))
     for _ in range(nu - 2):
         top = 2 * top.derivative()
-    return size * float(top(1))
-
-
-def degree_of_z(problem: Problem) -> int:
-    """The degree of Z in a problem whose laws are polynomials."""
-    return problem.basis.degree if isinstance(problem.basis, PolynomialBasis) else 0
+    return size * float(top(1)) / float(piece.stop - piece.start) ** max(nu - 2, 0)
 
 
 def _velocity(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     wanted = problem.range("B")
     least, greatest = law.extremes(1)
     if wanted is not None:
-        middle = arb(law.value(1, Fraction(1, 2)))
+        peak = problem.peak_at
+        middle = arb(law.value(1, Fraction(1, 2) if peak is None else Fraction(peak)))
         if isfinite(wanted.high):
             yield _of("b <= B", greatest - ball(wanted.high), wanted.high)
             if not problem.symmetric and not problem.monotone:
@@ -92,22 +132,22 @@ def _velocity(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
             yield _of("b(1/2) = B", abs(middle - ball(wanted.high)), wanted.high)
         elif problem.symmetric:
             yield _of("b <= b(1/2)", greatest - middle)
+        if problem.inflexion is not None and peak is not None:
+            yield _of(f"b <= b({peak:g})", greatest - middle)
+            yield _of(f"c({peak:g}) = 0", arb(abs(law.value(2, Fraction(peak)))))
         if wanted.low > 0.0:
-            reached = middle if problem.boundary is None else (-least).max(greatest)
+            reached = middle if peak is not None else (-least).max(greatest)
             yield _of("B at least", ball(wanted.low) - reached, wanted.low)
     if problem.monotone:
         yield _of("b >= 0", -least)
 
 
-def _constant(problem: Problem, law: ExactLaw, name: str) -> Iterator[Excess]:
-    wanted = problem.range(name)
-    if wanted is None:
-        return
-    value = law.term(FUNCTIONALS[name])
+def _constant(law: ExactLaw, constant: Functional, wanted: Range) -> Iterator[Excess]:
+    value = law.term(constant)
     if isfinite(wanted.high):
-        yield _of(f"{name} at most", value - ball(wanted.high), wanted.high)
+        yield _of(f"{constant.name} at most", value - ball(wanted.high), wanted.high)
     if wanted.low > 0.0:
-        yield _of(f"{name} at least", ball(wanted.low) - value, wanted.low)
+        yield _of(f"{constant.name} at least", ball(wanted.low) - value, wanted.low)
 
 
 def _windows(problem: Problem, law: ExactLaw) -> Iterator[Excess]:

@@ -1,72 +1,136 @@
-"""A polynomial law as it is stored, taken exactly, and rigorous enclosures of its constants."""
+"""A law as it is stored, taken exactly, and rigorous enclosures of its constants."""
 
 from __future__ import annotations
 
 from fractions import Fraction
 from functools import reduce
-from typing import Any
+from itertools import pairwise
 
-from flint import acb, arb, ctx, fmpq, fmpq_poly, fmpz_poly
+from flint import arb, ctx, fmpq
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
+from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments import PolynomialSegment, PowerSegment, Segment
+from optlaws.laws.sines import HarmonicSegment, SineSegment
 from optlaws.synthesis.expression import Expression, Maximum, Term
-from optlaws.synthesis.functionals import Peak, Power, RootMeanSquare
-from optlaws.verification.balls import at, ball, enclosure, rational
+from optlaws.synthesis.functionals import Power, RootMeanSquare
+from optlaws.verification.ball_pieces import PowerPiece, SinePiece
+from optlaws.verification.balls import ball, enclosed, rational
+from optlaws.verification.exact_pieces import ExactPiece, Extremes, PolynomialPiece, least_and_greatest
+from optlaws.verification.kinds import known
 
 
 class ExactLaw:
-    """The very polynomial that the law's floats describe, in x = 2k - 1 with rational coefficients.
+    """The very function that a law's floats describe, piece by piece.
+
+    Where a derivative jumps by more than rounding, as `PiecewiseLaw.jumps` tells, those above it are infinite.
 
     Parameters
     ----------
     law
         The law.
 
+    Raises
+    ------
+    InputError
+        If the law is neither polynomial nor made of polynomials, sines and constant power.
+
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> ExactLaw(smoothstep(2)).derivative(1)
+    >>> ExactLaw(smoothstep(2)).polynomials[0].derivative(1)
     (-3/2)*x^2 + 3/2
     """
 
-    def __init__(self, law: PolynomialLaw) -> None:
+    def __init__(self, law: MotionLaw) -> None:
         self.law = law
+        if isinstance(law, PolynomialLaw):
+            segments: tuple[Segment, ...] = (PolynomialSegment(law.acceleration, law.b0),)
+            breaks = [0.0, 1.0]
+        elif isinstance(law, PiecewiseLaw):
+            segments, breaks = law.segments, list(law.breaks)
+        else:
+            raise InputError(f"exact verification knows polynomial and piecewise laws, got {type(law).__name__}")
+        longest = max(len(one.acceleration) if isinstance(one, PolynomialSegment) else 0 for one in segments)
         #: bits that leave every enclosure much narrower than a float's rounding, whatever the degree
-        self.precision = 256 + 6 * law.degree
-        c = fmpq_poly([0])
-        for n, value in enumerate(law.acceleration):
-            c += rational(value) * fmpq_poly(fmpz_poly.chebyshev_t(n))
-        b = _risen(c, rational(law.b0))
-        self._derivatives = [_risen(b, rational(law.a0)), b, c]
+        self.precision = 256 + 6 * longest
+        self.start = Fraction(law.a0)
+        self.breaks = [Fraction(k) for k in breaks]
+        with ctx.workprec(self.precision):
+            places = zip(segments, pairwise(self.breaks), strict=True)
+            self.pieces = [_piece(segment, low, high) for segment, (low, high) in places]
+        self._raise()
 
-    def derivative(self, nu: int) -> fmpq_poly:
-        """The derivative of order nu by k, as a polynomial in x."""
-        while len(self._derivatives) <= nu:
-            self._derivatives.append(2 * self._derivatives[-1].derivative())
-        return self._derivatives[nu]
+    def _raise(self) -> None:
+        """Let each polynomial begin where the one before ends."""
+        height = rational(self.start)
+        for piece in self.pieces:
+            if not isinstance(piece, PolynomialPiece):
+                return
+            piece.raised(height)
+            height = piece.exact(0, piece.stop)
+
+    @property
+    def polynomials(self) -> list[PolynomialPiece]:
+        """The pieces, all polynomials.
+
+        Raises
+        ------
+        InputError
+            If one is not.
+        """
+        found = [piece for piece in self.pieces if isinstance(piece, PolynomialPiece)]
+        if len(found) < len(self.pieces):
+            raise InputError("the law of a solution must be made of polynomials")
+        return found
 
     def value(self, nu: int, k: Fraction) -> fmpq:
-        """The derivative of order nu at k, exact."""
-        return self.derivative(nu)(rational(2 * k - 1))
+        """The derivative of order nu at k, exact; at a break that of the later piece.
 
-    def extremes(self, nu: int, start: Fraction = Fraction(0), stop: Fraction = Fraction(1)) -> tuple[arb, arb]:
+        Raises
+        ------
+        InputError
+            If a piece is no polynomial.
+        """
+        return [piece for piece in self.polynomials if piece.start <= k][-1].exact(nu, k)
+
+    def extremes(self, nu: int, start: Fraction = Fraction(0), stop: Fraction = Fraction(1)) -> Extremes:
         """Balls that hold the least and the greatest value of the derivative of order nu between two k."""
-        return self.between(self.derivative(nu), start, stop)
+        with ctx.workprec(self.precision):
+            if start == stop:
+                value = arb(self.value(nu, start))
+                return value, value
+            found: list[arb] = []
+            for one in self.pieces:
+                low, high = max(start, one.start), min(stop, one.stop)
+                if low < high:
+                    found += one.extremes(nu, low, high)
+            return least_and_greatest(found)
 
     def peak(self, nu: int) -> arb:
         """A ball that holds the peak of the magnitude of the derivative of order nu."""
-        return self.magnitude(self.extremes(nu))
+        return arb.pos_inf() if self._impulses(nu) else self.magnitude(self.extremes(nu))
 
     def power(self) -> arb:
         """A ball that holds the peak of |b c|."""
-        return self.magnitude(self.between(self.derivative(1) * self.derivative(2), Fraction(0), Fraction(1)))
+        if self._impulses(2):
+            return arb.pos_inf()
+        with ctx.workprec(self.precision):
+            return self.magnitude(least_and_greatest([one for piece in self.pieces for one in piece.power()]))
 
     def rms(self, nu: int) -> arb:
         """A ball that holds the RMS of the derivative of order nu."""
-        integral = (self.derivative(nu) * self.derivative(nu)).integral()
+        if self._impulses(nu):
+            return arb.pos_inf()
         with ctx.workprec(self.precision):
-            return (arb(integral(1) - integral(-1)) / 2).sqrt()
+            squares = [piece.square(nu) for piece in self.pieces]
+            return sum(squares, arb(0)).sqrt() if all(one.is_finite() for one in squares) else arb.pos_inf()
+
+    def constants(self) -> dict[str, arb]:
+        """Balls that hold B, C, D, J and rms_c."""
+        peaks = {"B": self.peak(1), "C": self.peak(2), "D": self.power(), "J": self.peak(3)}
+        return {**peaks, "rms_c": self.rms(2)}
 
     def term(self, term: Term) -> arb:
         """A ball that holds the value of a constant or a maximum.
@@ -74,22 +138,21 @@ class ExactLaw:
         Raises
         ------
         InputError
-            If it is neither a peak, a power, an RMS nor a maximum of sums of these.
+            If it is neither a peak, the power, an RMS nor a maximum of sums of these.
         """
         if isinstance(term, Maximum):
             with ctx.workprec(self.precision):
                 return reduce(arb.max, map(self.sum, term.parts))
-        if isinstance(term, Power):
+        one = known(term)
+        if isinstance(one, Power):
             return self.power()
-        if isinstance(term, RootMeanSquare):
-            return self.rms(term.nu)
-        if isinstance(term, Peak) and len(term.signs) == 2:
-            return self.peak(term.nu)
-        if isinstance(term, Peak):
-            least, greatest = self.extremes(term.nu)
-            with ctx.workprec(self.precision):
-                return greatest if term.signs[0] > 0 else -least
-        raise InputError(f"there is no exact value of {term!r}: it is no peak, power or RMS")
+        if isinstance(one, RootMeanSquare):
+            return self.rms(one.nu)
+        if len(one.signs) == 2 or self._impulses(one.nu):
+            return self.peak(one.nu)
+        least, greatest = self.extremes(one.nu)
+        with ctx.workprec(self.precision):
+            return greatest if one.signs[0] > 0 else -least
 
     def sum(self, expression: Expression) -> arb:
         """A ball that holds the value of an objective."""
@@ -99,55 +162,28 @@ class ExactLaw:
                 total += ball(weight) * self.term(term)
             return total
 
-    def magnitude(self, extremes: tuple[arb, arb]) -> arb:
+    def magnitude(self, extremes: Extremes) -> arb:
         """A ball that holds the greater magnitude of two extremes."""
         with ctx.workprec(self.precision):
             return (-extremes[0]).max(extremes[1])
 
-    def between(self, polynomial: fmpq_poly, start: Fraction, stop: Fraction) -> tuple[arb, arb]:
-        """Balls that hold the least and the greatest value of a polynomial in x between two k."""
-        with ctx.workprec(self.precision):
-            ends = [ball(2 * k - 1) for k in (start, stop)]
-            values = [at(polynomial, x) for x in ends]
-            slope = polynomial.derivative()
-            roots: Any = slope.numer().complex_roots() if slope.degree() > 0 else ()
-            for root, _ in roots:
-                x = acb(root).real
-                if not acb(root).imag.contains(0) or x < ends[0] or x > ends[1]:
-                    continue
-                value = at(polynomial, x)
-                # a root that may lie beyond an end says no more than that end
-                for end, held in zip(ends, values[:2], strict=True):
-                    if x.overlaps(end):
-                        value = value.union(held)
-                values.append(value)
-            least = greatest = values[0]
-            for value in values[1:]:
-                least, greatest = least.min(value), greatest.max(value)
-            return least, greatest
+    def _impulses(self, nu: int) -> bool:
+        law = self.law
+        return isinstance(law, PiecewiseLaw) and any(law.jumps(lower) for lower in range(1, nu))
 
 
-def _risen(slope: fmpq_poly, start: fmpq) -> fmpq_poly:
-    """The integral by k from k = 0."""
-    found = slope.integral() * fmpq(1, 2)
-    return found - found(-1) + start
-
-
-def exact(law: MotionLaw) -> ExactLaw:
-    """The law, exactly.
-
-    Raises
-    ------
-    InputError
-        If it is not a polynomial.
-    """
-    if not isinstance(law, PolynomialLaw):
-        raise InputError(f"exact verification speaks of polynomial laws, got {type(law).__name__}")
-    return ExactLaw(law)
+def _piece(segment: Segment, start: Fraction, stop: Fraction) -> ExactPiece:
+    if isinstance(segment, PolynomialSegment):
+        return PolynomialPiece(start, stop, segment)
+    if isinstance(segment, SineSegment):
+        return SinePiece(start, stop, (segment,))
+    if isinstance(segment, HarmonicSegment):
+        return SinePiece(start, stop, segment.sines)
+    if isinstance(segment, PowerSegment):
+        return PowerPiece(start, stop, segment)
+    raise InputError(f"exact verification knows no {segment.kind} segments")
 
 
 def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
     """Floats below and above B, C, D, J and rms_c."""
-    found = exact(law)
-    balls = {"B": found.peak(1), "C": found.peak(2), "D": found.power(), "J": found.peak(3), "rms_c": found.rms(2)}
-    return {name: enclosure(value) for name, value in balls.items()}
+    return {name: enclosed(value) for name, value in ExactLaw(law).constants().items()}

@@ -42,7 +42,7 @@ def _term(problem: Problem, term: Term) -> Fraction:
     wanted = problem.range("B")
     if name not in {"C", "D"}:
         return Fraction(0)
-    if wanted is None or not wanted.fixed:
+    if wanted is None or not wanted.fixed or problem.inflexion is not None:
         return Fraction(4) if name == "C" else Fraction(9, 4)
     B = Fraction(wanted.high)
     return _acceleration(B, monotone=problem.monotone) if name == "C" else _power(B, monotone=problem.monotone)

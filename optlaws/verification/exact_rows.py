@@ -6,18 +6,21 @@ from collections.abc import Callable, Iterator, Mapping
 from contextlib import suppress
 from dataclasses import dataclass, field
 from fractions import Fraction
+from functools import partial
 from math import isfinite
 from operator import mul
 
-from flint import arb, fmpq_poly
+from flint import arb
 
 from optlaws.errors import InputError
+from optlaws.synthesis.bounds import Range
 from optlaws.synthesis.certificate import RELAXED, VIOLATION, Certificate, Contact
 from optlaws.synthesis.expression import Expression, Maximum, leaves
-from optlaws.synthesis.functionals import FUNCTIONALS, Functional, Peak, Power, RootMeanSquare
+from optlaws.synthesis.functionals import Functional, Peak, RootMeanSquare
 from optlaws.synthesis.windows import Window
 from optlaws.verification.balls import ball
-from optlaws.verification.exact_space import ExactSpace, values
+from optlaws.verification.exact_spaces import exact_space
+from optlaws.verification.kinds import known
 
 ROOT = "root of D"
 _NEAR = Fraction(1, 10**9)
@@ -40,6 +43,7 @@ class Row:
 
 
 Maker = Callable[[Contact, Fraction], Row]
+Place = Callable[[Fraction], list[arb]]
 
 
 @dataclass(frozen=True, eq=False)
@@ -64,12 +68,12 @@ class ExactRows:
     Raises
     ------
     InputError
-        If the laws are not polynomials or the objective has a constant that is no peak, power or RMS.
+        If the laws are of an unknown kind, or a constant that is minimised or bounded is no peak, power or RMS.
     """
 
     def __init__(self, certificate: Certificate) -> None:
         self.problem = problem = certificate.problem
-        self.space = ExactSpace(problem)
+        self.space = exact_space(problem)
         self.tangent = ball(certificate.tangent)
         self.relaxed = certificate.program == RELAXED
         self.names: list[str] = []
@@ -89,12 +93,10 @@ class ExactRows:
     def row(self, contact: Contact, k: Fraction | None = None) -> Row | None:
         """The row of a contact, or of one like it at another k; None if the problem asks for nothing of the kind."""
         place = Fraction(contact.k) if k is None else k
-        found = []
         for make in self._makers.get((contact.constraint, contact.sign), ()):
             with suppress(LookupError):
-                found.append(make(contact, place))
-        # the two halves of a window share a name: only the tighter one can bind
-        return max(found, key=lambda row: float(arb(row.right))) if found else None
+                return make(contact, place)
+        return None
 
     def _add(self, name: str, maker: Maker, signs: tuple[float, ...] = (1.0,)) -> None:
         for sign in signs:
@@ -106,8 +108,8 @@ class ExactRows:
         maxima = list(dict.fromkeys(_maxima(expression)))
         self.names += [repr(one) for one in (*found, *maxima)]
         for leaf in found:
-            if not isinstance(leaf, Functional):
-                raise InputError(f"there are no exact rows for {leaf!r}")
+            if not isinstance(leaf, Functional) or [repr(one) for one in found].count(repr(leaf)) > 1:
+                raise InputError(f"there are no exact rows for {leaf!r}: it is no constant, or shares its name")
             self._bounded(leaf, {leaf.name: -1.0}, 0.0)
         for term in maxima:
             for i, part in enumerate(term.parts, 1):
@@ -115,22 +117,19 @@ class ExactRows:
 
     def _bounded(self, leaf: Functional, slack: Names, high: float) -> None:
         """Rows of `leaf <= -slack + high`."""
-        if isinstance(leaf, Peak):
-            self._everywhere(leaf.name, self.space.derivative(leaf.nu), leaf.signs, slack, high)
-        elif isinstance(leaf, RootMeanSquare):
-            self._add(leaf.name, lambda contact, _: self._norm(leaf.nu, contact, slack, high))
-        elif isinstance(leaf, Power):
-            if self.relaxed:
-                self._power(slack, high)
-        else:
-            raise InputError(f"there are no exact rows for {leaf!r}: it is no peak, power or RMS")
+        one = known(leaf)
+        if isinstance(one, RootMeanSquare):
+            self._add(one.name, lambda contact, _: self._norm(one.nu, contact, slack, high))
+        elif isinstance(one, Peak):
+            # one sign of a derivative that is odd about 1/2 is, over the whole interval, both signs over the half
+            signs = (1.0, -1.0) if self.problem.symmetric and one.nu % 2 == 0 else one.signs
+            self._everywhere(one.name, partial(self.space.values, one.nu), signs, slack, high)
+        elif self.relaxed:
+            self._power(slack, high)
 
-    def _everywhere(
-        self, name: str, functions: list[fmpq_poly], signs: tuple[float, ...], slack: Names, high: float = 0.0
-    ) -> None:
+    def _everywhere(self, name: str, values: Place, signs: tuple[float, ...], slack: Names, high: float = 0.0) -> None:
         def make(contact: Contact, k: Fraction) -> Row:
-            found = values(functions, _x(k))
-            return Row([one * contact.sign for one in found], slack, -ball(high))
+            return Row([one * contact.sign for one in values(k)], slack, -ball(high))
 
         self._add(name, make, signs)
 
@@ -143,7 +142,7 @@ class ExactRows:
         start, change, _ = self.space.bounds
 
         def from_end(contact: Contact, k: Fraction, way: Fraction) -> Row:
-            found = values(self.space.derivative(1), _x(k))
+            found = self.space.values(1, k)
             left = ball(2 * way).sqrt()
             return Row([one * contact.sign / left if way else arb(0) for one in found], {ROOT: -1.0})
 
@@ -155,56 +154,58 @@ class ExactRows:
 
     def _norm(self, nu: int, contact: Contact, slack: Names, high: float) -> Row:
         """A direction times the values at Gauss points, each by the root of its weight: at most the norm (Cauchy)."""
-        functions = self.space.derivative(nu)
-        count = len(contact.direction)
-        if count <= max(one.degree() for one in functions):
-            raise LookupError
         direction = [ball(value) for value in contact.direction]
+        rule = self.space.gauss(nu, len(direction))
         length = sum((one * one for one in direction), arb(0)).sqrt()
-        # the solver's points ascend in u = 1 - 2k
-        rule = sorted(
-            (arb.legendre_p_root(count, i, weight=True) for i in range(count)), key=lambda one: -float(one[0])
-        )
-        columns = zip(*(values(functions, x) for x, _ in rule), strict=True)
-        weights = [one * (weight / 2).sqrt() / length for one, (_, weight) in zip(direction, rule, strict=True)]
+        weights = [one * weight.sqrt() / length for one, (_, weight) in zip(direction, rule, strict=True)]
+        columns = zip(*(column for column, _ in rule), strict=True)
         return Row([sum(map(mul, weights, column), arb(0)) for column in columns], slack, -ball(high))
 
     def _constraints(self) -> None:
         problem = self.problem
         self._peak_velocity()
         if problem.monotone:
-            if problem.symmetric:
+            self._everywhere("forward", partial(self.space.values, 1), (-1.0,), {})
+            if self.space.divided:
                 self._everywhere("ratio", self.space.ratio, (1.0,), {})
-            else:
-                self._everywhere("forward", self.space.derivative(1), (-1.0,), {})
-        for name in ("C", "D", "J"):
-            wanted = problem.range(name)
-            if wanted is None or not isfinite(wanted.high):
-                continue
-            if name in self.names:
-                self._single(f"{name} at most", {name: 1.0}, ball(wanted.high))
-            else:
-                self._bounded(FUNCTIONALS[name], {}, wanted.high)
+        for constant, wanted in problem.bounded:
+            self._range(constant, wanted)
+        for nu, k, value in self.space.conditions:
+            self.equations.append(Row(self.space.values(nu, k), {}, -ball(value)))
         for i, window in enumerate(problem.windows, 1):
-            for part in parts(window, symmetric=problem.symmetric):
-                self._window(f"window {i}", window, part)
+            for part, side in zip(parts(window, symmetric=problem.symmetric), ("", " mirrored"), strict=False):
+                self._window(f"window {i}{side}", window, part)
+
+    def _range(self, constant: Functional, wanted: Range) -> None:
+        name = constant.name
+        if name in self.names and wanted.low > 0.0:
+            self._single(f"{name} at least", {name: -1.0}, -ball(wanted.low))
+        if not isfinite(wanted.high):
+            return
+        if name in self.names:
+            self._single(f"{name} at most", {name: 1.0}, ball(wanted.high))
+        else:
+            self._bounded(constant, {}, wanted.high)
 
     def _peak_velocity(self) -> None:
-        problem, b = self.problem, self.space.derivative(1)
+        problem, space = self.problem, self.space
         wanted = problem.range("B")
         if wanted is None:
             return
-        middle = values(b, arb(0))
+        peak = None if problem.peak_at is None else Fraction(problem.peak_at)
+        middle = space.values(1, peak or Fraction(1, 2))
+        if peak is not None:
+            self._everywhere("chord", partial(space.chord, peak), (1.0,), {})
         if problem.symmetric:
-            self._everywhere("chord", self.space.chord, (1.0,), {})
             constants: Names = {} if wanted.fixed else {"B": -1.0}
             self.equations.append(Row(middle, constants, -ball(wanted.high) if wanted.fixed else 0.0))
         else:
-            self._everywhere("b", b, (1.0,) if problem.monotone else (1.0, -1.0), {"B": -1.0})
+            self._everywhere("b", partial(space.values, 1), (1.0, -1.0), {"B": -1.0})
             if wanted.fixed:
                 self.equations.append(Row([arb(0)] * len(middle), {"B": 1.0}, -ball(wanted.high)))
-            if problem.boundary is None and wanted.low > 0.0:
+            if peak is not None:
                 self.equations.append(Row(middle, {"B": -1.0}))
+                self.equations.append(Row(space.values(2, peak)))
         if not wanted.fixed:
             if isfinite(wanted.high):
                 self._single("B at most", {"B": 1.0}, ball(wanted.high))
@@ -212,9 +213,8 @@ class ExactRows:
                 self._single("B at least", {"B": -1.0}, -ball(wanted.low))
 
     def _window(self, name: str, window: Window, part: Part) -> None:
-        functions = self.space.derivative(part.order)
         if window.value:
-            found = values(functions, _x(part.start))
+            found = self.space.values(part.order, part.start)
             self.equations.append(Row(found, {}, -ball(part.high or Fraction(0))))
             return
 
@@ -222,7 +222,7 @@ class ExactRows:
             bound = part.high if contact.sign > 0.0 else part.low
             if bound is None or not part.start - _NEAR <= k <= part.stop + _NEAR:
                 raise LookupError
-            found = values(functions, _x(min(max(k, part.start), part.stop)))
+            found = self.space.values(part.order, min(max(k, part.start), part.stop))
             return Row([one * contact.sign for one in found], {}, -contact.sign * ball(bound))
 
         for side, sign in (("above", 1.0), ("below", -1.0)):
@@ -243,10 +243,6 @@ def parts(window: Window, *, symmetric: bool) -> Iterator[Part]:
         whole = 1 - window.order // 2
         low, high = (None if one is None else whole - one for one in (high, low))
     yield Part(window.order, low, high, 1 - stop, 1 - max(start, half))
-
-
-def _x(k: Fraction) -> arb:
-    return ball(2 * k - 1)
 
 
 def _maxima(expression: Expression) -> Iterator[Maximum]:

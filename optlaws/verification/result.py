@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
+from math import isfinite
 from typing import Any
 
 from optlaws.synthesis.problem import Problem
@@ -33,7 +34,7 @@ class Verification:
     Attributes
     ----------
     problem
-        Of which problem it speaks.
+        Of which problem it speaks; None for a law alone.
     bound
         No law of the problem has a smaller objective: by the certificate, or beside a law also by the limit of C or D.
         None where nothing is proven.
@@ -59,7 +60,7 @@ class Verification:
     0.0
     """
 
-    problem: Problem
+    problem: Problem | None
     bound: float | None
     infeasible: bool = False
     objective: tuple[float, float] | None = None
@@ -75,22 +76,22 @@ class Verification:
         return all(claim.proven for claim in self.claims)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict."""
+        """Plain JSON-able dict; None for infinite numbers."""
         return {
             "proven": self.proven,
             "bound": self.bound,
             "infeasible": self.infeasible,
-            "objective": None if self.objective is None else list(self.objective),
+            "objective": None if self.objective is None else _pair(self.objective),
             "gap": self.gap,
-            "constants": {name: list(pair) for name, pair in self.constants.items()},
-            "excesses": dict(self.excesses),
+            "constants": {name: _pair(pair) for name, pair in self.constants.items()},
+            "excesses": {name: by if isfinite(by) else None for name, by in self.excesses.items()},
             "charge": self.charge,
             "claims": [asdict(claim) for claim in self.claims],
-            "problem": self.problem.to_dict(),
+            "problem": None if self.problem is None else self.problem.to_dict(),
         }
 
     def __str__(self) -> str:
-        lines = [f"{self.problem!r}"]
+        lines = [] if self.problem is None else [f"{self.problem!r}"]
         if self.infeasible:
             lines.append("no law of the problem exists")
         if self.objective is not None:
@@ -101,3 +102,7 @@ class Verification:
             lines.append(f"gap          at most {self.gap:.2e}")
         lines += [f"{name:<12} in [{low!r}, {high!r}]" for name, (low, high) in self.constants.items()]
         return "\n".join([*lines, *map(str, self.claims)])
+
+
+def _pair(pair: tuple[float, float]) -> list[float | None]:
+    return [one if isfinite(one) else None for one in pair]

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from mpmath import mp, mpf  # type: ignore[import-untyped]
 
-from optlaws import Chebyshev, InputError, PolynomialLaw, Problem, smoothstep, synthesize
+from optlaws import Chebyshev, PolynomialLaw, Problem, smoothstep, synthesize
 from optlaws.verification import enclosures
 
 flint = pytest.importorskip("flint")
@@ -98,14 +98,6 @@ def test_no_value_is_outside_the_extremes(series: list[float], first: float, las
     inside = law.extrema(2, within=(start, stop))
     assert enclosure(least)[0] == pytest.approx(inside[0].value, abs=100.0 * size)
     assert enclosure(greatest)[1] == pytest.approx(inside[1].value, abs=100.0 * size)
-
-
-def test_other_laws_are_refused() -> None:
-    from optlaws.laws.piecewise import PiecewiseLaw
-    from optlaws.laws.segments import PolynomialSegment
-
-    with pytest.raises(InputError, match="polynomial laws"):
-        enclosures(PiecewiseLaw([0.0, 1.0], [PolynomialSegment((0.0, -6.0))]))
 
 
 def test_rounding_goes_outward() -> None:

@@ -1,0 +1,94 @@
+"""Files in which one value after the other is changed, and whether what is still called proven is true."""
+
+import copy
+import json
+from collections.abc import Iterator, Sequence
+from functools import cache
+from typing import Any
+
+from optlaws import Problem, synthesize
+from optlaws.verification import Verification, verify
+
+Data = dict[str, Any]
+Path = tuple[str | int, ...]
+
+#: how far above the proven value a stated one, computed in doubles, may be
+ROOM = 2e-9
+#: what is said of the search and not of the law
+IDLE = {"seconds", "iterations", "versions", "starts"}
+
+
+@cache
+def text_of(problem: Problem, bound: str = "quick") -> str:
+    solution = synthesize(problem, bound="tight") if bound == "tight" else synthesize(problem)
+    return json.dumps(solution.to_dict(), allow_nan=False)
+
+
+def data_of(problem: Problem, bound: str = "quick") -> Data:
+    found: Data = json.loads(text_of(problem, bound))
+    return found
+
+
+def places(data: Any, path: Path = ()) -> Iterator[Path]:  # noqa: ANN401 - JSON
+    """Every value that is no object and no list, and every object and list too."""
+    if path:
+        yield path
+    if isinstance(data, dict):
+        for key, value in data.items():
+            if key not in IDLE:
+                yield from places(value, (*path, key))
+    elif isinstance(data, list):
+        for i, value in enumerate(data):
+            yield from places(value, (*path, i))
+
+
+def value_at(data: Any, path: Sequence[str | int]) -> Any:  # noqa: ANN401 - JSON
+    for key in path:
+        data = data[key]
+    return data
+
+
+def changed(data: Data, path: Path, value: object) -> Data:
+    """A copy with another value at a place."""
+    found = copy.deepcopy(data)
+    value_at(found, path[:-1])[path[-1]] = value
+    return found
+
+
+def numbers(data: Data) -> list[Path]:
+    found = []
+    for path in places(data):
+        value = value_at(data, path)
+        if isinstance(value, int | float) and not isinstance(value, bool):
+            found.append(path)
+    return found
+
+
+def overstated(tampered: Data, true: Verification) -> list[str]:
+    """What is wrong with calling a file proven, if `true` is what holds of the untampered one."""
+    found = verify(tampered)
+    assert true.objective is not None
+    low, high = true.objective
+    wrong = []
+    if found.problem == true.problem and found.bound is not None and found.bound > high * (1.0 + 1e-11):
+        wrong.append(f"bound {found.bound!r} above the optimum {high!r}")
+    if not found.proven:
+        return wrong
+    if found.problem != true.problem:
+        wrong.append("another problem")
+    best = max(true.bound or 0.0, 0.0) + ROOM * max(1.0, high)
+    stated = {
+        "lower_bound": tampered.get("lower_bound"),
+        "certificate.bound": tampered["certificate"].get("bound"),
+        "power_certificate.bound": (tampered.get("power_certificate") or {}).get("bound"),
+    }
+    wrong += [f"{name} {value!r}" for name, value in stated.items() if value is not None and value > best]
+    if "objective" in tampered and not low - 1e-9 * high <= tampered["objective"] <= high * (1.0 + 1e-9):
+        wrong.append(f"objective {tampered['objective']!r}")
+    gap = tampered.get("gap")
+    if gap is not None and true.gap is not None and gap < true.gap - 2e-8:
+        wrong.append(f"gap {gap!r}")
+    for name, one in tampered.get("constants", {}).items():
+        if abs(one["value"] - true.constants[name][0]) > 1e-9 * max(1.0, true.constants[name][1]):
+            wrong.append(f"{name} {one!r}")
+    return wrong

@@ -1,0 +1,129 @@
+"""Whatever kind of problem optlaws solves, its file is proven, and fast; own constants have a bound by numpy."""
+
+import time
+from dataclasses import dataclass, replace
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from numpy.typing import NDArray
+
+from optlaws import (
+    BoundaryConditions,
+    Chebyshev,
+    Functional,
+    InputError,
+    MotionLaw,
+    Problem,
+    construct,
+    synthesize,
+)
+from optlaws.synthesis import Window, at_least, at_most, between
+from optlaws.synthesis.rows import Family
+from optlaws.synthesis.space import LawSpace
+from optlaws.verification import exact_bound, verify
+from tests.verification.tampering import data_of
+
+pytest.importorskip("flint")
+
+DEGREE_9 = Chebyshev(9)
+KINDS = [
+    Problem(B=1.5, order=1, basis=DEGREE_9),
+    Problem(B=1.9, order=6, basis=Chebyshev(11), minimise="jounce"),
+    Problem(B=1.9, order=3, basis=DEGREE_9, minimise="rms_j"),
+    Problem(B=1.75, order=2, basis=DEGREE_9, minimise="C_plus"),
+    Problem(B=1.75, order=3, basis=DEGREE_9, minimise="C_plus", symmetric=False),
+    Problem(order=3, basis=DEGREE_9, minimise="C_minus", windows=(Window("a", 0.4, 0.6, 0.45, 0.55),)),
+    Problem(order=3, basis=DEGREE_9, windows=(Window("b", high=1.5, start=0.2, stop=0.8),)),
+    Problem(order=3, basis=DEGREE_9, minimise="J", windows=(Window("c", high=3.5, start=0.2, stop=0.8),)),
+    Problem(order=3, basis=DEGREE_9, minimise="C", J=at_most(70)),
+    Problem(order=4, basis=DEGREE_9, B=between(1.5, 1.8), bounds={"jounce": at_most(3000)}),
+    Problem(order=4, basis=DEGREE_9, B=at_least(2.0), minimise="max(C/4, J/32) + 0.2*rms_c"),
+    Problem(order=3, basis=DEGREE_9, B=1.75, minimise="C + J/30", J=between(70, 80)),
+    Problem(order=3, basis=DEGREE_9, B=1.7, symmetric=False, inflexion=0.4),
+    Problem(order=2, basis=DEGREE_9, symmetric=False, boundary=BoundaryConditions((0, 0.5), (1, 0)), monotone=True),
+    Problem(order=2, basis=Chebyshev(5), minimise="D"),
+]
+
+
+@pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
+@pytest.mark.parametrize("problem", KINDS, ids=repr)
+def test_every_kind_is_proven(problem: Problem) -> None:
+    data = data_of(problem)
+    found = verify(data)
+    assert found.proven, str(found)
+    assert found.gap is not None
+    if data["status"] == "optimal":
+        assert found.gap < 1e-8
+
+
+def test_a_law_of_degree_9_is_checked_in_less_than_a_second() -> None:
+    data = data_of(Problem(B=1.859, order=4, basis=DEGREE_9))
+    start = time.process_time()
+    assert verify(data).proven
+    assert time.process_time() - start < 1.0
+
+
+@dataclass(frozen=True, repr=False)
+class Heating(Functional):
+    """RMS of c + r b from rest to rest."""
+
+    friction: float
+
+    def value(self, law: MotionLaw) -> float:
+        """By the two RMS."""
+        return float(np.hypot(law.rms(2), self.friction * law.rms(1)))
+
+    def families(self, space: LawSpace, slack: NDArray[np.float64], bound: float) -> tuple[Family, ...]:
+        """A norm of the coordinates."""
+        inertia, drag = (space.norm(nu, self.name, slack, bound) for nu in (2, 1))
+        return (replace(inertia, matrix=np.vstack([inertia.matrix, self.friction * drag.matrix])),)
+
+    def curbs(self) -> tuple[tuple[int, float], ...]:
+        """The RMS of c is no greater."""
+        return ((2, 1.0),)
+
+
+@dataclass(frozen=True, repr=False)
+class Silent(Heating):
+    """The same, which does not tell what it bounds."""
+
+    def curbs(self) -> tuple[tuple[int, float], ...]:
+        """Nothing."""
+        return ()
+
+
+HEATING, SILENT = (kind("heating", 12**0.5, convex=True, friction=3.0) for kind in (Heating, Silent))
+
+
+@pytest.mark.parametrize("B", [None, at_least(1.2), between(1.2, 2.0), 1.8])
+@pytest.mark.parametrize("symmetric", [True, False])
+def test_an_own_constant_is_proven_like_the_others(B: float | None, symmetric: bool) -> None:  # noqa: FBT001
+    solution = synthesize(Problem(B=B, order=4, basis=DEGREE_9, minimise=HEATING, symmetric=symmetric))
+    assert solution.status.value == "optimal"
+    assert abs(solution.certificate.bound / solution.objective - 1.0) < 1e-9
+
+
+@settings(max_examples=40)
+@given(st.integers(0, 2**32 - 1), st.floats(1e-3, 10.0))
+def test_no_law_beats_the_bound_of_an_own_constant(seed: int, size: float) -> None:
+    solution = synthesize(Problem(order=4, basis=DEGREE_9, minimise=HEATING))
+    assert solution.z is not None
+    z = np.array(solution.z) + np.random.default_rng(seed).normal(size=10) * size
+    law = construct(BoundaryConditions.rest(4), z, DEGREE_9)
+    assert HEATING.value(law) >= solution.certificate.bound
+
+
+def test_without_a_word_of_what_it_bounds_nothing_is_proven_where_B_is_free() -> None:
+    solution = synthesize(Problem(order=4, basis=DEGREE_9, minimise=SILENT))
+    assert solution.status.value == "inaccurate"
+    assert solution.certificate.bound == -np.inf
+
+
+def test_an_own_constant_is_not_taken_for_exact() -> None:
+    solution = synthesize(Problem(order=4, basis=DEGREE_9, minimise=HEATING))
+    with pytest.raises(InputError, match="as optlaws defines them, not heating"):
+        exact_bound(solution.certificate)
+    with pytest.raises(InputError, match="heating"):
+        verify(solution.to_dict())

@@ -1,0 +1,152 @@
+"""What is read: files of one or many solutions; wrong ones end in an error that says what is wrong."""
+
+import json
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from optlaws import Chebyshev, Functional, InputError, Problem, smoothstep
+from optlaws.cli import exit_code
+from optlaws.synthesis.bases import Basis
+from optlaws.verification import exact_bound, verify, verify_all
+from optlaws.verification.exact_spaces import exact_space
+from tests.documents import ROOT
+from tests.verification.tampering import data_of, text_of
+
+pytest.importorskip("flint")
+
+PROBLEM = Problem(B=1.859, order=3, basis=Chebyshev(5))
+
+
+def written(tmp_path: Path, text: str) -> str:
+    file = tmp_path / "solution.json"
+    file.write_text(text, "utf-8")
+    return str(file)
+
+
+WRONG: dict[str, tuple[Callable[[str], str], str]] = {
+    "truncated": (lambda text: text[: len(text) // 2], "not JSON"),
+    "empty": (lambda _: "", "not JSON"),
+    "array": (lambda text: f"[{text}]", "not a JSON object"),
+    "nan": (lambda text: text.replace('"objective": ', '"objective": NaN, "was": '), "NaN is no JSON number"),
+    "infinity": (lambda text: text.replace('"gap": ', '"gap": -Infinity, "was": '), "-Infinity is no JSON number"),
+    "overflow": (lambda text: text.replace('"objective": ', '"objective": 1e999, "was": '), "finite number, got inf"),
+    "huge": (lambda text: text.replace('"objective": ', f'"objective": {"9" * 400}, "was": '), "beyond the numbers"),
+    "endless": (lambda text: text.replace('"objective": ', f'"objective": {"9" * 5000}, "was": '), "not JSON"),
+    "twice": (lambda text: text.replace('"objective": ', '"objective": 1, "objective": '), "comes twice"),
+    "format": (lambda text: text.replace('"format": 1', '"format": 2'), "law has the format 2"),
+    "degree": (lambda text: text.replace('"degree": 5', '"degree": 100000'), "more than exact verification takes"),
+    "program": (lambda text: text.replace('"program": "objective"', '"program": "divine"'), "program of a certificate"),
+    "basis": (lambda text: text.replace('"chebyshev"', '"legendre"'), "basis 'legendre' is unknown"),
+    "kind": (lambda text: text.replace('"kind": "polynomial"', '"kind": "oracle"'), "kind"),
+    "deep": (lambda _: '{"a":' * 100_000 + "1" + "}" * 100_000, "nested too deeply"),
+}
+
+
+@pytest.mark.parametrize("name", WRONG)
+def test_a_wrong_file_is_refused_and_says_why(name: str, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    change, message = WRONG[name]
+    before = text_of(PROBLEM)
+    text = change(before)
+    assert text != before
+    assert exit_code(["verify", written(tmp_path, text)]) == 2
+    assert message in capsys.readouterr().err
+
+
+def test_a_file_that_is_not_there_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    assert exit_code(["verify", str(tmp_path / "none.json")]) == 2
+    assert "none.json" in capsys.readouterr().err
+    assert exit_code(["verify", str(tmp_path)]) == 2
+    (tmp_path / "binary.json").write_bytes(b"\xff\xfe\x00")
+    assert exit_code(["verify", str(tmp_path / "binary.json")]) == 2
+
+
+def test_the_same_of_python_data() -> None:
+    data = data_of(PROBLEM)
+    with pytest.raises(InputError, match=r"certificate\.tangent must be a finite number, got inf"):
+        verify({**data, "certificate": {**data["certificate"], "tangent": float("inf")}})
+    with pytest.raises(InputError, match="neither a solution"):
+        verify({"rows": [data]})
+
+
+def test_every_solution_of_a_file_is_checked(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    data, law = data_of(PROBLEM), smoothstep(3)
+    rows: dict[str, list[dict[str, Any]]] = {
+        "rows": [{"solution": data}, {"printed": {"law": law.to_dict(), "constants": law.constants.to_dict()}}]
+    }
+    file = written(tmp_path, json.dumps(rows))
+    found = verify_all(file)
+    assert list(found) == ["rows[0].solution", "rows[1].printed"]
+    assert all(one.proven for one in found.values())
+    assert exit_code(["verify", file]) == 0
+    assert "rows[0].solution: proven" in capsys.readouterr().out
+    rows["rows"][1]["printed"]["constants"]["C"]["value"] = 5.0
+    assert exit_code(["verify", written(tmp_path, json.dumps(rows))]) == 1
+    assert "rows[1].printed: NOT PROVEN  C: 5.0 stated" in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        {"rows": []},
+        {"points": [{"lower_bound": 4.0, "problem": {}}]},
+        {"rows": [{"solution": {"law": smoothstep(2).to_dict(), "objective": 6.0}}]},
+    ],
+)
+def test_claims_without_a_certificate_are_refused(data: dict[str, Any]) -> None:
+    with pytest.raises(InputError, match="not a file of solutions"):
+        verify_all(data)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("file", sorted((ROOT / "results").glob("*/laws.json")), ids=lambda file: file.parent.name)
+def test_every_shipped_law_is_proven(file: Path) -> None:
+    found = verify_all(file)
+    assert len(found) > 10
+    assert [place for place, one in found.items() if not one.proven] == []
+
+
+def test_shipped_laws_are_proven() -> None:
+    found = verify_all(ROOT / "results" / "d_minimal" / "laws.json")
+    assert len(found) > 10
+    assert all(one.proven for one in found.values())
+
+
+class Mystery(Basis):
+    """A basis that nobody has put into exact arithmetic."""
+
+    def check(self, *, symmetric: bool) -> None:
+        """Whatever it is."""
+
+    def to_dict(self) -> dict[str, Any]:
+        """Nothing."""
+        return {}
+
+
+def test_bases_of_unknown_kinds_are_refused() -> None:
+    with pytest.raises(InputError, match="exact verification knows laws with Z in polynomials or in splines"):
+        exact_space(Problem(B=1.859, order=3, basis=Mystery()))
+
+
+def test_own_constants_are_refused_even_if_they_look_like_known_ones() -> None:
+    from dataclasses import dataclass
+
+    from optlaws import synthesize
+    from optlaws.synthesis.functionals import Peak
+
+    @dataclass(frozen=True, repr=False)
+    class Half(Peak):
+        """A peak of which half is told."""
+
+        def value(self, law: Any) -> float:  # noqa: ANN401
+            return 0.5 * super().value(law)
+
+    half: Functional = Half("half", 2.0, convex=True, nu=2)
+    solution = synthesize(Problem(B=1.859, order=3, basis=Chebyshev(5), minimise="C"))
+    from dataclasses import replace
+
+    asked = replace(solution.problem, minimise=half)
+    with pytest.raises(InputError, match="as optlaws defines them, not half"):
+        exact_bound(replace(solution.certificate, problem=asked))
