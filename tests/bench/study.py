@@ -1,0 +1,147 @@
+"""What a study costs: laws a second by one process and by two, where the time goes, and memory.
+
+Run it with `python -m tests.bench.study`; `make bench` ends with it. `python -m tests.bench.study 100000` takes so many
+points for the memory.
+"""
+
+import os
+import sys
+import tempfile
+from collections.abc import Callable, Mapping
+from contextlib import ExitStack
+from pathlib import Path
+from pkgutil import resolve_name
+from time import perf_counter, process_time
+from typing import Any
+from unittest.mock import patch
+
+import msgspec
+from rich.console import Console
+from rich.table import Table
+
+from optlaws.studies.sweeps.points import Points
+from optlaws.studies.sweeps.run import run_study, task
+from optlaws.studies.sweeps.solving import Task, rows
+from optlaws.studies.sweeps.study_file import read_study
+
+RATE, EFFICIENCY = 300.0, 0.9
+POINTS = 3200
+REPEATS = 3
+
+
+def asked(points: int, degree: int) -> dict[str, Any]:
+    """A study over B, as a user would ask for it."""
+    return {"problem": {"order": 4, "degree": degree}, "vary": {"B": {"from": 1.55, "to": 2.5, "steps": points}}}
+
+
+class Stopwatch:
+    """Watches a study from its first chunk, when the processes have started, to its last; and the memory meanwhile."""
+
+    def __init__(self) -> None:
+        self.first: tuple[float, int] | None = None
+        self.last = (0.0, 0)
+        self.megabytes: list[float] = []
+
+    def begin(self, total: int, counts: Mapping[str, int]) -> None:
+        """Nothing is measured before the first chunk."""
+
+    def advance(self, counts: Mapping[str, int]) -> None:
+        """One chunk or several are done."""
+        self.last = (perf_counter(), sum(counts.values()))
+        self.first = self.first or self.last
+        self.megabytes.append(memory())
+
+    def end(self, counts: Mapping[str, int]) -> None:
+        """All is measured."""
+
+    @property
+    def rate(self) -> float:
+        """Laws a second."""
+        assert self.first is not None
+        return (self.last[1] - self.first[1]) / (self.last[0] - self.first[0])
+
+
+def memory() -> float:
+    """Megabytes that this process holds; 0 where the system does not tell."""
+    file = Path("/proc/self/statm")
+    return int(file.read_text().split()[1]) * os.sysconf("SC_PAGE_SIZE") / 2**20 if file.exists() else 0.0
+
+
+def watched(points: int, degree: int, workers: int) -> Stopwatch:
+    """A study into a directory that is thrown away."""
+    watch = Stopwatch()
+    with tempfile.TemporaryDirectory() as out:
+        run_study(asked(points, degree), out, workers=workers, watch=watch)
+    return watch
+
+
+PARTS = {
+    "IPOPT": ("optlaws.synthesis.exchange.solve_on_points",),
+    "Newton": ("optlaws.synthesis.exchange.newton",),
+    "proof": ("optlaws.synthesis.solve.certify", "optlaws.synthesis.solve.lower_bound"),
+    "synthesis": ("optlaws.studies.sweeps.solving.synthesize",),
+    "constants": ("optlaws.studies.sweeps.solving._row",),
+}
+
+
+def shares(points: int, degree: int) -> dict[str, float]:
+    """Shares of the processor time that a study takes in one process; what is outside all parts is the study's own."""
+    study = read_study(asked(points, degree))
+    grid = Points.of(study)
+    tasks = [msgspec.convert(task(study, grid, number), Task) for number in range(grid.chunks)]
+    list(rows(tasks[0]))
+    spent: dict[str, float] = {}
+    with ExitStack() as stack:
+        for name, functions in PARTS.items():
+            spent[name] = 0.0
+            for function in functions:
+                stack.enter_context(patch(function, side_effect=_timed(name, resolve_name(function), spent)))
+        began = process_time()
+        for one in tasks[1:]:
+            list(rows(one))
+        whole = process_time() - began
+    found = {name: seconds / whole for name, seconds in spent.items()}
+    synthesis = found.pop("synthesis")
+    found["other synthesis"] = synthesis - sum(found[name] for name in ("IPOPT", "Newton", "proof"))
+    found["study"] = 1.0 - synthesis - found["constants"]
+    return found
+
+
+def _timed(name: str, function: Callable[..., object], spent: dict[str, float]) -> Callable[..., object]:
+    def run(*arguments: object, **options: object) -> object:
+        began = process_time()
+        try:
+            return function(*arguments, **options)
+        finally:
+            spent[name] += process_time() - began
+
+    return run
+
+
+def main(points: int = POINTS) -> None:
+    """Measure and print."""
+    console = Console(width=120)
+    parts = ("IPOPT", "Newton", "proof", "other synthesis", "constants", "study")
+    table = Table("degree of Z", "1 process, laws/s", "2 processes", "efficiency", *parts)
+    table.title = f"studies over B, l = 4; aims: {RATE:g}/s at degree 9, efficiency {EFFICIENCY:g}; shares of the time"
+    for degree in (5, 9, 19):
+        # turn by turn, and the best of each: what else the machine does takes from either
+        runs = [[watched(POINTS // 4 * workers, degree, workers).rate for workers in (1, 2)] for _ in range(REPEATS)]
+        one, two = map(max, zip(*runs, strict=True))
+        spent = shares(1280, degree)
+        efficiency = two / (2.0 * one)
+        table.add_row(
+            str(degree),
+            f"{one:.0f}{' *' if degree == 9 and one < RATE else ''}",
+            f"{two:.0f}",
+            f"{efficiency:.2f}{' *' if efficiency < EFFICIENCY else ''}",
+            *(f"{spent[name]:.0%}" for name in parts),
+        )
+    console.print(table)
+    seen = watched(points, 3, 2).megabytes
+    early, late = max(seen[: len(seen) // 5]), max(seen[-len(seen) // 5 :])
+    console.print(f"memory over {points} points: {early:.0f} MB in the first fifth, {late:.0f} MB in the last")
+
+
+if __name__ == "__main__":
+    main(*map(int, sys.argv[1:2]))
