@@ -212,13 +212,18 @@ def _greatest(certificate: Certificate, found: Model, claim: float) -> dict[str,
     if power is not None and power.name in bounds:
         bounds[ROOT] = bounds[power.name] ** 0.5
     if "B" in found.places and not isfinite(bounds["B"]):
-        curved = min(bounds.get(name, inf) * factor for name, factor in _STEEP)
-        bounds["B"] = abs(found.space.start_velocity) + curved
+        # b is nowhere further from its mean, the stroke, than the integral of |c|
+        curved = min(bounds.get(name, inf) for name in ("C", "rms_c"))
+        bounds["B"] = abs(found.space.stroke) + min(curved, *_from_one_sign(problem, found.space, bounds))
     return bounds
 
 
-# |b| <= |b(0)| + half the peak of c or its RMS; a one-sided peak may be passed in full
-_STEEP = (("C", 0.5), ("rms_c", 0.5), ("C_plus", 1.0), ("C_minus", 1.0))
+def _from_one_sign(problem: Problem, space: LawSpace, greatest: dict[str, float]) -> tuple[float, float]:
+    """Bounds of the integral of |c| from the peaks of one sign: what is above 0 less what is below is b(1) - b(0)."""
+    if problem.conditions.order == 1:
+        return inf, inf
+    drop = abs(space.velocity_change)
+    return 2.0 * greatest.get("C_plus", inf) + drop, 2.0 * greatest.get("C_minus", inf) + drop
 
 
 def spread(expression: Expression, claim: float, bounds: dict[str, float]) -> None:
@@ -233,9 +238,8 @@ def spread(expression: Expression, claim: float, bounds: dict[str, float]) -> No
 
 def _means(certificate: Certificate, space: LawSpace, greatest: dict[str, float]) -> list[tuple[int, float]]:
     """Orders of derivatives whose mean magnitude is bounded, with the bound for law and base law together."""
-    drop = abs(space.velocity_change)
     means = [(2, greatest.get("C", inf)), (2, greatest.get("rms_c", inf)), (3, greatest.get("J", inf))]
-    means += [(2, 2.0 * greatest.get(name, inf) + drop) for name in ("C_plus", "C_minus")]
+    means += [(2, mean) for mean in _from_one_sign(certificate.problem, space, greatest)]
     means += [(3, greatest.get("rms_j", inf)), (4, greatest.get("jounce", inf))]
     stroke = abs(space.stroke)
     if "D" in greatest and certificate.problem.order > 1 and space.start_velocity == 0.0:

@@ -44,12 +44,16 @@ class PieceSpace(PiecewiseSpace):
         self.k = kept
         self._order = degree - 2
         self._acceleration = self._splines(kept, self._order, self._order - (continuity - 2))
+        self._free_start = boundary.order == 1
+        if self._free_start:
+            # one more coordinate: the velocity at the start, beyond that of a = a(0) + stroke k
+            self._acceleration = np.insert(self._acceleration, -1, 0.0, axis=2)
         self.terms = self._acceleration.shape[2] - 1
         self._pieces[2] = PieceSeries(1.0 - 2.0 * kept, self._acceleration)
-        self.start_velocity = float(boundary.start[1]) if boundary.order > 1 else 0.0
-        end_velocity = float(boundary.end[1]) if boundary.order > 1 else 0.0
-        self.velocity_change = end_velocity - self.start_velocity
         self.stroke = float(boundary.end[0]) - float(boundary.start[0])
+        self.start_velocity = self.stroke if self._free_start else float(boundary.start[1])
+        end_velocity = self.stroke if self._free_start else float(boundary.end[1])
+        self.velocity_change = end_velocity - self.start_velocity
 
     @staticmethod
     def _splines(breaks: Array, order: int, multiplicity: int) -> Array:
@@ -75,14 +79,16 @@ class PieceSpace(PiecewiseSpace):
                 lower = self.pieces(nu - 1).derivative()
                 self._pieces[nu] = PieceSeries(lower.breaks, -2.0 * lower.series)
             else:
-                start = self.start_velocity if nu == 1 else float(self.boundary.start[0])
-                self._pieces[nu] = self._integrated(self.pieces(nu + 1), start)
+                value = np.zeros(self.terms + 1)
+                value[-1] = self.start_velocity if nu == 1 else float(self.boundary.start[0])
+                if nu == 1 and self._free_start:
+                    value[-2] = 1.0
+                self._pieces[nu] = self._integrated(self.pieces(nu + 1), value)
         return self._pieces[nu]
 
-    def _integrated(self, pieces: PieceSeries, start: float) -> PieceSeries:
+    @staticmethod
+    def _integrated(pieces: PieceSeries, value: Array) -> PieceSeries:
         found = []
-        value = np.zeros(pieces.series.shape[2])
-        value[-1] = start
         for i, series in enumerate(pieces.series):
             length = (pieces.breaks[i] - pieces.breaks[i + 1]) / 2.0
             # against the local variable, which falls with k and is 1 at the piece's start

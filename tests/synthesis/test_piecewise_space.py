@@ -1,10 +1,12 @@
 """Free piecewise laws: near the limits with few pieces, and the same engine, proofs and refusals as with a Z."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from optlaws import BoundaryConditions, InputError, Pieces, Problem, limit, limit_law, synthesize
+from optlaws import BoundaryConditions, Chebyshev, InputError, Pieces, Problem, Status, limit, limit_law, synthesize
 from optlaws.laws.piecewise import PiecewiseLaw
 
 LIMIT_C = limit_law("C", 1.859).breaks
@@ -130,3 +132,13 @@ def test_symmetric_laws_need_symmetric_breaks() -> None:
 def test_a_problem_with_pieces_survives_dicts() -> None:
     problem = Problem(B=1.7, order=3, basis=Pieces(4, 4, 2))
     assert Problem.from_dict(problem.to_dict()) == problem
+
+
+def test_pieces_of_order_1_are_free_to_start_moving() -> None:
+    # Z of degree 9 makes a law of degree 11, which is one piece of that degree
+    wanted = Problem(B=1.75, order=1, basis=Chebyshev(9), symmetric=False)
+    polynomial = synthesize(wanted)
+    whole = synthesize(replace(wanted, basis=Pieces(1, 11, 10)))
+    assert whole.status is Status.OPTIMAL
+    assert whole.objective == pytest.approx(polynomial.objective, rel=1e-8)
+    assert synthesize(replace(wanted, basis=Pieces(8, 5, 3))).objective < polynomial.objective
