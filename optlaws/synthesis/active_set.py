@@ -23,7 +23,7 @@ _STALLED = 1e-10
 _FAR = 1.05
 _WILD = 1e6
 _RANK = 1e-11
-_FULFILLED = 1e-7
+_FULFILLED = 1e-9
 _STILL = 1e-6
 
 
@@ -70,9 +70,12 @@ def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> Ac
         if not np.isfinite(step).all():
             return None
         before, state = state, _moved(state, step)
-        size = float(np.abs(step[: program.size]).max() / max(1.0, np.abs(state.x).max()))
+        scale = max(1.0, float(np.abs(state.x).max()))
+        size = float(np.abs(step[: program.size]).max()) / scale
         # x may stand still where the conditions do not hold: in a deficient system, or where the optimum is flat
-        off = float(np.abs(defect).max())
+        off = max(
+            float(np.abs(defect[: program.size]).max()), float(np.abs(defect[program.size :]).max(initial=0.0)) / scale
+        )
         if off < _FULFILLED and (size < _CONVERGED or (size < _STALLED and size > previous / 4)):
             wandering = float(np.abs(step).max()) > _STILL
             if not wandering or off < _STALLED:

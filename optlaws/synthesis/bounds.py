@@ -197,6 +197,8 @@ def read_bounds(most: Sequence[str], least: Sequence[str] = ()) -> dict[str, Ran
     for texts, side in ((least, sides[0]), (most, sides[1])):
         for text in texts:
             name, _, value = (part.strip() for part in text.rpartition("="))
+            if "=" in name.partition("(")[0]:
+                value = ""  # one sign too many; within brackets they belong to arguments
             try:
                 number = float(value)
             except ValueError:

@@ -1,4 +1,7 @@
-"""Few points by IPOPT, then the exact active set by Newton; where that fails, the true extrema join the points."""
+"""Few points by IPOPT, then the exact active set by Newton; where that fails, the true extrema join the points.
+
+A linear program that this does not end is ended by vertices.
+"""
 
 from __future__ import annotations
 
@@ -12,12 +15,16 @@ from optlaws.synthesis.active_set import ActiveSet, newton
 from optlaws.synthesis.cones import ConeFamily
 from optlaws.synthesis.contacts import completed, settled
 from optlaws.synthesis.flat_optima import sharpened
-from optlaws.synthesis.rows import EvenFamily, Family, LinearFamily, NormFamily, Points, ProductFamily, Program
+from optlaws.synthesis.grids import exchanged, first_points
+from optlaws.synthesis.rows import Family, LinearFamily, NormFamily, Points, ProductFamily, Program
+from optlaws.synthesis.simplex import vertex_on_points
 from optlaws.synthesis.transcription import Answer, solve_on_points
 
 Array = NDArray[np.float64]
 
 _ROUNDS = 12
+_LINEAR_ROUNDS = 6
+_VERTICES = 25
 _CORRECTIONS = 8
 _WEIGHTLESS = 1e-7
 _LOST = 1e7
@@ -51,7 +58,7 @@ def solve(
         optimum = polished(program, warm, holds)
         if optimum is not None:
             return Outcome(optimum, 0, 0, "continued from a neighbour")
-    points = _first_points(program)
+    points = first_points(program)
     if start is None and program.curved:
         start = _lifted(program, points)
         guess = _norms_only(program, start)
@@ -65,6 +72,7 @@ def _exchange(
     program: Program, points: list[Points], start: Array | None, holds: Callable[[Array], bool] | None, rounds: int
 ) -> Outcome:
     iterations = 0
+    rounds = rounds if program.curved else min(rounds, _LINEAR_ROUNDS)
     for attempt in range(1, rounds + 1):
         answer, spent = _answer(program, points, start, attempt)
         iterations += spent
@@ -78,9 +86,28 @@ def _exchange(
         if optimum is not None:
             return Outcome(optimum, iterations, attempt, answer.status)
         asked, x = points, answer.x if sharp is None else sharp.x
-        points = [_exchanged(family, mine, x) for family, mine in zip(program.families, points, strict=True)]
-    rough = _as_answered(asked, answer) if not program.curved or _only_cones(program) else None
-    return Outcome(rough, iterations, rounds, answer.status)
+        points = [exchanged(family, mine, x) for family, mine in zip(program.families, points, strict=True)]
+    optimum = None if program.curved else _by_vertices(program, points, holds)
+    if optimum is None and (not program.curved or _only_cones(program)):
+        optimum = _as_answered(asked, answer)
+    return Outcome(optimum, iterations, rounds, answer.status)
+
+
+def _by_vertices(program: Program, points: list[Points], holds: Callable[[Array], bool] | None) -> ActiveSet | None:
+    """The optimum of a linear program by exchange of the true extrema of vertices."""
+    for _ in range(_VERTICES):
+        answer = vertex_on_points(program, points)
+        if answer is None:
+            return None
+        optimum = polished(program, _identified(program, points, answer), holds)
+        sharp = sharpened(program, points, answer) if optimum is None else None
+        if sharp is not None and completed(program, sharp) is sharp:
+            optimum = sharp
+        if optimum is not None:
+            return optimum
+        x = answer.x if sharp is None else sharp.x
+        points = [exchanged(family, mine, x) for family, mine in zip(program.families, points, strict=True)]
+    return None
 
 
 def _answer(program: Program, points: list[Points], start: Array | None, attempt: int) -> tuple[Answer, int]:
@@ -158,45 +185,6 @@ def _lifted(program: Program, points: list[Points]) -> Array:
 def _only_cones(program: Program) -> bool:
     """Whether cones alone are not affine: amplitudes may be so flat that no exact active set shows."""
     return all(isinstance(family, LinearFamily | ConeFamily) for family in program.families)
-
-
-def _first_points(program: Program) -> list[Points]:
-    # with no peak to hold them, the velocity constraints need points enough by themselves
-    share = 0.75 if any(len(family.signs) > 1 for family in program.families) else 1.5
-    return [_points(family, program.size, share) for family in program.families]
-
-
-def _points(family: Family, size: int, even_share: float) -> Points:
-    """As many points as make IPOPT quick and the contacts plain; the rarer sign of a magnitude gets half as many."""
-    low, high = family.domain
-    if low == high:
-        return Points(np.repeat([low], len(family.signs)), np.array(family.signs))
-    own = family.nodes()
-    if own is not None:
-        return Points(np.tile(own, len(family.signs)), np.repeat(family.signs, len(own)))
-    u, s = [], []
-    for i, sign in enumerate(family.signs):
-        if isinstance(family, EvenFamily):
-            count = int(even_share * size) + 4
-            places = np.cos(np.arange(count) * np.pi / (count - 1))
-        elif low == 0.0:
-            count = int((1.5, 0.75)[i] * size) + 4
-            places = high * np.cos((np.arange(count) + 0.5) * np.pi / (2 * count))
-        else:
-            count = int(1.5 * size) + 4
-            places = (high + low) / 2 + (high - low) / 2 * np.cos((np.arange(count) + 0.5) * np.pi / count)
-        u.append(places)
-        s.append(np.full(count, sign))
-    return Points(np.concatenate(u), np.concatenate(s))
-
-
-def _exchanged(family: Family, points: Points, x: Array) -> Points:
-    if family.domain[0] == family.domain[1]:
-        return points
-    u, s, residual = family.extremes(x)
-    near = residual > -1e-2 * max(1.0, abs(family.room(x)))
-    known = np.any((points.u == u[:, None]) & (points.s == s[:, None]), axis=1)
-    return points.joined(Points(u[near & ~known], s[near & ~known]))
 
 
 def _identified(program: Program, points: list[Points], answer: Answer) -> ActiveSet:

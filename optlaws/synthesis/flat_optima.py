@@ -18,7 +18,7 @@ Array = NDArray[np.float64]
 
 #: a row binds if its multiplier exceeds its distance times this, in units in which it has length 1
 _FEWER = (1.0, 1e2, 1e4)
-_MORE = (1.0, 1e-2, 1e-4, 1e-6)
+_MORE = (1.0, 1e-2, 1e-4, 1e-6, 1e-8)
 _GAP = 1e-9
 _RANK = 1e-12
 _HELD = 1e-11
@@ -35,7 +35,7 @@ def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveS
     points, answer
         Where its families were held, and IPOPT's answer to that.
     """
-    table = _Table(program, points)
+    table = Table(program, points)
     weights = np.concatenate(answer.multipliers[:-1]) * table.length
     ease = weights / max(1.0, float(weights.max(initial=0.0)))
     room = -table.residuals(answer.x)
@@ -65,8 +65,18 @@ def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveS
     return None
 
 
-class _Table:
-    """All rows on the points, scaled to length 1."""
+class Table:
+    """All rows of a linear program on points, scaled to length 1.
+
+    Attributes
+    ----------
+    rows, right
+        The rows and their right sides.
+    length
+        What each row was divided by.
+    family, u, s
+        To which family a row belongs, its place and its sign.
+    """
 
     def __init__(self, program: Program, points: list[Points]) -> None:
         self.program = program

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
@@ -47,7 +47,7 @@ class Functional(Term):
     """
 
     name: str
-    reference: float
+    reference: float = field(compare=False)
     convex: bool
 
     def least(self, order: int) -> float:  # noqa: ARG002 - a constant may depend on it

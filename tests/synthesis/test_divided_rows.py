@@ -48,7 +48,7 @@ def test_the_forward_rows_of_pieces_are_what_they_say(order: int, symmetric: boo
 @pytest.mark.parametrize("minimise", ["C", "J"])
 @pytest.mark.parametrize("B", [2.1548, 2.6])
 def test_pieces_that_never_move_back_agree_with_highs(minimise: str, B: float) -> None:
-    # undivided rows on many points, which hold b >= 0 but for some 1e-9
+    # rows on many points, each by itself divided by what it vanishes like
     problem = Problem(B=B, order=3, basis=Pieces(6, 6, 4), minimise=minimise, monotone=True)
     solution = synthesize(problem)
     judge(solution)
@@ -62,16 +62,21 @@ def _by_highs(B: float, nu: int, count: int = 1201) -> float:
     space = piece_space(BoundaryConditions.rest(3), tuple(i / 6 for i in range(7)), 6, 4, symmetric=True)
     k = np.linspace(0.0, 0.5, count)
     peak, b = (np.vstack([space.row(order, one) for one in k.tolist()]) for order in (nu, 1))
-    ones, nothing = np.ones((count, 1)), np.zeros((count, 1))
+    ones, nothing = np.ones((count, 1)), np.zeros((count - 1, 1))
+    rise, fall = b[1:] / k[1:, None] ** 2, b[:-1] / (1 - 2 * k[:-1, None]) ** 2
     rows = np.vstack(
         [
             np.hstack([peak[:, :-1], -ones]),
             np.hstack([-peak[:, :-1], -ones]),
-            np.hstack([b[:, :-1], nothing]),
-            np.hstack([-b[:, :-1], nothing]),
+            np.hstack([fall[:, :-1], nothing]),
+            np.hstack([-rise[:, :-1], nothing]),
         ]
     )
-    right = np.concatenate([-peak[:, -1], peak[:, -1], B - b[:, -1], b[:, -1]])
+    right = np.concatenate([-peak[:, -1], peak[:, -1], B / (1 - 2 * k[:-1]) ** 2 - fall[:, -1], rise[:, -1]])
+    # what is left of them at k = 0 and k = 1/2
+    ends = np.vstack([-space.row(3, 0.0), space.row(3, 0.5)])
+    rows = np.vstack([rows, np.hstack([ends[:, :-1], np.zeros((2, 1))])])
+    right = np.concatenate([right, -ends[:, -1]])
     middle = space.row(1, 0.5)
     equations = [(middle[:-1], B - middle[-1]), *((one.row, one.right) for one in space.equations())]
     found = linprog(
@@ -83,6 +88,7 @@ def _by_highs(B: float, nu: int, count: int = 1201) -> float:
         bounds=(None, None),
         options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
     )
+    assert found.fun is not None
     return float(found.fun)
 
 

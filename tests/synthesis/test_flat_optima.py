@@ -1,4 +1,6 @@
-"""Optima without isolated contacts: where the jerk is constant every k is one, and the bound must meet the law there."""
+"""Optima without isolated contacts: where the jerk is constant every k is one, and the bound must meet the law."""
+
+from dataclasses import replace
 
 import pytest
 
@@ -6,11 +8,15 @@ from optlaws import BoundaryConditions, Chebyshev, Problem, at_most, synthesize
 from optlaws.synthesis import exchange
 from optlaws.synthesis.active_set import ActiveSet
 from optlaws.synthesis.flat_optima import sharpened
+from optlaws.synthesis.grids import first_points
 from optlaws.synthesis.programs import model
 from optlaws.synthesis.rows import Points, Program
+from optlaws.synthesis.simplex import vertex_on_points
 from optlaws.synthesis.transcription import Answer
 from optlaws.verification.bound import prove
 from tests.synthesis.judge import judge
+
+pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 
 
 @pytest.mark.parametrize("B", [1.05, 1.2, 1.5, 2.0, 2.5])
@@ -25,7 +31,7 @@ def test_with_free_end_velocities_the_least_jerk_is_that_of_a_parabola(B: float,
 
 
 @pytest.mark.parametrize(("start", "end"), [(0.5, -0.25), (0.228, -0.358), (0.0, 0.0), (-0.3, 0.7)])
-@pytest.mark.parametrize("degree", [5, 7, 14, 21])
+@pytest.mark.parametrize("degree", [7, 14])
 def test_between_given_velocities_the_least_jerk_is_constant(start: float, end: float, degree: int) -> None:
     ends = BoundaryConditions((0, start), (1, end))
     solution = synthesize(Problem(boundary=ends, symmetric=False, basis=Chebyshev(degree), minimise="J"))
@@ -65,6 +71,24 @@ def test_newton_does_not_take_standing_still_for_an_optimum() -> None:
     solution = synthesize(Problem(boundary=ends, symmetric=False, basis=Chebyshev(7), minimise="J"))
     assert solution.gap <= 1e-12
     assert solution.iterations < 30
+
+
+@pytest.mark.long
+def test_where_an_interior_point_hides_the_optimum_a_vertex_shows_it() -> None:
+    # just after k = 0 the velocity comes near 0: the rest of the law hardly matters, and multipliers differ by 1e9
+    ends = BoundaryConditions(start=(0.0, 0.016, -2.896), end=(1.0, 0.284, 2.906))
+    given = {"minimise": "max(C/4, J/32)", "monotone": True, "symmetric": False, "boundary": ends}
+    solution = synthesize(Problem(B=at_most(2.1356), basis=Chebyshev(15), **given))  # type: ignore[arg-type]
+    judge(solution)
+    assert solution.status.value == "optimal"
+
+
+def test_a_program_without_vertices_has_no_answer() -> None:
+    # the objective has no bound
+    program = model(Problem(order=2, minimise="J")).program
+    families = tuple(replace(one, bound=1e9) for one in program.families)
+    upward = replace(program, families=families, objective=-program.objective)
+    assert vertex_on_points(upward, first_points(upward)) is None
 
 
 def test_what_does_not_show_the_binding_rows_is_refused(monkeypatch: pytest.MonkeyPatch) -> None:

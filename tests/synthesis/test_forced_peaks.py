@@ -86,7 +86,7 @@ def test_a_power_given_exactly_is_reached_by_unsymmetric_laws(minimise: str, val
 def test_in_other_bases_too(basis: Any, name: str) -> None:  # noqa: ANN401
     free = synthesize(Problem(B=1.7, order=3, minimise="rms_c", basis=basis))
     own = Judged(free.law).constants[name]
-    solution = synthesize(replace(free.problem, **{name: at_least(1.1 * own)}))
+    solution = synthesize(replace(free.problem, bounds={name: at_least(1.1 * own)}))
     judge(solution)
     assert Judged(solution.law).constants[name] == pytest.approx(1.1 * own, rel=1e-8)
     assert solution.objective > free.objective

@@ -30,6 +30,10 @@ PROBLEMS = random_problems(7, 300)
 
 def refused(error: InfeasibleProblem, problem: Problem) -> str:
     assert error.problem == problem
+    if error.proof is None:
+        # a constant is asked to be below its closed form: the message says which
+        assert "its limit is" in str(error)
+        return "infeasible"
     assert isinstance(error.proof, Certificate)
     assert error.proof.proves_infeasible
     return "infeasible"
@@ -51,23 +55,23 @@ def outcome(problem: Problem) -> str:
 @pytest.mark.parametrize("first", range(20, 60, 10))
 def test_random_problems_are_solved_and_judged(first: int) -> None:
     found = Counter(outcome(problem) for problem in PROBLEMS[first : first + 10])
-    assert found["failed"] <= 1
-    assert found["optimal"] + found["local"] >= 7
+    assert found["failed"] == 0
+    assert found["optimal"] + found["local"] >= 9
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("first", range(0, 300, 20))
 def test_300_random_problems_are_solved_and_judged(first: int) -> None:
     found = Counter(outcome(problem) for problem in PROBLEMS[first : first + 20])
-    assert found["failed"] <= 1
-    assert found["optimal"] + found["local"] >= 17
+    assert found["failed"] == 0
+    assert found["optimal"] + found["local"] >= 19
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(100, 110))
 def test_2000_more_random_problems(seed: int) -> None:
     found = Counter(outcome(problem) for problem in random_problems(seed, 200))
-    assert found["failed"] <= 6
+    assert found["failed"] <= 3
 
 
 CONVEX = [one for one in PROBLEMS if one.convex and not lower_bounded(one) and isinstance(one.basis, PolynomialBasis)]
