@@ -40,7 +40,7 @@ def quoted(data: object, path: str = "") -> dict[str, str]:
                 found[f"{path}/{key}"] = str(value)
             elif key == "value":
                 found[f"{path}/value"] = str(value)
-            elif key not in {"certificate", "law"}:
+            elif key not in {"certificate", "power_certificate", "law"}:
                 found |= quoted(value, f"{path}/{key}")
     elif isinstance(data, list):
         for i, value in enumerate(data):

@@ -53,7 +53,7 @@ def loader_acceleration_limit(B: float) -> float:
     --------
     >>> from math import pi
     >>> round(loader_acceleration_limit(4 / pi), 9), round(loader_acceleration_limit(1.875), 6)
-    (4.0, 4.459364)
+    (4.0, 4.459318)
     """
     found = _velocity(B)
     if found >= HARMLESS:

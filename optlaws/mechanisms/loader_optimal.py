@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError, SolverFailure
 from optlaws.laws import PolynomialLaw
+from optlaws.mechanisms.checks import positive
 from optlaws.mechanisms.loader import Loader, loader
 from optlaws.mechanisms.loader_bound import tangent_bound
 from optlaws.mechanisms.loader_limits import loader_acceleration_limit, loader_velocity_limit
@@ -48,7 +49,13 @@ class BalancedLaw:
     status
         `optimal` where the bound meets the objective to 1e-8, else `local`.
     starts
-        The objectives that the starts led to, ascending.
+        The objectives that the starts led to, ascending; those that lost their way are left out.
+
+    Examples
+    --------
+    >>> slow = balanced_law(1.8, order=2, basis=Chebyshev(5), minimise="B_loader")
+    >>> slow.status.value, slow.gap < 1e-8, slow.objective == slow.loader.B
+    ('optimal', True, True)
     """
 
     law: PolynomialLaw
@@ -158,7 +165,8 @@ def _degree(basis: Basis) -> int:
 
 def _problem(B: float, order: int, basis: Basis, most_C: float | None) -> Problem:
     loader_velocity_limit(B)
-    problem = Problem(B=B, order=order, basis=basis, monotone=True, C=None if most_C is None else at_most(most_C))
+    asked = None if most_C is None else at_most(positive(most_C, "most_C"))
+    problem = Problem(B=B, order=order, basis=basis, monotone=True, C=asked)
     if problem.order < _AT_REST:
         raise InputError("order must be at least 2: the executive link starts at rest")
     return problem

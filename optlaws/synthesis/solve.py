@@ -10,7 +10,7 @@ from time import perf_counter
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.errors import InputError, SolverFailure
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.laws import MotionLaw
 from optlaws.suggest import unknown_key
 from optlaws.synthesis import starts
@@ -91,7 +91,8 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = 
         # the optimum is flat among unsymmetric laws, and a symmetric one is among them
         return replace(synthesize(replace(problem, symmetric=True)), problem=problem)
     if not sound:
-        raise failure(problem, tries[0].outcome)
+        error = failure(problem, tries[0].outcome)
+        raise error if isinstance(error, InfeasibleProblem) else _no_power_so_small(problem) or error
     plain, power = sound[0], None
     if bound == TIGHT and not problem.convex:
         plain, power = _tightened(problem, found, plain)
@@ -231,6 +232,26 @@ def _tightened(problem: Problem, found: Model, plain: _Attempt) -> tuple[_Attemp
         power = None if optimum is None else tightened(problem, best.objective, optimum.x, explore)
         if best is better[-1]:
             return best, power
+
+
+def _no_power_so_small(problem: Problem) -> InfeasibleProblem | None:
+    """The error to raise where the least D of the problem is proven to be above what is asked."""
+    asked = problem.range("D")
+    if asked is None or not isfinite(asked.high):
+        return None
+    try:
+        least = synthesize(replace(problem, minimise="D", D=None), bound=TIGHT)
+    except OptlawsError:
+        return None
+    if least.lower_bound <= asked.high:
+        return None
+    return InfeasibleProblem(
+        f"no law of this problem has D <= {asked.high:g}: D is at least {least.lower_bound:.7g}, proven by error.proof."
+        f" A law with {least.objective:.7g} exists; a higher bound of D or a higher degree of Z helps",
+        problem=problem,
+        proof=least.power_certificate or least.certificate,
+        tried="the least D of the problem was sought, with a tight bound",
+    )
 
 
 @dataclass(frozen=True, eq=False)

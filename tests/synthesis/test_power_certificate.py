@@ -10,7 +10,17 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optlaws import BoundaryConditions, Chebyshev, InputError, Problem, Solution, at_most, between, synthesize
+from optlaws import (
+    BoundaryConditions,
+    Chebyshev,
+    InfeasibleProblem,
+    InputError,
+    Problem,
+    Solution,
+    at_most,
+    between,
+    synthesize,
+)
 from optlaws.synthesis.certificate import Contact
 from optlaws.synthesis.power_bound import searched
 from optlaws.synthesis.power_brackets import Anchors, velocity_brackets
@@ -231,3 +241,15 @@ def test_the_bound_of_fewer_conditions_is_no_higher() -> None:
     ]
     assert all(one <= other * (1 + 1e-8) for one, other in pairwise(chain))
     assert all(map(isfinite, chain))
+
+
+@pytest.mark.parametrize("minimise", ["C", "J"])
+def test_a_power_below_the_least_is_refused_with_proof(minimise: str, first: Solution) -> None:
+    least = first.objective
+    assert (
+        synthesize(replace(FIRST, minimise=minimise, D=at_most(least * 1.001))).law.constants.D.value <= least * 1.002
+    )
+    with pytest.raises(InfeasibleProblem, match=r"D is at least 3\.45827") as refused:
+        synthesize(replace(FIRST, minimise=minimise, D=at_most(least * 0.99)))
+    assert isinstance(refused.value.proof, PowerCertificate)
+    assert refused.value.proof.bound > least * 0.99
