@@ -44,8 +44,14 @@ nitpicky = True
 # The documentation is built without a network, hence without other projects' inventories:
 # only references to optlaws itself can be resolved, and those must be.
 nitpick_ignore_regex = [("py:.*", r"(?!optlaws\.).*"), ("py:.*", r"optlaws\.(.*\.)?_.*")]
-# what a solution keeps for its neighbours; not public
-nitpick_ignore = [("py:class", "optlaws.synthesis.active_set.ActiveSet")]
+# what a solution keeps for its neighbours, and the engine that constants are written over; not public
+nitpick_ignore = [
+    ("py:class", "optlaws.synthesis.active_set.ActiveSet"),
+    ("py:class", "optlaws.synthesis.cones.ConeFamily"),
+    ("py:class", "optlaws.synthesis.power_certificate.Cut"),
+    ("py:class", "optlaws.synthesis.power_certificate.Step"),
+    ("py:class", "optlaws.synthesis.space.LawSpace"),
+]
 
 html_theme = "furo"
 html_title = f"optlaws {version}"

@@ -10,6 +10,7 @@ from optlaws.synthesis.functionals import FUNCTIONALS, B, C, C_minus, C_plus, D,
 from optlaws.synthesis.limit_laws import limit_law
 from optlaws.synthesis.limits import acceleration_limit, limit
 from optlaws.synthesis.pareto import pareto_front
+from optlaws.synthesis.power_certificate import PowerCertificate
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import sweep, synthesize
@@ -38,6 +39,7 @@ __all__ = [
     "Pieces",
     "PiecewiseBasis",
     "PolynomialBasis",
+    "PowerCertificate",
     "Powers",
     "Problem",
     "Range",

@@ -28,7 +28,13 @@ class StudyPoint:
     status
         "optimal", "local" or "inaccurate" where there is a law (see `Status`); otherwise "infeasible", "not found",
         "wrong input", "time limit", "worker died" or "error", and `error` says more.
-    objective, lower_bound, gap, limit
+    objective
+        As in `Solution`; None where there is no law.
+    lower_bound
+        As in `Solution`; None where there is no law.
+    gap
+        As in `Solution`; None where there is no law.
+    limit
         As in `Solution`; None where there is no law.
     constants
         B, C, D, J and rms_c of the law; empty where there is none, None for one without bound.
