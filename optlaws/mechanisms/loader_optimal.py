@@ -38,8 +38,10 @@ class BalancedLaw:
 
     Attributes
     ----------
-    law, loader
-        The executive law and the loader that balances it.
+    law
+        The executive law.
+    loader
+        The loader that balances it.
     minimise
         What was minimised.
     objective
