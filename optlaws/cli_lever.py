@@ -73,6 +73,10 @@ def lever(
         raise InputError("--period and --stiffness exclude each other: one gives the other")
     if (inertia is None) != (period is None and stiffness is None):
         raise InputError("--inertia goes with --stiffness or --period")
+    angles = {"--swing": (swing, 180.0), "--least-transmission": (least_transmission, 90.0)}
+    for option, (angle, most) in {**angles, "--most-rocker-swing": (most_rocker_swing, 180.0)}.items():
+        if not 0.0 < angle < most:
+            raise InputError(f"{option} must be above 0 and below {most:g} degrees, got {angle:g}")
     given: dict[str, float] = {
         "rho": rho,
         "nu": nu,
