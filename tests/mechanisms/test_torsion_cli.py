@@ -51,7 +51,10 @@ def test_wanted_constants(capsys: Capture, tmp_path: Path) -> None:
         ([*EXAMPLE, "--inertia", "1", "--period", "1", "--stiffness", "1"], "exclude each other"),
         ([*EXAMPLE, "--wanted", "B1"], "--wanted takes NAME=NUMBER"),
         (["lever", "--beta", "1.5", "--lam", "1", "--swing", "60"], "the limit is 150 deg (least_transmission)"),
-        (["lever", "--beta", "1", "--lam", "1", "--swing", "600"], "--swing must be above 0 and below 180 degrees, got 600"),
+        (
+            ["lever", "--beta", "1", "--lam", "1", "--swing", "600"],
+            "--swing must be above 0 and below 180 degrees, got 600",
+        ),
     ],
 )
 def test_errors_are_one_clear_text(capsys: Capture, arguments: list[str], said: str) -> None:
