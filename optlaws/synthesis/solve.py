@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import isfinite
 from time import perf_counter
@@ -89,7 +90,8 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = 
     sound = sorted((one for one in tries if one.law is not None), key=lambda one: one.objective)
     if not sound and problem.mirrored:
         # the optimum is flat among unsymmetric laws, and a symmetric one is among them
-        return replace(synthesize(replace(problem, symmetric=True)), problem=problem)
+        with suppress(InfeasibleProblem, SolverFailure):
+            return replace(synthesize(replace(problem, symmetric=True)), problem=problem)
     if not sound:
         error = failure(problem, tries[0].outcome)
         raise error if isinstance(error, InfeasibleProblem) else _no_power_so_small(problem) or error

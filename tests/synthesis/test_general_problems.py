@@ -12,6 +12,7 @@ from optlaws import (
     Certificate,
     Chebyshev,
     InfeasibleProblem,
+    PowerCertificate,
     Problem,
     SolverFailure,
     at_most,
@@ -34,8 +35,14 @@ def refused(error: InfeasibleProblem, problem: Problem) -> str:
         # a constant is asked to be below its closed form: the message says which
         assert "its limit is" in str(error)
         return "infeasible"
-    assert isinstance(error.proof, Certificate)
-    assert error.proof.proves_infeasible
+    assert isinstance(error.proof, Certificate | PowerCertificate)
+    if isinstance(error.proof, Certificate) and error.proof.proves_infeasible:
+        return "infeasible"
+    # the least D of the problem is proven to be above what is asked
+    asked = problem.range("D")
+    assert asked is not None
+    assert error.proof.problem == replace(problem, minimise="D", D=None)
+    assert error.proof.bound > asked.high
     return "infeasible"
 
 
