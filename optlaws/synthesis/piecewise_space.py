@@ -55,12 +55,6 @@ class PiecewiseSpace(LawSpace):
         wide[:, :, -1] = pieces.series[:, :, -1]
         return PieceSeries(pieces.breaks, wide)
 
-    def derivative(
-        self, nu: int, name: str, slack: Array, bound: float = 0.0, signs: tuple[float, ...] = (1.0, -1.0)
-    ) -> PieceFamily:
-        """Rows s a^(nu) <= slack . x + bound."""
-        return self.combination(nu, (1.0,), name, slack, bound, signs=signs)
-
     def combination(
         self,
         nu: int,

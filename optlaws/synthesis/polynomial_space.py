@@ -142,12 +142,6 @@ class PolynomialSpace(LawSpace):
             found[::2] = 0.0
         return found
 
-    def derivative(
-        self, nu: int, name: str, slack: Array, bound: float = 0.0, signs: tuple[float, ...] = (1.0, -1.0)
-    ) -> LinearFamily:
-        """Rows s a^(nu) <= slack . x + bound."""
-        return self.combination(nu, (1.0,), name, slack, bound, signs=signs)
-
     def combination(
         self,
         nu: int,

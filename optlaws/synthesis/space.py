@@ -73,11 +73,11 @@ class LawSpace(ABC):
     def z_series(self, coordinates: Array) -> Array:
         """Chebyshev series of Z in 2k - 1; empty where the laws have none."""
 
-    @abstractmethod
     def derivative(
         self, nu: int, name: str, slack: Array, bound: float = 0.0, signs: tuple[float, ...] = (1.0, -1.0)
     ) -> LinearFamily:
         """Rows s a^(nu) <= slack . x + bound."""
+        return self.combination(nu, (1.0,), name, slack, bound, signs=signs)
 
     @abstractmethod
     def combination(

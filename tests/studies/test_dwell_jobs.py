@@ -1,6 +1,5 @@
 """The jobs "dwell types" and "dwell drawing", their errors, and what results/ holds."""
 
-import csv
 from pathlib import Path
 
 import pytest
@@ -9,6 +8,7 @@ from optlaws import InputError
 from optlaws.studies import jobs
 from tests.documents import ROOT
 from tests.mechanisms.reference import rows
+from tests.studies.written import table
 
 RESULTS = ROOT / "results" / "dwell_types"
 TYPES = """
@@ -45,10 +45,6 @@ def run(folder: Path, text: str) -> Path:
     file.write_text(text, "utf-8")
     jobs.run(file, folder / "out")
     return folder / "out"
-
-
-def table(file: Path) -> list[dict[str, str]]:
-    return list(csv.DictReader(file.read_text("utf-8").splitlines()[1:]))
 
 
 def test_a_small_study(tmp_path: Path) -> None:

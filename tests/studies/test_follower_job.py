@@ -1,6 +1,5 @@
 """The job "follower": tables, figures, its errors, and what results/ holds."""
 
-import csv
 from pathlib import Path
 
 import pytest
@@ -9,6 +8,7 @@ from optlaws import InputError
 from optlaws.studies import jobs
 from tests.documents import ROOT
 from tests.mechanisms.savin_cases import rows
+from tests.studies.written import table
 
 RESULTS = ROOT / "results" / "savin_follower"
 FILES = {"coefficients.csv", "cams.csv", "off_design.csv", "follower.md"} | {
@@ -52,10 +52,6 @@ def run(folder: Path, text: str) -> Path:
     file.write_text(text, "utf-8")
     jobs.run(file, folder / "out")
     return folder / "out"
-
-
-def table(file: Path) -> list[dict[str, str]]:
-    return list(csv.DictReader(file.read_text("utf-8").splitlines()[1:]))
 
 
 @pytest.fixture(scope="module")

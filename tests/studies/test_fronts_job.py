@@ -1,6 +1,5 @@
 """The job "fronts": tables and figures of exchanges, its errors, and what results/ holds."""
 
-import csv
 import json
 from pathlib import Path
 
@@ -11,6 +10,7 @@ from optlaws import InputError, Problem, plotting, synthesize
 from optlaws.studies import jobs
 from optlaws.synthesis.pareto import pareto_front
 from tests.documents import ROOT
+from tests.studies.written import table
 
 RESULTS = ROOT / "results" / "fronts"
 SMALL = """
@@ -40,10 +40,6 @@ def run(folder: Path, text: str) -> Path:
     file.write_text(text, "utf-8")
     jobs.run(file, folder / "out")
     return folder / "out"
-
-
-def table(file: Path) -> list[dict[str, str]]:
-    return list(csv.DictReader(file.read_text("utf-8").splitlines()[1:]))
 
 
 @pytest.fixture(scope="module")

@@ -1,6 +1,5 @@
 """The job "loader optimal", its errors, and what results/ holds."""
 
-import csv
 import json
 from pathlib import Path
 
@@ -11,6 +10,7 @@ from optlaws.laws import MotionLaw
 from optlaws.mechanisms.loader import loader
 from optlaws.studies import jobs
 from tests.documents import ROOT
+from tests.studies.written import table
 
 RESULTS = ROOT / "results" / "loader_optimal"
 PRINTED = """# printed
@@ -26,10 +26,6 @@ def run(folder: Path, text: str) -> Path:
     file.write_text(text, "utf-8")
     jobs.run(file, folder / "out")
     return folder / "out"
-
-
-def table(file: Path) -> list[dict[str, str]]:
-    return list(csv.DictReader(file.read_text("utf-8").splitlines()[1:]))
 
 
 def test_a_small_job_beats_the_printed_law(tmp_path: Path) -> None:

@@ -1,6 +1,5 @@
 """The job "savin families": its table against the reference, its figure, its errors, and what results/ holds."""
 
-import csv
 from pathlib import Path
 
 import pytest
@@ -10,12 +9,9 @@ from optlaws.laws.savin import alpha_range
 from optlaws.studies import jobs
 from tests.documents import ROOT
 from tests.laws.reference import rows
+from tests.studies.written import table
 
 PROBLEM = ROOT / "problems" / "savin_families.toml"
-
-
-def table(file: Path) -> list[dict[str, str]]:
-    return list(csv.DictReader(file.read_text("utf-8").splitlines()[1:]))
 
 
 @pytest.fixture(scope="module")

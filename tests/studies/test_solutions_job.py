@@ -1,6 +1,5 @@
 """The job "solutions": its table, its errors, and that results/ is what it gives."""
 
-import csv
 import json
 from pathlib import Path
 
@@ -9,6 +8,7 @@ import pytest
 from optlaws import Certificate, InputError, MotionLaw, Problem, synthesize
 from optlaws.studies import jobs
 from tests.documents import ROOT
+from tests.studies.written import table
 
 SMALL = """
 job = "solutions"
@@ -40,10 +40,6 @@ def run(folder: Path, text: str) -> Path:
     file.write_text(text, "utf-8")
     jobs.run(file, folder / "out")
     return folder / "out"
-
-
-def table(file: Path) -> list[dict[str, str]]:
-    return list(csv.DictReader(file.read_text("utf-8").splitlines()[1:]))
 
 
 def test_rows_are_the_product_of_the_sweeps_and_each_is_a_solution(tmp_path: Path) -> None:
