@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import json
-from math import isfinite
 from pathlib import Path
 from typing import Annotated, Any
 
@@ -12,7 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from optlaws.errors import InputError
-from optlaws.laws import Constants, MotionLaw
+from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue import catalogue
 from optlaws.laws.savin import savin
 from optlaws.laws.savin_family import FAMILIES
@@ -133,14 +132,8 @@ def _summary(mass: Follower, cam: MotionLaw, reference: MotionLaw, response: Res
             }
             for one in off_design(cam, reference, mass)
         ],
-        "cam": {"constants": _finite(cam.constants), "law": cam.to_dict()},
+        "cam": {"constants": cam.constants.to_dict(), "law": cam.to_dict()},
     }
-
-
-def _finite(constants: Constants) -> dict[str, Any]:
-    """JSON has no infinity: a peak without bound is null."""
-    peaks = {name: getattr(constants, name) for name in "BCDJ"}
-    return {name: {"value": one.value if isfinite(one.value) else None, "k": one.k} for name, one in peaks.items()}
 
 
 def _show(found: dict[str, Any]) -> None:

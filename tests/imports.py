@@ -58,11 +58,11 @@ def _imports_of(name: str, path: Path, known: dict[str, Path]) -> Iterator[Impor
                 yield Import(name, target, node.lineno, id(node) in typing)
 
 
-def cycles(found: list[Import]) -> list[list[str]]:
-    """Groups of modules that import each other, directly or not, when they run."""
+def cycles(found: list[Import], *, typing: bool = False) -> list[list[str]]:
+    """Groups of modules that import each other, directly or not; imports for a type checker count with `typing`."""
     graph: dict[str, set[str]] = {}
     for one in found:
-        if not one.typing:
+        if typing or not one.typing:
             graph.setdefault(one.source, set()).add(one.target)
 
     def reachable(start: str) -> set[str]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
@@ -29,15 +30,17 @@ class Peak:
     value: float
     k: float
 
-    def to_dict(self) -> dict[str, float]:
-        """Value and place as plain data.
+    def to_dict(self) -> dict[str, float | None]:
+        """Value and place as plain data; a value without bound is None, for JSON knows no infinite number.
 
         Examples
         --------
         >>> Peak(1.875, 0.5).to_dict()
         {'value': 1.875, 'k': 0.5}
+        >>> Peak(float("inf"), 0.0).to_dict()
+        {'value': None, 'k': 0.0}
         """
-        return {"value": self.value, "k": self.k}
+        return {"value": _finite(self.value), "k": self.k}
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,8 +67,8 @@ class Constants:
     J: Peak
     rms_c: float
 
-    def to_dict(self, *, rms: bool = False) -> dict[str, dict[str, float] | float]:
-        """B, C, D, J as {"value": ..., "k": ...}; rms_c too where `rms`.
+    def to_dict(self, *, rms: bool = False) -> dict[str, dict[str, float | None] | float | None]:
+        """B, C, D, J as {"value": ..., "k": ...}; rms_c too where `rms`; None where a value has no bound.
 
         Examples
         --------
@@ -73,15 +76,19 @@ class Constants:
         >>> smoothstep(2).constants.to_dict()["B"]
         {'value': 1.5, 'k': 0.5}
         """
-        table: dict[str, dict[str, float] | float] = {
+        table: dict[str, dict[str, float | None] | float | None] = {
             "B": self.B.to_dict(),
             "C": self.C.to_dict(),
             "D": self.D.to_dict(),
             "J": self.J.to_dict(),
         }
         if rms:
-            table["rms_c"] = self.rms_c
+            table["rms_c"] = _finite(self.rms_c)
         return table
+
+
+def _finite(value: float) -> float | None:
+    return value if isfinite(value) else None
 
 
 def highest(k: Array, values: Array, tie: float) -> Peak:

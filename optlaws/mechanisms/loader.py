@@ -168,7 +168,7 @@ class Loader:
         return {
             "Y": self.Y,
             "constants": {
-                name: {**peak.to_dict(), "value": peak.value if isfinite(peak.value) else None}
+                name: peak.to_dict()
                 for name, peak in (
                     ("B", self.law.peak(1)),
                     ("C", self.law.peak(2)),

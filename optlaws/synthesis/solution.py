@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.laws import Constants, MotionLaw, Peak
+from optlaws.laws import Constants, MotionLaw
 from optlaws.synthesis.active_set import ActiveSet
 from optlaws.synthesis.bases import PolynomialBasis, Powers
 from optlaws.synthesis.certificate import Certificate
@@ -138,7 +138,7 @@ class Solution:
             "lower_bound": self.lower_bound if isfinite(self.lower_bound) else None,
             "gap": self.gap if isfinite(self.gap) else None,
             "limit": self.limit,
-            "constants": {name: _plain(getattr(self.constants, name)) for name in ("B", "C", "D", "J")},
+            "constants": self.constants.to_dict(),
             "z": None if self.z is None else list(self.z_powers or self.z),
             "law": self.law.to_dict(),
             "iterations": self.iterations,
@@ -156,11 +156,6 @@ class Solution:
             f"Solution(status={self.status.value!r}, objective={self.objective:.9g}, "
             f"lower_bound={self.lower_bound:.9g}, gap={self.gap:.1e}, {limit}problem={self.problem!r})"
         )
-
-
-def _plain(peak: Peak) -> dict[str, float | None]:
-    """JSON knows no infinite J, which an acceleration that jumps has."""
-    return {"value": peak.value if isfinite(peak.value) else None, "k": peak.k}
 
 
 @cache

@@ -1,0 +1,162 @@
+"""The contract with users: public names with their signatures, options of commands, jobs with their entries.
+
+`python -m tests.contracts.frozen` writes it down again; tests/contracts/test_frozen.py lets only additions pass.
+"""
+
+# ruff: noqa: ANN401 - types are the data here
+
+import inspect
+import json
+import re
+from collections.abc import Iterator
+from enum import EnumType
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from types import NoneType, UnionType
+from typing import Annotated, Any, Union, get_args, get_origin, get_type_hints
+from unittest.mock import patch
+
+import msgspec
+from cyclopts import App
+
+import optlaws
+from optlaws.cli import app
+from optlaws.studies.jobs import JOBS
+
+FROZEN = Path(__file__).with_name("frozen.json")
+Table = dict[str, dict[str, str]]
+
+
+class Asked(Exception):  # noqa: N818 - not an error: it carries what a job would read
+    """Raised in place of reading a problem file."""
+
+    def __init__(self, spec: Any) -> None:
+        super().__init__(spec)
+        self.spec = spec
+
+
+def text_of(value: object) -> str:
+    """A default or a type as text that names no module and no address."""
+    return re.sub(r" at 0x[0-9a-f]+", "", re.sub(r"\b(?:[A-Za-z_]\w*\.)+(?=[A-Za-z_])", "", repr(value)))
+
+
+def signature(function: Any) -> dict[str, str]:
+    """Parameters with their kinds and defaults."""
+    try:
+        found = inspect.signature(function).parameters.values()
+    except ValueError:
+        return {}  # exceptions made of a message alone
+    return {
+        one.name: one.kind.description + ("" if one.default is one.empty else f" = {text_of(one.default)}")
+        for one in found
+    }
+
+
+def public_names() -> Table:
+    """Every public callable and every public method of a public class, with its parameters."""
+    table: Table = {}
+    for name in optlaws.__all__:
+        one = getattr(optlaws, name)
+        table[name] = (
+            signature(one) if callable(one) and not isinstance(one, EnumType) and hasattr(one, "__name__") else {}
+        )
+        if inspect.isclass(one):
+            own = {
+                attribute for base in one.__mro__ if base.__module__.startswith("optlaws") for attribute in vars(base)
+            }
+            for attribute in sorted(attribute for attribute in own if not attribute.startswith("_")):
+                member = getattr(one, attribute)
+                table[f"{name}.{attribute}"] = (
+                    signature(member) if inspect.isroutine(member) and callable(member) else {}
+                )
+    return table
+
+
+def commands() -> Table:
+    """Every command with its options: their names, types and defaults."""
+    return {name: dict(options(app[name])) for name in app if not name.startswith("-")}
+
+
+def options(command: App) -> Iterator[tuple[str, str]]:
+    """The options of one command."""
+    for argument in command.assemble_argument_collection():
+        default = argument.field_info.default
+        shown = "" if default is inspect.Parameter.empty else f" = {text_of(default)}"
+        names = [name for name in argument.names if not name.startswith(("--no-", "--empty-"))]
+        yield " ".join(names), kind_of(plain(argument.hint)) + shown
+
+
+def plain(hint: Any) -> Any:
+    """A type without what is annotated to it."""
+    return plain(get_args(hint)[0]) if get_origin(hint) is Annotated else hint
+
+
+def jobs() -> Table:
+    """Every job with the entries of its problem file: `part.name` in a part, `part[].name` in a list of them."""
+    return {name: dict(entries(spec_of(name), "")) for name in JOBS}
+
+
+def spec_of(job: str) -> Any:
+    """What a job reads its problem file as."""
+
+    def stop(_data: object, spec: Any, **_options: object) -> None:
+        raise Asked(spec)
+
+    with patch.object(msgspec, "convert", stop), TemporaryDirectory() as folder:
+        file = Path(folder, "problem.toml")
+        file.write_text(f'job = "{job}"\n', "utf-8")
+        try:
+            JOBS[job]({"job": job}, file, Path(folder))
+        except Asked as asked:
+            return asked.spec
+    raise AssertionError(f"the job {job!r} reads no problem file")
+
+
+def entries(spec: Any, where: str) -> Iterator[tuple[str, str]]:
+    """Entries below one, each with its type and default."""
+    hints = get_type_hints(spec)
+    for field in msgspec.structs.fields(spec):
+        hint, path = hints[field.name], where + field.encode_name
+        default = "" if field.required else f" = {text_of(default_of(field))}"
+        yield path, kind_of(hint) + default
+        for inner, suffix in structs(hint):
+            yield from entries(inner, f"{path}{suffix}.")
+
+
+def default_of(field: msgspec.structs.FieldInfo) -> object:
+    """What an entry is unless given."""
+    return field.default if field.default is not msgspec.NODEFAULT else field.default_factory()
+
+
+def structs(hint: Any) -> Iterator[tuple[Any, str]]:
+    """Tables in a type, and how they are addressed."""
+    if isinstance(hint, type) and issubclass(hint, msgspec.Struct):
+        yield hint, ""
+    origin = get_origin(hint)
+    suffix = "[]" if origin in {list, tuple} else ".*" if origin is dict else ""
+    for part in get_args(hint):
+        for inner, deeper in structs(part):
+            yield inner, suffix + deeper
+
+
+def kind_of(hint: Any) -> str:
+    """A type in words; whatever class stands for a table is one."""
+    if isinstance(hint, type) and issubclass(hint, msgspec.Struct):
+        return "table"
+    origin, parts = get_origin(hint), get_args(hint)
+    if origin in {Union, UnionType}:
+        return " | ".join(map(kind_of, parts))
+    if origin is Annotated:
+        return f"{kind_of(parts[0])} ({', '.join(map(text_of, parts[1:]))})"
+    if origin in {list, dict, tuple}:
+        return f"{origin.__name__}[{', '.join(map(kind_of, parts))}]"
+    return "None" if hint is NoneType else hint.__name__ if isinstance(hint, type) else text_of(hint)
+
+
+def contract() -> dict[str, Table]:
+    """All of it."""
+    return {"public names": public_names(), "commands": commands(), "jobs": jobs()}
+
+
+if __name__ == "__main__":
+    FROZEN.write_text(json.dumps(contract(), indent=1, ensure_ascii=False) + "\n", "utf-8")
