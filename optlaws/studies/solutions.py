@@ -17,7 +17,7 @@ from optlaws.studies import printed
 from optlaws.studies.asked import HEADINGS, Asked, Asking, Count, Text, gap, problem, record, shown
 from optlaws.studies.problem_file import convert
 from optlaws.suggest import unknown_key
-from optlaws.synthesis import FUNCTIONALS, Problem, Solution, synthesize
+from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, synthesize
 
 Some = msgspec.Meta(min_length=1)
 
@@ -76,13 +76,14 @@ class Study(msgspec.Struct, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class Row:
-    """The swept entries, what they ask, and the answers: None where there is no law, with the reason."""
+    """The swept entries, what they ask, and the answers: None where there is no law, with the reason and its proof."""
 
     entries: Mapping[str, Any]
     asked: Problem
     solution: Solution | None
     others: tuple[Solution | None, ...]
     status: str
+    proof: Certificate | None
 
 
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
@@ -130,15 +131,15 @@ def _problems(spec: Study, number: int, entries: Mapping[str, Any]) -> tuple[Pro
 
 def _solved(spec: Study, entries: Mapping[str, Any], asked: Problem, others: Sequence[Problem]) -> Row:
     status = "infeasible"
-    solution = None
+    solution, proof = None, None
     try:
         solution = synthesize(asked, bound=spec.bound)
         status = solution.status.value
-    except InfeasibleProblem:
-        pass
+    except InfeasibleProblem as error:
+        proof = error.proof if isinstance(error.proof, Certificate) and error.proof.problem == asked else None
     except SolverFailure:
         status = "not found"
-    return Row(entries, asked, solution, tuple(_tried(one) for one in others), status)
+    return Row(entries, asked, solution, tuple(_tried(one) for one in others), status, proof)
 
 
 def _tried(asked: Problem) -> Solution | None:
@@ -223,6 +224,7 @@ def _laws(about: str, rows: Sequence[Row]) -> str:
                 "asked": row.asked.to_dict(),
                 "status": row.status,
                 "solution": None if row.solution is None else record(row.solution),
+                **({} if row.proof is None else {"proof": row.proof.to_dict()}),
             }
         )
         for row in rows

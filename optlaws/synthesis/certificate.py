@@ -24,6 +24,7 @@ from optlaws.synthesis.expression import Expression, Maximum
 from optlaws.synthesis.functionals import Power
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.programs import ROOT, Model, least_violation, model, relaxed, relaxed_power
+from optlaws.synthesis.proof_data import StatedCertificate, StatedContact, problem_of, stated
 from optlaws.synthesis.rows import LinearFamily, NormFamily, Program
 from optlaws.synthesis.space import LawSpace
 
@@ -51,8 +52,22 @@ class Contact:
     direction: tuple[float, ...] = ()
 
     def __post_init__(self) -> None:
-        if not 0.0 <= self.k <= 1.0 or not isfinite(self.multiplier) or abs(self.sign) != 1.0:
-            raise InputError(f"a contact needs k in [0, 1], a sign 1 or -1 and a finite multiplier, got {self!r}")
+        finite = all(map(isfinite, (self.multiplier, *self.direction)))
+        if not 0.0 <= self.k <= 1.0 or not finite or abs(self.sign) != 1.0:
+            raise InputError(
+                f"a contact needs k in [0, 1], a sign 1 or -1, a finite multiplier and direction, got {self!r}"
+            )
+
+
+def contact_of(found: StatedContact) -> Contact:
+    """The contact that was stated.
+
+    Raises
+    ------
+    InputError
+        If its k, sign, multiplier or direction is none.
+    """
+    return Contact(found.constraint, found.sign, found.k, found.multiplier, found.direction)
 
 
 @dataclass(frozen=True)
@@ -121,19 +136,23 @@ class Certificate:
         InputError
             If an entry is missing or wrong.
         """
-        try:
-            contacts = tuple(Contact(**{**c, "direction": tuple(c["direction"])}) for c in data["contacts"])
-            rest = (tuple(map(float, data["equations"])), str(data["program"]), float(data["tangent"]))
-            return cls(Problem.from_dict(data["problem"]), contacts, *rest)
-        except (KeyError, TypeError, ValueError) as error:
-            raise InputError(f"this is not a certificate: {type(error).__name__} {error}") from None
+        found = stated(data, StatedCertificate, "certificate")
+        contacts = tuple(contact_of(one) for one in found.contacts)
+        return cls(problem_of(found.problem), contacts, found.equations, found.program, found.tangent)
 
 
 def excess(certificate: Certificate) -> float:
     """Least value over all laws of the problem of the objective plus the contacts' residuals; a lower bound.
 
-    Negative multipliers count as zero, and so do contacts that the problem does not ask for.
+    Negative multipliers count as zero, and so do contacts that the problem does not ask for. Multipliers so large that
+    their sum is beyond double precision prove nothing: the bound is then minus infinity.
     """
+    with np.errstate(over="ignore", invalid="ignore"):
+        value = _excess(certificate)
+    return value if isfinite(value) else -inf
+
+
+def _excess(certificate: Certificate) -> float:
     found = _model(certificate)
     program = found.program
     slope = program.objective.copy()

@@ -16,9 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.synthesis.certificate import Contact
+from optlaws.synthesis.certificate import Contact, contact_of
 from optlaws.synthesis.power_rows import Box, PowerRows, applies
 from optlaws.synthesis.problem import Problem
+from optlaws.synthesis.proof_data import StatedPowerCertificate, StatedStep, problem_of, stated
 
 Array = NDArray[np.float64]
 
@@ -149,12 +150,8 @@ class PowerCertificate:
         InputError
             If an entry is missing or wrong.
         """
-        try:
-            steps = tuple(_read(one) for one in data["steps"])
-            points = tuple(map(float, data["points"]))
-            return cls(Problem.from_dict(data["problem"]), float(data["claim"]), points, steps)
-        except (KeyError, TypeError, ValueError) as error:
-            raise InputError(f"this is not a power certificate: {type(error).__name__} {error}") from None
+        found = stated(data, StatedPowerCertificate, "power certificate")
+        return cls(problem_of(found.problem), found.claim, found.points, tuple(map(_read, found.steps)))
 
 
 def moved_by(rows: PowerRows, box: Box, step: Step) -> Box | None:
@@ -197,9 +194,11 @@ def _written(step: Step | Cut) -> dict[str, Any]:
     return data
 
 
-def _read(data: Mapping[str, Any]) -> Step | Cut:
-    if "at" in data:
-        return Cut(int(data["variable"]), float(data["at"]))
-    contacts = tuple(Contact(**{**one, "direction": tuple(one.get("direction", ()))}) for one in data["contacts"])
-    equations = tuple(map(float, data["equations"]))
-    return Step(int(data["variable"]), int(data["side"]), contacts, equations, float(data["claim"]))
+def _read(found: StatedStep) -> Step | Cut:
+    own = (found.side, found.contacts, found.equations, found.claim)
+    if found.at is not None and own == (None, None, None, None):
+        return Cut(found.variable, found.at)
+    if found.at is None and None not in own:
+        side, contacts, equations, claim = own
+        return Step(found.variable, side or 0, tuple(map(contact_of, contacts or ())), equations or (), claim or 0.0)
+    raise InputError("this is not a power certificate: a step has side, contacts, equations and claim, a cut has at")

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from fractions import Fraction
 from math import inf
 from pathlib import Path
@@ -19,17 +20,10 @@ from optlaws.verification.conditions import excesses
 from optlaws.verification.exact_law import ExactLaw, enclosures
 from optlaws.verification.exact_limits import exact_limit
 from optlaws.verification.exact_power import prove_power
-from optlaws.verification.reading import (
-    built,
-    certificate_of,
-    entries,
-    is_entry,
-    number,
-    power_certificate_of,
-    read,
-    unfounded,
-)
+from optlaws.verification.places import NO_FILE, Entry, check_keys, entries, is_entry
+from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
+from optlaws.verification.said_around import said_around
 from optlaws.verification.stated import at_most, stated_constants, stated_numbers
 
 #: an optimum's greatest gap, the greatest correction that rounding explains, and the share that is no multiplier
@@ -46,29 +40,33 @@ def verify(source: Mapping[str, Any] | Path | str) -> Verification:
             "neither a solution (problem, law, certificate) nor a certificate (problem, contacts) nor a law with its "
             f"constants: nothing to verify{inside}"
         )
-    return _entry(data)
+    return built(_entry, Entry(data), "the file")
 
 
 def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification]:
-    """Check every solution, certificate and law with constants, by where it is; refuse claims without a certificate."""
-    data = read(source)
-    if is_entry(data):
-        return {"": _entry(data)}
-    found = entries(data)
-    groundless = unfounded(data)
-    if groundless or not found:
-        where = f": {groundless[0] or 'it'} claims something without a certificate" if groundless else ""
-        raise InputError(f"not a file of solutions or certificates{where}")
-    return {path: built(_entry, one, path) for path, one in found.items()}
+    """Check every solution, certificate and law with constants, by where it is; refuse whatever else is claimed."""
+    found = entries(read(source))
+    if not found:
+        raise InputError(f"{NO_FILE}: nothing in it is a solution, a certificate or a law with its constants")
+    return {path: built(_entry, one, path or "the file") for path, one in found.items()}
 
 
-def _entry(data: Mapping[str, Any]) -> Verification:
+def _entry(entry: Entry) -> Verification:
+    if not entry.data:
+        claim = Claim(f"{entry.around.status}", proven=False, detail="no certificate stands beside it")
+        return Verification(problem=None, bound=None, claims=(claim,))
+    check_keys(entry.data)
+    found = _alone(entry.data)
+    return replace(found, claims=(*found.claims, *said_around(entry, found)))
+
+
+def _alone(data: Mapping[str, Any]) -> Verification:
     if "certificate" in data:
         return _solution(data)
     if "contacts" in data:
-        return _certificate_alone(built(certificate_of, data, "the certificate"), data)
+        return _certificate_alone(built(Certificate.from_dict, data, "the certificate"), data)
     if "steps" in data:
-        return _power_alone(built(power_certificate_of, data, "the power certificate"), data)
+        return _power_alone(built(PowerCertificate.from_dict, data, "the power certificate"), data)
     return _law_alone(data)
 
 
@@ -115,7 +113,7 @@ def _solution(data: Mapping[str, Any]) -> Verification:
         if not isinstance(data[name], Mapping):
             raise InputError(f"{name} must be an object, got {data[name]!r}")
     problem = built(Problem.from_dict, data["problem"], "problem")
-    certificate = built(certificate_of, data["certificate"], "certificate")
+    certificate = built(Certificate.from_dict, data["certificate"], "certificate")
     if certificate.program == VIOLATION:
         raise InputError("a proof that no law exists beside a law: verify the certificate alone")
     law = built(lambda one: ExactLaw(MotionLaw.from_dict(one)), data["law"], "law")
@@ -201,7 +199,7 @@ def _beside(data: object, problem: Problem) -> tuple[Fraction | None, list[Claim
         return None, []
     if not isinstance(data, Mapping):
         raise InputError(f"power_certificate must be an object, got {data!r}")
-    certificate = built(power_certificate_of, data, "the power certificate")
+    certificate = built(PowerCertificate.from_dict, data, "the power certificate")
     proven = _power(certificate)
     same = certificate.problem == problem
     claims = [_same("the power certificate's problem", certificate.problem, problem)]

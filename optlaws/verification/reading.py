@@ -3,23 +3,22 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from math import isfinite
 from numbers import Real
 from pathlib import Path
 from typing import Any, TypeVar
 
 from optlaws.errors import InputError
-from optlaws.synthesis.certificate import Certificate, Contact
-from optlaws.synthesis.power_certificate import PowerCertificate, Step
+from optlaws.synthesis.proof_data import as_json
 
 Kind = TypeVar("Kind")
 
 #: greatest entries that are sizes, and how many numbers a law may have
 _SIZES = {"order": 100, "degree": 300, "continuity": 300, "breaks": 1000}
 _FORMAT = 1
-#: what needs a proof
-_CLAIMS = {"objective", "lower_bound", "bound", "gap", "certificate", "power_certificate", "contacts", "steps"}
+#: greatest magnitude of a number: none of a motion law comes near, and its powers are still numbers
+_GREATEST = 1e100
 
 
 def read(source: Mapping[str, Any] | Path | str) -> Mapping[str, Any]:
@@ -39,9 +38,14 @@ def read(source: Mapping[str, Any] | Path | str) -> Mapping[str, Any]:
     data = source if isinstance(source, Mapping) else _loaded(Path(source))
     try:
         _check(data, "")
+        plain: dict[str, Any] = as_json(data)
+    except InputError:
+        raise
     except RecursionError:
         raise InputError("this is nested too deeply to be a solution") from None
-    return data
+    except (TypeError, ValueError) as error:
+        raise InputError(f"this is no plain data: {error}") from None
+    return plain
 
 
 def _loaded(file: Path) -> Mapping[str, Any]:
@@ -98,6 +102,8 @@ def _check_number(value: Real, path: str) -> None:
         raise InputError(f"{path} is beyond the numbers of double precision") from None
     if not finite:
         raise InputError(f"{path} must be a finite number, got {value!r}")
+    if abs(float(value)) > _GREATEST:
+        raise InputError(f"{path}: {value!r} is beyond what exact verification takes, {_GREATEST:g}")
 
 
 def _check_size(key: str, value: object, path: str) -> None:
@@ -105,47 +111,6 @@ def _check_size(key: str, value: object, path: str) -> None:
     size = len(value) if isinstance(value, list | tuple) else value
     if most is not None and isinstance(size, int) and size > most:
         raise InputError(f"{f'{path}.' if path else ''}{key}: {size} is more than exact verification takes, {most}")
-
-
-def entries(data: Mapping[str, Any]) -> dict[str, Mapping[str, Any]]:
-    """What can be verified, by where it is: solutions, certificates, and laws with their constants.
-
-    Examples
-    --------
-    >>> list(entries({"rows": [{"solution": {"law": {}, "constants": {}}}, {"text": "none"}]}))
-    ['rows[0].solution']
-    """
-    return dict(_walk(data, ""))
-
-
-def unfounded(data: Mapping[str, Any]) -> list[str]:
-    """Where something is claimed of a problem without a certificate."""
-    return [path for path, one in _mappings(data, "") if _CLAIMS & one.keys() and not is_entry(one)]
-
-
-def is_entry(data: Mapping[str, Any]) -> bool:
-    """Whether this is a solution, a certificate, or a law with its constants and no further claim."""
-    solution = {"problem", "law", "certificate"} <= data.keys()
-    certificate = {"problem", "contacts"} <= data.keys() or {"problem", "steps"} <= data.keys()
-    return solution or certificate or ({"law", "constants"} <= data.keys() and not _CLAIMS & data.keys())
-
-
-def _walk(data: object, path: str) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    for place, one in _mappings(data, path):
-        if is_entry(one):
-            yield place, one
-
-
-def _mappings(data: object, path: str) -> Iterator[tuple[str, Mapping[str, Any]]]:
-    """Every object that is not part of an entry."""
-    if isinstance(data, Mapping):
-        yield path, data
-        if not is_entry(data):
-            for key, value in data.items():
-                yield from _mappings(value, f"{path}.{key}" if path else str(key))
-    elif isinstance(data, list | tuple):
-        for i, value in enumerate(data):
-            yield from _mappings(value, f"{path}[{i}]")
 
 
 def built(make: Callable[[Any], Kind], data: object, name: str) -> Kind:
@@ -160,45 +125,8 @@ def built(make: Callable[[Any], Kind], data: object, name: str) -> Kind:
         return make(data)
     except InputError as error:
         raise InputError(f"{name}: {error}") from None
-    except (AttributeError, KeyError, OverflowError, TypeError, ValueError) as error:
+    except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
         raise InputError(f"{name}: {type(error).__name__}: {error}") from None
-
-
-def certificate_of(data: Mapping[str, Any]) -> Certificate:
-    """A certificate of which every entry is of its type.
-
-    Raises
-    ------
-    InputError
-        If one is not.
-    """
-    found = Certificate.from_dict(data)
-    _check_contacts(found.contacts)
-    return found
-
-
-def power_certificate_of(data: Mapping[str, Any]) -> PowerCertificate:
-    """A power certificate of which every entry is of its type.
-
-    Raises
-    ------
-    InputError
-        If one is not.
-    """
-    found = PowerCertificate.from_dict(data)
-    for step in found.steps:
-        if isinstance(step, Step):
-            _check_contacts(step.contacts)
-    return found
-
-
-def _check_contacts(contacts: tuple[Contact, ...]) -> None:
-    for one in contacts:
-        # what JSON holds need not be what the class declares
-        name: Any = one.constraint
-        values = (one.sign, one.k, one.multiplier, *one.direction)
-        if not isinstance(name, str) or not all(type(value) in {int, float} for value in values):
-            raise InputError(f"a contact needs the name of a constraint, and numbers, got {one!r}")
 
 
 def number(data: Mapping[str, Any], name: str) -> float:

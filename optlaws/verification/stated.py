@@ -42,7 +42,7 @@ def stated_numbers(
 ) -> Iterator[Claim]:
     """Objective, limit and Z of a solution."""
     if "objective" in data:
-        yield _near("the objective", number(data, "objective"), objective)
+        yield near("the objective", number(data, "objective"), objective)
     if data.get("limit") is not None:
         value, known = number(data, "limit"), known_limit(problem)
         holds = known is not None and value <= known + _BOUND * max(1.0, known)
@@ -63,12 +63,13 @@ def stated_constants(data: Mapping[str, Any], law: ExactLaw) -> Iterator[Claim]:
         entry, key = (one, "value") if isinstance(one, Mapping) else (stated, name)
         # JSON knows no infinite number
         value = inf if entry.get(key, 0) is None else number(entry, key)
-        yield _near(name, value, enclosed(balls[name]))
+        yield near(name, value, enclosed(balls[name]))
         if "k" in entry and value < inf:
             yield _reached(name, value, number(entry, "k"), law)
 
 
-def _near(name: str, stated: float, pair: tuple[float, float]) -> Claim:
+def near(name: str, stated: float, pair: tuple[float, float]) -> Claim:
+    """That a stated value is the proven one, but for the rounding of doubles."""
     low, high = pair
     room = _VALUE * max(1.0, abs(high)) if high < inf else 0.0
     return Claim(name, low - room <= stated <= high + room, f"{stated!r} stated, in [{low!r}, {high!r}]")

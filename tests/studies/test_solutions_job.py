@@ -76,9 +76,13 @@ def test_two_runs_give_the_same_bytes(tmp_path: Path) -> None:
 
 
 def test_a_problem_without_a_law_is_a_row_that_says_so(tmp_path: Path) -> None:
-    rows = table(run(tmp_path, SMALL.replace("B = [1.53,", "B = [1.05,")) / "table.csv")
+    out = run(tmp_path, SMALL.replace("B = [1.53,", "B = [1.05,"))
+    rows = table(out / "table.csv")
     assert [row["status"] for row in rows[:2]] == ["infeasible", "infeasible"]
     assert rows[0]["C"] == ""
+    stored = json.loads((out / "laws.json").read_text("utf-8"))["rows"]
+    assert all(Certificate.from_dict(row["proof"]).proves_infeasible for row in stored[:2])
+    assert not any("proof" in row for row in stored[2:])
 
 
 @pytest.mark.parametrize(

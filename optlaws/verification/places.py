@@ -1,0 +1,202 @@
+"""What a file holds and where: solutions, certificates and laws, and what the objects around them say of them.
+
+Every key of a file is known: it belongs to an entry, to a row of a table or a front around entries, or it names
+entries. Anything else that is said is refused, because nothing would prove it.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, Literal
+
+import msgspec
+
+from optlaws.errors import InputError
+from optlaws.synthesis.proof_data import problem_of
+
+Data = Mapping[str, Any]
+
+NO_FILE = "not a file of solutions or certificates"
+
+
+class SolutionFile(msgspec.Struct, forbid_unknown_fields=True):
+    """What `Solution.to_dict` writes, and the file of a command; what is claimed is checked elsewhere."""
+
+    problem: Any
+    law: Any
+    certificate: Any
+    status: Literal["optimal", "local", "inaccurate"] | None = None
+    objective: Any = None
+    lower_bound: Any = None
+    gap: Any = None
+    limit: Any = None
+    constants: Any = None
+    z: Any = None
+    power_certificate: Any = None
+    iterations: int = 0
+    seconds: float = 0.0
+    starts: list[float] = []
+    versions: dict[str, str] = {}
+    about: str = ""
+
+
+class LawFile(msgspec.Struct, forbid_unknown_fields=True):
+    """A law with its constants."""
+
+    law: Any
+    constants: Any
+    about: str = ""
+
+
+class Row(msgspec.Struct, forbid_unknown_fields=True):
+    """A row of a table of solutions."""
+
+    solution: Any = None
+    asked: Any = None
+    status: Literal["optimal", "local", "inaccurate", "infeasible", "not found"] | None = None
+    proof: Any = None
+
+
+class FrontFile(msgspec.Struct, forbid_unknown_fields=True):
+    """What `Front.to_dict` writes; where nothing was found claims nothing."""
+
+    over: list[str]
+    values: list[list[float]]
+    points: list[Any]
+    failed: list[float] = []
+    about: str = ""
+
+
+@dataclass(frozen=True)
+class Around:
+    """What the objects around an entry say of it.
+
+    Attributes
+    ----------
+    status
+        The status of its row.
+    asked
+        The problem of its row, as plain data.
+    B
+        The peak velocity of its row.
+    values
+        Constants by name, in a front.
+    """
+
+    status: str | None = None
+    asked: Any = None
+    B: float | None = None
+    values: Mapping[str, float] = field(default_factory=dict)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A solution, certificate or law, and what is said around it; without data only that is said."""
+
+    data: Data
+    around: Around = Around()
+
+
+def entries(data: Data) -> dict[str, Entry]:
+    """What can be verified, by where it is.
+
+    Raises
+    ------
+    InputError
+        If anything else is said.
+
+    Examples
+    --------
+    >>> list(entries({"rows": [{"solution": {"law": {}, "constants": {}}}, {"about": "none"}]}))
+    ['rows[0].solution']
+    >>> entries({"rows": [{"solution": {"law": {}, "constants": {}}}, {"limit": 4.0}]})
+    Traceback (most recent call last):
+    optlaws.errors.InputError: ...rows[1].limit claims something without a certificate: 4.0
+    """
+    return dict(_walk(data, "", Around()))
+
+
+def is_entry(data: Data) -> bool:
+    """Whether this is a solution, a certificate, or a law with its constants, whatever else it says."""
+    solution = {"problem", "law", "certificate"} <= data.keys()
+    certificate = {"problem", "contacts"} <= data.keys() or {"problem", "steps"} <= data.keys()
+    return solution or certificate or {"law", "constants"} <= data.keys()
+
+
+def check_keys(data: Data) -> None:
+    """Refuse an entry that says what no entry of its kind says.
+
+    Raises
+    ------
+    InputError
+        If a key is unknown, or a value that is not checked by its own proof is of a wrong type.
+    """
+    if "certificate" in data:
+        _stated(data, SolutionFile, "the solution")
+    elif "law" in data:
+        _stated(data, LawFile, "the law with its constants")
+
+
+def _stated(data: object, kind: type[Any], name: str) -> Any:  # noqa: ANN401 - of that kind
+    try:
+        return msgspec.convert(data, kind)
+    except msgspec.ValidationError as error:
+        raise InputError(f"{name}: {error}; leave out what is not checked") from None
+
+
+def _walk(data: object, path: str, around: Around) -> Iterator[tuple[str, Entry]]:
+    if isinstance(data, list):
+        for i, value in enumerate(data):
+            yield from _walk(value, f"{path}[{i}]", around)
+    elif not isinstance(data, Mapping):
+        if data is not None:
+            raise InputError(f"{NO_FILE}: {path or 'it'} claims something without a certificate: {data!r:.40}")
+    elif is_entry(data):
+        yield path, Entry(data, around)
+    elif {"solution", "asked"} & data.keys():
+        yield from _row(_stated(data, Row, path), path, around)
+    elif "over" in data:
+        yield from _front(_stated(data, FrontFile, path or "the front"), path)
+    elif "B" in data:
+        yield from _of_velocity(data, path)
+    else:
+        yield from _members(data, path, around)
+
+
+def _members(data: Data, path: str, around: Around) -> Iterator[tuple[str, Entry]]:
+    for key, value in data.items():
+        if key != "about" or not isinstance(value, str):
+            yield from _walk(value, f"{path}.{key}" if path else key, around)
+
+
+def _row(row: Row, path: str, around: Around) -> Iterator[tuple[str, Entry]]:
+    if row.asked is not None:
+        problem_of(_stated(row.asked, dict[str, Any], f"{path}.asked"))
+    said = Around(row.status, row.asked, around.B, around.values)
+    inside = [one for name in ("solution", "proof") for one in _walk(getattr(row, name), f"{path}.{name}", said)]
+    if not inside and row.status not in {None, "not found"}:
+        inside = [(path, Entry({}, said))]
+    yield from inside
+
+
+def _front(front: FrontFile, path: str) -> Iterator[tuple[str, Entry]]:
+    if len(front.values) != len(front.points) or any(len(one) != len(front.over) for one in front.values):
+        raise InputError(f"{path or 'the front'}: values must be as many as points, one for each of {front.over}")
+    for i, (values, point) in enumerate(zip(front.values, front.points, strict=True)):
+        said = Around(values=dict(zip(front.over, values, strict=True)))
+        yield from _walk(point, f"{path}.points[{i}]" if path else f"points[{i}]", said)
+
+
+def _of_velocity(data: Data, path: str) -> Iterator[tuple[str, Entry]]:
+    """The row of a table whose laws have a peak velocity."""
+    # printed numbers are kept as they are printed
+    said = data["B"]
+    try:
+        B = float(said) if isinstance(said, str) else _stated(said, float, f"{path}.B")
+    except ValueError:
+        raise InputError(f"{path}.B must be a number, got {said!r:.40}") from None
+    inside = list(_members({key: value for key, value in data.items() if key != "B"}, path, Around(B=B)))
+    if not any("problem" in one.data for _, one in inside):
+        raise InputError(f"{NO_FILE}: {path}.B claims something without a certificate: {B!r}")
+    yield from inside

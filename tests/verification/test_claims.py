@@ -1,0 +1,189 @@
+"""Whatever a file says of its solutions is checked or refused: status, limit, problem, rows around them, other keys."""
+
+import copy
+import json
+from collections.abc import Iterator
+from functools import cache
+from pathlib import Path as File
+from typing import Any
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from optlaws import Chebyshev, InputError, Pieces, Problem, pareto_front
+from optlaws.cli import exit_code
+from optlaws.errors import InfeasibleProblem
+from optlaws.synthesis.certificate import Certificate
+from optlaws.synthesis.solve import synthesize
+from optlaws.verification import verify, verify_all
+from tests.verification.tampering import Data, Path, changed, data_of, places, value_at
+
+pytest.importorskip("flint")
+
+CONVEX = Problem(B=1.859, order=4, basis=Chebyshev(5))
+LOCAL = Problem(B=1.4, order=4, basis=Chebyshev(5), minimise="D")
+OF_PIECES = Problem(B=1.75, order=2, basis=Pieces(4, 4, 2), minimise="max(C/4, J/40)")
+NO_LAW = Problem(B=1.7, order=4, basis=Chebyshev(5), C=4.5)
+
+
+def code_of(data: Data, folder: File) -> int:
+    file = folder / "claims.json"
+    file.write_text(json.dumps(data), "utf-8")
+    return exit_code(["verify", str(file)])
+
+
+def without_ground() -> dict[str, tuple[Data, str]]:
+    """Files with something that nothing proves, and how it is called."""
+    whole, local = data_of(CONVEX), data_of(LOCAL)
+    law = {name: whole[name] for name in ("law", "constants")}
+    return {
+        "beside a law": (
+            law | {"problem": whole["problem"] | {"B": 1.7}, "status": "optimal", "limit": 99.0, "z": [1, 2, 3]},
+            "unknown field `problem`",
+        ),
+        "another status": (local | {"status": "PROVEN OPTIMAL"}, "'PROVEN OPTIMAL'"),
+        "several statuses": (local | {"status": ["optimal"]}, "got `array` - at `$.status`"),
+        "a solution in a law": (law | {"inner": whole | {"objective": 1.0}}, "unknown field `inner`"),
+        "a solution in a solution": (whole | {"better": whole | {"objective": 1.0}}, "unknown field `better`"),
+        "a claim in a certificate": (whole["certificate"] | {"gap": 0.0}, "unknown field `gap`"),
+        "a claim in a contact": (
+            changed(whole, ("certificate", "contacts", 0), whole["certificate"]["contacts"][0] | {"proven": True}),
+            "unknown field `proven`",
+        ),
+        "a row beside": ({"rows": [whole, {"status": "optimal", "limit": 1e9, "C": 1.0}]}, "rows[1].status"),
+        "a row of a solution": ({"rows": [{"solution": whole, "C": 1.0}]}, "unknown field `C`"),
+        "text": ({"rows": [whole], "verdict": "all proven"}, "verdict claims something"),
+        "a printed B": ({"rows": [{"B": 1.2, "printed": law}]}, "rows[0].B claims something"),
+        "a front's heading": ({"over": ["C"], "values": [[4.0, 2.0]], "points": [whole]}, "as many as points"),
+        "a front's constant": ({"over": ["E"], "values": [[4.0]], "points": [whole]}, "'E'"),
+        "an infinite front": ({"over": ["C"], "values": [[None]], "points": [whole]}, "Expected `float`"),
+        "beyond powers": (
+            changed(changed(whole, ("problem", "B"), 1e300), ("certificate", "problem", "B"), 1e300),
+            "problem.B: 1e+300 is beyond",
+        ),
+    }
+
+
+@pytest.mark.parametrize("name", without_ground())
+def test_what_nothing_proves_is_refused(name: str, tmp_path: File, capsys: pytest.CaptureFixture[str]) -> None:
+    data, message = without_ground()[name]
+    assert code_of(data, tmp_path) == 2
+    assert message in capsys.readouterr().err
+
+
+@cache
+def row_text() -> str:
+    whole = data_of(CONVEX)
+    row = {"asked": whole["problem"], "status": whole["status"], "solution": whole}
+    return json.dumps({"about": "a table", "rows": [row, {"asked": whole["problem"], "status": "not found"}]})
+
+
+@cache
+def front_text() -> str:
+    found = pareto_front(Problem(B=1.641, order=3, basis=Chebyshev(5)), over=("C", "J"), points=2)
+    return json.dumps(found.to_dict(), allow_nan=False)
+
+
+@cache
+def table_text() -> str:
+    whole = data_of(CONVEX)
+    law = {name: whole[name] for name in ("law", "constants")}
+    return json.dumps({"rows": [{"B": "1.859", "printed": law, "same shape": whole}]})
+
+
+CONTAINERS = [row_text, front_text, table_text]
+
+
+@pytest.mark.parametrize("text", CONTAINERS, ids=lambda one: one.__name__)
+def test_rows_fronts_and_tables_are_proven(text: Any) -> None:  # noqa: ANN401
+    found = verify_all(json.loads(text()))
+    assert [str(claim) for one in found.values() for claim in one.claims if not claim.proven] == []
+
+
+def test_a_row_without_a_law_needs_a_proof(tmp_path: File, capsys: pytest.CaptureFixture[str]) -> None:
+    with pytest.raises(InfeasibleProblem) as caught:
+        synthesize(NO_LAW)
+    assert isinstance(caught.value.proof, Certificate)
+    row = {"asked": NO_LAW.to_dict(), "status": "infeasible", "solution": None}
+    assert code_of({"rows": [row]}, tmp_path) == 1
+    assert "infeasible: no certificate stands beside it" in capsys.readouterr().err
+    proof = caught.value.proof.to_dict()
+    assert code_of({"rows": [row | {"proof": proof}]}, tmp_path) == 0
+    assert code_of({"rows": [row | {"proof": proof, "asked": CONVEX.to_dict()}]}, tmp_path) == 1
+    assert code_of({"rows": [row | {"proof": proof, "status": "optimal"}]}, tmp_path) == 1
+    assert code_of({"rows": [{**row, "status": "optimal"}]}, tmp_path) == 1
+
+
+#: what a file says of the problem and the law; a certificate says how it is proven, and may prove more than it needs
+CLAIMED = ("status", "objective", "limit", "lower_bound", "gap", "constants", "z", "problem", "asked", "B", "values")
+
+
+def claimed(data: Data) -> Iterator[Path]:
+    for path in places(data):
+        # where nothing was found, nothing is said of any law
+        if "certificate" in path or path[:2] == ("rows", 1):
+            continue
+        if any(name in CLAIMED for name in path) and not isinstance(value_at(data, path), dict | list):
+            yield path
+
+
+def weaker(path: Path, old: Any, new: Any) -> bool:  # noqa: ANN401 - JSON
+    """Whether what is said now follows from what was said, or is nothing."""
+    name = path[-1]
+    if new is None:
+        return True
+    number = isinstance(new, int | float) and not isinstance(new, bool)
+    if name == "status":
+        return new in {"local", "inaccurate"} and old == "optimal"
+    if not number or not isinstance(old, int | float):
+        return False
+    if name in {"lower_bound", "limit"}:
+        return bool(new <= old + 1e-8 * max(1.0, abs(old)))
+    if name == "gap":
+        return bool(new >= old - 2e-8)
+    # a place is where the peak is, and others may be as high
+    return name == "k"
+
+
+@settings(max_examples=60)
+@given(st.data())
+def test_no_altered_claim_passes(drawn: st.DataObject) -> None:
+    sources = [
+        lambda: data_of(CONVEX),
+        lambda: data_of(OF_PIECES),
+        *((lambda t=t: json.loads(t())) for t in CONTAINERS),
+    ]
+    data: Data = drawn.draw(st.sampled_from(sources))()
+    path = drawn.draw(st.sampled_from(list(claimed(data))))
+    old = value_at(data, path)
+    values = st.none() | st.booleans() | st.floats(-1e3, 1e3) | st.sampled_from(["optimal", "local", "C", "powers", ""])
+    if isinstance(old, float):
+        values |= st.sampled_from([1e-6, -1e-6, 1e-3, -1e-3, 1.0]).map(lambda by: old + by * max(1.0, abs(old)))
+    new = drawn.draw(values)
+    assume(new != old)
+    assume(not isinstance(old, float) or not isinstance(new, float) or abs(new - old) > 1e-7 * max(1.0, abs(old)))
+    assume(not weaker(path, old, new))
+    tampered = changed(data, path, new)
+    try:
+        found = verify_all(tampered)
+    except InputError:
+        return
+    assert not all(one.proven for one in found.values()), (path, old, new)
+
+
+@pytest.mark.parametrize("problem", [CONVEX, LOCAL, OF_PIECES], ids=repr)
+def test_another_status_limit_or_z_is_not_believed(problem: Problem) -> None:
+    data = data_of(problem)
+    assert verify(data).proven
+    tampered: list[Data] = [copy.deepcopy(data) for _ in range(3)]
+    tampered[0]["status"] = "optimal"
+    tampered[1]["limit"] = 1.001 * data["objective"]
+    tampered[2]["z"] = [1.0] if data["z"] is None else [*data["z"][:-1], data["z"][-1] + 1e-6]
+    assert verify(tampered[0]).proven == (data["status"] == "optimal")
+    assert not verify(tampered[1]).proven
+    if data["z"] is None:
+        with pytest.raises(InputError, match="have no Z"):
+            verify(tampered[2])
+    else:
+        assert not verify(tampered[2]).proven
