@@ -142,6 +142,8 @@ def _possible(problem: Problem) -> str:
 
 
 def _extreme(problem: Problem, *, greatest: bool) -> float | None:
+    if greatest and problem.peak_at is None:
+        return None
     found = extreme_velocity(problem, greatest=greatest)
     optimum = solve(found.program).optimum
     return None if optimum is None else float(optimum.x[found.places["B"]])

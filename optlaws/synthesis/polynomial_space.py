@@ -166,6 +166,13 @@ class PolynomialSpace(LawSpace):
             found[: len(one)] += weight * one[: len(found)]
         return found
 
+    def backward(self, slack: Array, bound: float) -> LinearFamily:
+        """Rows -b <= slack . x + bound; b is even about 1/2 where the law is symmetric."""
+        if not self.symmetric:
+            return super().backward(slack, bound)
+        series = self.widened(self.series(1)[::2], len(slack))
+        return EvenFamily("b", slack, bound, (-1.0,), series=series)
+
     def power(self, name: str, slack: Array, bound: float = 0.0, weights: tuple[float, ...] = (1.0,)) -> ProductFamily:
         """Rows |b c| <= slack . x + bound; with weights, of w0 b + w1 c + ... and its derivative."""
         first, second = (self.combination(nu, weights, name, slack) for nu in (1, 2))

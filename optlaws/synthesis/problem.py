@@ -35,8 +35,9 @@ class Problem:
         A constant or a sum or maximum of constants: "C", "D", "0.6*C/4 + 0.4*D/2.25", `0.6 * C / 4 + 0.4 * D / 2.25`.
     B, C, D, J
         Peak velocity, acceleration, power and jerk: a number fixes the constant, a `Range` such as
-        `between(1.5, 1.8)` or `at_most(60)` bounds it, None leaves it free. In a symmetric law B is b(1/2), and
-        b <= B holds everywhere.
+        `between(1.5, 1.8)` or `at_most(60)` bounds it, None leaves it free. `at_most` asks |b| <= B everywhere and
+        nothing else. From rest to rest a number, and a lower bound above the mean velocity 1, also put the peak in
+        the middle, unless there is an inflexion: b(1/2) is B, the greatest |b|.
     bounds
         The same for any constant: `{"rms_c": at_most(4), "C_minus": at_most(5)}`, by its name or itself.
     basis
@@ -49,8 +50,9 @@ class Problem:
     boundary
         End conditions; rest to rest unless given. Others make the law unsymmetric.
     inflexion
-        Where an unsymmetric law has its peak velocity: c is 0 there, b is B, and b <= B holds everywhere. Without it
-        that is k = 1/2 for laws from rest to rest with a fixed B or one bounded from below, else wherever it falls.
+        The k at which b is greatest: b <= b(inflexion) everywhere and c is 0 there, whatever the sign of b. A fixed
+        or lower bounded B is asked of b there. Without an inflexion that is k = 1/2 for laws from rest to rest with
+        a fixed B or one bounded from below, else wherever it falls. Symmetric laws can have it at 1/2 only.
     windows
         Values and windows of a, b, c, j: `via("a", 0.3, at=0.4)`, `Window("b", high=1.2, start=0.2, stop=0.3)`.
 
@@ -90,12 +92,18 @@ class Problem:
             asked = one_of(getattr(self, one.name), self.bounds, one)
             object.__setattr__(self, one.name, constant(asked, one.name))
         object.__setattr__(self, "bounds", Bounds(own))
+        self._drop_implied_inflexion()
         if self.boundary is not None:
             if self.boundary == BoundaryConditions.rest(self.order):
                 object.__setattr__(self, "boundary", None)
             elif self.symmetric:
                 raise InputError("a law with these boundary conditions is not symmetric: ask symmetric=False")
         self.basis.check(symmetric=self.symmetric)
+
+    def _drop_implied_inflexion(self) -> None:
+        """Problems that ask the same are equal: of symmetric laws B may put the peak in the middle already."""
+        if self.symmetric and self.inflexion is not None and _above_mean(as_range(self.B, "B")):
+            object.__setattr__(self, "inflexion", None)
 
     @cached_property
     def objective(self) -> Expression:
@@ -124,19 +132,19 @@ class Problem:
         return not self.symmetric and plain and even
 
     @property
-    def peak_in_the_middle(self) -> bool:
-        """Whether b(1/2) is the peak velocity B: not where B is free, nor where B is merely bounded from above."""
-        return self.peak_at == 0.5
-
-    @property
     def peak_at(self) -> float | None:
-        """The k at which b is the peak velocity B and c is 0; None where it is not asked to be at any."""
+        """The k at which b is asked to be greatest and c is 0; None where it may be greatest anywhere."""
         if self.inflexion is not None:
             return self.inflexion
+        return 0.5 if self.boundary is None and _above_mean(self.range("B")) else None
+
+    @property
+    def peak_is_variable(self) -> bool:
+        """Whether programs have a variable B for the peak velocity that is asked, beside those of the objective."""
         wanted = self.range("B")
-        if wanted is None or self.boundary is not None:
-            return None
-        return 0.5 if self.symmetric or wanted.low > 0.0 else None
+        if wanted is None:
+            return False
+        return not self.symmetric if wanted.fixed else wanted.low > 0.0 and self.peak_at is not None
 
     def range(self, name: str) -> Range | None:
         """What is asked of a constant, by its name."""
@@ -151,8 +159,6 @@ class Problem:
     @cached_property
     def _ranges(self) -> dict[str, Range | None]:
         own = {name: as_range(getattr(self, name), name) for name in CONSTANTS}
-        if self.inflexion is not None and own["B"] is None:
-            own["B"] = Range()
         return own | {one.name: asked for one, asked in self.bounds.items()}
 
     @cached_property
@@ -236,6 +242,11 @@ class Problem:
         shown = ("B", "order", "basis", "minimise")
         parts = [f"{f.name}={getattr(self, f.name)!r}" for f in fields(self) if f.name in shown or _given(self, f)]
         return f"Problem({', '.join(parts)})"
+
+
+def _above_mean(wanted: Range | None) -> bool:
+    """Whether a lower bound of B says anything of laws with stroke 1."""
+    return wanted is not None and wanted.low > 1.0
 
 
 def _given(problem: Problem, one: Any) -> bool:  # noqa: ANN401 - a dataclass field

@@ -55,14 +55,14 @@ def windows_of(windows: Any) -> tuple[Window, ...]:  # noqa: ANN401 - they are c
 
 
 def inflexion_of(k: Any, *, symmetric: bool) -> float | None:  # noqa: ANN401 - it is checked here
-    """The k of the inflexion; None where symmetry says it already."""
+    """The k of the inflexion; of symmetric laws 1/2."""
     if k is None:
         return None
     if isinstance(k, bool) or not isinstance(k, Real) or not 0.0 < float(k) < 1.0:
         raise InputError(f"inflexion must be a k between 0 and 1, got {k!r}")
     if symmetric and k != 0.5:
         raise InputError(f"a symmetric law has its inflexion at 1/2, not at {k!r}: ask symmetric=False")
-    return None if symmetric else float(k)
+    return float(k)
 
 
 def _velocity(value: Any) -> bool:  # noqa: ANN401 - it is checked here

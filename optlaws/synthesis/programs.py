@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from functools import lru_cache
-from math import isfinite
+from math import isfinite, nextafter
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.bounds import Range
 from optlaws.synthesis.expression import Expression, Maximum, leaves
-from optlaws.synthesis.functionals import Functional, Power
+from optlaws.synthesis.functionals import B, Functional, Power
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.rows import Family, LinearFamily, Program
 from optlaws.synthesis.space import LawSpace
@@ -26,7 +26,7 @@ class Model:
     """A program with the space it is written over and the places of its variables beyond the coordinates.
 
     `places` has the variables that bound the objective's constants from above, by their names, those of maxima, and
-    "B" where the peak velocity is a variable. `equation_names` says what each equation is; the
+    "B" where the peak velocity that is asked is a variable. `equation_names` says what each equation is; the
     program's objective is the problem's divided by `unit`.
     """
 
@@ -49,6 +49,7 @@ def model(problem: Problem) -> Model:
 
 ROOT = "root of D"
 _REST = 1e-15
+_ABOVE_MEAN = nextafter(1.0, 2.0)
 _LEAST_WEIGHT, _GREATEST_WEIGHT = 1e-3, 1e3
 _SIDES = {1.0: "above", -1.0: "below"}
 
@@ -100,10 +101,15 @@ def least_violation(problem: Problem) -> Model:
 
 
 def extreme_velocity(problem: Problem, *, greatest: bool) -> Model:
-    """The least or the greatest B for which the constraints do not contradict; B is a variable."""
-    free = replace(problem, B=Range(low=1.0))
-    writer = _Writer(_space(problem), [], free)
+    """The least or the greatest B for which the constraints do not contradict; B is a variable.
+
+    Where the problem does not say at which k the peak is, there is no greatest B.
+    """
+    free = replace(problem, B=Range(low=_ABOVE_MEAN))
+    writer = _Writer(_space(problem), ["B"], free)
     writer.cost = writer.unit("B", -1.0 if greatest else 1.0)
+    if free.peak_at is None:
+        writer.families += B.families(writer.space, writer.unit("B"), 0.0)
     writer.constraints(free)
     return writer.model()
 
@@ -124,8 +130,7 @@ def _maxima(expression: Expression) -> list[Maximum]:
 
 class _Writer:
     def __init__(self, space: LawSpace, names: list[str], problem: Problem, extra: str | None = None) -> None:
-        wanted = problem.range("B")
-        if wanted is not None and not (problem.symmetric and wanted.fixed):
+        if problem.peak_is_variable:
             names = [*names, "B"]
         if extra is not None:
             names = [*names, extra]
@@ -171,9 +176,10 @@ class _Writer:
         self.families.append(LinearFamily(name, self.spare, bound, (1.0,), (1.0, 1.0), series=series))
 
     def constraints(self, problem: Problem) -> None:
+        self._peak(problem)
         wanted = problem.range("B")
         if wanted is not None:
-            self._peak_velocity(wanted, problem)
+            self._velocity(wanted, problem)
         if problem.monotone:
             self.families.append(self.space.forward(self.spare))
         for constant, asked in problem.bounded:
@@ -187,32 +193,45 @@ class _Writer:
             for part, side in zip(parts, ("", " mirrored"), strict=False):
                 self._window(f"window {i}{side}", part)
 
-    def _peak_velocity(self, wanted: Range, problem: Problem) -> None:
-        if problem.symmetric:
-            self.families.append(self.space.below(self.spare))
-            self._value(1, wanted.high if wanted.fixed else 0.0, "" if wanted.fixed else "B", "b(1/2) = B")
-        else:
-            signs: tuple[float, ...] = (1.0, -1.0)
-            if wanted.fixed:
-                self.equation(self.unit("B"), wanted.high)
-            peak = problem.peak_at
-            if peak is not None:
-                at = "1/2" if peak == 0.5 else f"{peak:g}"
-                self.families.append(self.space.below(self.spare, peak))
-                self._value(1, 0.0, "B", f"b({at}) = B", peak)
-                self._value(2, 0.0, "", f"c({at}) = 0", peak)
-                signs = (-1.0,)
-            if problem.monotone:
-                signs = tuple(sign for sign in signs if sign > 0.0)
-            if signs:
-                self.families.append(self.space.derivative(1, "b", self.unit("B") + self.spare, signs=signs))
+    def _peak(self, problem: Problem) -> None:
+        """What makes b greatest at one k, and B its value there."""
+        wanted, peak = problem.range("B"), problem.peak_at
+        fixed = wanted is not None and wanted.fixed
+        if wanted is not None and fixed and not problem.symmetric:
+            self.equation(self.unit("B"), wanted.high)
+        if peak is None:
+            return
+        at = "1/2" if peak == 0.5 else f"{peak:g}"
+        self.families.append(self.space.below(self.spare, peak))
+        if wanted is not None and fixed and problem.symmetric:
+            self._value(1, wanted.high, "", f"b({at}) = B", peak)
+        elif problem.peak_is_variable:
+            self._value(1, 0.0, "B", f"b({at}) = B", peak)
+        if not problem.symmetric:
+            self._value(2, 0.0, "", f"c({at}) = 0", peak)
+
+    def _velocity(self, wanted: Range, problem: Problem) -> None:
+        """Rows |b| <= B, but for what others say already, and the bounds of B."""
+        if not problem.peak_is_variable and not wanted.fixed:
+            self._bounded(B, wanted)
+            return
+        slack, bound = (self.unit("B"), 0.0) if problem.peak_is_variable else self._middle()
+        if problem.peak_at is None:
+            signs = (1.0,) if problem.monotone else (1.0, -1.0)
+            self.families.append(self.space.derivative(1, "b", slack + self.spare, bound, signs))
+        elif not problem.monotone:
+            self.families.append(self.space.backward(slack + self.spare, bound))
         if not wanted.fixed:
             if isfinite(wanted.high):
                 self.row("B at most", self.unit("B"), wanted.high)
-            if wanted.low > 0.0:
-                self.row("B at least", -self.unit("B"), -wanted.low)
+            self.row("B at least", -self.unit("B"), -wanted.low)
 
-    def _value(self, nu: int, right: float, variable: str, name: str, k: float = 0.5) -> None:
+    def _middle(self) -> tuple[Array, float]:
+        """b(1/2) as a row and its constant part: a fixed B of symmetric laws, whatever its value."""
+        row = self.space.widened(self.space.row(1, 0.5)[None, :], self.size)[0]
+        return row[:-1], float(row[-1])
+
+    def _value(self, nu: int, right: float, variable: str, name: str, k: float) -> None:
         """The derivative of order nu at k is `right`, or the variable."""
         *free, base = self.space.row(nu, k).tolist()
         row = np.zeros(self.size)

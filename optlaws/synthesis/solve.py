@@ -177,7 +177,7 @@ def _check_types(problem: object, start: object, bound: object) -> None:
 
 def _neighbours(first: Problem, second: Problem) -> bool:
     same_kind = all(type(getattr(first, name)) is type(getattr(second, name)) for name in CONSTANTS)
-    kept = ("order", "monotone", "symmetric", "boundary", "inflexion")
+    kept = ("order", "monotone", "symmetric", "boundary", "inflexion", "peak_at", "peak_is_variable")
     alike = all(getattr(first, name) == getattr(second, name) for name in kept)
     asked = [[(one, isfinite(wanted.high)) for one, wanted in problem.bounded] for problem in (first, second)]
     weighted = [term for _, term in first.objective.terms] == [term for _, term in second.objective.terms]

@@ -92,6 +92,10 @@ class LawSpace(ABC):
     ) -> LinearFamily:
         """Rows s (w0 a^(nu) + w1 a^(nu+1) + ...) <= slack . x + bound, on the space's part of the interval."""
 
+    def backward(self, slack: Array, bound: float) -> LinearFamily:
+        """Rows -b <= slack . x + bound."""
+        return self.derivative(1, "b", slack, bound, (-1.0,))
+
     @abstractmethod
     def power(self, name: str, slack: Array, bound: float = 0.0, weights: tuple[float, ...] = (1.0,)) -> ProductFamily:
         """Rows |b c| <= slack . x + bound; with weights, of w0 b + w1 c + ... and its derivative."""

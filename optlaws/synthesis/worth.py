@@ -37,25 +37,27 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
 
 
 def _velocity_excess(problem: Problem, law: MotionLaw) -> float:
-    wanted = problem.range("B")
-    if wanted is None and not problem.monotone:
+    wanted, peak = problem.range("B"), problem.peak_at
+    if wanted is None and peak is None and not problem.monotone:
         return 0.0
     lowest, highest = law.extrema(1)
-    excess = -lowest.value if problem.monotone else 0.0
-    if wanted is None:
-        return max(excess, 0.0)
-    greatest = max(highest.value, 0.0 if problem.symmetric else -lowest.value)
-    excess = max(excess, greatest / wanted.high - 1.0)
-    if problem.peak_at is not None:
-        middle = float(law.b(problem.peak_at))
-        excess = max(excess, greatest / middle - 1.0, wanted.low and 1.0 - middle / wanted.low)
+    greatest = max(highest.value, -lowest.value)
+    excess = max(-lowest.value, 0.0) if problem.monotone else 0.0
+    if wanted is not None and isfinite(wanted.high):
+        excess = max(excess, greatest / wanted.high - 1.0)
+    if peak is not None:
+        # b at the peak may be 0 or negative: what is above it is measured by the law's speed
+        at_peak = float(law.b(peak))
+        excess = max(excess, (highest.value - at_peak) / max(greatest, 1.0))
+        if wanted is not None and wanted.low > 0.0:
+            excess = max(excess, 1.0 - at_peak / wanted.low, (greatest - at_peak) / max(greatest, 1.0))
     return excess
 
 
 def shortfalls(problem: Problem, law: MotionLaw) -> dict[Functional, float]:
     """Constants that are below their lower bound, with that bound: a peak can be held down by rows, but not up."""
-    # at rest at both ends an equation makes b(1/2) the asked B
-    velocity = problem.range("B") if problem.boundary is not None and problem.peak_at is None else None
+    # where the place of the peak is asked rows hold it up
+    velocity = problem.range("B") if problem.peak_at is None else None
     asked = [*problem.bounded, *([] if velocity is None else [(B, velocity)])]
     return {
         constant: wanted.low

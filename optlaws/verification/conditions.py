@@ -121,22 +121,23 @@ def _size_of(piece: PolynomialPiece, nu: int) -> float:
 def _velocity(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     wanted = problem.range("B")
     least, greatest = law.extremes(1)
+    speed, reached = (-least).max(greatest), (-least).max(greatest)
+    at = "1/2" if problem.peak_at == 0.5 else f"{problem.peak_at}"
+    if problem.peak_at is not None:
+        peak = Fraction(problem.peak_at)
+        reached = arb(law.value(1, peak))
+        scale = max(1.0, up(upper(speed)))
+        yield _of(f"b <= b({at})", greatest - reached, scale)
+        if problem.inflexion is not None and not problem.symmetric:
+            yield _of(f"c({at}) = 0", arb(abs(law.value(2, peak))), scale)
+        if problem.peak_is_variable:
+            yield _of(f"-b <= b({at})", -least - reached, scale)
     if wanted is not None:
-        peak = problem.peak_at
-        middle = arb(law.value(1, Fraction(1, 2) if peak is None else Fraction(peak)))
         if isfinite(wanted.high):
-            yield _of("b <= B", greatest - ball(wanted.high), wanted.high)
-            if not problem.symmetric and not problem.monotone:
-                yield _of("-b <= B", -least - ball(wanted.high), wanted.high)
-        if problem.symmetric and wanted.fixed:
-            yield _of("b(1/2) = B", abs(middle - ball(wanted.high)), wanted.high)
-        elif problem.symmetric:
-            yield _of("b <= b(1/2)", greatest - middle)
-        if problem.inflexion is not None and peak is not None:
-            yield _of(f"b <= b({peak:g})", greatest - middle)
-            yield _of(f"c({peak:g}) = 0", arb(abs(law.value(2, Fraction(peak)))))
-        if wanted.low > 0.0:
-            reached = middle if peak is not None else (-least).max(greatest)
+            yield _of("|b| <= B", speed - ball(wanted.high), wanted.high)
+        if wanted.fixed and problem.peak_at is not None:
+            yield _of(f"b({at}) = B", abs(reached - ball(wanted.high)), wanted.high)
+        elif wanted.low > 0.0:
             yield _of("B at least", ball(wanted.low) - reached, wanted.low)
     if problem.monotone:
         yield _of("b >= 0", -least)

@@ -16,7 +16,7 @@ from optlaws.errors import InputError
 from optlaws.synthesis.bounds import Range
 from optlaws.synthesis.certificate import RELAXED, VIOLATION, Certificate, Contact
 from optlaws.synthesis.expression import Expression, Maximum, leaves
-from optlaws.synthesis.functionals import Functional, Peak, RootMeanSquare
+from optlaws.synthesis.functionals import B, Functional, Peak, RootMeanSquare
 from optlaws.synthesis.windows import Window
 from optlaws.verification.balls import ball
 from optlaws.verification.exact_spaces import exact_space
@@ -82,8 +82,7 @@ class ExactRows:
         self.equations: list[Row] = []
         if certificate.program != VIOLATION:
             self._objective(problem.objective)
-        wanted = problem.range("B")
-        if wanted is not None and not (problem.symmetric and wanted.fixed):
+        if problem.peak_is_variable:
             self.names.append("B")
         if self.relaxed:
             self.names.append(ROOT)
@@ -163,7 +162,8 @@ class ExactRows:
 
     def _constraints(self) -> None:
         problem = self.problem
-        self._peak_velocity()
+        self._peak()
+        self._velocity()
         if problem.monotone:
             self._everywhere("forward", partial(self.space.values, 1), (-1.0,), {})
             if self.space.divided:
@@ -187,30 +187,43 @@ class ExactRows:
         else:
             self._bounded(constant, {}, wanted.high)
 
-    def _peak_velocity(self) -> None:
-        problem, space = self.problem, self.space
-        wanted = problem.range("B")
+    def _peak(self) -> None:
+        """What makes b greatest at one k, and B its value there."""
+        problem, space, wanted = self.problem, self.space, self.problem.range("B")
+        fixed = wanted.high if wanted is not None and wanted.fixed else None
+        if fixed is not None and not problem.symmetric:
+            self.equations.append(Row([arb(0)] * (space.terms + 1), {"B": 1.0}, -ball(fixed)))
+        if problem.peak_at is None:
+            return
+        peak = Fraction(problem.peak_at)
+        self._everywhere("chord", partial(space.chord, peak), (1.0,), {})
+        if fixed is not None and problem.symmetric:
+            self.equations.append(Row(space.values(1, peak), {}, -ball(fixed)))
+        elif problem.peak_is_variable:
+            self.equations.append(Row(space.values(1, peak), {"B": -1.0}))
+        if not problem.symmetric:
+            self.equations.append(Row(space.values(2, peak)))
+
+    def _velocity(self) -> None:
+        """Rows |b| <= B and the bounds of B."""
+        problem, wanted = self.problem, self.problem.range("B")
         if wanted is None:
             return
-        peak = None if problem.peak_at is None else Fraction(problem.peak_at)
-        middle = space.values(1, peak or Fraction(1, 2))
-        if peak is not None:
-            self._everywhere("chord", partial(space.chord, peak), (1.0,), {})
-        if problem.symmetric:
-            constants: Names = {} if wanted.fixed else {"B": -1.0}
-            self.equations.append(Row(middle, constants, -ball(wanted.high) if wanted.fixed else 0.0))
+        if problem.peak_is_variable:
+            self._everywhere("b", partial(self.space.values, 1), (1.0, -1.0), {"B": -1.0})
+        elif wanted.fixed:
+            self._add("b", self._below_middle, (1.0, -1.0))
         else:
-            self._everywhere("b", partial(space.values, 1), (1.0, -1.0), {"B": -1.0})
-            if wanted.fixed:
-                self.equations.append(Row([arb(0)] * len(middle), {"B": 1.0}, -ball(wanted.high)))
-            if peak is not None:
-                self.equations.append(Row(middle, {"B": -1.0}))
-                self.equations.append(Row(space.values(2, peak)))
+            self._range(B, wanted)
+            return
         if not wanted.fixed:
             if isfinite(wanted.high):
                 self._single("B at most", {"B": 1.0}, ball(wanted.high))
-            if wanted.low > 0.0:
-                self._single("B at least", {"B": -1.0}, -ball(wanted.low))
+            self._single("B at least", {"B": -1.0}, -ball(wanted.low))
+
+    def _below_middle(self, contact: Contact, k: Fraction) -> Row:
+        pairs = zip(self.space.values(1, k), self.space.values(1, Fraction(1, 2)), strict=True)
+        return Row([one * contact.sign - middle for one, middle in pairs])
 
     def _window(self, name: str, window: Window, part: Part) -> None:
         if window.value:
