@@ -318,5 +318,7 @@ def judge(solution: Solution) -> None:
 def lower_bounded(problem: Problem) -> bool:
     """Whether a peak has a lower bound, which is not convex."""
     ranges: list[Range | None] = [asked for _, asked in problem.bounded]
-    ranges += [as_range(problem.B)] if not problem.symmetric else []
+    wanted = as_range(problem.B)
+    if wanted is not None and not (wanted.fixed and problem.boundary is None) and problem.inflexion is None:
+        ranges.append(wanted)
     return any(one is not None and one.low > 0.0 for one in ranges)

@@ -1,0 +1,54 @@
+"""Clarabel finds the optima of convex random problems again, whatever they are made of."""
+
+from collections import Counter
+
+import pytest
+
+from optlaws import Chebyshev, InfeasibleProblem, Problem, synthesize
+from tests.synthesis import reference
+from tests.synthesis.conic import least
+from tests.synthesis.judge import lower_bounded
+from tests.synthesis.numpy_laws import Undecided
+from tests.synthesis.random_options import every_option
+
+pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
+
+
+def convex_problems(seed: int, count: int) -> list[Problem]:
+    problems = [one.problem for one in every_option(seed, count)]
+    return [one for one in problems if one.convex and not lower_bounded(one)]
+
+
+def verdict(problem: Problem) -> str:
+    try:
+        wanted = least(problem)
+    except Undecided:
+        return "undecided"
+    try:
+        solution = synthesize(problem)
+    except InfeasibleProblem:
+        assert wanted is None, problem
+        return "infeasible"
+    assert wanted is not None, problem
+    assert solution.objective == pytest.approx(wanted, rel=5e-6, abs=1e-8), problem
+    assert solution.lower_bound <= wanted + 5e-6 * wanted + 1e-8, problem
+    return "same"
+
+
+def test_clarabel_finds_the_same_optima_of_a_few_problems_of_every_kind() -> None:
+    found = Counter(verdict(problem) for problem in convex_problems(2, 36))
+    assert found["undecided"] <= 2
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(40, 50))
+def test_clarabel_finds_the_same_optima(seed: int) -> None:
+    found = Counter(verdict(problem) for problem in convex_problems(seed, 100))
+    assert found["undecided"] <= 0.1 * found.total()
+
+
+@pytest.mark.parametrize("minimise", ["C", "J", "C_plus", "max(C/4, J/32)"])
+def test_both_references_agree(minimise: str) -> None:
+    for symmetric in (True, False):
+        problem = Problem(B=1.7, order=3, basis=Chebyshev(8), minimise=minimise, symmetric=symmetric)
+        assert least(problem) == pytest.approx(reference.least(problem), rel=1e-5)
