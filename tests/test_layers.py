@@ -9,11 +9,13 @@ import pytest
 from tests.documents import ROOT
 from tests.imports import Import, cycles, imports
 
-BASE = {"errors", "suggest"}
+BASE = {"errors", "kept", "locks", "suggest"}
 CORE = BASE | {"laws", "synthesis", "mechanisms", "verification"}
 MAY_IMPORT = {
     "suggest": set[str](),
     "errors": {"suggest"},
+    "kept": set[str](),
+    "locks": set[str](),
     "laws": BASE,
     "synthesis": BASE | {"laws"},
     "mechanisms": BASE | {"laws", "synthesis"},

@@ -21,7 +21,9 @@ METHODS = {
     for name in NAMES
     if inspect.isclass(owner := getattr(optlaws, name))
     for method, function in inspect.getmembers(owner, inspect.isroutine)
-    if not method.startswith("_") and str(getattr(function, "__module__", "")).startswith("optlaws")
+    if not method.startswith("_")
+    and callable(function)
+    and str(getattr(function, "__module__", "")).startswith("optlaws")
 }
 
 

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import re
 from collections.abc import Iterator, Mapping
-from functools import cached_property
 from typing import TYPE_CHECKING
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 
 if TYPE_CHECKING:
     from optlaws.laws.catalogue_entry import Entry
@@ -45,7 +45,7 @@ class Catalogue(Mapping[str, "Entry"]):
     ['trapezoid with thirds', 'trapezoidal velocity in thirds']
     """
 
-    @cached_property
+    @kept_property
     def _entries(self) -> dict[str, Entry]:
         import tomllib
         from importlib.resources import files
@@ -55,7 +55,7 @@ class Catalogue(Mapping[str, "Entry"]):
         text = files("optlaws.laws").joinpath("catalogue.toml").read_text(encoding="utf-8")
         return {one["name"]: Entry.from_dict(one) for one in tomllib.loads(text)["law"]}
 
-    @cached_property
+    @kept_property
     def _by_alias(self) -> dict[str, Entry]:
         from optlaws.laws.codes import canonical
 

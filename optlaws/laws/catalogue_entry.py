@@ -5,12 +5,12 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from math import pi
 from typing import Any
 
 import numpy as np
 
+from optlaws.kept import kept_property
 from optlaws.laws.codes import coded
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.peaks import Constants
@@ -107,7 +107,7 @@ class Entry:
         """Its other names, without the numbers of enumerations."""
         return tuple(one.partition(" = ")[0] for _, some in self.names for one in some)
 
-    @cached_property
+    @kept_property
     def law(self) -> MotionLaw:
         """The law, from exact segments."""
         return _built(*self.definition)
@@ -117,7 +117,7 @@ class Entry:
         """B, C, D, J and the RMS of c, within the motion: a jump of c at its ends counts in `continuity` alone."""
         return self.law.constants
 
-    @cached_property
+    @kept_property
     def continuity(self) -> int:
         """The highest order whose derivative, and all below, are continuous with rest before and after the motion.
 

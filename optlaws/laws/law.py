@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from abc import abstractmethod
 from collections.abc import Sequence
-from functools import cached_property
 from typing import Any, overload
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws import peaks
 from optlaws.laws.checks import times, whole
 from optlaws.laws.html import page
@@ -201,7 +201,7 @@ class MotionLaw(Stored):
         """
         return float(np.sqrt(self._mean_square(whole(nu, "nu"))))
 
-    @cached_property
+    @kept_property
     def constants(self) -> Constants:
         """B, C, D, J with their places, and the RMS of c; computed at the first use.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import accumulate, pairwise
 from math import inf
 from typing import Any, Self, overload
@@ -13,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws import peaks
 from optlaws.laws.checks import times, whole
 from optlaws.laws.fractional import FractionalSegment  # noqa: F401  # declares its kind
@@ -167,11 +167,11 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
         curves = {name: _finite(self._derivative(k, nu)).tolist() for nu, name in enumerate("abc")}
         return page(f"{type(self).__name__}, {self._summary()}", self.constants, curves)
 
-    @cached_property
+    @kept_property
     def _lengths(self) -> tuple[tuple[Segment, float], ...]:
         return tuple((one, end - start) for one, (start, end) in zip(self.segments, pairwise(self.breaks), strict=True))
 
-    @cached_property
+    @kept_property
     def _starts(self) -> tuple[float, ...]:
         whole_segment = np.ones(1)
         steps = (float(one.derivative(whole_segment, length, 0)[0]) for one, length in self._lengths)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from math import comb, factorial
 from typing import Any, Self
 
@@ -13,6 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws import chebyshev, series
 from optlaws.laws.checks import whole
 from optlaws.laws.law import MotionLaw
@@ -139,7 +140,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
         """Degree of a(k)."""
         return len(self.acceleration) + 1 if self.acceleration else int(self.b0 != 0.0)
 
-    @cached_property
+    @kept_property
     def _cache(self) -> dict[int, Array]:
         return {2: np.array(self.acceleration or (0.0,))}
 

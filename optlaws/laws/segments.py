@@ -202,7 +202,7 @@ class PowerSegment(Segment, kind="power"):
         return 0.5 * (self.b1 - self.b0) * (self.b1 + self.b0) / length
 
 
-@lru_cache(maxsize=1024)
+@lru_cache(maxsize=256)
 def _polynomial(acceleration: tuple[float, ...], b0: float) -> PolynomialLaw:
     return PolynomialLaw(acceleration, b0=b0)
 

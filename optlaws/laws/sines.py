@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from math import cos
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws.panels import wave_roots, wave_square
 from optlaws.laws.segments import Segment
 
@@ -102,7 +102,7 @@ class HarmonicSegment(Segment, kind="harmonics"):
         if not alike or not self.amplitudes or min(self.frequencies) <= 0.0:
             raise InputError(f"a harmonic segment needs as many amplitudes as frequencies > 0 and phases, got {self}")
 
-    @cached_property
+    @kept_property
     def sines(self) -> tuple[SineSegment, ...]:
         """The sines it is the sum of; the first has the velocity at the start."""
         waves = zip(self.amplitudes, self.frequencies, self.phases, strict=True)

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from fractions import Fraction
-from functools import cached_property
 from math import inf, isfinite, tau
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.mechanisms.dwell_laws import peak_velocity
 from optlaws.mechanisms.dwell_types import DwellMechanism
 
@@ -87,7 +87,7 @@ class Clutch:
         one = self.mechanism
         return one.swing * (-2.0 * one.S_sp if one.kind == "II" else one.S2)
 
-    @cached_property
+    @kept_property
     def ratio(self) -> float:
         """p/N that makes the teeth meet: the difference of these angles in turns (eq. 33 for type II, 35 for III)."""
         return (self.loader_turn - self.rocker_turn) / tau

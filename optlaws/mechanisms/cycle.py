@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.forcing import Forcing, rest
 from optlaws.mechanisms.law_forcing import forcings
@@ -71,7 +71,7 @@ class CycleResponse(MassMotion):
             f"peak acceleration={self.peak(2).value:g})"
         )
 
-    @cached_property
+    @kept_property
     def _forcings(self) -> list[Forcing]:
         low, high = float(self.rise.a(0.0)), float(self.rise.a(1.0))
         found = list(forcings(self.rise))
@@ -82,7 +82,7 @@ class CycleResponse(MassMotion):
             found.append(rest(1.0 + self.dwell + self.fall_duration, self.rest, low))
         return found
 
-    @cached_property
+    @kept_property
     def _initial(self) -> tuple[float, float]:
         """State that comes back after one period."""
         oscillator = Oscillator(self.nu, self.damping)
@@ -102,7 +102,7 @@ class CycleResponse(MassMotion):
         found = np.linalg.solve(matrix, np.array([forced[0] - low, forced[1]]))
         return low + float(found[0]), float(found[1])
 
-    @cached_property
+    @kept_property
     def _motion(self) -> Motion:
         return Motion(Oscillator(self.nu, self.damping), self._forcings, self._initial)
 

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from math import degrees, tau
 from typing import Any
 
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.mechanisms.dwell_checks import check
@@ -100,12 +100,12 @@ class DwellMechanism:
             return 0.0
         return self.S1 + 2.0 * self.S_sp if self.kind == "II" else self.speed * self.phi2 / peak_velocity(self.law_2)
 
-    @cached_property
+    @kept_property
     def a(self) -> float:
         """Criterion a: greatest radius of the loader's cam over that of the executive cam (eq. 1)."""
         return (self.radius_ratio + excursion(self.sections)) / (self.radius_ratio + 1.0)
 
-    @cached_property
+    @kept_property
     def b(self) -> float:
         """Criterion b: greatest inertia torque of the loader's rocker in the dwells over the balanced one (eq. 23)."""
         found = 0.0
@@ -115,7 +115,7 @@ class DwellMechanism:
                 found = max(found, peak_power(one.law) * one.scale**2 / whole**3)
         return self.inertia_ratio * found * self.rise**3 / peak_power(self.law)
 
-    @cached_property
+    @kept_property
     def sections(self) -> tuple[Section, ...]:
         """The sections of the loader's cam in order, from the start of the rise."""
         rise = Section.run("rise", self.rise, self.loader.law, 1.0)
@@ -127,12 +127,12 @@ class DwellMechanism:
         """Angle of a whole cycle, radians."""
         return self.rise + self.dwell + self.return_angle + self.lower_dwell
 
-    @cached_property
+    @kept_property
     def motion(self) -> PiecewiseLaw:
         """The motion of the loader's rocker over the cycle, in S over k = cam angle / cycle."""
         return composed(self.sections)
 
-    @cached_property
+    @kept_property
     def remarks(self) -> tuple[str, ...]:
         """What to mind: a cycle that is not one turn of the cam."""
         if abs(self.cycle / tau - 1.0) < REST:

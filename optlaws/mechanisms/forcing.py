@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws import series
 from optlaws.laws.sines import SineSegment
 
@@ -50,7 +50,7 @@ class PolynomialForcing(Forcing):
     acceleration: Array
     b0: float
 
-    @cached_property
+    @kept_property
     def velocity(self) -> Array:
         """Chebyshev series of b."""
         return series.integral(self.length * self.acceleration, self.b0)
@@ -58,7 +58,7 @@ class PolynomialForcing(Forcing):
     def derivative(self, s: Array, order: int) -> Array:  # noqa: D102
         return series.value(self._series(order), 2.0 * s / self.length - 1.0)
 
-    @cached_property
+    @kept_property
     def _known(self) -> dict[int, Array]:
         return {0: series.integral(self.length * self.velocity, self.a0), 1: self.velocity, 2: self.acceleration}
 
@@ -81,7 +81,7 @@ class SineForcing(Forcing):
 
     sines: tuple[SineSegment, ...]
 
-    @cached_property
+    @kept_property
     def steady(self) -> Array:
         """Chebyshev series of what is no sine in c."""
         h, total = 0.5 * self.length, np.zeros(3)

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from math import inf, isfinite, sqrt
 from typing import Any
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.loader_law import LoaderLaw
 from optlaws.mechanisms.loader_top import is_symmetric, tops
@@ -50,7 +50,7 @@ class Loader:
             raise InputError(f"law must be a MotionLaw, for example smoothstep(3), got {self.executive!r}")
         tops(self.executive)
 
-    @cached_property
+    @kept_property
     def law(self) -> LoaderLaw:
         """The loader's motion over the k of the executive law."""
         return LoaderLaw(self.executive)
@@ -60,28 +60,28 @@ class Loader:
         """Energy parameter; Y² is the ratio of the moving masses times their strokes squared (eq. 2)."""
         return self.law.Y
 
-    @cached_property
+    @kept_property
     def B(self) -> float:
         """Peak velocity; Y B of the executive law where that stands still somewhere."""
         return self.law.peak(1).value
 
-    @cached_property
+    @kept_property
     def C(self) -> float:
         """Peak acceleration over the whole interval; inf where the executive acceleration leaps at its turn."""
         return self.law.peak(2).value
 
-    @cached_property
+    @kept_property
     def D(self) -> float:
         """Peak power, Y² D of the executive law, with the opposite sign of it at every k."""
         return self.law.power_peak().value
 
-    @cached_property
+    @kept_property
     def turn(self) -> float:
         """The k at which the loader reverses: 1/2 for symmetric laws."""
         found = tops(self.executive)
         return found[len(found) // 2].first
 
-    @cached_property
+    @kept_property
     def C_at_turn(self) -> float:
         """Acceleration where the loader reverses, Y sqrt(B |j|) with the executive B and j there; at most C.
 
@@ -98,7 +98,7 @@ class Loader:
         """Whether C is reached at the turn, so that the paper's formula gives it."""
         return self.C_at_turn == self.C or abs(self.C_at_turn / self.C - 1.0) <= AGREES
 
-    @cached_property
+    @kept_property
     def symmetric(self) -> bool:
         """Whether the executive law is symmetric, so that the loader is back at its start after the motion.
 

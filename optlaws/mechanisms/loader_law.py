@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 from typing import Any, Self, overload
 
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.law import Many
 from optlaws.laws.piecewise import PiecewiseLaw
@@ -57,7 +57,7 @@ class LoaderLaw(MotionLaw, kind="loader"):
             raise InputError(f"the executive law must be a MotionLaw, got {self.executive!r}")
         tops(self.executive)
 
-    @cached_property
+    @kept_property
     def Y(self) -> float:
         """The energy parameter Y: 1 / integral of the signed sqrt(B² - b²), so that the loader's swing is 1."""
         middle = len(self._tops) // 2
@@ -111,11 +111,11 @@ class LoaderLaw(MotionLaw, kind="loader"):
         found = self.executive.power_peak()
         return Peak(self.Y**2 * found.value, found.k)
 
-    @cached_property
+    @kept_property
     def _tops(self) -> Any:  # noqa: ANN401
         return tops(self.executive)
 
-    @cached_property
+    @kept_property
     def _stretches(self) -> tuple[list[float], list[str]]:
         """Places that bound the stretches, and for each stretch which of its ends is a top, "flat" where both are."""
         places = {0.0, 1.0, *breaks(self.executive)}
@@ -158,7 +158,7 @@ class LoaderLaw(MotionLaw, kind="loader"):
                 return PowerSegment(0.0 if kind == "start" else b0, 0.0 if kind == "end" else b1)
         return LoaderSegment(self.executive, start, end, scale, kind)
 
-    @cached_property
+    @kept_property
     def _pieces(self) -> PiecewiseLaw:
         return PiecewiseLaw(self._stretches[0], self._segments(self.Y))
 

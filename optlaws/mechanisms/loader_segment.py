@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments import Segment
 from optlaws.mechanisms.loader_stretch import Stretch, stretch
@@ -78,7 +78,7 @@ class LoaderSegment(Segment, kind="loader"):
     def _back(self) -> bool:
         return self.top == "end"
 
-    @cached_property
+    @kept_property
     def _stretch(self) -> Stretch:
         ends = (self.end, self.start) if self._back else (self.start, self.end)
         B = self.executive.peak(1).value

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property, lru_cache
+from functools import lru_cache
 from math import comb, inf
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms import loader_panels as panels
 from optlaws.mechanisms.loader_germ import Deficit, deficit
@@ -91,25 +92,25 @@ class Stretch:
         near = 0.0 if self._deficit is None else self._deficit.root.square(order)
         return near if near == inf else near + self._panels.square(lambda t: self.value(t, order))
 
-    @cached_property
+    @kept_property
     def _deficit(self) -> Deficit | None:
         if not self.top:
             return None
         return deficit(self._one, self.B, self.length, f"{self.origin:.6g}")
 
-    @cached_property
+    @kept_property
     def _root_reach(self) -> float:
         return -1.0 if self._deficit is None else self._deficit.root.reach
 
-    @cached_property
+    @kept_property
     def _reach(self) -> float:
         return -1.0 if self._deficit is None else self._deficit.reach
 
-    @cached_property
+    @kept_property
     def _panels(self) -> panels.Panels:
         return panels.panels(lambda t: self.value(t, 0), max(self._root_reach, 0.0), self.length, self.B)
 
-    @cached_property
+    @kept_property
     def _far_integral(self) -> panels.Integral:
         return panels.integral(lambda t: self.value(t, 0), self._panels)
 
@@ -126,7 +127,7 @@ class Stretch:
         values = self.executive(np.clip(k, low, last), order + 1)
         return values * (1.0 if forward else -1.0) ** order * self._sign
 
-    @cached_property
+    @kept_property
     def _sign(self) -> float:
         middle = 0.5 * (self.origin + self.end)
         return 1.0 if self.executive.b(self.origin if self.top else middle) >= 0.0 else -1.0

@@ -3,10 +3,10 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from math import asin, isfinite, sqrt
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.trapezoids import trapezoid
@@ -119,7 +119,7 @@ class TrapeziumSubstitute:
         """Energy parameter in closed form (eq. 25), good to 1e-7."""
         return closed_form_Y(self.e13, self.gamma_w)
 
-    @cached_property
+    @kept_property
     def law(self) -> PiecewiseLaw:
         """The trapezium as a law, for its exact loader."""
         return trapezoid(self.m, self.n)

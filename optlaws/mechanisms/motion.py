@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from math import ceil, log2
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws import interpolation, series
 from optlaws.laws.peaks import polished
 from optlaws.mechanisms.forcing import Forcing
@@ -46,12 +46,12 @@ class Motion:
     forcings: Sequence[Forcing]
     initial: State
 
-    @cached_property
+    @kept_property
     def stretches(self) -> list[Stretch]:
         """The forcings with their particular solutions."""
         return [one for forcing in self.forcings for one in stretches(forcing, self.oscillator)]
 
-    @cached_property
+    @kept_property
     def _joints(self) -> tuple[list[State], State]:
         """State of the free part at the start of every stretch, and the mass off its cam at the end."""
         starts: list[State] = []
@@ -82,7 +82,7 @@ class Motion:
         """Displacement and velocity of the mass relative to the cam at the end."""
         return self._joints[1]
 
-    @cached_property
+    @kept_property
     def end(self) -> State:
         """Displacement and velocity of the mass at the end."""
         last = self.stretches[-1]

@@ -10,13 +10,13 @@ from __future__ import annotations
 
 import cmath
 from dataclasses import dataclass
-from functools import cached_property
 from math import ceil
 from typing import Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws import interpolation, series
 from optlaws.mechanisms.forcing import Forcing, PolynomialForcing, SineForcing
 from optlaws.mechanisms.vibration import Oscillator
@@ -80,7 +80,7 @@ class PolynomialSolution:
         """Derivative of order `order` at s."""
         return series.value(self._series(order), 2.0 * s / self.length - 1.0)
 
-    @cached_property
+    @kept_property
     def _higher(self) -> dict[int, Array]:
         return dict(enumerate(self.series))
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.checks import whole
 from optlaws.mechanisms.checks import motion_law
@@ -126,11 +126,11 @@ class Response(MassMotion):
     def _oscillator(self) -> Oscillator:
         return Oscillator(self.nu, self.damping)
 
-    @cached_property
+    @kept_property
     def _motion(self) -> Motion:
         return Motion(self._oscillator, forcings(self.law), self.initial)
 
-    @cached_property
+    @kept_property
     def _off(self) -> tuple[float, float]:
         """Displacement and velocity at k = 1 relative to the dwell, where the cam stands still."""
         last = self._motion.stretches[-1]

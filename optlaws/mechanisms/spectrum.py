@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.peak_spectrum import peak_accelerations
@@ -55,7 +55,7 @@ class ResponseSpectrum:
         """nu² times the residual displacement, shape (m,)."""
         return self.nu**2 * self.residual_displacement
 
-    @cached_property
+    @kept_property
     def peak_acceleration(self) -> Array:
         """Greatest |a_m''| of the rise, shape (m,), to about 1e-6; computed when first asked for."""
         _, w, _ = roots(self.nu, self.damping)

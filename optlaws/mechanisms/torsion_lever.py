@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from math import degrees, pi, sqrt
 from typing import Any
 
@@ -11,6 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.laws.segments import number
 from optlaws.mechanisms.torsion_exact import swung, upper_extreme
@@ -90,12 +90,12 @@ class TorsionLever:
         chi02 = self.chi01 - self.swing - p * self.swing**3 / (768.0 * n)
         check(self, chi02, self.chi01, "by eq. (9), (10)")
 
-    @cached_property
+    @kept_property
     def linkage(self) -> FourBar:
         """The four-bar linkage."""
         return FourBar(self.beta, self.lam)
 
-    @cached_property
+    @kept_property
     def _sizing(self) -> Sizing:
         return sized(self.linkage, self.rho, self.nu, self.swing)
 
@@ -119,7 +119,7 @@ class TorsionLever:
         """Twists of bar 1 and bar 2 at rest, gamma01 (1 + rho) and |chi02| (1 + nu), radians."""
         return self.gamma01 * (1.0 + self.rho), (self.swing - self.chi01) * (1.0 + self.nu)
 
-    @cached_property
+    @kept_property
     def twists_left(self) -> tuple[float, float]:
         """Least twists of bar 1 and bar 2 on the way, exact, radians; a negative one opens the clearances there.
 
@@ -164,7 +164,7 @@ class TorsionLever:
         # xi times the second twist is beta times the first, eq. (3)
         return np.asarray(0.5 * (self.xi * chi**2 + rocker**2) + self.twists[0] * (self.beta * chi - rocker))
 
-    @cached_property
+    @kept_property
     def exact(self) -> LeverMotion:
         """The swing that satisfies the exact equation of motion (1), (2), to rounding.
 
@@ -177,7 +177,7 @@ class TorsionLever:
         check(self, chi01 - self.swing, chi01, "in the exact motion")
         return swung(self.potential, self._moment, chi01, self.swing)
 
-    @cached_property
+    @kept_property
     def asymptotic(self) -> LeverMotion:
         """The swing by the asymptotic formulas (7), (8).
 
@@ -201,7 +201,7 @@ class TorsionLever:
         """
         return self.exact.law
 
-    @cached_property
+    @kept_property
     def errors(self) -> dict[str, float]:
         """What the asymptotic motion is off by: relative errors of T, chi01, chi02, zeta, B1, B3, C1, C3, and max |da|.
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from math import acos, pi, sqrt
 from typing import Any
 
@@ -12,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw, series
 from optlaws.laws.checks import whole
 from optlaws.laws.piecewise import PiecewiseLaw
@@ -64,12 +64,12 @@ class LeverMotion:
                 f"chi02 = {self.chi02:.6g}; reduce the swing"
             )
 
-    @cached_property
+    @kept_property
     def chi01(self) -> float:
         """The extreme beyond rest, at t = 0, radians; eq. (9)."""
         return float(sum(self.amplitudes))
 
-    @cached_property
+    @kept_property
     def chi02(self) -> float:
         """The extreme before rest, at t = period / 2, radians; eq. (10)."""
         return float(sum(self.amplitudes[::2]) - sum(self.amplitudes[1::2]))
@@ -79,17 +79,17 @@ class LeverMotion:
         """chi01 - chi02, radians."""
         return self.chi01 - self.chi02
 
-    @cached_property
+    @kept_property
     def zeta(self) -> float:
         """Share of the period from chi01 to the position of rest, chi = 0; eq. (17)."""
         return acos(self._z) / (2.0 * pi)
 
-    @cached_property
+    @kept_property
     def _series(self) -> Array:
         # cos(i phi) = T_i(z), z = cos(phi): chi is a Chebyshev series in z
         return np.array(self.amplitudes)
 
-    @cached_property
+    @kept_property
     def _z(self) -> float:
         slope = series.derivative(self._series)
         z = 0.0
@@ -134,7 +134,7 @@ class LeverMotion:
         """Value of c at the end of the run-out, k = 1, in its own units, negative; eq. (21)."""
         return float(self.chi(0.5 * self.period, 2)) * 2.0 * ((0.5 - self.zeta) * self.period) ** 2 / self.chi02
 
-    @cached_property
+    @kept_property
     def law(self) -> PolynomialLaw:
         """The stroke from chi01 to chi02 as it runs: k = 2t/T, a = (chi01 - chi)/(chi01 - chi02).
 
@@ -142,7 +142,7 @@ class LeverMotion:
         """
         return PolynomialLaw(_fitted(lambda x: self._c(0.5 * (x + 1.0) * pi, pi, self.swing), self._count))
 
-    @cached_property
+    @kept_property
     def halves(self) -> PiecewiseLaw:
         """Run-up and run-out, each in units of its own extreme and its own time: a(1/2) = 1/2; eq. (14) to (21).
 

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from math import atan2, atanh, hypot, pi, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws import Peak
 
 Array = NDArray[np.float64]
@@ -39,16 +39,16 @@ class Oscillator:
         """Decay n = zeta nu."""
         return self.damping * self.nu
 
-    @cached_property
+    @kept_property
     def frequency(self) -> float:
         """lambda = nu sqrt(1 - zeta²) below critical damping, else 0."""
         return self.nu * sqrt(max(0.0, (1.0 - self.damping) * (1.0 + self.damping)))
 
-    @cached_property
+    @kept_property
     def _spread(self) -> float:
         return self.nu * sqrt(max(0.0, (self.damping - 1.0) * (1.0 + self.damping)))
 
-    @cached_property
+    @kept_property
     def fastest(self) -> float:
         """The largest magnitude of a root of the characteristic equation."""
         return max(self.nu, self.n + self._spread)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue import catalogue
 from optlaws.laws.savin_family import SavinFamily
@@ -46,17 +46,17 @@ class Compared:
     polydyne: bool = True
     solution: Solution | None = None
 
-    @cached_property
+    @kept_property
     def cam(self) -> MotionLaw:
         """What is cut on the cam."""
         return polydyne(self.law, self.design.nu, self.design.damping) if self.polydyne else self.law
 
-    @cached_property
+    @kept_property
     def worst(self) -> float:
         """The greatest residual acceleration over the interval."""
         return residual(nu=self.design.between, damping=self.design.damping).value(self.cam)
 
-    @cached_property
+    @kept_property
     def at_design(self) -> float:
         """The residual acceleration at the design frequency."""
         return residual(nu=self.design.nu, damping=self.design.damping).value(self.cam)

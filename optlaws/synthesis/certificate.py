@@ -11,7 +11,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from functools import cached_property
 from math import inf, isfinite
 from typing import Any
 
@@ -19,6 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.synthesis.cones import ConeFamily
 from optlaws.synthesis.expression import Expression, Maximum
 from optlaws.synthesis.functionals import Power
@@ -106,12 +106,12 @@ class Certificate:
         if not all(map(isfinite, (*self.equations, self.tangent))):
             raise InputError("the equations' multipliers and the tangent of a certificate must be finite numbers")
 
-    @cached_property
+    @kept_property
     def bound(self) -> float:
         """The proven lower bound of the objective, recomputed from the contacts by numpy; -inf for a mere violation."""
         return excess(self) if self.program != VIOLATION else -inf
 
-    @cached_property
+    @kept_property
     def proves_infeasible(self) -> bool:
         """Whether the contacts contradict each other (Farkas): every law breaks one by more than 0."""
         return self.program == VIOLATION and excess(self) > 0.0

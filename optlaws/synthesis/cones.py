@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 
 import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws.series import product, real_parts_of_roots
 from optlaws.synthesis.rows import Family, Jet
 
@@ -45,7 +45,7 @@ class ConeFamily(Family):
         count = max(int((sizes > _NODES * sizes.max()).sum()), 3)
         return np.asarray(np.cos(np.arange(count) * np.pi / (count - 1)))
 
-    @cached_property
+    @kept_property
     def _derivatives(self) -> tuple[Complex, Complex, Complex]:
         first = _slope(self.series)
         return self.series, first, _slope(first)

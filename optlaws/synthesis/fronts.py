@@ -5,12 +5,12 @@ from __future__ import annotations
 import html
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
-from functools import cached_property
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.synthesis.functionals import FUNCTIONALS
 from optlaws.synthesis.problem import CONSTANTS
 from optlaws.synthesis.solution import Solution
@@ -51,7 +51,7 @@ class Front:
     points: tuple[Solution, ...]
     failed: tuple[float, ...] = ()
 
-    @cached_property
+    @kept_property
     def values(self) -> Array:
         """The constants of each point: one row a point, one column a constant of `over`."""
         return np.array([[value_of(point, name) for name in self.over] for point in self.points])

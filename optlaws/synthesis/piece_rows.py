@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
 from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws.series import product, real_parts_of_roots
 from optlaws.synthesis.rows import LinearFamily, ProductFamily
 
@@ -64,7 +64,7 @@ class PieceFamily(LinearFamily):
     pieces: PieceSeries
     jumps: bool = False
 
-    @cached_property
+    @kept_property
     def corners(self) -> Array:
         """The breaks; where f jumps there, the places just before and just after each."""
         breaks = self.pieces.breaks
@@ -80,7 +80,7 @@ class PieceFamily(LinearFamily):
         found = np.concatenate([self.corners, *inner])
         return found[(found >= self.domain[0]) & (found <= self.domain[1])]
 
-    @cached_property
+    @kept_property
     def _derivatives(self) -> tuple[PieceSeries, PieceSeries, PieceSeries]:
         first = self.pieces.derivative()
         return self.pieces, first, first.derivative()

@@ -147,7 +147,7 @@ class PieceSpace(PiecewiseSpace):
         return np.empty(0)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=16)
 def piece_space(
     boundary: BoundaryConditions, breaks: tuple[float, ...], degree: int, continuity: int, *, symmetric: bool
 ) -> PieceSpace:

@@ -7,12 +7,13 @@ Gegenbauer series (of index l + 1/2 and l - 3/2): every free function has a clos
 
 from __future__ import annotations
 
-from functools import cached_property, lru_cache
+from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import chebyshev, legendre
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.synthesis.boundary import BoundaryConditions, construct
 from optlaws.synthesis.chord import chord
@@ -71,7 +72,7 @@ class PolynomialSpace(LawSpace):
         self._u = np.cos(self._angle)
         self._series: dict[int, Array] = {}
 
-    @cached_property
+    @kept_property
     def _shapes(self) -> tuple[Array, Array, Array, Array]:
         """Displacement, velocity, acceleration and Z of the free functions at the Chebyshev points, and their scale."""
         l, m, u = self.order, self.index, self._u
@@ -89,7 +90,7 @@ class PolynomialSpace(LawSpace):
         # k^l (k-1)^l is (-1/4)^l times the weight
         return displacement, velocity, acceleration, (-4.0) ** l * free
 
-    @cached_property
+    @kept_property
     def scale(self) -> Array:
         """What makes each free function's peak acceleration 1."""
         return np.asarray(1.0 / np.abs(self._shapes[2]).max(axis=1))
@@ -126,7 +127,7 @@ class PolynomialSpace(LawSpace):
         start = self._start @ np.append(coordinates, 1.0)
         return PolynomialLaw(series, a0=float(self.boundary.start[0]), b0=float(start))
 
-    @cached_property
+    @kept_property
     def _start(self) -> Array:
         """b(0): free only where the order is 1."""
         if self.order == 1:
@@ -196,12 +197,12 @@ class PolynomialSpace(LawSpace):
         """The derivative of order nu at k: free functions, then the base law."""
         return np.asarray(chebyshev.chebval(1.0 - 2.0 * k, self.series(nu)))
 
-    @cached_property
+    @kept_property
     def middle(self) -> Array:
         """b(1/2) as a row: free functions, then the base law."""
         return self.row(1, 0.5)
 
-    @cached_property
+    @kept_property
     def base_ratio(self) -> float:
         """b / (k(1-k))^(l-1) of the base law S_l."""
         return 4.0 ** (self.order - 1) * float(self.base.b(0.5))
@@ -240,12 +241,12 @@ class PolynomialSpace(LawSpace):
         mirrored = series * (-1.0) ** np.arange(len(series))[:, None]
         return MirroredFamily(name, slack, 0.0, signs, half, series=mirrored)
 
-    @cached_property
+    @kept_property
     def _ratio_scale(self) -> Array:
         return self.scale * 4.0 ** (self.order - 1) / self.base_ratio
 
 
-@lru_cache(maxsize=256)
+@lru_cache(maxsize=32)
 def polynomial_space(boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> PolynomialSpace:
     """The space, kept for the next call.
 

@@ -8,7 +8,6 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass
-from functools import cached_property
 from math import inf, isfinite
 from typing import Any
 
@@ -16,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.synthesis.certificate import Contact, contact_of
 from optlaws.synthesis.power_rows import Box, PowerRows, applies
 from optlaws.synthesis.problem import Problem
@@ -103,12 +103,12 @@ class PowerCertificate:
         if not isfinite(self.claim) or self.claim <= 0.0 or not all(0.0 <= k <= 1.0 for k in self.points):
             raise InputError(f"a power certificate needs a finite claim above 0 and points in [0, 1], got {self!r}")
 
-    @cached_property
+    @kept_property
     def bound(self) -> float:
         """The claim if the steps prove it, recomputed by numpy; else minus infinity."""
         return self.claim if self.proven else -inf
 
-    @cached_property
+    @kept_property
     def proven(self) -> bool:
         """Whether no box is left."""
         if not applies(self.problem):

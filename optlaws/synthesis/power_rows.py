@@ -8,12 +8,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
 from math import inf, isfinite, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.synthesis.certificate import Contact, row_of, spread
 from optlaws.synthesis.expression import leaves
 from optlaws.synthesis.functionals import Peak
@@ -106,7 +106,7 @@ class PowerRows:
             return False
         return float(np.linalg.cond(self.rows(1, self.points)[:, : self.terms])) < _WORST
 
-    @cached_property
+    @kept_property
     def _map(self) -> tuple[Array, Array]:
         """What makes coordinates of velocities at the points, and those of velocities 0 with their sign changed."""
         columns = self.rows(1, self.points)[:, [*range(self.terms), -1]]

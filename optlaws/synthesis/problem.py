@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
-from functools import cached_property
 from math import isfinite
 from typing import Any
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.bases import Basis, Chebyshev, basis
 from optlaws.synthesis.boundary import BoundaryConditions
@@ -105,7 +105,7 @@ class Problem:
         if self.symmetric and self.inflexion is not None and _above_mean(as_range(self.B, "B")):
             object.__setattr__(self, "inflexion", None)
 
-    @cached_property
+    @kept_property
     def objective(self) -> Expression:
         """What is minimised."""
         return expression(self.minimise) if isinstance(self.minimise, str) else self.minimise.expression()
@@ -115,7 +115,7 @@ class Problem:
         """The end conditions."""
         return self.boundary if self.boundary is not None else BoundaryConditions.rest(self.order)
 
-    @cached_property
+    @kept_property
     def convex(self) -> bool:
         """Whether every constant in the objective and every bounded one is convex in the law."""
         return all(one.convex for one in self.constants)
@@ -150,24 +150,24 @@ class Problem:
         """What is asked of a constant, by its name."""
         return self._ranges.get(name)
 
-    @cached_property
+    @kept_property
     def bounded(self) -> tuple[tuple[Functional, Range], ...]:
         """The constants but B of which something is asked, and what."""
         own = ((one, self._ranges[one.name]) for one in _NAMED if one.name != "B")
         return (*((one, asked) for one, asked in own if asked is not None), *self.bounds.items())
 
-    @cached_property
+    @kept_property
     def _ranges(self) -> dict[str, Range | None]:
         own = {name: as_range(getattr(self, name), name) for name in CONSTANTS}
         return own | {one.name: asked for one, asked in self.bounds.items()}
 
-    @cached_property
+    @kept_property
     def constants(self) -> set[Functional]:
         """The constants in the objective and the bounded ones."""
         found = {leaf for _, leaf in leaves(self.objective) if isinstance(leaf, Functional)}
         return found | {one for one, _ in self.bounded}
 
-    @cached_property
+    @kept_property
     def shape(self) -> Problem:
         """The problem with a fixed B replaced by 2: problems of one shape share their program."""
         return replace(self, B=2.0) if isinstance(self.B, float) and self.B != 2.0 else self

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
-from functools import cached_property
 
 import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws.series import product, real_parts_of_roots
 from optlaws.synthesis.polynomials import even_gegenbauer_jet
 
@@ -113,7 +113,7 @@ class LinearFamily(Family):
 
     series: Array
 
-    @cached_property
+    @kept_property
     def _jet(self) -> Array:
         parts = [self.series]
         for _ in range(2):

@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from enum import StrEnum
-from functools import cache, cached_property
+from functools import cache
 from importlib.metadata import version
 from math import isfinite
 from typing import Any
 
 import numpy as np
 
+from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.synthesis.active_set import ActiveSet
 from optlaws.synthesis.bases import PolynomialBasis, Powers
@@ -104,7 +105,7 @@ class Solution:
         """B, C, D, J of the law, each with its k, and the RMS of c."""
         return self.law.constants
 
-    @cached_property
+    @kept_property
     def z(self) -> tuple[float, ...] | None:
         """Coefficients of Z in the problem's basis; None for a law of pieces, which has no Z."""
         basis = self.problem.basis
@@ -112,7 +113,7 @@ class Solution:
             return basis.coefficients(np.array(self.z_series))
         return None
 
-    @cached_property
+    @kept_property
     def z_powers(self) -> tuple[float, ...] | None:
         """Coefficients of Z in ascending powers of k, whatever the problem's basis; None for a law of pieces."""
         basis = self.problem.basis

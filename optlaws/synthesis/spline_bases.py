@@ -6,7 +6,6 @@ from abc import abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from functools import cached_property
 from itertools import pairwise
 from math import comb
 from typing import Any
@@ -15,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws.chebyshev import chebyshev_from_powers, fractions
 from optlaws.laws.checks import whole
 from optlaws.synthesis.bases import Basis
@@ -89,7 +89,7 @@ class PiecewiseBasis(Basis):
         wanted = np.reshape(np.asarray(series, dtype=np.float64), -1)
         return tuple(np.linalg.lstsq(self.functions.reshape(self.size, -1).T, wanted, rcond=None)[0].tolist())
 
-    @cached_property
+    @kept_property
     def functions(self) -> Array:
         """Chebyshev series of every W_i on each piece; shape (size, pieces, degree + 1)."""
         return np.stack([self.series(one) for one in np.eye(self.size).tolist()])
@@ -130,7 +130,7 @@ class BSplines(PiecewiseBasis):
         """Number of B-splines."""
         return (len(self.breaks) - 1) * (self.degree - self.continuity) + self.continuity + 1
 
-    @cached_property
+    @kept_property
     def knots(self) -> tuple[float, ...]:
         """The breaks with their multiplicities, as `scipy.interpolate.BSpline` takes them."""
         inner = [k for k in self.breaks[1:-1] for _ in range(self.degree - self.continuity)]

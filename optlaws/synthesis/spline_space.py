@@ -7,7 +7,7 @@ The coordinates are such that the accelerations of the free functions are orthon
 from __future__ import annotations
 
 from collections.abc import Callable
-from functools import cached_property, lru_cache, partial
+from functools import lru_cache, partial
 from itertools import pairwise
 from math import comb, perm
 
@@ -15,6 +15,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.segments import PolynomialSegment
 from optlaws.synthesis.boundary import BoundaryConditions, construct
@@ -115,11 +116,11 @@ class SplineSpace(PiecewiseSpace):
         segments = [PolynomialSegment(tuple(one.tolist()), float(b)) for one, b in zip(c, starts, strict=True)]
         return PiecewiseLaw(self.breaks, segments, float(self.boundary.start[0]))
 
-    @cached_property
+    @kept_property
     def _accelerations(self) -> Array:
         return self._series(self.breaks, 2 * self.order + self.basis.degree - 2, partial(self._derivative, 2))
 
-    @cached_property
+    @kept_property
     def _start_velocities(self) -> Array:
         return np.vstack([self._derivative(1, i, np.array([k])) for i, k in enumerate(self.breaks[:-1])])
 
@@ -128,7 +129,7 @@ class SplineSpace(PiecewiseSpace):
         return np.asarray(self._z @ coordinates).reshape(-1)
 
 
-@lru_cache(maxsize=64)
+@lru_cache(maxsize=16)
 def spline_space(boundary: BoundaryConditions, basis: PiecewiseBasis, *, symmetric: bool) -> SplineSpace:
     """The space, kept for the next call."""
     return SplineSpace(boundary, basis, symmetric=symmetric)

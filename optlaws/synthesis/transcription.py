@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.locks import process_lock
 from optlaws.synthesis.cones import ConeFamily
 from optlaws.synthesis.rows import Family, LinearFamily, NormFamily, Points, ProductFamily, Program
 
@@ -38,6 +39,12 @@ _USUAL = {"ipopt.tol": 1e-9}
 
 _KINDS: tuple[type[Family], ...] = (LinearFamily, ProductFamily, ConeFamily, NormFamily)
 _CONE_SHARE = 2.0  # the cone's row as IPOPT sees it is twice as steep as the magnitude itself
+
+
+# neither CasADi's counts of references, nor a solver's memory, nor MUMPS stand two threads; they hold the
+# interpreter's lock during a solve, so that nothing is lost by waiting
+_casadi = process_lock()
+_SOLVERS = 64  # each holds 100 to 300 kB
 
 
 @dataclass(frozen=True)
@@ -96,7 +103,6 @@ def solve_on_points(
     norms = [f for f in program.families if isinstance(f, NormFamily)]
     real, imaginary, room = _cone_rows([(f, p) for f, p in pairs if isinstance(f, ConeFamily)], program.size)
     counts = _Counts(program.size, len(rows), len(first), len(room), tuple(len(f.matrix) for f in norms))
-    solver = _solver(counts, careful=careful, fine=fine)
     parts = [rows / length[:, None], first, second, slack, real, imaginary, room]
     parts += [*(f.matrix for f in norms), *(f.slack[None] for f in norms)]
     parameters = np.concatenate([*(part.ravel(order="F") for part in parts), program.objective])
@@ -107,17 +113,46 @@ def solve_on_points(
     if start is None:
         start = np.zeros(program.size)
         start[-1] = 10.0
-    result = solver(x0=start, p=parameters, lbg=lower, ubg=upper)
-    stats = solver.stats()
-    weights = np.asarray(result["lam_g"], dtype=float).ravel()
+    result = _solved((counts, careful, fine), x0=start, p=parameters, lbg=lower, ubg=upper)
+    weights = result.weights
     weights[: len(rows)] /= length
     return Answer(
-        x=np.asarray(result["x"], dtype=float).ravel(),
+        x=result.x,
         multipliers=_split(pairs, weights, len(rows), len(program.right)),
-        success=bool(stats["success"]) and str(stats["return_status"]) == "Solve_Succeeded",
-        status=str(stats["return_status"]),
-        iterations=int(stats["iter_count"]),
+        success=result.success and result.status == "Solve_Succeeded",
+        status=result.status,
+        iterations=result.iterations,
     )
+
+
+@dataclass(frozen=True, eq=False)
+class _Result:
+    """What a solver gave, as numbers of our own: nothing of CasADi's leaves its lock."""
+
+    x: Array
+    weights: Array
+    success: bool
+    status: str
+    iterations: int
+
+
+def _solved(shape: tuple[_Counts, bool, bool], **numbers: Array) -> _Result:
+    counts, careful, fine = shape
+    with _casadi:
+        solver = _solver(counts, careful=careful, fine=fine)
+        result = solver(**numbers)
+        stats = solver.stats()
+        found = _Result(
+            # copies: a view would keep CasADi's matrix, and give it back outside the lock
+            x=np.array(result["x"], dtype=float).ravel(),
+            weights=np.array(result["lam_g"], dtype=float).ravel(),
+            success=bool(stats["success"]),
+            status=str(stats["return_status"]),
+            iterations=int(stats["iter_count"]),
+        )
+        # what they refer to is counted, and the last reference must go while the lock is held
+        del result, stats, solver
+    return found
 
 
 def _product_rows(products: list[tuple[ProductFamily, Points]], size: int) -> tuple[Array, Array, Array, Array]:
@@ -154,7 +189,7 @@ def _split(pairs: list[tuple[Any, Points]], weights: Array, rows: int, equations
     return [*found, weights[rows - equations : rows]]
 
 
-@lru_cache(maxsize=512)
+@lru_cache(maxsize=_SOLVERS)
 def _solver(counts: _Counts, *, careful: bool, fine: bool) -> Any:  # noqa: ANN401 - a casadi Function, imported late
     import casadi as ca
 

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from fractions import Fraction
-from functools import cached_property
 from itertools import pairwise
 from typing import NamedTuple
 
 from flint import arb, fmpq, fmpq_poly
 
+from optlaws.kept import kept_property
 from optlaws.synthesis.problem import Problem
 from optlaws.verification.balls import at, ball, rational
 
@@ -103,7 +103,7 @@ class ExactSpace:
             self._kept_chords[peak] = self._made_chords(peak)
         return self._kept_chords[peak]
 
-    @cached_property
+    @kept_property
     def _kept_chords(self) -> dict[Fraction, list[Functions]]:
         return {}
 
@@ -134,13 +134,13 @@ class ExactSpace:
         """-b / w at k of laws from rest to rest, w > 0: (k(1-k))^(l-1), in units of the base law's."""
         return values(self._ratio[self.piece(k)], x_of(k))
 
-    @cached_property
+    @kept_property
     def _ratio(self) -> list[Functions]:
         weight, b = fmpq_poly([1, 0, -1]) ** (self.problem.order - 1), self.derivative(1)
         middle = b[self.piece(Fraction(1, 2))][-1](fmpq(0))
         return [[divmod(one, weight)[0] / -middle for one in part] for part in b]
 
-    @cached_property
+    @kept_property
     def bounds(self) -> Bounds:
         """What the end conditions say."""
         start, end = ([rational(Fraction(v)) for v in part] for part in _ends(self.problem))

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from functools import cached_property, singledispatch
+from functools import singledispatch
 from math import factorial
 
 from flint import fmpq, fmpq_poly
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.synthesis.bases import Basis, Pieces, PolynomialBasis
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.spline_bases import PiecewiseBasis
@@ -88,7 +89,7 @@ def _(basis: Pieces, problem: Problem) -> ExactSpace:
 
 
 class _FreePieces(ExactSpace):
-    @cached_property
+    @kept_property
     def _ratio(self) -> list[Functions]:
         # w = (k/k1)^(l-1) on the first piece, likewise on one that ends with 1, and 1 between
         power = self.problem.order - 1

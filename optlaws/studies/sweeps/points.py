@@ -6,10 +6,10 @@ import hashlib
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from functools import cached_property
 from math import ceil, prod
 from typing import Any
 
+from optlaws.kept import kept_property
 from optlaws.studies.sweeps.axes import Axis, axes
 from optlaws.studies.sweeps.study_file import StudyFile
 
@@ -43,12 +43,12 @@ class Points:
     def __len__(self) -> int:
         return prod(self.shape)
 
-    @cached_property
+    @kept_property
     def shape(self) -> tuple[int, ...]:
         """The lengths of the axes."""
         return tuple(len(axis) for axis in self.axes)
 
-    @cached_property
+    @kept_property
     def chunk(self) -> int:
         """How many points are solved in turn; it depends on the study alone, so that results do."""
         most = _TIGHT_CHUNK if self.study.bound == "tight" else _CHUNK

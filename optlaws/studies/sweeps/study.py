@@ -4,13 +4,13 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
-from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import msgspec
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.studies.sweeps import table
 from optlaws.studies.sweeps.directory import StudyDirectory
@@ -55,7 +55,7 @@ class Study:
         """Title, format, hash of the study file, versions of the libraries, number of points."""
         return {name: value for name, value in self._about.items() if name != "study"}
 
-    @cached_property
+    @kept_property
     def _points(self) -> Points:
         """The points, by index."""
         return Points.of(self.file)

@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from functools import cached_property
 from typing import Any
 
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.synthesis import Problem
 
@@ -58,12 +58,12 @@ class StudyPoint:
     entries: Mapping[str, Any] = field(repr=False)
     stored: Mapping[str, Any] | None = field(repr=False)
 
-    @cached_property
+    @kept_property
     def law(self) -> MotionLaw | None:
         """The law."""
         return None if self.stored is None else MotionLaw.from_dict(self.stored)
 
-    @cached_property
+    @kept_property
     def problem(self) -> Problem:
         """The problem; InputError where the point asks for none."""
         return Problem.from_dict(self.entries)

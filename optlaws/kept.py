@@ -1,0 +1,34 @@
+"""A property computed at the first use and kept, without a lock."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from contextlib import nullcontext
+from functools import cached_property
+from typing import Any, TypeVar
+
+_T = TypeVar("_T")
+
+
+class kept_property(cached_property[_T]):  # noqa: N801 - as the one of functools
+    """`functools.cached_property` as it is from Python 3.12 on, in 3.11 as well.
+
+    There one lock is held for all objects of a class while the value of one is computed: two threads whose properties
+    need each other's wait for ever, and so does the child of a fork by another thread. Without it a value may be
+    computed twice, which does no harm: it is the same.
+
+    Examples
+    --------
+    >>> class Circle:
+    ...     radius = 2.0
+    ...
+    ...     @kept_property
+    ...     def area(self) -> float:
+    ...         return 3.0 * self.radius**2
+    >>> Circle().area
+    12.0
+    """
+
+    def __init__(self, func: Callable[[Any], _T]) -> None:
+        super().__init__(func)
+        self.lock = nullcontext()
