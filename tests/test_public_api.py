@@ -6,11 +6,17 @@ import subprocess
 import sys
 from collections.abc import Callable
 from enum import EnumType
+from functools import cached_property
 from typing import Any
 
 import pytest
 
 import optlaws
+
+
+def is_method(one: object) -> bool:
+    return not isinstance(one, cached_property) and inspect.isroutine(one)
+
 
 NAMES = optlaws.__all__
 CALLABLES = {name: one for name in NAMES if callable(one := getattr(optlaws, name)) and not isinstance(one, EnumType)}
@@ -20,10 +26,8 @@ METHODS = {
     f"{name}.{method}": function
     for name in NAMES
     if inspect.isclass(owner := getattr(optlaws, name))
-    for method, function in inspect.getmembers(owner, inspect.isroutine)
-    if not method.startswith("_")
-    and callable(function)
-    and str(getattr(function, "__module__", "")).startswith("optlaws")
+    for method, function in inspect.getmembers(owner, is_method)
+    if not method.startswith("_") and str(getattr(function, "__module__", "")).startswith("optlaws")
 }
 
 

@@ -7,8 +7,8 @@ from tests.documents import ROOT
 
 SCRIPT = """
 from concurrent.futures import ThreadPoolExecutor
-from optlaws import Chebyshev, Problem, synthesize
-problems = [Problem(B=1.859, basis=Chebyshev(9)), Problem(B=1.7, order=3, basis=Chebyshev(7), minimise="rms_c")]
+from optlaws import Problem, synthesize
+problems = [Problem(order=4, B=1.859), Problem(B=1.7, order=3, minimise="rms_c")]
 serial = [synthesize(problem).law.to_dict() for problem in problems]
 with ThreadPoolExecutor(8) as threads:
     found = list(threads.map(lambda i: synthesize(problems[i % 2]).law.to_dict(), range(64)))
