@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Iterator
-from contextlib import suppress
 from dataclasses import dataclass, replace
 from math import isfinite
 from time import perf_counter
@@ -14,7 +13,7 @@ from numpy.typing import NDArray
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.laws import MotionLaw
 from optlaws.suggest import unknown_key
-from optlaws.synthesis import starts
+from optlaws.synthesis import mirroring, starts
 from optlaws.synthesis.active_set import ActiveSet
 from optlaws.synthesis.bounding import certify, lower_bound
 from optlaws.synthesis.contacts import VIOLATION
@@ -88,10 +87,9 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = 
             if _agree(tries):
                 break
     sound = sorted((one for one in tries if one.law is not None), key=lambda one: one.objective)
-    if not sound and problem.mirrored:
-        # the optimum is flat among unsymmetric laws, and a symmetric one is among them
-        with suppress(InfeasibleProblem, SolverFailure):
-            return replace(synthesize(replace(problem, symmetric=True)), problem=problem)
+    unfolded = _from_symmetric(problem, found, began) if not sound and problem.mirrored else None
+    if unfolded is not None:
+        return unfolded
     if not sound:
         error = failure(problem, tries[0].outcome)
         raise error if isinstance(error, InfeasibleProblem) else _no_power_so_small(problem) or error
@@ -103,7 +101,8 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = 
     iterations = sum(one.outcome.iterations for one in tries)
     solution = _solution(problem, found, (plain, best), _History(objectives, iterations, began, power))
     if problem.mirrored and solution.status is Status.INACCURATE:
-        return replace(synthesize(replace(problem, symmetric=True)), problem=problem)
+        unfolded = _from_symmetric(problem, found, began)
+        return solution if unfolded is None or unfolded.gap >= solution.gap else unfolded
     return solution
 
 
@@ -234,6 +233,32 @@ def _tightened(problem: Problem, found: Model, plain: _Attempt) -> tuple[_Attemp
         power = None if optimum is None else tightened(problem, best.objective, optimum.x, explore)
         if best is better[-1]:
             return best, power
+
+
+def _from_symmetric(problem: Problem, found: Model, began: float) -> Solution | None:
+    """The best symmetric law, which is one of the problem's, with what its contacts prove of all laws.
+
+    Among unsymmetric laws the optimum may be flat, so that no active set shows there.
+    """
+    asked = replace(problem, symmetric=True)
+    try:
+        symmetric = synthesize(asked)
+    except (InfeasibleProblem, SolverFailure):
+        return None
+    optimum = mirroring.unfolded(problem, found, model(asked), symmetric.active_set)
+    plain = _measured(problem, found, optimum)
+    at_best = optimum.x.copy()
+    at_best[: found.space.terms] = mirroring.coordinates(found, symmetric.law)
+    best = _measured(problem, found, replace(optimum, x=at_best))
+    if best.excess > 10.0 * VIOLATION or (best.law is not None and shortfalls(problem, best.law)):
+        return None
+    return _solution(problem, found, (plain, best), _History((), symmetric.iterations, began, None))
+
+
+def _measured(problem: Problem, found: Model, optimum: ActiveSet) -> _Attempt:
+    law = found.space.law(optimum.x[: found.space.terms])
+    measured = worth(problem, law)
+    return _Attempt(Outcome(optimum, 0, 0, "from the symmetric law"), law, measured.objective, measured.excess)
 
 
 def _no_power_so_small(problem: Problem) -> InfeasibleProblem | None:

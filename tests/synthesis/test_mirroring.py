@@ -1,0 +1,63 @@
+"""A symmetric optimum unfolded is an optimum of the unsymmetric problem, with a proof of that problem."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from time import perf_counter
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws import BSplines, Chebyshev, Pieces, Problem, at_least, at_most, between, synthesize
+from optlaws.synthesis import solve
+from optlaws.synthesis.programs import model
+from optlaws.verification import verify
+
+KINDS: list[dict[str, Any]] = [
+    {"B": 1.8},
+    {"minimise": "J", "B": at_most(1.7)},
+    {"minimise": "J", "B": at_least(2.2)},
+    {"minimise": "rms_c", "C": at_most(5.2)},
+    {"B": 2.4, "monotone": True},
+    {"order": 1, "B": 1.6},
+    {"minimise": "C + 0.1*jounce", "B": 6.0},
+    {"minimise": "max(0.25*C, 0.03*J)", "basis": Pieces(6), "B": 1.8},
+    {"basis": BSplines(6, 3), "B": between(1.5, 1.7)},
+]
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=str)
+def test_the_unfolded_optimum_is_proven_for_all_laws(kind: dict[str, Any]) -> None:
+    problem = Problem(**{"order": 3, "basis": Chebyshev(9), **kind}, symmetric=False)
+    unfolded = solve._from_symmetric(problem, model(problem), perf_counter())
+    assert unfolded is not None
+    assert unfolded.problem == unfolded.certificate.problem == problem
+    assert unfolded.status == "optimal"
+    assert unfolded.objective == pytest.approx(synthesize(replace(problem, symmetric=True)).objective, rel=1e-10)
+    proof = verify(unfolded.to_dict())
+    assert proof.proven, [str(claim) for claim in proof.claims if not claim.proven]
+
+
+def test_what_the_symmetric_problem_does_not_prove_is_not_claimed() -> None:
+    problem = Problem(order=3, B=1.5, minimise="D", symmetric=False)
+    unfolded = solve._from_symmetric(problem, model(problem), perf_counter())
+    assert unfolded is not None
+    assert unfolded.status == "local"
+    assert unfolded.lower_bound < unfolded.objective
+
+
+def test_a_problem_on_uneven_pieces_is_answered_by_its_own_proof() -> None:
+    first = (0.0, 0.004523395561311, 0.353949185521268, 0.358472581082579)
+    breaks = (*first, 0.5, *(1.0 - np.array(first[::-1])).tolist())
+    problem = Problem(
+        B=at_most(1.5533036736142576),
+        order=3,
+        basis=Pieces(breaks=breaks, degree=5, continuity=2),
+        minimise="max(0.25*C, 0.03125*J)",
+        symmetric=False,
+    )
+    solution = synthesize(problem)
+    assert solution.status == "optimal"
+    assert solution.certificate.problem == problem
+    assert verify(solution.to_dict()).proven
