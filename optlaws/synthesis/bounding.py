@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
+
 import numpy as np
 
 from optlaws.synthesis.active_set import ActiveSet
@@ -18,6 +20,7 @@ _TANGENTS = 4
 _PLACES = 256
 _NEAR = 0.9
 _NO_NORM = 1e-300
+_NOTHING = 1e-14
 
 
 def certify(problem: Problem, found: Model, optimum: ActiveSet, objective: float, limit: float | None) -> Certificate:
@@ -101,8 +104,12 @@ def certificate(problem: Problem, found: Model, optimum: ActiveSet, program: str
 
 
 def violation_certificate(problem: Problem, found: Model, optimum: ActiveSet) -> Certificate:
-    """The certificate that no law exists."""
-    return certificate(problem, found, optimum, VIOLATION)
+    """The certificate that no law exists, without multipliers that are mere rounding."""
+    sizes = (optimum.multipliers, optimum.equality_multipliers)
+    least = _NOTHING * max((float(np.abs(one).max(initial=0.0)) for one in sizes), default=0.0)
+    kept = [np.where(np.abs(one) < least, 0.0, one) for one in sizes]
+    plain = replace(optimum, multipliers=kept[0], equality_multipliers=kept[1])
+    return certificate(problem, found, plain, VIOLATION)
 
 
 def lower_bound(proof: Certificate, limit: float | None) -> float:

@@ -10,7 +10,7 @@ their Legendre moments: a law that contradicts the claim has a small objective, 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import asdict, dataclass
+from dataclasses import asdict, dataclass, replace
 from math import inf, isfinite
 from typing import Any
 
@@ -21,6 +21,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.synthesis.cones import ConeFamily
 from optlaws.synthesis.expression import Expression, Maximum
+from optlaws.synthesis.farkas import surplus
 from optlaws.synthesis.functionals import Power
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.programs import ROOT, Model, least_violation, model, relaxed, relaxed_power
@@ -31,6 +32,8 @@ from optlaws.synthesis.space import LawSpace
 Array = NDArray[np.float64]
 
 OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
+#: how far from a contact its neighbours are, and how much of its multiplier each takes
+_NEAR, _SHARE = 2.0**-12, 2.0**-14
 
 
 @dataclass(frozen=True)
@@ -165,7 +168,41 @@ def _excess(certificate: Certificate) -> float:
     for row, right, weight in zip(program.equalities, program.right, certificate.equations, strict=False):
         slope += weight * row
         value -= weight * float(right)
-    return float(found.unit * (value - _charge(found, certificate, slope, found.unit * value)))
+    plain = float(found.unit * (value - _charge(found, certificate, slope, found.unit * value)))
+    if certificate.program != VIOLATION or plain > 0.0:
+        return plain
+    return max(plain, _surplus(certificate, program))
+
+
+def _surplus(certificate: Certificate, program: Program) -> float:
+    """The same for a contradiction, with the multipliers corrected where nothing bounds the law."""
+    rows, right, multipliers = [], [], []
+    for contact in certificate.contacts:
+        for k, share in _neighbourhood(contact):
+            row, most = row_of(program, replace(contact, k=k))
+            if contact.multiplier > 0.0 and row.any():
+                rows.append(row)
+                right.append(most)
+                multipliers.append(share * contact.multiplier)
+    count = len(rows)
+    equations = list(certificate.equations)[: len(program.right)]
+    together = np.vstack([np.empty((0, program.size)), *rows, program.equalities[: len(equations)]])
+    # every row has t to spare, and a law keeps to it with t = 0
+    free = program.objective == 0.0
+    return surplus(
+        together[:, free],
+        np.array([*right, *program.right[: len(equations)]]),
+        np.array([*multipliers, *equations]),
+        count,
+    )
+
+
+def _neighbourhood(contact: Contact) -> list[tuple[float, float]]:
+    """A contact's place, and two beside it that take a little of its multiplier: where it is need not be exact."""
+    k = contact.k
+    if contact.direction or not _NEAR < k < 1.0 - _NEAR:
+        return [(k, 1.0)]
+    return [(k, 1.0 - 2.0 * _SHARE), (k - _NEAR, _SHARE), (k + _NEAR, _SHARE)]
 
 
 def _model(certificate: Certificate) -> Model:

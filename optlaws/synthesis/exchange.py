@@ -6,7 +6,7 @@ A linear program that this does not end is ended by vertices.
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 from optlaws.synthesis.active_set import ActiveSet, newton
 from optlaws.synthesis.cones import ConeFamily
 from optlaws.synthesis.contacts import completed, settled
+from optlaws.synthesis.equations import contradiction, independent
 from optlaws.synthesis.flat_optima import sharpened
 from optlaws.synthesis.grids import exchanged, first_points
 from optlaws.synthesis.rows import Family, LinearFamily, NormFamily, Points, ProductFamily, Program
@@ -58,6 +59,22 @@ def solve(
         optimum = polished(program, warm, holds)
         if optimum is not None:
             return Outcome(optimum, 0, 0, "continued from a neighbour")
+    kept = independent(program.equalities)
+    if kept.all():
+        return _solved(program, start, holds, rounds)
+    if contradiction(program.equalities, program.right) is not None:
+        return Outcome(None, 0, 0, "equations that contradict each other")
+    fewer = replace(program, equalities=program.equalities[kept], right=program.right[kept])
+    outcome = _solved(fewer, start, holds, rounds)
+    if outcome.optimum is None:
+        return outcome
+    multipliers = np.zeros(len(kept))
+    multipliers[kept] = outcome.optimum.equality_multipliers
+    return replace(outcome, optimum=replace(outcome.optimum, equality_multipliers=multipliers))
+
+
+def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool] | None, rounds: int) -> Outcome:
+    """The same for a program whose equations are independent."""
     points = first_points(program)
     if start is None and program.curved:
         start = _lifted(program, points)
@@ -89,7 +106,7 @@ def _exchange(
         points = [exchanged(family, mine, x) for family, mine in zip(program.families, points, strict=True)]
     optimum = None if program.curved else _by_vertices(program, points, holds)
     if optimum is None and (not program.curved or _only_cones(program)):
-        optimum = _as_answered(asked, answer)
+        optimum = as_answered(asked, answer)
     return Outcome(optimum, iterations, rounds, answer.status)
 
 
@@ -230,11 +247,11 @@ def _sharpened(program: Program, points: list[Points], answer: Answer) -> Active
     products = [isinstance(family, ProductFamily) for family in program.families]
     if any((w > _WEIGHTLESS).any() for w, one in zip(answer.multipliers, products, strict=False) if one):
         return None
-    found = newton(program, _as_answered(points, answer), deficient=True)
+    found = newton(program, as_answered(points, answer), deficient=True)
     return found if found is not None and (found.multipliers >= 0.0).all() else None
 
 
-def _as_answered(points: list[Points], answer: Answer) -> ActiveSet:
+def as_answered(points: list[Points], answer: Answer) -> ActiveSet:
     """IPOPT's own contacts, for optima that are flat somewhere, where no exact active set exists."""
     weights = answer.multipliers
     kept = [np.flatnonzero(w > _WEIGHTLESS * max(1.0, float(w.max(initial=0.0)))) for w in weights[:-1]]

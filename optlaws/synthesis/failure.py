@@ -5,19 +5,31 @@ from __future__ import annotations
 from dataclasses import replace
 from math import ceil, floor
 
+import numpy as np
+
 from optlaws.errors import InfeasibleProblem, SolverFailure
-from optlaws.synthesis.bases import PolynomialBasis
+from optlaws.synthesis.bases import Basis, PolynomialBasis
 from optlaws.synthesis.bounding import certificate, violation_certificate
-from optlaws.synthesis.certificate import OBJECTIVE, Certificate
+from optlaws.synthesis.certificate import OBJECTIVE, VIOLATION, Certificate
 from optlaws.synthesis.cones import ConeFamily
-from optlaws.synthesis.exchange import Outcome, solve
+from optlaws.synthesis.equations import contradiction
+from optlaws.synthesis.exchange import Outcome, as_answered, solve
 from optlaws.synthesis.functionals import C
+from optlaws.synthesis.grids import exchanged, first_points
 from optlaws.synthesis.problem import Problem
 from optlaws.synthesis.problem_limits import known_limit
 from optlaws.synthesis.programs import Model, extreme_velocity, least_violation, model
+from optlaws.synthesis.rows import Points
+from optlaws.synthesis.simplex import vertex_on_points
 
 _WEIGHTLESS = 1e-9
 _ROUNDING = 1e-12
+_ROUNDS = 6
+_PLAIN = 2  # so few equations contradict each other whatever freedom the law has
+_MORE_FREEDOM = {
+    PolynomialBasis: "A higher degree of Z",
+    Basis: "More pieces, a higher degree, a lower continuity",
+}
 
 _TEXT = {
     "chord": "b <= B",
@@ -35,13 +47,23 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
     tried = f"IPOPT said {outcome.status!r} after {outcome.iterations} iterations, {outcome.rounds} rounds of exchange"
     straight = _convex_part(problem)
     elastic = least_violation(straight)
+    disagreement = _disagreement(straight, elastic)
+    if disagreement is not None:
+        return InfeasibleProblem(
+            _disagreeing(problem, disagreement, elastic),
+            problem=problem,
+            proof=disagreement,
+            tried="the equations contradict each other by linear algebra alone (error.proof has their multipliers)",
+        )
     trial = solve(elastic.program)
+    proof = None if trial.optimum is None else violation_certificate(straight, elastic, trial.optimum)
+    if proof is None or not proof.proves_infeasible:
+        proof = _at_vertices(straight, elastic) or proof
+    if proof is not None and proof.proves_infeasible:
+        return InfeasibleProblem(
+            _why(problem, proof, elastic), problem=problem, proof=proof, tried=_contradiction(proof)
+        )
     if trial.optimum is not None:
-        proof = violation_certificate(straight, elastic, trial.optimum)
-        if proof.proves_infeasible:
-            return InfeasibleProblem(
-                _why(problem, proof, elastic), problem=problem, proof=proof, tried=_contradiction(proof)
-            )
         tried += f"; the constraints leave {-trial.optimum.x[-1]:.3e} to spare"
     beyond = _beyond_limit(problem)
     if beyond:
@@ -106,18 +128,67 @@ def _out_of_reach(problem: Problem, elastic: Model) -> Certificate | None:
 def _why(problem: Problem, proof: Certificate, elastic: Model) -> str:
     """Which constraints contradict each other: those with a multiplier in the proof."""
     names = [_named(problem, c.constraint) for c in proof.contacts if c.multiplier > 0.0]
-    names += [
+    names += _equations(problem, proof, elastic)
+    asked = " and ".join(dict.fromkeys(reversed(names)))
+    return (
+        f"no law of order {problem.order} with {_shape(problem)} has {asked}. "
+        f"{_MORE_FREEDOM[_kind(problem)]} or a lower order helps{_possible(problem)}"
+    )
+
+
+def _disagreement(problem: Problem, elastic: Model) -> Certificate | None:
+    """Proof that the equations alone have no solution."""
+    weights = contradiction(elastic.program.equalities, elastic.program.right)
+    if weights is None:
+        return None
+    proof = Certificate(problem, (), tuple(weights.tolist()), VIOLATION)
+    return proof if proof.proves_infeasible else None
+
+
+def _at_vertices(problem: Problem, elastic: Model) -> Certificate | None:
+    """Proof by the simplex method that rows at finitely many places contradict each other: so do those everywhere."""
+    program = elastic.program
+    if program.curved:
+        return None
+    points = [
+        mine.joined(Points(np.tile(family.domain, len(family.signs)), np.repeat(family.signs, 2)))
+        for family, mine in zip(program.families, first_points(program), strict=True)
+    ]
+    for _ in range(_ROUNDS):
+        answer = vertex_on_points(program, points)
+        if answer is None:
+            return None
+        proof = violation_certificate(problem, elastic, as_answered(points, answer))
+        if proof.proves_infeasible:
+            return proof
+        points = [exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
+    return None
+
+
+def _disagreeing(problem: Problem, proof: Certificate, elastic: Model) -> str:
+    names = list(dict.fromkeys(_equations(problem, proof, elastic)))
+    law = f"no law of order {problem.order} with {_shape(problem)} has {' and '.join(names)}: "
+    if len(names) <= _PLAIN:
+        return f"{law}with the end conditions {'that' if len(names) == 1 else 'these'} cannot be. Leave one out"
+    return f"{law}these equations contradict each other. {_MORE_FREEDOM[_kind(problem)]} may help, or one left out"
+
+
+def _equations(problem: Problem, proof: Certificate, elastic: Model) -> list[str]:
+    """The equations that have a multiplier in the proof."""
+    return [
         f"{name} = {problem.B:g}" if name == "b(1/2) = B" and isinstance(problem.B, float) else name
         for name, weight in zip(elastic.equation_names, proof.equations, strict=True)
         if abs(weight) > _WEIGHTLESS
     ]
+
+
+def _kind(problem: Problem) -> type[PolynomialBasis | Basis]:
+    return PolynomialBasis if isinstance(problem.basis, PolynomialBasis) else Basis
+
+
+def _shape(problem: Problem) -> str:
     basis = problem.basis
-    shape = f"Z of degree {basis.degree}" if isinstance(basis, PolynomialBasis) else repr(basis)
-    asked = " and ".join(dict.fromkeys(reversed(names)))
-    return (
-        f"no law of order {problem.order} with {shape} has {asked}. "
-        f"A higher degree of Z or a lower order helps{_possible(problem)}"
-    )
+    return f"Z of degree {basis.degree}" if isinstance(basis, PolynomialBasis) else repr(basis)
 
 
 def _named(problem: Problem, constraint: str) -> str:

@@ -96,6 +96,8 @@ def least_violation(problem: Problem) -> Model:
     writer = _Writer(_space(problem), [], problem, extra="t")
     writer.spare = writer.unit("t")
     writer.cost = writer.unit("t")
+    # laws with no bound to their size may have any room to spare; more than this is none of our business
+    writer.row("to spare", -writer.unit("t"), 1.0)
     writer.constraints(problem)
     return writer.model()
 

@@ -18,7 +18,9 @@ Array = NDArray[np.float64]
 # keeps the norm's slope finite where it vanishes; Newton's method on the exact active set goes without it
 _SMOOTH = 1e-12
 _EMPTY = 1e-13
-_QUIET = {"print_time": False, "ipopt.print_level": 0, "ipopt.sb": "yes"}
+_QUIET = {"print_time": False, "show_eval_warnings": False, "ipopt.print_level": 0, "ipopt.sb": "yes"}
+# nobody asks how the optimum depends on the parameters, which are all the rows
+_LEAN = {"calc_lam_p": False}
 _REPEATABLE = {
     "ipopt.max_iter": 200,
     # the order of elimination is fixed so that every platform takes the same steps
@@ -148,7 +150,8 @@ def _solved(shape: tuple[_Counts, bool, bool], **numbers: Array) -> _Result:
             weights=np.array(result["lam_g"], dtype=float).ravel(),
             success=bool(stats["success"]),
             status=str(stats["return_status"]),
-            iterations=int(stats["iter_count"]),
+            # where IPOPT ends before its first iteration CasADi's count is memory that nobody set
+            iterations=int(stats["iter_count"]) if "iterations" in stats else 0,
         )
         # what they refer to is counted, and the last reference must go while the lock is held
         del result, stats, solver
@@ -218,7 +221,7 @@ def _solver(counts: _Counts, *, careful: bool, fine: bool) -> Any:  # noqa: ANN4
         curved.append(((real @ point) ** 2 + (imaginary @ point) ** 2) / wide - wide)
     curved += [ca.sqrt(ca.sumsqr(m @ point) + _SMOOTH) - room @ x for m, room in zip(matrices, rooms, strict=True)]
     program: Any = {"x": x, "p": p, "f": ca.dot(symbols[-1], x), "g": ca.vertcat(rows @ x, *curved)}
-    options: Any = {**_QUIET, **_REPEATABLE, **(_FINE if fine else _USUAL)}
+    options: Any = {**_QUIET, **_LEAN, **_REPEATABLE, **(_FINE if fine else _USUAL)}
     if not curved:
         flat = ca.Function(
             "hessian",

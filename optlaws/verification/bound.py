@@ -78,8 +78,10 @@ def prove(certificate: Certificate) -> Proof:
     best: Proof | None = None
     for _ in range(_TRIES):
         with ctx.workprec(bits):
-            system = _System(certificate)
-            found, narrow = system.best()
+            found, narrow = _System(certificate).best()
+            if found.value is None:
+                # rows that are one another's multiples balance where they are, and beside it they do not
+                found, narrow = _System(certificate, beside=False).best()
         if best is None or best.value is None or (found.value is not None and found.value > best.value):
             best = found
         if narrow:
@@ -101,8 +103,8 @@ class _Helper:
 
 
 class _System:
-    def __init__(self, certificate: Certificate) -> None:
-        self.certificate = certificate
+    def __init__(self, certificate: Certificate, *, beside: bool = True) -> None:
+        self.certificate, self.beside = certificate, beside
         self.rows = rows = ExactRows(certificate)
         self.vectors: list[Vector] = []
         self.multipliers: list[arb] = []
@@ -125,7 +127,7 @@ class _System:
     def _take(self, contact: Contact, row: Row) -> None:
         weight = Fraction(contact.multiplier)
         k = Fraction(contact.k)
-        if _NEAR < k < 1 - _NEAR and not contact.direction:
+        if self.beside and _NEAR < k < 1 - _NEAR and not contact.direction:
             for near in (k - _NEAR, k + _NEAR):
                 moved = self.rows.row(contact, near)
                 if moved is not None and self.rows.space.piece(near) == self.rows.space.piece(k):
@@ -206,7 +208,8 @@ def _changes(vectors: list[Vector], weights: Vector, slopes: Vector) -> Vector |
     size = len(slopes)
     if not vectors:
         return None
-    if not size:
+    if all(bool(slope == 0) for slope in slopes):
+        # rows that are the same but for their right sides: their difference is exact, and nothing need change
         return [arb(0)] * len(vectors)
     matrix = arb_mat([vector[:size] for vector in vectors])
     weighted = arb_mat([[w * one for one in vector[:size]] for w, vector in zip(weights, vectors, strict=True)])

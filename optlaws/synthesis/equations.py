@@ -1,0 +1,91 @@
+"""The equations of a program: which of them say something new, and the multipliers that show a contradiction."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+#: rows of length 1 that are nearer to depending on each other are taken to do so
+_RANK = 1e-11
+_EMPTY = 1e-13
+_OFF = 1e-9
+_WEIGHTLESS = 1e-12
+
+
+def contradiction(rows: Array, right: Array) -> Array | None:
+    """Multipliers y with y . rows = 0 and y . right < 0, the greatest of size 1; None where the equations agree.
+
+    As few equations as may be have a multiplier: one that asks something of nothing, two of one value, else those
+    that the least squares of the residuals weigh.
+
+    Parameters
+    ----------
+    rows, right
+        The equations rows . x = right, shapes (equations, variables) and (equations,).
+
+    Examples
+    --------
+    >>> contradiction(np.array([[1.0, 1.0], [2.0, 2.0]]), np.array([1.0, 4.0])).tolist()
+    [1.0, -0.5]
+    """
+    length = np.linalg.norm(rows, axis=1)
+    empty = length < _EMPTY
+    for i in np.flatnonzero(empty & (np.abs(right) > _OFF)):
+        return _unit(len(right), int(i), -float(np.sign(right[i])))
+    length[empty] = 1.0
+    rows, right = np.where(empty[:, None], 0.0, rows / length[:, None]), right / length
+    found = _of_one_value(rows, right)
+    if found is None:
+        residual = right - rows @ np.linalg.lstsq(rows, right, rcond=_RANK)[0]
+        if np.abs(residual).max(initial=0.0) <= _OFF * max(1.0, float(np.abs(right).max(initial=0.0))):
+            return None
+        found = -residual
+    found = found / length
+    found = found / np.abs(found).max()
+    found[np.abs(found) < _WEIGHTLESS] = 0.0
+    return np.asarray(found, dtype=np.float64)
+
+
+def independent(rows: Array) -> NDArray[np.bool_]:
+    """Which rows say something new, the earlier ones first: the others depend on them.
+
+    Examples
+    --------
+    >>> independent(np.array([[1.0, 0.0], [2.0, 0.0], [1.0, 1.0]])).tolist()
+    [True, False, True]
+    """
+    kept = np.zeros(len(rows), dtype=np.bool_)
+    directions = np.empty((0, rows.shape[1]))
+    for i, row in enumerate(rows):
+        size = float(np.linalg.norm(row))
+        if size < _EMPTY:
+            continue
+        left = row / size
+        for _ in range(2):
+            left = left - directions.T @ (directions @ left)
+        new = float(np.linalg.norm(left))
+        if new > _RANK:
+            kept[i] = True
+            directions = np.vstack([directions, left / new])
+    return kept
+
+
+def _of_one_value(rows: Array, right: Array) -> Array | None:
+    """Two equations that ask different things of the same sum."""
+    for i in range(len(rows)):
+        for j in range(i):
+            for sign in (1.0, -1.0):
+                off = right[i] - sign * right[j]
+                same = np.abs(rows[i] - sign * rows[j]).max(initial=0.0) < _EMPTY
+                if same and abs(off) > _OFF * max(1.0, abs(right[i])):
+                    size = float(np.sign(off))
+                    return _unit(len(right), j, size * sign) + _unit(len(right), i, -size)
+    return None
+
+
+def _unit(count: int, place: int, size: float) -> Array:
+    found = np.zeros(count)
+    found[place] = size
+    return found
