@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,14 +19,13 @@ from optlaws.synthesis.equations import contradiction, independent
 from optlaws.synthesis.flat_optima import sharpened
 from optlaws.synthesis.grids import exchanged, first_points
 from optlaws.synthesis.rows import Family, LinearFamily, NormFamily, Points, ProductFamily, Program
-from optlaws.synthesis.simplex import vertex_on_points
 from optlaws.synthesis.transcription import Answer, solve_on_points
+from optlaws.synthesis.vertices import by_vertices, many_pieces
 
 Array = NDArray[np.float64]
 
 _ROUNDS = 12
 _LINEAR_ROUNDS = 6
-_VERTICES = 25
 _CORRECTIONS = 8
 _WEIGHTLESS = 1e-7
 _LOST = 1e7
@@ -82,7 +82,20 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
         optimum = polished(program, guess, holds) if guess is not None else None
         if optimum is not None:
             return Outcome(optimum, 0, 0, "least squares")
+    if many_pieces(program):
+        optimum, count = by_vertices(program, points, partial(_finished, program, holds))
+        if optimum is not None:
+            return Outcome(optimum, 0, count, "vertices")
     return _exchange(program, points, start, holds, rounds)
+
+
+def _finished(
+    program: Program, holds: Callable[[Array], bool] | None, points: list[Points], answer: Answer
+) -> ActiveSet | None:
+    """The optimum of a linear program from an answer near to it; None where the contacts are not plain yet."""
+    optimum = polished(program, _identified(program, points, answer), holds)
+    sharp = sharpened(program, points, answer) if optimum is None else None
+    return sharp if sharp is not None and completed(program, sharp) is sharp else optimum
 
 
 def _exchange(
@@ -104,27 +117,10 @@ def _exchange(
             return Outcome(optimum, iterations, attempt, answer.status)
         asked, x = points, answer.x if sharp is None else sharp.x
         points = [exchanged(family, mine, x) for family, mine in zip(program.families, points, strict=True)]
-    optimum = None if program.curved else _by_vertices(program, points, holds)
+    optimum = None if program.curved else by_vertices(program, points, partial(_finished, program, holds))[0]
     if optimum is None and (not program.curved or _only_cones(program)):
         optimum = as_answered(asked, answer)
     return Outcome(optimum, iterations, rounds, answer.status)
-
-
-def _by_vertices(program: Program, points: list[Points], holds: Callable[[Array], bool] | None) -> ActiveSet | None:
-    """The optimum of a linear program by exchange of the true extrema of vertices."""
-    for _ in range(_VERTICES):
-        answer = vertex_on_points(program, points)
-        if answer is None:
-            return None
-        optimum = polished(program, _identified(program, points, answer), holds)
-        sharp = sharpened(program, points, answer) if optimum is None else None
-        if sharp is not None and completed(program, sharp) is sharp:
-            optimum = sharp
-        if optimum is not None:
-            return optimum
-        x = answer.x if sharp is None else sharp.x
-        points = [exchanged(family, mine, x) for family, mine in zip(program.families, points, strict=True)]
-    return None
 
 
 def _answer(program: Program, points: list[Points], start: Array | None, attempt: int) -> tuple[Answer, int]:

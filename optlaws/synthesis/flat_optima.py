@@ -66,20 +66,24 @@ def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveS
 
 
 class Table:
-    """All rows of a linear program on points, scaled to length 1.
+    """All rows of a linear program on points, and its equations, scaled to length 1.
 
     Attributes
     ----------
-    rows, right
-        The rows and their right sides.
-    length
-        What each row was divided by.
+    rows, right, length
+        The rows, their right sides and what each was divided by.
+    equations, equation_right, equation_length
+        The same of the equations: high derivatives at the ends of short pieces make some of them very long.
     family, u, s
         To which family a row belongs, its place and its sign.
     """
 
     def __init__(self, program: Program, points: list[Points]) -> None:
-        self.program = program
+        self.objective = program.objective
+        self.equation_length = np.linalg.norm(program.equalities, axis=1)
+        self.equation_length[self.equation_length < _RANK] = 1.0
+        self.equations = program.equalities / self.equation_length[:, None]
+        self.equation_right = program.right / self.equation_length
         families = [family for family in program.families if isinstance(family, LinearFamily)]
         parts = [family.rows(mine.u, mine.s) for family, mine in zip(families, points, strict=True)]
         rows = np.vstack([np.empty((0, program.size)), *(part for part, _ in parts)])
@@ -97,24 +101,29 @@ class Table:
 
     def held(self, binding: NDArray[np.bool_], x: Array) -> Array | None:
         """The nearest x at which the binding rows and the equations hold exactly; None if there is none."""
-        matrix = np.vstack([self.rows[binding], self.program.equalities])
-        right = np.concatenate([self.right[binding], self.program.right])
+        matrix = np.vstack([self.rows[binding], self.equations])
+        right = np.concatenate([self.right[binding], self.equation_right])
         for _ in range(2):
             x = x + np.linalg.lstsq(matrix, right - matrix @ x, rcond=_RANK)[0]
         left = np.abs(matrix @ x - right).max(initial=0.0)
         return x if left <= _HELD * max(1.0, float(np.abs(x).max())) else None
 
     def balanced(self, binding: NDArray[np.bool_], weights: Array, equations: Array) -> tuple[Array, Array] | None:
-        """Multipliers near the given ones that balance the objective exactly; None if there are none above 0."""
+        """Multipliers near the given ones that balance the objective exactly; None if there are none above 0.
+
+        Those of the rows belong to rows of length 1, those of the equations to the program's own.
+        """
         own, mine = self.rows[binding], weights[binding]
-        matrix = np.hstack([own.T * mine, self.program.equalities.T])
-        share = np.zeros(len(mine) + len(equations))
+        matrix = np.hstack([own.T * mine, self.equations.T])
+        scaled = equations * self.equation_length
+        share = np.zeros(len(mine) + len(scaled))
         for _ in range(2):
             changed = mine * (1.0 + share[: len(mine)])
-            defect = self.program.objective + own.T @ changed
-            defect = defect + self.program.equalities.T @ (equations + share[len(mine) :])
-            share = share - np.linalg.lstsq(matrix, defect, rcond=_RANK)[0]
-        changed, equations = mine * (1.0 + share[: len(mine)]), equations + share[len(mine) :]
-        defect = self.program.objective + own.T @ changed + self.program.equalities.T @ equations
-        sound = np.abs(defect).max() <= _BALANCED * max(1.0, float(changed.max(initial=0.0)))
-        return (changed, equations) if sound and not (changed < 0.0).any() else None
+            share = share - np.linalg.lstsq(matrix, self._defect(own, changed, scaled + share[len(mine) :]), _RANK)[0]
+        changed, scaled = mine * (1.0 + share[: len(mine)]), scaled + share[len(mine) :]
+        left = np.abs(self._defect(own, changed, scaled)).max()
+        sound = left <= _BALANCED * max(1.0, float(changed.max(initial=0.0)))
+        return (changed, scaled / self.equation_length) if sound and not (changed < 0.0).any() else None
+
+    def _defect(self, rows: Array, multipliers: Array, equations: Array) -> Array:
+        return np.asarray(self.objective + rows.T @ multipliers + self.equations.T @ equations)

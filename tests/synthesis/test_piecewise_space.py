@@ -142,3 +142,18 @@ def test_pieces_of_order_1_are_free_to_start_moving() -> None:
     assert whole.status is Status.OPTIMAL
     assert whole.objective == pytest.approx(polynomial.objective, rel=1e-8)
     assert synthesize(replace(wanted, basis=Pieces(8, 5, 3))).objective < polynomial.objective
+
+
+@pytest.mark.parametrize(("B", "count"), [(1.859, 28), (1.859, 32), (1.859, 64), (2.1, 28), (2.1, 30)])
+def test_many_pieces_are_proven(B: float, count: int) -> None:
+    coarse, fine = (synthesize(Problem(B=B, order=3, basis=Pieces(n))) for n in (count, 2 * count))
+    assert (coarse.status, fine.status) == ("optimal", "optimal")
+    # twice as many pieces hold every law of these
+    assert fine.lower_bound < coarse.objective
+
+
+@pytest.mark.parametrize("order", [2, 6])
+@pytest.mark.parametrize("minimise", ["J", "jounce", "max(C/4, J/32)"])
+def test_sixty_pieces_are_proven_for_every_linear_objective(order: int, minimise: str) -> None:
+    solution = synthesize(Problem(B=1.8, order=order, minimise=minimise, basis=Pieces(60, 7, 5)))
+    assert solution.status == "optimal"
