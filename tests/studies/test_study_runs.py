@@ -96,6 +96,16 @@ def test_a_cluster_gives_the_rows_of_a_serial_run(small: Study, tmp_path: Path) 
         assert rows(run_study(SMALL, tmp_path, executor=client.get_executor(), workers=2)) == rows(small)
 
 
+@pytest.mark.filterwarnings("ignore::ResourceWarning")
+def test_a_cluster_without_workers_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    from distributed import Client, LocalCluster
+
+    monkeypatch.setattr("optlaws.studies.sweeps.run._LOST_SECONDS", 1.0)
+    with LocalCluster(n_workers=0, processes=False, dashboard_address=None) as cluster, Client(cluster) as client:
+        with pytest.raises(SolverFailure, match="the cluster has had no worker for 1 s; what is solved is safe"):
+            run_study(SMALL, tmp_path, executor=client.get_executor(), workers=1)
+
+
 def test_tight_bounds_are_searched_and_power_is_never_continued(tmp_path: Path) -> None:
     asked = {
         "problem": {"order": 4, "degree": 5, "minimise": "D"},
@@ -135,10 +145,12 @@ def registered() -> Iterator[None]:
         ("errs", "error", "ZeroDivisionError: a mistake in a constant"),
         ("dies", "worker died", "its process died 3 times: signal 9"),
         ("hangs", "time limit", "no answer within 4 s"),
+        ("dies_forked", "worker died", "its process died 3 times: signal 9"),
+        ("hangs_forked", "time limit", "no answer within 4 s"),
     ],
 )
 def test_a_point_in_trouble_is_one_row(tmp_path: Path, trouble: str, status: str, error: str) -> None:
-    study = run_study(troubled(trouble, time_limit=4.0 if trouble == "hangs" else 60.0), tmp_path, workers=1)
+    study = run_study(troubled(trouble, time_limit=4.0 if "hangs" in trouble else 60.0), tmp_path, workers=1)
     assert [point.status for point in study] == ["optimal", "optimal", status, "optimal"]
     assert study[2].error == error
     assert study[2].law is None

@@ -33,9 +33,29 @@ def _hang() -> None:
         time.sleep(0.01)
 
 
+def _hang_with_a_child() -> None:
+    if os.fork() == 0:
+        time.sleep(30.0)
+        os._exit(0)
+    _hang()
+
+
+def _die_with_a_child() -> None:
+    if os.fork() == 0:
+        time.sleep(30.0)
+        os._exit(0)
+    _die()
+
+
 def _err() -> None:
     raise ZeroDivisionError("a mistake in a constant")
 
 
-for name, trouble in {"dies": _die, "hangs": _hang, "errs": _err}.items():
+for name, trouble in {
+    "dies": _die,
+    "hangs": _hang,
+    "errs": _err,
+    "hangs_forked": _hang_with_a_child,
+    "dies_forked": _die_with_a_child,
+}.items():
     FUNCTIONALS[name] = Troublesome(name, 4.0, convex=True, nu=2, trouble=trouble)

@@ -53,12 +53,19 @@ class Crew:
             count = workers or _size(executor)
             self._executor = executor
             self._solve = in_process if isinstance(executor, Serial) else solve_chunk
+        self._client: Any = getattr(executor, "_client", None)
         # one chunk more for each worker than it works on, so that none waits
         self.most = 1 if isinstance(executor, Serial) else 2 * count
 
     def submit(self, task: Mapping[str, Any]) -> Future[Rows]:
         """Have a chunk solved."""
         return self._executor.submit(self._solve, task)
+
+    @property
+    def empty(self) -> bool:
+        """Whether it is a Dask cluster that has no worker at all; other executors say when theirs are lost."""
+        workers = getattr(self._client, "ncores", None)
+        return callable(workers) and not workers()
 
     def close(self) -> None:
         """Stop what is under way; an executor that was given stays open."""

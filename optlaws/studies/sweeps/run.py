@@ -8,6 +8,7 @@ from collections.abc import Mapping
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import closing
 from pathlib import Path
+from time import monotonic
 from typing import Any
 
 from optlaws.errors import InputError, SolverFailure
@@ -23,6 +24,8 @@ from optlaws.synthesis import Problem
 
 _TRIES = 3
 _TICK = 1.0
+#: how long a cluster may be without workers; whoever has to wait for them does so before the study
+_LOST_SECONDS = 120.0
 
 
 def run_study(
@@ -124,6 +127,7 @@ def _solve(study: StudyFile, points: Points, journal: Journal, crew: Crew, watch
     waiting = (number for number in range(points.chunks) if number not in journal.done)
     under_way: dict[Future[list[bytes]], int] = {}
     tries: Counter[int] = Counter()
+    alive = _Alive(crew)
 
     def submit(number: int) -> None:
         under_way[crew.submit(task(study, points, number))] = number
@@ -135,7 +139,9 @@ def _solve(study: StudyFile, points: Points, journal: Journal, crew: Crew, watch
             if not under_way:
                 return
             done, _ = wait(under_way, timeout=_TICK, return_when=FIRST_COMPLETED)
-            lost = {under_way[future]: error for future in done if (error := future.exception()) is not None}
+            if not done:
+                alive.check()
+            lost = {under_way[future]: error for future in done if (error := _failure(future)) is not None}
             whole = [(number, one.result()) for one in done if (number := under_way.pop(one)) not in lost]
             journal.append(whole)
             watch.advance(journal.counts)
@@ -150,3 +156,30 @@ def _solve(study: StudyFile, points: Points, journal: Journal, crew: Crew, watch
         for future in under_way:
             future.cancel()
         crew.close()
+
+
+class _Alive:
+    """Sees that a cluster has workers while nothing comes from it."""
+
+    def __init__(self, crew: Crew) -> None:
+        self._crew = crew
+        self._empty_since: float | None = None
+
+    def check(self) -> None:
+        if not self._crew.empty:
+            self._empty_since = None
+            return
+        now = monotonic()
+        self._empty_since = self._empty_since or now
+        if now - self._empty_since >= _LOST_SECONDS:
+            raise SolverFailure(
+                f"the cluster has had no worker for {_LOST_SECONDS:g} s; what is solved is safe: start workers, wait "
+                "for them by client.wait_for_workers(1), and run the same study again"
+            )
+
+
+def _failure(future: Future[list[bytes]]) -> BaseException | None:
+    """What a chunk ended with; an executor that is closed under a study cancels its chunks."""
+    if future.cancelled():
+        return SolverFailure("the executor gave it up: it was closed, or its scheduler is gone")
+    return future.exception()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import sys
 import threading
 from queue import SimpleQueue
@@ -41,6 +42,9 @@ def main() -> None:
 def _read(tasks: SimpleQueue[bytes]) -> None:
     for line in sys.stdin.buffer:
         tasks.put(line)
+    if sys.platform != "win32" and os.getpgrp() == os.getpid():
+        # what libraries started ends with it
+        os.killpg(os.getpid(), signal.SIGKILL)
     os._exit(0)
 
 

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import signal
 import subprocess
 import sys
 import tempfile
@@ -10,6 +11,7 @@ from collections.abc import Iterator
 from contextlib import suppress
 from queue import Empty, SimpleQueue
 from threading import Thread
+from time import monotonic
 from typing import IO
 
 import msgspec
@@ -19,6 +21,9 @@ from optlaws.studies.sweeps.solver_process import DONE, ERROR, READY
 from optlaws.studies.sweeps.solving import Task
 
 _START_SECONDS = 300.0
+_END_SECONDS = 5.0
+_LOOK_SECONDS = 0.25
+_READ_BYTES = 1 << 16
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -47,6 +52,7 @@ class SolverProcess:
             start_new_session=True,  # Ctrl-C is for the run, which then ends its processes
         )
         self._input, self._output = _pipes(self._process)
+        self._cleared = False
         self._lines: SimpleQueue[bytes] = SimpleQueue()
         self._reader = Thread(target=self._read, daemon=True)
         self._reader.start()
@@ -97,36 +103,59 @@ class SolverProcess:
             yield line
 
     def kill(self) -> None:
-        """End it at once; whoever waits for a row meets `Died`."""
-        self._process.kill()
+        """End it at once, with all that it started; whoever waits for a row meets `Died`."""
+        if sys.platform == "win32":
+            self._process.kill()
+            return
+        # it leads a group of its own; the group may be there when the process is gone
+        with suppress(ProcessLookupError, PermissionError):
+            os.killpg(self._process.pid, signal.SIGKILL)
 
     def clear(self) -> None:
         """End it and give back what it held."""
-        self._process.kill()
-        self._process.wait()
-        self._reader.join()
+        self.kill()
+        self._cleared = True
+        with suppress(subprocess.TimeoutExpired):
+            self._process.wait(_END_SECONDS)
+        # a process that left the group may hold the pipe open: the reader is then left to end with it
+        self._reader.join(_END_SECONDS)
         for stream in (self._input, self._output, self._complaints):
             # what was still to be written has no reader any more
             with suppress(OSError):
                 stream.close()
 
     def _read(self) -> None:
-        for line in self._output:
-            if line.endswith(b"\n"):
-                self._lines.put(line[:-1])
+        # without the stream's buffer, whose lock would keep `clear` from closing it
+        text = b""
+        while not self._cleared and (more := os.read(self._output.fileno(), _READ_BYTES)):
+            *lines, text = (text + more).split(b"\n")
+            for line in lines:
+                self._lines.put(line)
         self._lines.put(b"")
 
     def _line(self, seconds: float) -> bytes:
-        try:
-            line = self._lines.get(timeout=seconds)
-        except Empty:
-            raise TookTooLong from None
-        if not line:
-            raise Died(self._end())
-        return line
+        until = monotonic() + seconds
+        while True:
+            gone = self._process.poll() is not None
+            left = until - monotonic()
+            try:
+                line = self._lines.get(timeout=min(max(left, 0.0), _LOOK_SECONDS))
+            except Empty:
+                if gone:
+                    # its pipe is held open by a process that it started
+                    raise Died(self._end()) from None
+                if left <= _LOOK_SECONDS:
+                    raise TookTooLong from None
+                continue
+            if not line:
+                raise Died(self._end())
+            return line
 
     def _end(self) -> str:
-        status = self._process.wait()
+        try:
+            status = self._process.wait(_END_SECONDS)
+        except subprocess.TimeoutExpired:
+            return "its output was closed"
         return f"signal {-status}" if status < 0 else f"exit status {status}"
 
 
