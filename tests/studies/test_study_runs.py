@@ -101,9 +101,12 @@ def test_a_cluster_without_workers_is_said(tmp_path: Path, monkeypatch: pytest.M
     from distributed import Client, LocalCluster
 
     monkeypatch.setattr("optlaws.studies.sweeps.run._LOST_SECONDS", 1.0)
-    with LocalCluster(n_workers=0, processes=False, dashboard_address=None) as cluster, Client(cluster) as client:
-        with pytest.raises(SolverFailure, match="the cluster has had no worker for 1 s; what is solved is safe"):
-            run_study(SMALL, tmp_path, executor=client.get_executor(), workers=1)
+    with (
+        LocalCluster(n_workers=0, processes=False, dashboard_address=None) as cluster,
+        Client(cluster) as client,
+        pytest.raises(SolverFailure, match="the cluster has had no worker for 1 s; what is solved is safe"),
+    ):
+        run_study(SMALL, tmp_path, executor=client.get_executor(), workers=1)
 
 
 def test_tight_bounds_are_searched_and_power_is_never_continued(tmp_path: Path) -> None:

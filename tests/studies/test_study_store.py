@@ -2,20 +2,24 @@
 
 import os
 import resource
+import shutil
 import signal
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
+from typing import Any
 
 import pytest
-from hypothesis import HealthCheck, given, settings
+from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from optlaws import InputError, open_study, run_study
 from optlaws.studies.sweeps.directory import StudyDirectory
 from optlaws.studies.sweeps.journal import Journal, StoreFailure
 from optlaws.studies.sweeps.study import Study
+from optlaws.studies.sweeps.table import DamagedTable
 from tests.documents import ROOT
 from tests.studies.sweeping import SMALL, rows, serially
 
@@ -58,6 +62,7 @@ def test_a_journal_cut_anywhere_keeps_its_whole_chunks(tmp_path: Path, share: fl
 
 
 @settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
+@example(share=0.47371880884884826, change=1)  # the end of a chunk's last line
 @given(share=st.floats(0.0, 1.0, exclude_max=True), change=st.integers(1, 255))
 def test_a_changed_byte_costs_its_chunk_alone(tmp_path: Path, share: float, change: int) -> None:
     file = tmp_path / "journal"
@@ -196,3 +201,81 @@ def test_a_full_disk_is_said_and_nothing_is_lost(small: Study, tmp_path: Path, s
     assert 0 < done < 28
     resource.setrlimit(resource.RLIMIT_FSIZE, resource.getrlimit(resource.RLIMIT_FSIZE)[1:] * 2)
     assert rows(serially(SMALL, tmp_path)) == rows(small)
+
+
+def _emptied(data: bytes) -> bytes:
+    return data[:0]
+
+
+def _cut(data: bytes) -> bytes:
+    return data[: len(data) // 2]
+
+
+def _flipped(data: bytes) -> bytes:
+    # a bit of the first pages, behind the mark of the format
+    return data[:40] + bytes([data[40] ^ 4]) + data[41:]
+
+
+@pytest.mark.parametrize("damage", [_emptied, _cut, _flipped])
+@pytest.mark.parametrize("checksum", [True, False])
+def test_a_damaged_table_is_refused_by_name(
+    small: Study, tmp_path: Path, damage: Callable[[bytes], bytes], *, checksum: bool
+) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(small.path, out)
+    table = out / "rows.parquet"
+    table.write_bytes(damage(table.read_bytes()))
+    if not checksum:
+        (out / "rows.sha256").unlink()
+    for use in (lambda: serially(SMALL, out), lambda: open_study(out).counts, lambda: list(open_study(out))):
+        with pytest.raises(DamagedTable, match=r"rows\.parquet is damaged: .* run the same study again"):
+            use()
+    table.unlink()
+    (out / "rows.sha256").unlink(missing_ok=True)
+    assert rows(serially(SMALL, out)) == rows(small)
+
+
+def test_a_damaged_table_is_made_again_from_its_journal(small: Study, tmp_path: Path) -> None:
+    interrupted(tmp_path, 2)
+    kept = (tmp_path / "journal").read_bytes()
+    serially(SMALL, tmp_path)
+    (tmp_path / "journal").write_bytes(kept)
+    (tmp_path / "rows.parquet").write_bytes(b"PAR1")
+    assert rows(serially(SMALL, tmp_path)) == rows(small)
+
+
+@pytest.mark.parametrize(
+    "about", ["[]", "7", '{"format": 1}', "{", "[" * 100_000, '{"format": 1, "title": 3}', '{"format": 2}']
+)
+def test_what_is_no_study_is_said(small: Study, tmp_path: Path, about: str) -> None:
+    assert small.finished
+    (tmp_path / "study.json").write_text(about)
+    with pytest.raises(InputError, match=r"study\.json(: the format is 2| is damaged)"):
+        open_study(tmp_path)
+
+
+def test_whoever_may_only_read_sees_rows_and_status(small: Study, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(small.path, out)
+    with reading_only(out):
+        study = open_study(out)
+        assert rows(study) == rows(small)
+        assert study.finished
+        assert not study.running
+        with pytest.raises(InputError, match=r"out cannot be written: .*; a study there can be read"):
+            serially(SMALL, out)
+
+
+@contextmanager
+def reading_only(folder: Path) -> Iterator[None]:
+    """Refuses to open files of the folder for writing: permissions do not bind every user."""
+
+    def opened(file: Path, mode: str = "r", **kwargs: Any) -> Any:  # noqa: ANN401 - as Path.open has it
+        if file.is_relative_to(folder) and set(mode) & set("wax+"):
+            raise PermissionError(13, "Permission denied", str(file))
+        return before(file, mode, **kwargs)
+
+    before = Path.open
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Path, "open", opened)
+        yield

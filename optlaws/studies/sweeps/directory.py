@@ -7,10 +7,10 @@ import json
 import os
 import sys
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from importlib.metadata import version
 from pathlib import Path
-from typing import Any
+from typing import IO, Annotated, Any
 
 import msgspec
 
@@ -23,6 +23,16 @@ FORMAT = 1
 _LIBRARIES = ("optlaws", "casadi", "numpy", "scipy")
 
 
+class _About(msgspec.Struct):
+    """What `study.json` has at least."""
+
+    title: str
+    hash: str
+    versions: dict[str, str]
+    points: Annotated[int, msgspec.Meta(ge=1)]
+    study: dict[str, Any]
+
+
 class StudyDirectory:
     """The parts of a study's directory: `study.json`, the journal, the table in Parquet, and the lock."""
 
@@ -31,6 +41,7 @@ class StudyDirectory:
         self.about = path / "study.json"
         self.journal = path / "journal"
         self.table = path / "rows.parquet"
+        self.checksum = path / "rows.sha256"
         self.lock = path / "lock"
 
     def read(self) -> tuple[dict[str, Any], StudyFile]:
@@ -42,13 +53,19 @@ class StudyDirectory:
             If there is no study, or one of another format.
         """
         try:
-            about = json.loads(self.about.read_text(encoding="utf-8"))
-        except FileNotFoundError:
+            about = msgspec.json.decode(self.about.read_bytes(), strict=True)
+        except (FileNotFoundError, NotADirectoryError):
             raise InputError(f"{self.path} holds no study; optlaws study FILE --out {self.path} makes one") from None
-        except ValueError as error:
+        except OSError as error:
+            raise InputError(f"{self.about} cannot be read: {error.strerror}") from None
+        except (ValueError, RecursionError) as error:
             raise InputError(f"{self.about} is damaged: {error}") from None
-        if about.get("format") != FORMAT:
+        if isinstance(about, dict) and about.get("format") != FORMAT:
             raise InputError(f"{self.about}: the format is {about.get('format')!r}, this version reads {FORMAT}")
+        try:
+            msgspec.convert(about, _About)
+        except msgspec.ValidationError as error:
+            raise InputError(f"{self.about} is damaged: {error}; put a whole copy in its place") from None
         return about, read_study(about["study"])
 
     def claim(self, study: StudyFile, points: Points) -> None:
@@ -85,10 +102,7 @@ class StudyDirectory:
         InputError
             If another run has it, or the directory holds other files and no study.
         """
-        self.path.mkdir(parents=True, exist_ok=True)
-        if not self.about.exists() and any(not self._own(file.name) for file in self.path.iterdir()):
-            raise InputError(f"{self.path} holds no study but other files; choose an empty or a new directory")
-        with self.lock.open("a+b") as stream:
+        with self._lock_file() as stream:
             if not _lock(stream.fileno()):
                 stream.seek(0)
                 owner = stream.read().decode(errors="replace").strip()
@@ -98,16 +112,29 @@ class StudyDirectory:
             stream.flush()
             yield
 
+    def _lock_file(self) -> IO[bytes]:
+        try:
+            self.path.mkdir(parents=True, exist_ok=True)
+            if not self.about.exists() and any(not self._own(file.name) for file in self.path.iterdir()):
+                raise InputError(f"{self.path} holds no study but other files; choose an empty or a new directory")
+            return self.lock.open("a+b")
+        except OSError as error:
+            raise InputError(
+                f"{self.path} cannot be written: {error.strerror}; a study there can be read and asked for its status, "
+                "not run"
+            ) from None
+
     def _own(self, name: str) -> bool:
         # a run may have been killed while it wrote the first of its files
         return name == self.lock.name or name.startswith(f".{self.about.name}")
 
     def in_use(self) -> bool:
         """Whether a run writes in it now."""
-        if not self.lock.exists():
-            return False
-        with self.lock.open("a+b") as stream:
-            return not _lock(stream.fileno())
+        # whoever may only read can see it as well; what cannot be asked is not in use by this user
+        for mode in ("r+b", "rb"):
+            with suppress(OSError), self.lock.open(mode) as stream:
+                return not _lock(stream.fileno())
+        return False
 
 
 def digest(study: StudyFile) -> str:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+import re
 import zlib
 from collections import Counter
 from collections.abc import Iterable, Sequence
@@ -30,6 +31,7 @@ class _Seen(msgspec.Struct):
 
 
 _HEAD = b"chunk "
+_LAST_HEAD = re.compile(rb"[0-9a-f]{8} chunk \d+ \d+\n\Z")
 _seen = msgspec.json.Decoder(_Seen)
 
 
@@ -113,6 +115,9 @@ class Journal:
         with self.file.open("rb") as stream:
             for line in stream:
                 data = _checked(line)
+                if data is None and (head := _LAST_HEAD.search(line)) is not None:
+                    # the end of the line before it was hit
+                    place, line, data = place + head.start(), head[0], _checked(head[0])  # noqa: PLW2901
                 if data is None:
                     begun = None
                 elif data.startswith(_HEAD):

@@ -81,7 +81,7 @@ def run_study(
     directory, seen = StudyDirectory(Path(out)), watch or Silent()
     with directory.locked():
         directory.claim(study, points)
-        if not directory.table.exists():
+        if not _finished(directory, points):
             with closing(Journal(directory.journal)) as journal:
                 journal.open()
                 seen.begin(len(points), journal.counts)
@@ -91,9 +91,22 @@ def run_study(
                     seen.end(journal.counts)
             table.compact(directory, points)
         if directory.table.exists():
-            # a run may have been killed between the two
+            # it is whole, and a run may have been killed between the two
             directory.journal.unlink(missing_ok=True)
     return Study(directory.path)
+
+
+def _finished(directory: StudyDirectory, points: Points) -> bool:
+    """Whether the table is there and whole; one that is damaged is made again where the journal still has its rows."""
+    if not directory.table.exists():
+        return False
+    try:
+        table.check(directory, len(points))
+    except table.DamagedTable:
+        if not directory.journal.exists():
+            raise
+        return False
+    return True
 
 
 def task(study: StudyFile, points: Points, number: int) -> dict[str, Any]:

@@ -44,6 +44,7 @@ class Study:
     def __init__(self, path: Path | str) -> None:
         self._directory = StudyDirectory(Path(path))
         self._about, self.file = self._directory.read()
+        self._checked: tuple[int, int] | None = None
 
     @property
     def path(self) -> Path:
@@ -58,7 +59,12 @@ class Study:
     @kept_property
     def _points(self) -> Points:
         """The points, by index."""
-        return Points.of(self.file)
+        points = Points.of(self.file)
+        if len(points) != len(self):
+            raise InputError(
+                f"{self._directory.about} is damaged: it says {len(self)} points, its study has {len(points)}"
+            )
+        return points
 
     @property
     def counts(self) -> dict[str, int]:
@@ -202,6 +208,11 @@ class Study:
         _needed("pyarrow", f"reading {self._directory.table}")
         import pyarrow.parquet as pq
 
+        found = self._directory.table.stat()
+        state = (found.st_mtime_ns, found.st_size)
+        if state != self._checked:
+            table.check(self._directory, len(self))
+            self._checked = state
         return pq.ParquetFile(self._directory.table)
 
     def _point(self, row: Row) -> StudyPoint:

@@ -2,16 +2,21 @@
 
 from __future__ import annotations
 
+import hashlib
 import json
 import os
+from collections import Counter
 from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
 from functools import lru_cache
 from itertools import islice
+from pathlib import Path
 from typing import TYPE_CHECKING
 
 import msgspec
 
 from optlaws.errors import InputError
+from optlaws.export import files
 from optlaws.export.files import MARK
 from optlaws.studies.sweeps.axes import SWITCHES, TEXTS, WHOLE, Axis
 from optlaws.studies.sweeps.directory import StudyDirectory
@@ -37,6 +42,25 @@ class NotInstalled(InputError, ImportError):  # noqa: N818 - as SolverFailure
     Traceback (most recent call last):
     optlaws.studies.sweeps.table.NotInstalled: to_pandas needs pandas: pip install optlaws[studies]
     """
+
+
+class DamagedTable(InputError):  # noqa: N818 - beside NotInstalled
+    """The table of a study is not what was written.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> raise DamagedTable(Path("rows.parquet"), "it is empty")
+    Traceback (most recent call last):
+    optlaws.studies.sweeps.table.DamagedTable: rows.parquet is damaged: it is empty; put a whole copy in its place, or
+    remove it and rows.sha256 and run the same study again: its points are then solved anew
+    """
+
+    def __init__(self, file: Path, reason: str) -> None:
+        super().__init__(
+            f"{file} is damaged: {reason}; put a whole copy in its place, or remove it and rows.sha256 "
+            "and run the same study again: its points are then solved anew"
+        )
 
 
 def column(name: str) -> str:
@@ -73,12 +97,15 @@ def compact(directory: StudyDirectory, points: Points) -> None:
     copy = directory.table.with_suffix(".unfinished")
     journal = Journal(directory.journal)
     try:
-        with pq.ParquetWriter(copy, shape, compression="zstd") as writer:
+        with pq.ParquetWriter(copy, shape, compression="zstd", write_page_checksum=True) as writer:
             rows = rows_in_order(journal, points)
             while some := list(islice(rows, GROUP)):
                 writer.write_table(arrow(some, shape))
         with copy.open("rb+") as stream:
             os.fsync(stream.fileno())
+        # read again before the journal goes
+        check_rows(copy, len(points), journal.counts)
+        files.write(directory.checksum, f"{digest(copy)}  {directory.table.name}\n# {MARK}\n")
         copy.replace(directory.table)
     except OSError as error:
         copy.unlink(missing_ok=True)
@@ -86,6 +113,69 @@ def compact(directory: StudyDirectory, points: Points) -> None:
             f"cannot write {directory.table}: {error.strerror or error}; every row is safe in {directory.journal}: "
             "make room and run the same command again"
         ) from error
+
+
+def check(directory: StudyDirectory, points: int) -> None:
+    """Refuse a table that is not what was written: by its checksum, or one without by reading all of it.
+
+    Raises
+    ------
+    DamagedTable
+        If it is another file, or no table of so many rows.
+    """
+    try:
+        stated = directory.checksum.read_text(encoding="utf-8").split()[:1]
+    except FileNotFoundError:
+        stated = []
+    except (OSError, ValueError) as error:
+        raise DamagedTable(directory.checksum, f"it cannot be read: {error}") from None
+    try:
+        same = not stated or stated[0] == digest(directory.table)
+    except OSError as error:
+        raise DamagedTable(directory.table, f"it cannot be read: {error.strerror}") from None
+    if not same:
+        raise DamagedTable(directory.table, f"its content is not what {directory.checksum.name} says was written")
+    if not stated:
+        # without pyarrow there is nothing to read it with, which whoever reads it is told
+        with suppress(ImportError):
+            check_rows(directory.table, points)
+
+
+def check_rows(file: Path, points: int, counts: Mapping[str, int] | None = None) -> None:
+    """Read a table and see that it has every point, in order, and as many of each status as were counted.
+
+    Raises
+    ------
+    DamagedTable
+        Saying what is not right.
+    """
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        with pq.ParquetFile(file, page_checksum_verification=True) as table:
+            missing = [name for name in ("index", "key", "status", "law", "error") if name not in table.schema.names]
+            if missing:
+                raise DamagedTable(file, f"it has no column {missing[0]!r}")
+            found: Counter[str] = Counter()
+            count = 0
+            for batch in table.iter_batches(batch_size=GROUP):
+                if batch["index"].to_pylist() != list(range(count, count + len(batch))):
+                    raise DamagedTable(file, f"its rows from {count} on are not in the order of the points")
+                found.update(batch["status"].to_pylist())
+                count += len(batch)
+    except (pa.ArrowException, OSError, ValueError, TypeError) as error:
+        if isinstance(error, DamagedTable):
+            raise
+        raise DamagedTable(file, f"it cannot be read: {' '.join(str(error).split())[:200]}") from None
+    if count != points or (counts is not None and found != counts):
+        raise DamagedTable(file, f"it has {count} rows of {points} points, {dict(found)}")
+
+
+def digest(file: Path) -> str:
+    """The SHA-256 of a file."""
+    with file.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
 
 
 def schema(points: Points, about: Mapping[str, bytes] | None = None) -> pa.Schema:
