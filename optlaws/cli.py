@@ -22,6 +22,7 @@ from optlaws.cli_laws import catalogue, constants_table, law
 from optlaws.cli_lever import lever
 from optlaws.cli_study import study
 from optlaws.cli_verify import NotProven, verify
+from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.synthesis import Basis, BoundaryConditions, Problem, Range, Solution, at_most, basis, construct, synthesize
 from optlaws.synthesis.bounds import read_bounds
@@ -233,7 +234,7 @@ def exit_code(arguments: Sequence[str]) -> int:
     try:
         app(list(arguments), exit_on_error=False, print_error=False, result_action="return_none")
     except (CycloptsError, InputError) as error:
-        text, code = str(error), BAD_INPUT
+        text, code = cut(str(error)), BAD_INPUT
     except InfeasibleProblem as error:
         text, code = f"infeasible: {error}", INFEASIBLE
     except NotProven as error:

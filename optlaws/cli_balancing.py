@@ -12,6 +12,7 @@ from rich.console import Console
 from rich.table import Table
 
 from optlaws.errors import InputError
+from optlaws.files import reading
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue import catalogue
 from optlaws.mechanisms.angles import deg
@@ -140,10 +141,7 @@ def dwell(
 def _law(text: str) -> MotionLaw:
     if not text.endswith(".json"):
         return catalogue[text].law
-    try:
-        data: Any = json.loads(Path(text).read_text(encoding="utf-8"))
-    except ValueError as error:
-        raise InputError(f"{text} must be JSON text: {error}") from None
+    data = reading.json_file(Path(text))
     if isinstance(data, dict) and "kind" not in data and "law" in data:
         data = data["law"]
     try:

@@ -11,6 +11,7 @@ from rich.console import Console
 from rich.table import Table
 
 from optlaws.errors import InputError
+from optlaws.files import reading
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue import catalogue
 from optlaws.laws.savin import savin
@@ -106,10 +107,7 @@ def _law(name: str, alpha: float | None) -> MotionLaw:
     if alpha is not None:
         return savin(name, alpha)
     if name.endswith(".json"):
-        try:
-            data = json.loads(Path(name).read_text(encoding="utf-8"))
-        except ValueError as error:
-            raise InputError(f"{name} is not JSON: {error}") from None
+        data = reading.json_file(Path(name))
         return MotionLaw.from_dict(data["law"] if isinstance(data, dict) and "law" in data else data)
     return catalogue[name].law
 

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from optlaws.echo import cut
+
 
 class OptlawsError(Exception):
     """Base of every error raised on purpose by optlaws.
@@ -22,6 +24,9 @@ class InputError(OptlawsError, ValueError):
     Traceback (most recent call last):
     optlaws.errors.InputError: order must be an integer of at least 1, got 0
     """
+
+    def __init__(self, message: str = "") -> None:
+        super().__init__(cut(str(message)))
 
 
 class NotNormalised(UserWarning):

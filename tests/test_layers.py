@@ -9,13 +9,16 @@ import pytest
 from tests.documents import ROOT
 from tests.imports import Import, cycles, imports
 
-BASE = {"errors", "kept", "locks", "suggest"}
+BASE = {"echo", "errors", "files", "kept", "locks", "numbers", "suggest"}
 CORE = BASE | {"laws", "synthesis", "mechanisms", "verification"}
 MAY_IMPORT = {
-    "suggest": set[str](),
-    "errors": {"suggest"},
+    "echo": set[str](),
+    "errors": {"echo"},
+    "files": {"echo", "errors"},
     "kept": set[str](),
     "locks": set[str](),
+    "numbers": {"echo", "errors"},
+    "suggest": {"echo"},
     "laws": BASE,
     "synthesis": BASE | {"laws"},
     "mechanisms": BASE | {"laws", "synthesis"},

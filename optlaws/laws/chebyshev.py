@@ -9,13 +9,10 @@ from __future__ import annotations
 from collections.abc import Callable, Iterable, Sequence
 from fractions import Fraction
 from functools import lru_cache
-from math import comb, factorial, isfinite, lcm
-from numbers import Rational, Real
+from math import comb, factorial, lcm
 from typing import Any
 
-from optlaws.errors import InputError
-
-MAGNITUDE_LIMIT = 1e100
+from optlaws.numbers import fractions
 
 
 def chebyshev_from_powers(coefficients: Iterable[Any]) -> tuple[float, ...]:
@@ -82,27 +79,6 @@ def exact_powers(series: Sequence[Fraction]) -> list[Fraction]:
     return _changed(series, _chebyshev_row, 1)
 
 
-def fractions(values: Iterable[Any], name: str) -> list[Fraction]:
-    """The exact values of ints, floats and Fractions; `name` is what an error calls them.
-
-    Raises
-    ------
-    InputError
-        If a value is not a finite real number, or so large that its square would overflow.
-
-    Examples
-    --------
-    >>> fractions([1, 0.5], "z")
-    [Fraction(1, 1), Fraction(1, 2)]
-    """
-    try:
-        items = list(values)
-    except TypeError:
-        msg = f"{name} must be a sequence of real numbers, got {values!r}"
-        raise InputError(msg) from None
-    return [_fraction(value, f"{name}[{i}]") for i, value in enumerate(items)]
-
-
 def rounded(values: Iterable[Fraction]) -> tuple[float, ...]:
     """The nearest floats.
 
@@ -112,20 +88,6 @@ def rounded(values: Iterable[Fraction]) -> tuple[float, ...]:
     (0.25,)
     """
     return tuple(float(value) for value in values)
-
-
-def _fraction(value: Any, name: str) -> Fraction:  # noqa: ANN401
-    if isinstance(value, Rational):
-        exact = Fraction(int(value.numerator), int(value.denominator))
-    elif isinstance(value, Real) and isfinite(value):
-        exact = Fraction(float(value))
-    else:
-        msg = f"{name} must be a finite real number, got {value!r}"
-        raise InputError(msg)
-    if abs(exact) > MAGNITUDE_LIMIT:
-        msg = f"{name} must not exceed {MAGNITUDE_LIMIT:g} in magnitude: a law is dimensionless"
-        raise InputError(msg)
-    return exact
 
 
 def _changed(values: Sequence[Fraction], row: Callable[[int], tuple[int, ...]], base: int) -> list[Fraction]:

@@ -11,10 +11,10 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws import peaks
-from optlaws.laws.checks import times, whole
 from optlaws.laws.html import page
 from optlaws.laws.peaks import Constants, Peak
 from optlaws.laws.storage import Stored
+from optlaws.numbers import times, whole
 
 Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[Any]

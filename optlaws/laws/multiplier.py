@@ -19,6 +19,7 @@ from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.segments import Segment
 from optlaws.laws.transform import as_polynomial
+from optlaws.numbers import fractions
 
 Array = NDArray[np.float64]
 Multiplier = Sequence[Any] | NDArray[Any] | Callable[[float], float]
@@ -72,9 +73,9 @@ def _even(y: Multiplier) -> list[Fraction]:
     """The Chebyshev series of y in 2k - 1, without the odd part that rounding left."""
     if callable(y):
         found = interpolation.chebyshev_series(lambda x: np.array([float(y(k)) for k in 0.5 * (x + 1.0)]), "y")
-        given = chebyshev.fractions(found, "y")
+        given = fractions(found, "y")
     else:
-        given = chebyshev.exact_chebyshev(chebyshev.fractions(y, "y"))
+        given = chebyshev.exact_chebyshev(fractions(y, "y"))
     size = max(map(abs, given), default=Fraction(0))
     if size == 0:
         raise InputError("y must not be zero everywhere")

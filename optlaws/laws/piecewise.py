@@ -14,13 +14,13 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import peaks
-from optlaws.laws.checks import times, whole
 from optlaws.laws.fractional import FractionalSegment  # noqa: F401  # declares its kind
 from optlaws.laws.html import page
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.peaks import Peak
-from optlaws.laws.segments import Segment, number, numbers
+from optlaws.laws.segments import Segment
 from optlaws.laws.sines import SineSegment  # noqa: F401  # declares its kinds
+from optlaws.numbers import finite, numbers, times, whole
 
 Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[Any]
@@ -78,7 +78,7 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
             raise InputError(f"segments must be {len(places) - 1} segments, one between breaks, got {segments!r}")
         object.__setattr__(self, "breaks", places)
         object.__setattr__(self, "segments", kept)
-        object.__setattr__(self, "a0", number(a0, "a0"))
+        object.__setattr__(self, "a0", finite(a0, "a0"))
 
     @overload
     def d(self, k: float) -> float: ...

@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import chebyshev, series
-from optlaws.laws.checks import whole
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.peaks import polished
+from optlaws.numbers import MAGNITUDE_LIMIT, MOST_ORDER, MOST_TERMS, fractions, whole
 
 Array = NDArray[np.float64]
 
@@ -81,7 +81,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
         >>> PolynomialLaw.from_powers([0, 0, 3, -2]).b(0.5)
         1.5
         """
-        powers = chebyshev.fractions(coefficients, "coefficients")
+        powers = fractions(coefficients, "coefficients")
         a0, b0 = ([*powers, Fraction(0), Fraction(0)])[:2]
         second = [n * (n - 1) * value for n, value in enumerate(powers)][2:]
         return cls(chebyshev.rounded(chebyshev.exact_chebyshev(second)), float(a0), float(b0))
@@ -100,7 +100,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
         >>> PolynomialLaw.from_chebyshev([0.5, 0.5]) == smoothstep(1)
         True
         """
-        displacement = chebyshev.fractions(coefficients, "coefficients")
+        displacement = fractions(coefficients, "coefficients")
         velocity = _exact_derivative(displacement)
         a0, b0 = (
             float(sum((-1) ** n * value for n, value in enumerate(values))) for values in (displacement, velocity)
@@ -222,7 +222,7 @@ def smoothstep(order: int) -> PolynomialLaw:
     >>> smoothstep(4)
     PolynomialLaw(degree=7, B=2.1875, C=7.51319, D=10.7502, J=52.5)
     """
-    return _smoothstep(whole(order, "order", least=1))
+    return _smoothstep(whole(order, "order", least=1, most=MOST_ORDER))
 
 
 @lru_cache(maxsize=128)
@@ -244,11 +244,11 @@ def _numbers(values: Any, name: str) -> tuple[float, ...]:  # noqa: ANN401
     try:
         array = np.asarray(values)
         right = array.ndim == 1 and (array.dtype.kind in "fiu" or array.size == 0)
-    except ValueError:
+    except (ValueError, RecursionError, OverflowError):
         right = False
-    if right and np.all(np.abs(array) <= chebyshev.MAGNITUDE_LIMIT):
+    if right and array.size <= MOST_TERMS and np.all(np.abs(array) <= MAGNITUDE_LIMIT):
         return tuple(array.astype(np.float64).tolist())
-    return chebyshev.rounded(chebyshev.fractions(values, name))
+    return chebyshev.rounded(fractions(values, name))
 
 
 def _with_ends(x: Array) -> Array:

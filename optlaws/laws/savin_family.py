@@ -7,12 +7,11 @@ from fractions import Fraction
 from math import comb, factorial
 
 from optlaws.errors import InputError
-from optlaws.laws import chebyshev
-from optlaws.laws.checks import whole
 from optlaws.laws.peaks import Peak
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.savin_members import alphas
 from optlaws.laws.savin_peaks import acceleration_peak, least_power, power_peak
+from optlaws.numbers import MOST_EXPONENT, fractions, whole
 from optlaws.suggest import unknown_key
 
 ROUNDING = Fraction(1, 2**51)  # an end of a range such as 44/3 is no float, but means itself
@@ -50,7 +49,7 @@ class SavinFamily:
     u: int
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "u", whole(self.u, "u"))
+        object.__setattr__(self, "u", whole(self.u, "u", most=MOST_EXPONENT))
 
     @classmethod
     def of(cls, family: str | int) -> SavinFamily:
@@ -104,7 +103,7 @@ class SavinFamily:
         InputError
             If it does not, or is not a finite real number.
         """
-        (exact,) = chebyshev.fractions([alpha], "alpha")
+        (exact,) = fractions([alpha], "alpha")
         for end in self.range:
             if abs(exact - end) <= ROUNDING * abs(end):
                 return end

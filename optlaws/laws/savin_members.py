@@ -7,7 +7,7 @@ from fractions import Fraction
 from typing import TYPE_CHECKING
 
 from optlaws.errors import InputError
-from optlaws.laws.segments import number
+from optlaws.numbers import finite
 
 if TYPE_CHECKING:
     from optlaws.laws.savin_family import SavinFamily
@@ -30,7 +30,7 @@ def alphas(
     if len(given) != 1:
         raise InputError(f"give exactly one of B, C and D, got {' and '.join(name for name, _ in given) or 'none'}")
     ((name, value),) = given
-    value = number(value, name)
+    value = finite(value, name)
     if name == "B":
         return (_alpha_of_velocity(family, value),)
     peak, (best, least) = (family.C, family.least_C) if name == "C" else (family.D, family.least_D)

@@ -6,15 +6,15 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import lru_cache
-from math import inf, isfinite, log, prod
+from math import inf, log, prod
 from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.laws import chebyshev
 from optlaws.laws.polynomial import PolynomialLaw
+from optlaws.numbers import finite, numbers
 
 Array = NDArray[np.float64]
 
@@ -96,7 +96,7 @@ class Segment(ABC):
         for one in fields(self):  # type: ignore[arg-type]
             value = getattr(self, one.name)
             many = str(one.type).startswith("tuple")
-            object.__setattr__(self, one.name, numbers(value, one.name) if many else number(value, one.name))
+            object.__setattr__(self, one.name, numbers(value, one.name) if many else finite(value, one.name))
 
 
 @dataclass(frozen=True)
@@ -205,37 +205,3 @@ class PowerSegment(Segment, kind="power"):
 @lru_cache(maxsize=256)
 def _polynomial(acceleration: tuple[float, ...], b0: float) -> PolynomialLaw:
     return PolynomialLaw(acceleration, b0=b0)
-
-
-def number(value: Any, name: str) -> float:  # noqa: ANN401
-    """The value as a float; `name` is what an error calls it.
-
-    Raises
-    ------
-    InputError
-        If it is not a finite real number.
-
-    Examples
-    --------
-    >>> number(1, "b0")
-    1.0
-    """
-    return value if type(value) is float and isfinite(value) else numbers([value], name)[0]
-
-
-def numbers(values: Any, name: str) -> tuple[float, ...]:  # noqa: ANN401
-    """The values as a tuple of floats; `name` is what an error calls them.
-
-    Raises
-    ------
-    InputError
-        If one is not a finite real number.
-
-    Examples
-    --------
-    >>> numbers([0, 1], "breaks")
-    (0.0, 1.0)
-    """
-    if type(values) in (tuple, list) and all(type(one) is float and isfinite(one) for one in values):
-        return tuple(values)
-    return chebyshev.rounded(chebyshev.fractions(values, name))

@@ -7,7 +7,9 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from typing import Any, ClassVar, Self
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.reading import json_text
 
 FORMAT = 1
 
@@ -61,7 +63,7 @@ class Stored(ABC):
         kind = fields.pop("kind", None)
         known = {name: law for name, law in cls.kinds.items() if issubclass(law, cls)}
         if not isinstance(kind, str) or kind not in known:
-            msg = f"kind of law {kind!r} is unknown; known are {', '.join(sorted(known))}"
+            msg = f"kind of law {shortened(kind)} is unknown; known are {', '.join(sorted(known))}"
             raise InputError(msg)
         return known[kind]._from_fields(fields)  # noqa: SLF001
 
@@ -84,12 +86,7 @@ class Stored(ABC):
         >>> MotionLaw.from_json(smoothstep(4).to_json()) == smoothstep(4)
         True
         """
-        try:
-            data = json.loads(text)
-        except (TypeError, ValueError) as error:
-            msg = f"a law must be JSON text: {error}"
-            raise InputError(msg) from error
-        return cls.from_dict(data)
+        return cls.from_dict(json_text(text, "a law"))
 
     @abstractmethod
     def _fields(self) -> dict[str, Any]:
@@ -107,6 +104,6 @@ def _opened(data: Any) -> dict[str, Any]:  # noqa: ANN401
         raise InputError(msg)
     fields = dict(data)
     if (found := fields.pop("format", None)) != FORMAT:
-        msg = f"format of a law must be {FORMAT}, got {found!r}"
+        msg = f"format of a law must be {FORMAT}, got {shortened(found)}"
         raise InputError(msg)
     return fields

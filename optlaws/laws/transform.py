@@ -11,7 +11,7 @@ from optlaws.laws import interpolation, segment_transforms
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.polynomial import PolynomialLaw
-from optlaws.laws.segments import number
+from optlaws.numbers import finite
 
 Array = NDArray[np.float64]
 
@@ -40,7 +40,7 @@ def with_end_velocity(law: MotionLaw, b0: float) -> MotionLaw:
     >>> with_end_velocity(smoothstep(3), 0.25).b([0.0, 0.5, 1.0]).round(12).tolist()
     [0.25, 1.65625, 0.25]
     """
-    velocity = number(b0, "b0")
+    velocity = finite(b0, "b0")
     return _scaled(law, 1.0 - velocity, velocity)
 
 

@@ -9,8 +9,9 @@ from optlaws.laws.chebyshev import chebyshev_from_powers
 from optlaws.laws.fractional import FractionalSegment
 from optlaws.laws.half_cycle import SHORTEST, from_half
 from optlaws.laws.piecewise import PiecewiseLaw
-from optlaws.laws.segments import PolynomialSegment, Segment, number
+from optlaws.laws.segments import PolynomialSegment, Segment
 from optlaws.laws.sines import SineSegment
+from optlaws.numbers import finite
 
 HIGHEST_POWER = 12  # of a fall that is kept as a polynomial; above it a power of time is the more exact
 
@@ -39,7 +40,7 @@ def scca(a: float, b: float, c: float) -> PiecewiseLaw:
     >>> scca(1 / 8, 0, 3 / 8).constants.B
     Peak(value=1.275258, k=0.25)
     """
-    shares = number(a, "a"), number(b, "b"), number(c, "c")
+    shares = finite(a, "a"), finite(b, "b"), finite(c, "c")
     if min(shares) < 0.0 or not 0.0 < sum(shares) <= 1.0 + SHORTEST:
         raise InputError(f"shares a, b, c must be at least 0, not all 0, and at most 1 in all, got {a}, {b}, {c}")
     sine, constant, cosine = shares
@@ -78,9 +79,9 @@ def trapezoid(ramp: float, plateau: float, fall: float | None = None, *, exponen
     >>> trapezoid(0.03, 0.17, exponent=1.5).constants.C
     Peak(value=5.083146, k=0.03)
     """
-    first, flat = number(ramp, "ramp"), number(plateau, "plateau")
-    last = 0.5 - first - flat if fall is None else number(fall, "fall")
-    power = number(exponent, "exponent")
+    first, flat = finite(ramp, "ramp"), finite(plateau, "plateau")
+    last = 0.5 - first - flat if fall is None else finite(fall, "fall")
+    power = finite(exponent, "exponent")
     if power <= 0.0:
         raise InputError(f"exponent must be above 0, got {exponent}")
     pieces = [(first, PolynomialSegment((0.5, 0.5))), (flat, PolynomialSegment((1.0,))), (last, _fall(power))]

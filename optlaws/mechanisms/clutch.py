@@ -10,6 +10,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.dwell_laws import peak_velocity
 from optlaws.mechanisms.dwell_types import DwellMechanism
+from optlaws.numbers import MOST_TEETH, whole
 
 
 @dataclass(frozen=True, slots=True)
@@ -105,7 +106,7 @@ class Clutch:
         InputError
             If `most` is not a whole number above 0.
         """
-        found = Fraction(self.ratio).limit_denominator(_count("most", most))
+        found = Fraction(self.ratio).limit_denominator(whole(most, "the whole number most", least=1, most=MOST_TEETH))
         return self.teeth(found.numerator, found.denominator)
 
     def choices(self, least: int, most: int) -> tuple[Teeth, ...]:
@@ -121,7 +122,10 @@ class Clutch:
         InputError
             If they are not whole numbers above 0.
         """
-        counts = range(_count("least", least), _count("most", most) + 1)
+        counts = range(
+            whole(least, "the whole number least", least=1, most=MOST_TEETH),
+            whole(most, "the whole number most", least=1, most=MOST_TEETH) + 1,
+        )
         pairs = ((round(self.ratio * N), N) for N in counts)
         found = [self.teeth(p, N) for p, N in pairs if p > 0]
         return tuple(sorted(found, key=lambda one: (abs(one.error), one.N)))
@@ -134,10 +138,9 @@ class Clutch:
         InputError
             If p is not a whole number of at least 0, or N not one above 0.
         """
-        if p != int(p) or p < 0:
-            raise InputError(f"p must be a whole number of at least 0, got {p!r}")
+        whole(p, "the whole number p")
         one = self.mechanism
-        wanted = p / _count("N", N)
+        wanted = p / whole(N, "the whole number N", least=1)
         share = wanted / self.ratio if self.ratio else inf
         possible = 0.0 < share < inf
         return Teeth(
@@ -184,9 +187,3 @@ def exact_swing(mechanism: DwellMechanism, teeth: Teeth) -> DwellMechanism:
     if teeth.swing is None or not isfinite(teeth.swing):
         raise InputError(f"no swing makes a clutch with p = {teeth.p} of {teeth.N} teeth exact")
     return replace(mechanism, swing=teeth.swing)
-
-
-def _count(name: str, value: int) -> int:
-    if value != int(value) or value < 1:
-        raise InputError(f"{name} must be a whole number above 0, got {value!r}")
-    return int(value)

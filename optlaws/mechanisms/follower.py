@@ -6,9 +6,10 @@ from dataclasses import dataclass
 from math import pi, sqrt
 
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.checks import motion_law, not_negative, positive, state
+from optlaws.mechanisms.checks import motion_law, state
 from optlaws.mechanisms.cycle import CycleResponse
 from optlaws.mechanisms.response import Response
+from optlaws.numbers import not_negative, positive
 
 
 @dataclass(frozen=True)

@@ -11,6 +11,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.loader_law import LoaderLaw
 from optlaws.mechanisms.loader_top import is_symmetric, tops
+from optlaws.numbers import positive
 
 AGREES = 1e-9
 ROUNDING = 1e-13
@@ -212,5 +213,4 @@ def loader(law: MotionLaw) -> Loader:
 
 def _check(**quantities: float) -> None:
     for name, value in quantities.items():
-        if not 0.0 < value < inf:
-            raise InputError(f"{name} must be positive and finite, got {value!r}")
+        positive(value, name)

@@ -5,7 +5,7 @@ from __future__ import annotations
 from math import asin, cos, pi, sin, sqrt
 
 from optlaws.errors import InputError
-from optlaws.mechanisms.checks import positive
+from optlaws.numbers import positive
 
 HARMLESS = 4.0 / pi  # here the loader can run at constant acceleration, with C = 4
 _SHARP = 1e-13

@@ -11,13 +11,13 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError, SolverFailure
 from optlaws.laws import PolynomialLaw
-from optlaws.mechanisms.checks import positive
 from optlaws.mechanisms.loader import Loader, loader
 from optlaws.mechanisms.loader_bound import tangent_bound
 from optlaws.mechanisms.loader_limits import loader_acceleration_limit, loader_velocity_limit
 from optlaws.mechanisms.loader_peaks import objective
 from optlaws.mechanisms.loader_search import Task, search
 from optlaws.mechanisms.loader_space import LoaderSpace
+from optlaws.numbers import positive
 from optlaws.synthesis.bases import Basis, Chebyshev, PolynomialBasis
 from optlaws.synthesis.bounds import at_most
 from optlaws.synthesis.expression import Expression, Term

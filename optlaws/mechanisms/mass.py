@@ -10,8 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import Peak, peaks
-from optlaws.laws.checks import whole
-from optlaws.mechanisms.checks import real_times
+from optlaws.numbers import real_times, whole
 
 Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[Any]

@@ -8,10 +8,10 @@ from typing import Literal
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, Peak
-from optlaws.laws.segments import numbers
 from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.follower import Follower
 from optlaws.mechanisms.response import Response
+from optlaws.numbers import numbers
 
 Change = Literal["speed", "stiffness"]
 

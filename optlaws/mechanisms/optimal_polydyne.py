@@ -14,8 +14,8 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw, series
-from optlaws.mechanisms.checks import not_negative, positive
 from optlaws.mechanisms.polydyne import cam_factors, polydyne
+from optlaws.numbers import not_negative, positive
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.functionals import FUNCTIONALS, MAKERS, Functional
@@ -93,7 +93,7 @@ def cam_constant(name: str, *, nu: float, damping: float = 0.0) -> Functional:
     (C_cam(nu=20.0, damping=0.05), 5.755781)
     """
     if name not in _BASES:
-        raise InputError(unknown_key(str(name), _BASES, "constant of the cam"))
+        raise InputError(unknown_key(name, _BASES, "constant of the cam"))
     frequency, ratio = positive(nu, "nu"), not_negative(damping, "damping")
     written = f"{name}_cam(nu={frequency!r}{f', damping={ratio!r}' if ratio else ''})"
     weights = (Fraction(1), *cam_factors(frequency, ratio))

@@ -11,9 +11,10 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw, interpolation
 from optlaws.laws.piecewise import PiecewiseLaw
-from optlaws.mechanisms.checks import motion_law, not_negative, positive
+from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.polydyne_segments import cam_segment
 from optlaws.mechanisms.smoothness import check_mass_law
+from optlaws.numbers import not_negative, positive
 
 Array = NDArray[np.float64]
 

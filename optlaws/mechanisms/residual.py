@@ -9,11 +9,9 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.laws.checks import whole
-from optlaws.laws.segments import numbers
 from optlaws.mechanisms.bessel import legendre_from_chebyshev, moments
-from optlaws.mechanisms.checks import not_negative
 from optlaws.mechanisms.transform import velocity_transform
+from optlaws.numbers import not_negative, numbers, whole
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]

@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
-from optlaws.laws.checks import whole
 from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.law_forcing import forcings
 from optlaws.mechanisms.mass import MassMotion
 from optlaws.mechanisms.motion import Motion
 from optlaws.mechanisms.vibration import Oscillator
+from optlaws.numbers import whole
 
 Array = NDArray[np.float64]
 

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.laws.peaks import Peak
-from optlaws.mechanisms.checks import not_negative, positive
 from optlaws.mechanisms.optimal_polydyne import check_order
 from optlaws.mechanisms.residual import residual_phasor, roots
+from optlaws.numbers import not_negative, positive
 from optlaws.synthesis.cones import ConeFamily, stationary_places
 from optlaws.synthesis.functionals import MAKERS, Functional
 from optlaws.synthesis.polynomials import chebyshev_series

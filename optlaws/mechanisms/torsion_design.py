@@ -6,10 +6,10 @@ from collections.abc import Callable, Mapping
 from functools import partial
 
 from optlaws.errors import InputError
-from optlaws.laws.segments import number
 from optlaws.mechanisms.torsion_lever import TorsionLever
 from optlaws.mechanisms.torsion_limits import LEAST_TRANSMISSION, MOST_ROCKER_SWING
 from optlaws.mechanisms.torsion_search import Line, along, within
+from optlaws.numbers import finite
 from optlaws.suggest import unknown_key
 
 Span = float | tuple[float, float]
@@ -74,7 +74,7 @@ def find_torsion_levers(
     for name, value in wanted.items():
         if name not in QUANTITIES:
             raise InputError(unknown_key(name, QUANTITIES, "wanted constant"))
-        number(value, name)
+        finite(value, name)
     spans = {"beta": beta, "lam": lam}
     sought = {name: _span(name, span) for name, span in spans.items() if isinstance(span, tuple)}
     if len(sought) != len(wanted):
@@ -92,6 +92,6 @@ def find_torsion_levers(
 
 
 def _span(name: str, span: tuple[float, ...]) -> tuple[float, float]:
-    if len(span) != 2 or not 0.0 < number(span[0], name) < number(span[1], name):
+    if len(span) != 2 or not 0.0 < finite(span[0], name) < finite(span[1], name):
         raise InputError(f"{name} must be a number above 0 or a range (least, greatest) of such numbers, got {span!r}")
     return float(span[0]), float(span[1])

@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
-from optlaws.laws.segments import number
 from optlaws.mechanisms.torsion_exact import swung, upper_extreme
 from optlaws.mechanisms.torsion_geometry import FourBar
 from optlaws.mechanisms.torsion_limits import LEAST_TRANSMISSION, MOST_ROCKER_SWING, check
 from optlaws.mechanisms.torsion_motion import LeverMotion
 from optlaws.mechanisms.torsion_sizing import Sizing, sized
+from optlaws.numbers import finite
 
 Array = NDArray[np.float64]
 
@@ -73,7 +73,7 @@ class TorsionLever:
 
     def __post_init__(self) -> None:
         for name in ("beta", "lam", "rho", "nu", "swing", "least_transmission", "most_rocker_swing"):
-            object.__setattr__(self, name, number(getattr(self, name), name))
+            object.__setattr__(self, name, finite(getattr(self, name), name))
         for name in ("beta", "lam"):
             if getattr(self, name) <= 0.0:
                 raise InputError(f"{name} must be above 0, got {getattr(self, name)!r}")

@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw, series
-from optlaws.laws.checks import whole
 from optlaws.laws.piecewise import PiecewiseLaw
-from optlaws.laws.segments import PolynomialSegment, number, numbers
+from optlaws.laws.segments import PolynomialSegment
+from optlaws.numbers import finite, numbers, positive, whole
 
 Array = NDArray[np.float64]
 
@@ -54,7 +54,7 @@ class LeverMotion:
 
     def __post_init__(self) -> None:
         object.__setattr__(self, "amplitudes", numbers(self.amplitudes, "amplitudes"))
-        object.__setattr__(self, "period", number(self.period, "period"))
+        object.__setattr__(self, "period", finite(self.period, "period"))
         if self.period <= 0.0 or len(self.amplitudes) < 2:
             raise InputError(f"a motion needs period > 0 and at least two amplitudes, got {self!r}")
         rate = series.value(series.derivative(self._series), np.linspace(-1.0, 1.0, _SAMPLES))
@@ -166,7 +166,7 @@ class LeverMotion:
         >>> LeverMotion((0.0, 0.5), 6.0).seconds(stiffness=400.0, inertia=0.01)
         0.03
         """
-        return self.period * sqrt(_positive(inertia, "inertia") / _positive(stiffness, "stiffness"))
+        return self.period * sqrt(positive(inertia, "inertia") / positive(stiffness, "stiffness"))
 
     def stiffness(self, seconds: float, inertia: float) -> float:
         """Stiffness c1 of the first bar in N m/rad that gives the period in seconds, of moment of inertia I in kg m².
@@ -181,7 +181,7 @@ class LeverMotion:
         >>> round(LeverMotion((0.0, 0.5), 6.0).stiffness(seconds=0.03, inertia=0.01), 9)
         400.0
         """
-        return _positive(inertia, "inertia") * (self.period / _positive(seconds, "seconds")) ** 2
+        return positive(inertia, "inertia") * (self.period / positive(seconds, "seconds")) ** 2
 
     def _turned(self, phi: Array, nu: int) -> Array:
         order = np.arange(len(self.amplitudes), dtype=np.float64)
@@ -205,9 +205,3 @@ def _fitted(function: Callable[[Array], Array], count: int) -> tuple[float, ...]
     found[0] *= 0.5
     kept = np.flatnonzero(np.abs(found) > _NOISE * np.abs(found).max())
     return tuple(found[: kept[-1] + 1].tolist())
-
-
-def _positive(value: float, name: str) -> float:
-    if number(value, name) <= 0.0:
-        raise InputError(f"{name} must be above 0, got {value!r}")
-    return float(value)

@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from optlaws.errors import InputError
+from optlaws.files import reading
 from optlaws.studies.atlas import COLUMNS, CONSTANTS
 from optlaws.suggest import unknown_key
 from optlaws.synthesis import Chebyshev, Problem, at_most
@@ -78,10 +79,9 @@ def problem(point: AtlasPoint, *, B: float | None = None, most: Mapping[str, flo
 
 def read(file: Path) -> list[AtlasPoint]:
     """The points of an atlas that have a law."""
-    try:
-        lines = [line for line in file.read_text(encoding="utf-8").splitlines() if not line.startswith("#")]
-    except FileNotFoundError:
-        raise InputError(f"there is no atlas {file}; `optlaws run problems/atlas.toml` makes one") from None
+    if not file.exists():
+        raise InputError(f"there is no atlas {file}; `optlaws run problems/atlas.toml` makes one")
+    lines = [line for line in reading.text(file).splitlines() if not line.startswith("#")]
     rows = list(csv.DictReader(lines))
     if not rows or tuple(rows[0]) != COLUMNS:
         raise InputError(f"{file} is no atlas: its columns are not {', '.join(COLUMNS)}")

@@ -7,6 +7,7 @@ from pathlib import Path
 from typing import Any
 
 from optlaws.errors import InputError
+from optlaws.files import reading
 from optlaws.studies import (
     atlas,
     dwell_drawing,
@@ -26,7 +27,6 @@ from optlaws.studies import (
     savin_families,
     solutions,
 )
-from optlaws.studies.problem_file import read
 from optlaws.suggest import unknown_key
 
 Job = Callable[[Mapping[str, Any], Path, Path], list[Path]]
@@ -67,12 +67,12 @@ def run(file: Path, out: Path | None = None) -> list[Path]:
     InputError
         If the file cannot be read, is not TOML, or holds an unknown or wrong entry.
     """
-    data = read(file)
+    data = reading.toml(file)
     name = data.get("job")
     if name is None:
         raise InputError(f"{file}: the entry job is missing; known jobs are {', '.join(JOBS)}")
     if not isinstance(name, str) or name not in JOBS:
-        raise InputError(f"{file}: {unknown_key(str(name), JOBS, 'job')}")
+        raise InputError(f"{file}: {unknown_key(name, JOBS, 'job')}")
     target = out if out is not None else file.resolve().parent.parent / "results" / file.stem
     try:
         return JOBS[name](data, file, target)

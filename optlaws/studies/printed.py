@@ -8,7 +8,9 @@ from dataclasses import dataclass
 from decimal import ROUND_DOWN, ROUND_HALF_UP, Decimal, InvalidOperation
 from pathlib import Path
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files import reading
 
 REPRODUCED = "reproduced to its digits"
 ON_GRID = "reproduced to its digits on the paper's grid"
@@ -63,8 +65,8 @@ def rows(file: Path, columns: tuple[str, ...]) -> list[Mapping[str, str]]:
         If the file cannot be read or has other columns.
     """
     try:
-        text = file.read_text(encoding="utf-8")
-    except (OSError, UnicodeDecodeError) as error:
+        text = reading.text(file)
+    except InputError as error:
         raise InputError(f"cannot read the printed data {file}: {error}") from None
     reader = csv.DictReader(line for line in text.splitlines() if line and not line.startswith("#"))
     if tuple(reader.fieldnames or ()) != columns:
@@ -89,7 +91,7 @@ def number(text: str, where: str) -> float:
     except InvalidOperation:
         value = Decimal("nan")
     if not value.is_finite():
-        raise InputError(f"{where}: {text!r} is not a number")
+        raise InputError(f"{where}: {shortened(text)} is not a number")
     return float(value)
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import tomllib
 from collections.abc import Mapping
 from pathlib import Path
 from types import UnionType
@@ -14,24 +13,6 @@ from optlaws.errors import InputError
 from optlaws.suggest import unknown_key
 
 Spec = TypeVar("Spec", bound=msgspec.Struct)
-
-
-def read(file: Path) -> dict[str, Any]:
-    """The contents of a TOML file.
-
-    Raises
-    ------
-    InputError
-        If it cannot be read or is not TOML.
-    """
-    try:
-        return tomllib.loads(file.read_text(encoding="utf-8"))
-    except OSError as error:
-        raise InputError(f"cannot read {file}: {error.strerror or error}") from None
-    except UnicodeDecodeError:
-        raise InputError(f"{file} is not a text file in UTF-8") from None
-    except tomllib.TOMLDecodeError as error:
-        raise InputError(f"{file} is not TOML: {error}") from None
 
 
 def convert(data: Mapping[str, Any], spec: type[Spec], file: Path) -> Spec:

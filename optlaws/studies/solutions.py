@@ -13,6 +13,7 @@ import msgspec
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.export import files, tables
+from optlaws.files import reading
 from optlaws.studies import printed
 from optlaws.studies.asked import HEADINGS, Asked, Asking, Count, Text, gap, problem, record, shown
 from optlaws.studies.problem_file import convert
@@ -171,9 +172,9 @@ def _beside(spec: Study, file: Path, entries: Sequence[Mapping[str, Any]]) -> li
 
 def _header(source: Path) -> tuple[str, ...]:
     try:
-        lines = source.read_text(encoding="utf-8").splitlines()
-    except (OSError, UnicodeDecodeError) as error:
-        raise InputError(f"beside: cannot read {source}: {error}") from None
+        lines = reading.text(source).splitlines()
+    except InputError as error:
+        raise InputError(f"beside: {error}") from None
     return tuple(next((line.split(",") for line in lines if line and not line.startswith("#")), []))
 
 

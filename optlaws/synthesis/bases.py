@@ -12,15 +12,15 @@ from typing import Any, ClassVar, cast
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.chebyshev import (
     chebyshev_from_powers,
     exact_powers,
-    fractions,
     powers_from_chebyshev,
     rounded,
 )
-from optlaws.laws.checks import whole
+from optlaws.numbers import MOST_DEGREE, MOST_PIECE_DEGREE, fractions, whole
 from optlaws.synthesis.breaks import mirrored, order_of_continuity, places
 
 Array = NDArray[np.float64]
@@ -77,7 +77,7 @@ class PolynomialBasis(Basis):
     degree: int
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "degree", whole(self.degree, "degree of Z"))
+        object.__setattr__(self, "degree", whole(self.degree, "degree of Z", most=MOST_DEGREE))
 
     @property
     def mirrored(self) -> bool:
@@ -213,7 +213,7 @@ class Pieces(Basis):
 
     def __init__(self, breaks: int | Sequence[float], degree: int = 5, continuity: int = 3) -> None:
         object.__setattr__(self, "breaks", places(breaks))
-        object.__setattr__(self, "degree", whole(degree, "degree of the pieces", least=2))
+        object.__setattr__(self, "degree", whole(degree, "degree of the pieces", least=2, most=MOST_PIECE_DEGREE))
         object.__setattr__(self, "continuity", order_of_continuity(continuity, self.degree))
 
     @classmethod
@@ -264,7 +264,7 @@ def basis(name: str, degree: int, **parameters: Any) -> Basis:  # noqa: ANN401 -
     Chebyshev(degree=9)
     """
     if not _known(name):
-        raise InputError(f"basis {name!r} is unknown; known are {', '.join(sorted(Basis.kinds))}")
+        raise InputError(f"basis {shortened(name)} is unknown; known are {', '.join(sorted(Basis.kinds))}")
     kind: Any = Basis.kinds[name]
     try:
         return cast("Basis", kind(degree=degree, **parameters))

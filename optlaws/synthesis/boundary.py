@@ -10,9 +10,9 @@ from typing import Any, Self, overload
 
 from optlaws.errors import InputError
 from optlaws.laws import PolynomialLaw
-from optlaws.laws.chebyshev import exact_powers, fractions
-from optlaws.laws.checks import whole
+from optlaws.laws.chebyshev import exact_powers
 from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.numbers import MOST_ORDER, fractions, listed, whole
 from optlaws.synthesis.bases import PolynomialBasis, Powers
 from optlaws.synthesis.exact_polynomials import Polynomial, edge, plus, shifted, times
 from optlaws.synthesis.spline_bases import PiecewiseBasis
@@ -45,8 +45,8 @@ class BoundaryConditions:
     end: tuple[Any, ...]
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "start", tuple(self.start))
-        object.__setattr__(self, "end", tuple(self.end))
+        object.__setattr__(self, "start", tuple(listed(self.start, "start", MOST_ORDER)))
+        object.__setattr__(self, "end", tuple(listed(self.end, "end", MOST_ORDER)))
         if len(self.start) != len(self.end) or not self.start:
             raise InputError(
                 "boundary conditions need as many values at the start as at the end, at least one; "
@@ -64,7 +64,7 @@ class BoundaryConditions:
         InputError
             If `order` is not an integer of at least 1.
         """
-        count = whole(order, "order", least=1)
+        count = whole(order, "order", least=1, most=MOST_ORDER)
         return cls((0,) * count, (1,) + (0,) * (count - 1))
 
     @property

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from math import inf, isfinite
-from numbers import Real
 from typing import Any
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.numbers import finite, real
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals import ALIASES, FUNCTIONALS, MAKERS, Functional
 from optlaws.synthesis.named import is_named, named
@@ -29,7 +30,7 @@ class Range:
 
     def __post_init__(self) -> None:
         for value in (self.low, self.high):
-            _check(value)
+            _bound(value)
         if not isfinite(self.low) or self.low > self.high:
             raise InputError(f"the lower bound {self.low!r} must be finite and at most the upper one, {self.high!r}")
 
@@ -44,9 +45,11 @@ class Range:
         return self.low == self.high
 
 
-def _check(value: Any) -> None:  # noqa: ANN401 - it is checked here
-    if isinstance(value, bool) or not isinstance(value, Real) or not float(value) >= 0.0:
-        raise InputError(f"bounds must be numbers of at least 0, got {value!r}")
+def _bound(value: Any) -> float:  # noqa: ANN401 - it is checked here
+    number = real(value)
+    if number is None or number < 0.0:
+        raise InputError(f"bounds must be numbers of at least 0, got {shortened(value)}")
+    return finite(number, "a bound") if isfinite(number) else number
 
 
 def between(low: float, high: float) -> Range:
@@ -115,9 +118,12 @@ def as_range(value: Any, name: str) -> Range | None:  # noqa: ANN401 - it is che
     if isinstance(value, list | tuple) and len(value) == 2:
         low, high = value
         return Range(0.0 if low is None else low, inf if high is None else high)
-    if isinstance(value, bool) or not isinstance(value, Real) or not isfinite(value):
-        raise InputError(f"{name} must be a finite number, a range such as between(1.5, 1.8), or None, got {value!r}")
-    return Range(float(value), float(value))
+    number = real(value)
+    if number is None or not isfinite(number):
+        raise InputError(
+            f"{name} must be a finite number, a range such as between(1.5, 1.8), or None, got {shortened(value)}"
+        )
+    return Range(number, number)
 
 
 class Bounds(Mapping[Functional, Range]):
@@ -136,7 +142,7 @@ class Bounds(Mapping[Functional, Range]):
 
     def __init__(self, asked: Any = ()) -> None:  # noqa: ANN401 - it is checked here
         if not isinstance(asked, Mapping) and asked != ():
-            raise InputError(f"bounds must be a dict such as {{'rms_c': at_most(5)}}, got {asked!r}")
+            raise InputError(f"bounds must be a dict such as {{'rms_c': at_most(5)}}, got {shortened(asked)}")
         self._ranges: dict[Functional, Range] = {}
         for key, value in dict(asked).items():
             constant = _constant(key)
@@ -144,7 +150,7 @@ class Bounds(Mapping[Functional, Range]):
                 raise InputError(f"bounds name {constant.name!r} twice")
             found = as_range(value, constant.name)
             if found is not None and found.high <= 0.0:
-                raise InputError(f"{constant.name} must be able to exceed 0, got {value!r}")
+                raise InputError(f"{constant.name} must be able to exceed 0, got {shortened(value)}")
             if found is not None and found != Range():
                 self._ranges[constant] = found
 
@@ -172,7 +178,7 @@ def _constant(key: Any) -> Functional:  # noqa: ANN401 - it is checked here
         return key
     known = FUNCTIONALS | ALIASES
     if not isinstance(key, str):
-        raise InputError(f"bounds are of constants such as 'rms_c' or rms_c, got {key!r}")
+        raise InputError(f"bounds are of constants such as 'rms_c' or rms_c, got {shortened(key)}")
     if "(" in key:
         return named(key)
     if key not in known:
@@ -203,7 +209,7 @@ def read_bounds(most: Sequence[str], least: Sequence[str] = ()) -> dict[str, Ran
                 number = float(value)
             except ValueError:
                 raise InputError(
-                    f"a bound is written as a constant = a number, such as rms_c=4, got {text!r}"
+                    f"a bound is written as a constant = a number, such as rms_c=4, got {shortened(text)}"
                 ) from None
             if name in side:
                 raise InputError(f"{name!r} is bounded twice on one side")

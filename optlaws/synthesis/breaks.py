@@ -6,9 +6,9 @@ from collections.abc import Sequence
 from itertools import pairwise
 from numbers import Integral
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.laws.checks import whole
-from optlaws.laws.segments import numbers
+from optlaws.numbers import MOST_DEGREE, MOST_PIECES, listed, numbers, whole
 
 _MIRROR = 1e-12
 
@@ -27,11 +27,11 @@ def places(breaks: int | Sequence[float]) -> tuple[float, ...]:
     ((0.0, 0.25, 0.5, 0.75, 1.0), (0.0, 0.3, 1.0))
     """
     if isinstance(breaks, Integral):
-        number = whole(breaks, "number of pieces", least=1)
+        number = whole(breaks, "number of pieces", least=1, most=MOST_PIECES)
         return tuple(i / number for i in range(number + 1))
-    found = numbers(breaks, "breaks")
+    found = numbers(listed(breaks, "breaks", MOST_PIECES + 1), "breaks")
     if len(found) < 2 or found[0] != 0.0 or found[-1] != 1.0 or not all(a < b for a, b in pairwise(found)):
-        raise InputError(f"breaks must increase from 0 to 1, got {found!r}")
+        raise InputError(f"breaks must increase from 0 to 1, got {shortened(found)}")
     return found
 
 
@@ -59,7 +59,7 @@ def order_of_continuity(continuity: int, degree: int) -> int:
     >>> order_of_continuity(2, 3)
     2
     """
-    found = whole(continuity, "continuity", least=1)
+    found = whole(continuity, "continuity", least=1, most=MOST_DEGREE)
     if found >= degree:
         raise InputError(f"continuity must be below the degree {degree}, got {found}")
     return found

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass
-from math import isfinite
 from numbers import Real
 from typing import Any
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.numbers import MAGNITUDE_LIMIT, real
 
 
 class Term:
@@ -60,9 +61,9 @@ class Expression:
         gathered: dict[Term, float] = {}
         for weight, term in _pairs(self.terms):
             if not isinstance(term, Term):
-                raise InputError(f"an objective is made of constants of the law and maxima, got {term!r}")
-            if not _number(weight) or not isfinite(weight) or weight <= 0.0:
-                raise InputError(f"weights in an objective must be finite numbers above 0, got {weight!r} for {term!r}")
+                raise InputError(f"an objective is made of constants of the law and maxima, got {shortened(term)}")
+            if (number := real(weight)) is None or not 0.0 < number <= MAGNITUDE_LIMIT:
+                raise _no_weight(weight, f" for {shortened(term)}")
             gathered[term] = gathered.get(term, 0.0) + float(weight)
         object.__setattr__(self, "terms", tuple((weight, term) for term, weight in gathered.items()))
 
@@ -80,32 +81,46 @@ class Expression:
         return Expression(self.terms + other.expression().terms)
 
     def __mul__(self, factor: float) -> Expression:
-        if not _number(factor):
+        if not _is_number(factor):
             return NotImplemented
-        return Expression(tuple((weight * float(factor), term) for weight, term in self.terms))
+        number = _factor(factor)
+        return Expression(tuple((weight * number, term) for weight, term in self.terms))
 
     __rmul__ = __mul__
 
     def __truediv__(self, divisor: float) -> Expression:
-        if not _number(divisor):
+        if not _is_number(divisor):
             return NotImplemented
-        if divisor == 0:
+        number = _factor(divisor)
+        if number == 0.0:
             raise InputError("an objective cannot be divided by 0")
-        return Expression(tuple((weight / float(divisor), term) for weight, term in self.terms))
+        return Expression(tuple((weight / number, term) for weight, term in self.terms))
 
     def __repr__(self) -> str:
         return " + ".join(repr(t) if w == 1.0 else f"{w!r}*{t!r}" for w, t in self.terms)
 
 
+def _is_number(value: object) -> bool:
+    return isinstance(value, Real) and not isinstance(value, bool)
+
+
+def _factor(value: object) -> float:
+    number = real(value)
+    if number is None:
+        raise _no_weight(value)
+    return number
+
+
+def _no_weight(value: object, where: str = "") -> InputError:
+    what = "weights in an objective must be finite numbers above 0 and at most"
+    return InputError(f"{what} {MAGNITUDE_LIMIT:g}, got {shortened(value)}{where}")
+
+
 def _pairs(terms: Any) -> list[tuple[float, Term]]:  # noqa: ANN401 - it is checked here
     found = list(terms) if isinstance(terms, list | tuple) else [terms]
     if not found or not all(isinstance(pair, tuple) and len(pair) == 2 for pair in found):
-        raise InputError(f"an objective needs pairs of a weight and a constant, at least one, got {terms!r}")
+        raise InputError(f"an objective needs pairs of a weight and a constant, at least one, got {shortened(terms)}")
     return found
-
-
-def _number(value: object) -> bool:
-    return isinstance(value, Real) and not isinstance(value, bool)
 
 
 @dataclass(frozen=True, repr=False)
@@ -148,7 +163,7 @@ def maximum(*parts: Term | Expression) -> Maximum:
 
 def _check_part(part: object) -> None:
     if not isinstance(part, Term | Expression):
-        raise InputError(f"a part of a maximum must be a constant of the law or a sum of them, got {part!r}")
+        raise InputError(f"a part of a maximum must be a constant of the law or a sum of them, got {shortened(part)}")
 
 
 def leaves(expression: Expression) -> Iterator[tuple[float, Term]]:

@@ -24,7 +24,11 @@ _TOKEN = re.compile(
 
 Value = float | Expression
 
+_BLANK = re.compile(r"\s*")
+
 _DEPTH = 40
+_LONGEST = 10_000
+_SHOWN = 120
 
 
 @dataclass(frozen=True)
@@ -62,6 +66,8 @@ def parse(text: str, names: Mapping[str, Term], makers: Makers | None = None) ->
     >>> parse("0.5*C/4 + 0.5*D/2", FUNCTIONALS)
     0.125*C + 0.25*D
     """
+    if len(text) > _LONGEST:
+        raise InputError(f"an objective may have {_LONGEST} characters, got {len(text)}")
     reader = _Reader(text, names, makers or {})
     depth = greatest = 0
     for character in text:
@@ -84,11 +90,11 @@ class _Reader:
         self.token = next(self.tokens)
 
     def _tokens(self) -> list[Token]:
-        found, place = [], 0
-        while self.text[place:].strip():
+        found, place, end = [], 0, len(self.text.rstrip())
+        while place < end:
             match = _TOKEN.match(self.text, place)
             if match is None:
-                place += len(self.text[place:]) - len(self.text[place:].lstrip())
+                place = _BLANK.match(self.text, place).end()  # type: ignore[union-attr] # blanks may be none
                 self.refuse(f"{self.text[place]!r} is not understood", place)
             kind = str(match.lastgroup)
             found.append(Token(kind, match.group(kind), match.start(kind)))
@@ -97,7 +103,10 @@ class _Reader:
 
     def refuse(self, what: str, place: int | None = None) -> NoReturn:
         at = self.token.place if place is None else place
-        raise InputError(f"{what}\n  {self.text}\n  {' ' * at}^")
+        first = max(0, at - _SHOWN // 2)
+        before, after = "..." if first else "", "..." if first + _SHOWN < len(self.text) else ""
+        shown = f"{before}{self.text[first : first + _SHOWN]}{after}"
+        raise InputError(f"{what}\n  {shown}\n  {' ' * (len(before) + at - first)}^")
 
     def take(self) -> Token:
         token = self.token

@@ -6,12 +6,12 @@ come as near as one likes. For D the bound holds for unsymmetric laws too, for t
 
 from __future__ import annotations
 
-from math import hypot, isfinite, sqrt
-from numbers import Real
+from math import hypot, inf, sqrt
 from typing import Any
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.laws.checks import whole
+from optlaws.numbers import MOST_ORDER, MOST_VELOCITY, real, whole
 from optlaws.synthesis.limit_times import back_time, back_velocity, run_in, trapezoid
 
 CONSTANTS = ("C", "D", "J", "RMS")
@@ -45,7 +45,7 @@ def acceleration_limit(B: float, *, monotone: bool = False, order: int = 2) -> f
     9.0
     """
     peak_velocity(B)
-    if whole(order, "order", least=1) == 1:
+    if whole(order, "order", least=1, most=MOST_ORDER) == 1:
         return B * B if monotone and B > 2.0 else 4.0 * (B - 1.0)
     if B <= 2.0:
         return B * B / (B - 1.0)
@@ -143,7 +143,7 @@ def jerk_limit(B: float, *, monotone: bool = False, order: int = 3) -> float:
     108.0
     """
     peak_velocity(B)
-    free = whole(order, "order", least=2) == 2
+    free = whole(order, "order", least=2, most=MOST_ORDER) == 2
     if monotone and B >= 2.0:
         return 4.0 * B**3
     if free:
@@ -181,8 +181,11 @@ def acceleration_limit_at_jerk(B: float, J: float, *, monotone: bool = False) ->
     """
     peak_velocity(B)
     least = jerk_limit(B, monotone=monotone)
-    if not _real(J) or least * (1.0 - 1e-14) > J:
-        raise InputError(f"J must be a finite number of at least {least!r} (no law has less at B = {B!r}), got {J!r}")
+    number = real(J)
+    if number is None or not least * (1.0 - 1e-14) <= number < inf:
+        raise InputError(
+            f"J must be a finite number of at least {least!r} (no law has less at B = {B!r}), got {shortened(J)}"
+        )
     if B <= 2.0 or monotone:
         return trapezoid(B, (B - 1.0) / B if B <= 2.0 else 1.0 / B, J)
     back = back_time(B, J)
@@ -231,10 +234,10 @@ def limit(
     >>> limit("C", 1.6, J=200.0)
     4.541693
     """
-    if constant not in CONSTANTS:
-        raise InputError(f"constant {constant!r} is unknown; known are {', '.join(CONSTANTS)}")
+    if constant not in tuple(CONSTANTS):
+        raise InputError(f"constant {shortened(constant)} is unknown; known are {', '.join(CONSTANTS)}")
     least = 1 if constant == "C" and J is None else 3 if constant == "C" else 2
-    number = whole(order, "order", least=least)
+    number = whole(order, "order", least=least, most=MOST_ORDER)
     if B is None:
         B = best_velocity(constant, number)
     if J is not None:
@@ -274,11 +277,8 @@ def peak_velocity(B: Any) -> None:  # noqa: ANN401
     InputError
         If B is not a finite number above 1.
     """
-    if not _real(B) or B <= 1.0:
-        raise InputError(f"B must be a finite number above 1 (the mean velocity is 1), got {B!r}")
-
-
-def _real(value: Any) -> bool:  # noqa: ANN401
-    if isinstance(value, bool):
-        return False
-    return isinstance(value, Real) and isfinite(value)
+    number = real(B)
+    if number is None or not 1.0 < number < inf:
+        raise InputError(f"B must be a finite number above 1 (the mean velocity is 1), got {shortened(B)}")
+    if number > MOST_VELOCITY:
+        raise InputError(f"B must not exceed {MOST_VELOCITY:g}, got {number!r}")

@@ -5,13 +5,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import replace
 from math import inf, sqrt
-from numbers import Real
 from typing import Any
 
 import numpy as np
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.laws.checks import whole
+from optlaws.numbers import real, whole
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.bounds import Range
 from optlaws.synthesis.exchange import solve
@@ -217,7 +216,7 @@ def _checked(problem: object, over: Sequence[str], between: tuple[float, float] 
         raise InputError(f"over must name two or three constants, each once, such as ('B', 'C'); got {over!r}")
     for name, known in zip(names, [CONSTANTS] * (len(names) - 1) + [tuple(FUNCTIONALS)], strict=True):
         if name not in known:
-            raise InputError(unknown_key(str(name), known, "constant"))
+            raise InputError(unknown_key(name, known, "constant"))
         if getattr(problem, name, None) is not None:
             raise InputError(f"{name} is exchanged: leave it out of the problem, got {getattr(problem, name)!r}")
     if between is not None:
@@ -228,4 +227,5 @@ def _checked(problem: object, over: Sequence[str], between: tuple[float, float] 
 
 
 def _positive(value: Any) -> bool:  # noqa: ANN401 - it is checked here
-    return value is not True and isinstance(value, Real) and 0.0 < float(value) < inf
+    number = real(value)
+    return number is not None and 0.0 < number < inf

@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, fields, replace
 from math import isfinite
 from typing import Any
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.suggest import unknown_key
@@ -259,7 +260,7 @@ def _canonical(minimise: Any) -> str | Expression:  # noqa: ANN401 - it is check
     elif isinstance(minimise, Term | Expression):
         found = minimise.expression()
     else:
-        raise InputError(f"minimise must be a constant such as 'C', a sum or an expression, got {minimise!r}")
+        raise InputError(f"minimise must be a constant such as 'C', a sum or an expression, got {shortened(minimise)}")
     return repr(found) if all(is_named(leaf) for _, leaf in leaves(found)) else found
 
 

@@ -171,7 +171,7 @@ def _check_types(problem: object, start: object, bound: object) -> None:
     if start is not None and not isinstance(start, Solution):
         raise InputError(f"start must be a Solution of a neighbouring problem, got {type(start).__name__}")
     if bound not in BOUNDS:
-        raise InputError(unknown_key(str(bound), BOUNDS, "bound"))
+        raise InputError(unknown_key(bound, BOUNDS, "bound"))
 
 
 def _neighbours(first: Problem, second: Problem) -> bool:

@@ -15,8 +15,8 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.laws.chebyshev import chebyshev_from_powers, fractions
-from optlaws.laws.checks import whole
+from optlaws.laws.chebyshev import chebyshev_from_powers
+from optlaws.numbers import MOST_PIECE_DEGREE, fractions, whole
 from optlaws.synthesis.bases import Basis
 from optlaws.synthesis.breaks import mirrored, order_of_continuity, places
 
@@ -52,7 +52,7 @@ class PiecewiseBasis(Basis):
 
     def __init__(self, breaks: int | Sequence[float], degree: int = 3, continuity: int | None = None) -> None:
         object.__setattr__(self, "breaks", places(breaks))
-        object.__setattr__(self, "degree", whole(degree, "degree of Z", least=2))
+        object.__setattr__(self, "degree", whole(degree, "degree of Z", least=2, most=MOST_PIECE_DEGREE))
         asked = self.degree - 1 if continuity is None else continuity
         object.__setattr__(self, "continuity", order_of_continuity(asked, self.degree))
 

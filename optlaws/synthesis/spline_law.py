@@ -6,9 +6,10 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
-from optlaws.laws.chebyshev import chebyshev_from_powers, fractions
+from optlaws.laws.chebyshev import chebyshev_from_powers
 from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.segments import PolynomialSegment
+from optlaws.numbers import fractions
 from optlaws.synthesis.exact_polynomials import Polynomial, edge, plus, shifted, times
 
 

@@ -5,10 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf, isfinite
-from numbers import Real
 from typing import Any
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.numbers import finite, real
 from optlaws.suggest import unknown_key
 
 QUANTITIES = {"a": 0, "b": 1, "c": 2, "j": 3}
@@ -47,8 +48,8 @@ class Window:
     stop: float = 1.0
 
     def __post_init__(self) -> None:
-        if self.quantity not in QUANTITIES:
-            raise InputError(unknown_key(str(self.quantity), QUANTITIES, "quantity"))
+        if self.quantity not in tuple(QUANTITIES):
+            raise InputError(unknown_key(self.quantity, QUANTITIES, "quantity"))
         for name in ("low", "high", "start", "stop"):
             object.__setattr__(self, name, _number(getattr(self, name), name))
         if (
@@ -123,7 +124,7 @@ class Window:
             If a key is unknown, the quantity is missing, or a value is out of range.
         """
         if not isinstance(data, Mapping):
-            raise InputError(f"a window must be a table with a quantity and values, got {data!r}")
+            raise InputError(f"a window must be a table with a quantity and values, got {shortened(data)}")
         given = {name: value for name, value in data.items() if value is not None}
         for key, pair in (("at", ("start", "stop")), ("value", ("low", "high"))):
             if key in given:
@@ -155,6 +156,7 @@ def via(quantity: str, value: float, *, at: float) -> Window:
 
 
 def _number(value: Any, name: str) -> float:  # noqa: ANN401 - it is checked here
-    if value is True or value is False or not isinstance(value, Real) or value != value:  # noqa: PLR0124 - NaN
-        raise InputError(f"{name} of a window must be a number, got {value!r}")
-    return float(value)
+    number = real(value)
+    if number is None:
+        raise InputError(f"{name} of a window must be a number, got {shortened(value)}")
+    return finite(number, f"{name} of a window") if isfinite(number) else number

@@ -10,7 +10,10 @@ from typing import Any, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws import numbers
+from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.numbers import real
 from optlaws.studies.sweeps.study_file import Sample, Span, Steps, StudyFile
 
 WHOLE = ("order", "degree", "continuity")
@@ -43,6 +46,7 @@ class Numbers(Sequence[float]):
         check_span(name, steps)
         self._name, self._steps = name, steps
         if name in WHOLE:
+            numbers.whole(steps.steps, f"{name}: steps", most=numbers.MOST_DEGREE)
             for i in range(len(self)):
                 whole(name, self._at(i))
 
@@ -94,9 +98,10 @@ def check_span(name: str, span: Steps | Span) -> None:
 
 def whole(name: str, value: Any) -> int:  # noqa: ANN401 - it is checked here
     """The value as an integer."""
-    if isinstance(value, bool) or not isinstance(value, int | float) or value != round(value):
-        raise InputError(f"{name} must be a whole number at every point, got {value!r}")
-    return round(value)
+    number = real(value)
+    if number is None or not number.is_integer():
+        raise InputError(f"{name} must be a whole number at every point, got {shortened(value)}")
+    return int(number)
 
 
 def axes(study: StudyFile) -> list[Axis]:
@@ -120,8 +125,8 @@ def _column(name: str, values: list[Any] | Steps) -> Sequence[Any]:
     kind: Any = str if name in TEXTS else bool if name in SWITCHES else None
     for value in values:
         if kind is not None and not isinstance(value, kind):
-            raise InputError(f"{name} must be {'text' if kind is str else 'true or false'}, got {value!r}")
-    return [float(value) if isinstance(value, int) and not isinstance(value, bool) else value for value in values]
+            raise InputError(f"{name} must be {'text' if kind is str else 'true or false'}, got {shortened(value)}")
+    return [value if real(value) is None else float(value) for value in values]
 
 
 def sampled(sample: Sample) -> Columns:

@@ -10,6 +10,7 @@ from math import ceil, prod
 from typing import Any
 
 from optlaws.kept import kept_property
+from optlaws.numbers import MOST_POINTS, whole
 from optlaws.studies.sweeps.axes import Axis, axes
 from optlaws.studies.sweeps.study_file import StudyFile
 
@@ -37,8 +38,10 @@ class Points:
 
     @classmethod
     def of(cls, study: StudyFile) -> Points:
-        """The points of a study."""
-        return cls(study, tuple(axes(study)))
+        """The points of a study; InputError where they are more than a thousand million."""
+        points = cls(study, tuple(axes(study)))
+        whole(prod(points.shape), "the number of points", most=MOST_POINTS)
+        return points
 
     def __len__(self) -> int:
         return prod(self.shape)

@@ -11,6 +11,7 @@ from pathlib import Path
 from time import monotonic
 from typing import Any
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError, SolverFailure
 from optlaws.studies.sweeps import table
 from optlaws.studies.sweeps.directory import StudyDirectory
@@ -126,13 +127,13 @@ def check(study: StudyFile, points: Points) -> None:
     for module in study.imports:
         try:
             importlib.import_module(module)
-        except ImportError as error:
+        except (ImportError, SyntaxError, TypeError, ValueError) as error:
             raise InputError(f"imports: {module}: {error}") from None
     first = points.inputs(0)
     try:
         Problem.from_dict(entries(study.problem.given(), first))
     except InputError as error:
-        shown = ", ".join(f"{name} = {value!r}" for name, value in first.items())
+        shown = ", ".join(f"{name} = {shortened(value)}" for name, value in first.items())
         raise InputError(f"the first point, {shown}, is no problem: {error}") from None
 
 

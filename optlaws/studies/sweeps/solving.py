@@ -12,6 +12,7 @@ from typing import Any
 
 import msgspec
 
+from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, NotNormalised, SolverFailure
 from optlaws.studies.sweeps.points import key
 from optlaws.studies.sweeps.study_file import entries
@@ -76,7 +77,7 @@ def blank(task: Task, index: int, inputs: Mapping[str, Any]) -> Row:
 def failed(task: Task, place: int, status: str, error: str, seconds: float) -> bytes:
     """The row of a point that did not come back."""
     index, inputs = task.points[place]
-    return msgspec.json.encode(blank(task, index, inputs) | {"status": status, "error": error, "seconds": seconds})
+    return msgspec.json.encode(blank(task, index, inputs) | {"status": status, "error": cut(error), "seconds": seconds})
 
 
 def solve(task: Task, inputs: Mapping[str, Any], previous: Solution | None) -> Solved:
@@ -103,7 +104,7 @@ def solve(task: Task, inputs: Mapping[str, Any], previous: Solution | None) -> S
 
 
 def _without(status: str, error: str, began: float) -> Row:
-    return {"status": status, "error": error, "seconds": perf_counter() - began}
+    return {"status": status, "error": cut(error), "seconds": perf_counter() - began}
 
 
 def _row(solution: Solution) -> Row:

@@ -10,11 +10,13 @@ from typing import Annotated, Any, Literal
 import msgspec
 
 from optlaws.errors import InputError
+from optlaws.files import reading
+from optlaws.numbers import finite
 from optlaws.studies.asked import Asked, Text
-from optlaws.studies.problem_file import convert, read
+from optlaws.studies.problem_file import convert
 from optlaws.suggest import unknown_key
 
-Positive = Annotated[float, msgspec.Meta(gt=0.0)]
+Positive = Annotated[float, msgspec.Meta(gt=0.0, le=1e7)]
 _PLACE = re.compile(r"\{(?:1-)?(\w+)\}")
 
 
@@ -118,10 +120,10 @@ def read_study(source: Path | str | Mapping[str, Any]) -> StudyFile:
     ['B']
     """
     if isinstance(source, Mapping):
-        file, data = Path("the study"), dict(source)
+        file, data = Path("the study"), dict(reading.checked(source, "the study"))
     else:
         file = Path(source)
-        data = read(file)
+        data = reading.toml(file)
     varied = data.get("vary")
     for name, values in varied.items() if isinstance(varied, Mapping) else ():
         if isinstance(values, Mapping):
@@ -142,7 +144,15 @@ def read_study(source: Path | str | Mapping[str, Any]) -> StudyFile:
     for name in places(study):
         if name not in names:
             raise InputError(f"{file}: nothing fills the place {{{name}}}: vary {name}")
+        _check_fillings(study, name, str(file))
     return study
+
+
+def _check_fillings(study: StudyFile, name: str, file: str) -> None:
+    tables: Iterable[Mapping[str, Any]] = (study.vary, *study.together)
+    for values in (table[name] for table in tables if name in table):
+        for value in values if isinstance(values, list) else ():
+            finite(value, f"{file}: {name}, which fills a place in text,")
 
 
 def places(study: StudyFile) -> set[str]:
@@ -163,7 +173,7 @@ def filled(text: str, values: Mapping[str, Any]) -> str:
     """
 
     def number(found: re.Match[str]) -> str:
-        value = values[found[1]]
+        value = finite(values[found[1]], found[1])
         return repr(1.0 - value if found[0].startswith("{1-") else value)
 
     return _PLACE.sub(number, text)

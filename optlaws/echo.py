@@ -1,0 +1,53 @@
+"""How errors show what they were given: cut where it is long, whatever it is."""
+
+from __future__ import annotations
+
+from reprlib import Repr
+
+LONGEST = 2000
+
+
+class _Echo(Repr):
+    """Values as errors show them: bounded in length and in depth, whatever they are."""
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.maxlevel, self.maxstring, self.maxother, self.maxlong = 3, 80, 120, 40
+        self.maxlist = self.maxtuple = self.maxdict = self.maxset = self.maxarray = 12
+
+    def repr_int(self, x: int, level: int) -> str:
+        if x.bit_length() > 400:
+            return f"{'-' if x < 0 else ''}an integer of {x.bit_length()} bits"
+        return super().repr_int(x, level)
+
+    def repr_instance(self, x: object, level: int) -> str:
+        try:
+            return super().repr_instance(x, level)
+        except (RecursionError, ValueError, OverflowError, MemoryError):
+            return f"<{type(x).__name__}>"
+
+
+_ECHO = _Echo()
+
+
+def shortened(value: object) -> str:
+    """The repr of a value, cut where it is long or deep: how an error shows what was given.
+
+    Examples
+    --------
+    >>> shortened([1, 2.5]), shortened(10**400)
+    ('[1, 2.5]', 'an integer of 1329 bits')
+    """
+    return _ECHO.repr(value)
+
+
+def cut(text: str, most: int = LONGEST) -> str:
+    r"""The text as it can be stored and printed anywhere: not longer than `most`, its surrogates escaped.
+
+    Examples
+    --------
+    >>> cut("0123456789", most=5), cut("a" + chr(0xD800))
+    ('01...', 'a\\ud800')
+    """
+    kept = text if len(text) <= most else f"{text[: most - 3]}..."
+    return kept.encode("utf-8", "backslashreplace").decode("utf-8")

@@ -1,0 +1,1 @@
+"""Files that come in: read whole, bounded and checked before anything is made of them."""

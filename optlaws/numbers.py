@@ -1,0 +1,264 @@
+"""The doors through which numbers come in: each checks one kind, and its error names the number and the remedy."""
+
+from __future__ import annotations
+
+import operator
+from collections.abc import Iterable
+from fractions import Fraction
+from math import isfinite
+from numbers import Rational, Real
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+
+MAGNITUDE_LIMIT = 1e100
+MOST_ORDER = 100
+MOST_DEGREE = 200
+MOST_PIECE_DEGREE = 30
+MOST_PIECES = 1000
+MOST_POINTS = 10**9
+MOST_TEETH = 10_000
+MOST_VELOCITY = 1e50
+MOST_TERMS = 400
+MOST_EXPONENT = 50
+MOST_VALUES = 1_000_000
+MOST_DERIVATIVE = 1000
+MOST_WHOLE = 2**63 - 1
+
+_DENOMINATOR_BITS = 100_000
+
+
+def whole(value: Any, name: str, least: int = 0, most: int = MOST_WHOLE) -> int:  # noqa: ANN401
+    """The value as an int, if it is an integer from `least` to `most`; `name` is what an error calls it.
+
+    Raises
+    ------
+    InputError
+        If it is not.
+
+    Examples
+    --------
+    >>> whole(3, "nu")
+    3
+    """
+    try:
+        number = None if isinstance(value, bool | np.bool) else operator.index(value)
+    except TypeError:
+        number = None
+    if number is None or number < least:
+        raise InputError(f"{name} must be an integer of at least {least}, got {shortened(value)}")
+    if number > most:
+        raise InputError(f"{name} must be an integer of at most {most}, got {shortened(value)}")
+    return number
+
+
+def real(value: Any) -> float | None:  # noqa: ANN401
+    """The value as a float, infinite or not; None where it is no number, not a real one, or beyond all floats.
+
+    Examples
+    --------
+    >>> real(2), real("2"), real(True), real(10**400)
+    (2.0, None, None, None)
+    """
+    if isinstance(value, bool | np.bool) or not isinstance(value, Real):
+        return None
+    try:
+        number = float(value)
+    except (OverflowError, ValueError):
+        return None
+    return None if number != number else number  # noqa: PLR0124 - NaN
+
+
+def finite(value: Any, name: str) -> float:  # noqa: ANN401
+    """The value as a float; `name` is what an error calls it.
+
+    Raises
+    ------
+    InputError
+        If it is not a finite real number, or above 1e100 in magnitude.
+
+    Examples
+    --------
+    >>> finite(1, "b0")
+    1.0
+    """
+    number = real(value)
+    if number is None or not isfinite(number):
+        raise InputError(f"{name} must be a finite real number, got {shortened(value)}")
+    if abs(number) > MAGNITUDE_LIMIT:
+        raise InputError(f"{name} must not exceed {MAGNITUDE_LIMIT:g} in magnitude, got {number!r}")
+    return number
+
+
+def positive(value: Any, name: str) -> float:  # noqa: ANN401
+    """The value as a float above 0.
+
+    Raises
+    ------
+    InputError
+        If it is not one, or not finite.
+
+    Examples
+    --------
+    >>> positive(20, "nu")
+    20.0
+    """
+    number = finite(value, name)
+    if number <= 0.0:
+        raise InputError(f"{name} must be above 0, got {shortened(value)}")
+    return number
+
+
+def not_negative(value: Any, name: str) -> float:  # noqa: ANN401
+    """The value as a float of at least 0.
+
+    Raises
+    ------
+    InputError
+        If it is not one, or not finite.
+
+    Examples
+    --------
+    >>> not_negative(0, "damping")
+    0.0
+    """
+    number = finite(value, name)
+    if number < 0.0:
+        raise InputError(f"{name} must be at least 0, got {shortened(value)}")
+    return number
+
+
+def numbers(values: Any, name: str, most: int = MOST_VALUES) -> tuple[float, ...]:  # noqa: ANN401
+    """The values as a tuple of floats; `name` is what an error calls them.
+
+    Raises
+    ------
+    InputError
+        If one is not a finite real number, or there are too many.
+
+    Examples
+    --------
+    >>> numbers([0, 1], "breaks")
+    (0.0, 1.0)
+    """
+    if type(values) in {tuple, list} and len(values) <= most and all(map(_plain, values)):
+        return tuple(values)
+    return tuple(float(value) for value in fractions(values, name, most))
+
+
+def _plain(value: object) -> bool:
+    return type(value) is float and -MAGNITUDE_LIMIT <= value <= MAGNITUDE_LIMIT
+
+
+def fractions(values: Iterable[Any], name: str, most: int = MOST_TERMS) -> list[Fraction]:
+    """The exact values of ints, floats and Fractions; `name` is what an error calls them.
+
+    Raises
+    ------
+    InputError
+        If a value is not a finite real number, or so large that its square would overflow, or there are too many.
+
+    Examples
+    --------
+    >>> fractions([1, 0.5], "z")
+    [Fraction(1, 1), Fraction(1, 2)]
+    """
+    return [_fraction(value, f"{name}[{i}]") for i, value in enumerate(listed(values, name, most))]
+
+
+def listed(values: Any, name: str, most: int = MOST_TERMS) -> list[Any]:  # noqa: ANN401
+    """The values as a list of at most so many.
+
+    Raises
+    ------
+    InputError
+        If they are no sequence, or too many.
+
+    Examples
+    --------
+    >>> listed((1, 2), "z")
+    [1, 2]
+    """
+    items: list[Any] = []
+    try:
+        if isinstance(values, str | bytes):
+            raise TypeError  # noqa: TRY301 - text is no sequence of numbers
+        for value in values:
+            items.append(value)
+            if len(items) > most:
+                raise InputError(f"{name} may have {most} values, got more")
+    except TypeError:
+        raise InputError(f"{name} must be a sequence of real numbers, got {shortened(values)}") from None
+    return items
+
+
+def _fraction(value: Any, name: str) -> Fraction:  # noqa: ANN401
+    if not isinstance(value, bool) and isinstance(value, Rational):
+        exact = Fraction(int(value.numerator), int(value.denominator))
+    elif (number := real(value)) is not None and isfinite(number):
+        exact = Fraction(number)
+    else:
+        raise InputError(f"{name} must be a finite real number, got {shortened(value)}")
+    if abs(exact) > MAGNITUDE_LIMIT:
+        raise InputError(f"{name} must not exceed {MAGNITUDE_LIMIT:g} in magnitude: a law is dimensionless")
+    if exact.denominator.bit_length() > _DENOMINATOR_BITS:
+        raise InputError(
+            f"{name} must be a fraction of few digits, got {exact.denominator.bit_length()} bits below its line"
+        )
+    return exact
+
+
+def times(k: Any) -> NDArray[np.float64]:  # noqa: ANN401
+    """Dimensionless times as floats, of any shape.
+
+    Raises
+    ------
+    InputError
+        If one is outside [0, 1] or not a real number.
+
+    Examples
+    --------
+    >>> times([0, 1])
+    array([0., 1.])
+    """
+    given = _array(k)
+    if given is None:
+        raise InputError(f"k must be real numbers in [0, 1], got {shortened(k)}")
+    inside = (given >= 0.0) & (given <= 1.0)
+    if not inside.all():
+        raise InputError(f"k must be in [0, 1], got {float(given[~inside].flat[0])!r}")
+    return given
+
+
+def real_times(k: Any) -> NDArray[np.float64]:  # noqa: ANN401
+    """Finite times of any shape.
+
+    Raises
+    ------
+    InputError
+        If one is not a finite real number.
+
+    Examples
+    --------
+    >>> real_times([0, 1.5]).tolist()
+    [0.0, 1.5]
+    """
+    given = _array(k)
+    if given is None or not np.isfinite(given).all():
+        raise InputError(f"k must be finite real numbers, got {shortened(k)}")
+    return given
+
+
+def _array(values: Any) -> NDArray[np.float64] | None:  # noqa: ANN401
+    """The values as floats; None where one is no real number."""
+    try:
+        given = np.asarray(values)
+    except (ValueError, TypeError, OverflowError, RecursionError):
+        return None
+    if given.dtype.kind not in "fiu" and given.size:
+        return None
+    return given.astype(np.float64)
