@@ -46,11 +46,11 @@ nitpicky = True
 nitpick_ignore_regex = [("py:.*", r"(?!optlaws\.).*"), ("py:.*", r"optlaws\.(.*\.)?_.*")]
 # what a solution keeps for its neighbours, and the engine that constants are written over; not public
 nitpick_ignore = [
-    ("py:class", "optlaws.synthesis.active_set.ActiveSet"),
-    ("py:class", "optlaws.synthesis.cones.ConeFamily"),
-    ("py:class", "optlaws.synthesis.power_certificate.Cut"),
-    ("py:class", "optlaws.synthesis.power_certificate.Step"),
-    ("py:class", "optlaws.synthesis.space.LawSpace"),
+    ("py:class", "optlaws.synthesis.method.newton.ActiveSet"),
+    ("py:class", "optlaws.synthesis.families.cone.ConeFamily"),
+    ("py:class", "optlaws.synthesis.proof.power.certificate.Cut"),
+    ("py:class", "optlaws.synthesis.proof.power.certificate.Step"),
+    ("py:class", "optlaws.synthesis.spaces.space.LawSpace"),
 ]
 
 html_theme = "furo"

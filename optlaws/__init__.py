@@ -4,31 +4,31 @@ from typing import TYPE_CHECKING, Any
 
 from optlaws.errors import InfeasibleProblem, InputError, NotNormalised, OptlawsError, SolverFailure
 from optlaws.laws import Constants, MotionLaw, Peak, PolynomialLaw, smoothstep
-from optlaws.laws.catalogue import catalogue
-from optlaws.laws.multiplier import multiplied
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.making.multiplier import multiplied
+from optlaws.laws.making.transform import mirrored_law, reversed_law, with_end_velocity
+from optlaws.laws.making.trapezoids import scca, trapezoid
 from optlaws.laws.piecewise import PiecewiseLaw
-from optlaws.laws.savin import savin
-from optlaws.laws.savin_family import SavinFamily
-from optlaws.laws.transform import mirrored_law, reversed_law, with_end_velocity
-from optlaws.laws.trapezoids import scca, trapezoid
+from optlaws.laws.savin.family import SavinFamily
+from optlaws.laws.savin.savin import savin
 from optlaws.mechanisms.angles import deg
-from optlaws.mechanisms.clutch import Clutch
-from optlaws.mechanisms.cycle import CycleResponse
-from optlaws.mechanisms.dwell import dwell_mechanism
-from optlaws.mechanisms.dwell_choice import compare_dwell_mechanisms
-from optlaws.mechanisms.follower import Follower
-from optlaws.mechanisms.loader import Loader, loader
-from optlaws.mechanisms.loader_optimal import BalancedLaw, balanced_law
-from optlaws.mechanisms.loader_trapezium import TrapeziumSubstitute
-from optlaws.mechanisms.off_design import Deviation, off_design
-from optlaws.mechanisms.optimal_polydyne import cam_constant
-from optlaws.mechanisms.polydyne import mass_law, polydyne
-from optlaws.mechanisms.residual import residual_functional, residual_phasor
-from optlaws.mechanisms.response import Response
-from optlaws.mechanisms.robust import residual
-from optlaws.mechanisms.spectrum import ResponseSpectrum, response_spectrum
-from optlaws.mechanisms.torsion_design import find_torsion_levers
-from optlaws.mechanisms.torsion_lever import TorsionLever
+from optlaws.mechanisms.dwell.choice import compare_dwell_mechanisms
+from optlaws.mechanisms.dwell.clutch import Clutch
+from optlaws.mechanisms.dwell.making import dwell_mechanism
+from optlaws.mechanisms.follower.cycle import CycleResponse
+from optlaws.mechanisms.follower.follower import Follower
+from optlaws.mechanisms.follower.off_design import Deviation, off_design
+from optlaws.mechanisms.follower.response import Response
+from optlaws.mechanisms.lever.design import find_torsion_levers
+from optlaws.mechanisms.lever.lever import TorsionLever
+from optlaws.mechanisms.loader.loader import Loader, loader
+from optlaws.mechanisms.loader.optimal import BalancedLaw, balanced_law
+from optlaws.mechanisms.loader.trapezium import TrapeziumSubstitute
+from optlaws.mechanisms.polydyne.cam_constants import cam_constant
+from optlaws.mechanisms.polydyne.polydyne import mass_law, polydyne
+from optlaws.mechanisms.spectrum.residual import residual_functional, residual_phasor
+from optlaws.mechanisms.spectrum.robust import residual
+from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum, response_spectrum
 from optlaws.synthesis import (
     FUNCTIONALS,
     B,
@@ -73,8 +73,8 @@ from optlaws.synthesis import (
 )
 
 if TYPE_CHECKING:
-    from optlaws.studies.sweeps.run import run_study
-    from optlaws.studies.sweeps.study import open_study
+    from optlaws.studies.run import run_study
+    from optlaws.studies.study import open_study
 
 __all__ = [
     "FUNCTIONALS",
@@ -172,11 +172,11 @@ def __getattr__(name: str) -> Any:  # noqa: ANN401 - text or a function
 
         return version("optlaws")
     if name == "open_study":
-        from optlaws.studies.sweeps.study import open_study
+        from optlaws.studies.study import open_study
 
         return open_study
     if name == "run_study":
-        from optlaws.studies.sweeps.run import run_study
+        from optlaws.studies.run import run_study
 
         return run_study
     raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

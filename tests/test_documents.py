@@ -4,6 +4,7 @@ from pathlib import Path
 
 import pytest
 
+from docs._ext.module_tree import PAGE, page_with_tree
 from tests.documents import PROGRAMS, ROOT, Command, commands, failure
 
 # What is executed or parsed (tests/documents.py), and what has nothing to execute.
@@ -16,6 +17,11 @@ FENCE = re.compile(r"^[ \t>]*(`{3,}|~{3,})(?P<info>[^`\n]*)$", re.MULTILINE)
 def test_every_fenced_block_has_a_language_that_is_executed_or_needs_no_execution(page: Path) -> None:
     openings = [match["info"].strip() for match in FENCE.finditer(page.read_text("utf-8"))][::2]
     assert not [info for info in openings if info not in LANGUAGES and not info.startswith("{")]
+
+
+def test_the_architecture_shows_the_tree_as_it_is() -> None:
+    page = PAGE.read_text("utf-8")
+    assert page == page_with_tree(page), "run python docs/_ext/module_tree.py"
 
 
 def test_a_console_block_is_split_into_commands_and_their_output() -> None:

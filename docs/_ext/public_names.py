@@ -26,6 +26,11 @@ def resolve(
             source: str = node.get("refdoc", env.docname)
             return make_refnode(app.builder, source, found.docname, found.node_id, content)
         package.pop()
+    # a name that a package above re-exports from the room of another subject
+    same = [found for path, found in objects.items() if path.rpartition(".")[2] == name and path.startswith("optlaws.")]
+    if len(same) == 1:
+        source = node.get("refdoc", env.docname)
+        return make_refnode(app.builder, source, same[0].docname, same[0].node_id, content)
     return None
 
 

@@ -10,11 +10,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.laws import peaks
 from optlaws.laws.html import page
-from optlaws.laws.peaks import Constants, Peak
 from optlaws.laws.storage import Stored
 from optlaws.numbers import times, whole
+from optlaws.series import peaks
+from optlaws.series.peaks import Constants, Peak
 
 Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[Any]

@@ -13,14 +13,14 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.laws import peaks
-from optlaws.laws.fractional import FractionalSegment  # noqa: F401  # declares its kind
 from optlaws.laws.html import page
 from optlaws.laws.law import MotionLaw
-from optlaws.laws.peaks import Peak
-from optlaws.laws.segments import Segment
-from optlaws.laws.sines import SineSegment  # noqa: F401  # declares its kinds
+from optlaws.laws.segments.fractional import FractionalSegment  # noqa: F401  # declares its kind
+from optlaws.laws.segments.segment import Segment
+from optlaws.laws.segments.sine import SineSegment  # noqa: F401  # declares its kinds
 from optlaws.numbers import finite, numbers, times, whole
+from optlaws.series import peaks
+from optlaws.series.peaks import Peak
 
 Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[Any]

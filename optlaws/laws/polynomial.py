@@ -14,10 +14,10 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.laws import chebyshev, series
 from optlaws.laws.law import MotionLaw
-from optlaws.laws.peaks import polished
 from optlaws.numbers import MAGNITUDE_LIMIT, MOST_ORDER, MOST_TERMS, fractions, whole
+from optlaws.series import chebyshev, exact
+from optlaws.series.peaks import polished
 
 Array = NDArray[np.float64]
 
@@ -84,7 +84,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
         powers = fractions(coefficients, "coefficients")
         a0, b0 = ([*powers, Fraction(0), Fraction(0)])[:2]
         second = [n * (n - 1) * value for n, value in enumerate(powers)][2:]
-        return cls(chebyshev.rounded(chebyshev.exact_chebyshev(second)), float(a0), float(b0))
+        return cls(exact.rounded(exact.exact_chebyshev(second)), float(a0), float(b0))
 
     @classmethod
     def from_chebyshev(cls, coefficients: Iterable[Any]) -> Self:
@@ -105,7 +105,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
         a0, b0 = (
             float(sum((-1) ** n * value for n, value in enumerate(values))) for values in (displacement, velocity)
         )
-        return cls(chebyshev.rounded(_exact_derivative(velocity)), a0, b0)
+        return cls(exact.rounded(_exact_derivative(velocity)), a0, b0)
 
     def to_powers(self) -> tuple[float, ...]:
         """Coefficients of a in ascending powers of k, each the float nearest to that of this very law.
@@ -118,7 +118,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
         >>> smoothstep(2).to_powers()
         (0.0, 0.0, 3.0, -2.0)
         """
-        return chebyshev.rounded(self.exact_powers())
+        return exact.rounded(self.exact_powers())
 
     def exact_powers(self) -> tuple[Fraction, ...]:
         """Coefficients of a in ascending powers of k, exact; `from_powers` gives back an equal law.
@@ -128,7 +128,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
         >>> PolynomialLaw.from_powers(smoothstep(30).exact_powers()) == smoothstep(30)
         True
         """
-        second = chebyshev.exact_powers([Fraction(value) for value in self.acceleration])
+        second = exact.exact_powers([Fraction(value) for value in self.acceleration])
         powers = [Fraction(self.a0), Fraction(self.b0)]
         powers += [value / ((n + 1) * (n + 2)) for n, value in enumerate(second)]
         while len(powers) > 1 and powers[-1] == 0:
@@ -149,36 +149,36 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
             return np.zeros(1)
         if nu not in self._cache:
             if nu > 2:
-                self._cache[nu] = series.derivative(self._series(nu - 1))
+                self._cache[nu] = chebyshev.derivative(self._series(nu - 1))
             else:
-                self._cache[nu] = series.integral(self._series(nu + 1), self.b0 if nu else self.a0)
+                self._cache[nu] = chebyshev.integral(self._series(nu + 1), self.b0 if nu else self.a0)
         return self._cache[nu]
 
     def _derivative(self, k: Array, nu: int) -> Array:
-        return series.value(self._series(nu), 2.0 * k - 1.0)
+        return chebyshev.value(self._series(nu), 2.0 * k - 1.0)
 
     def _candidates(self, nu: int) -> Array:
         slope = self._series(nu + 1)
         columns = self._columns(nu + 1, nu + 2)
 
         def residual(x: Array) -> tuple[Array, Array]:
-            values = series.basis_values(x, len(columns)) @ columns
+            values = chebyshev.basis_values(x, len(columns)) @ columns
             return values[:, 0], 2.0 * values[:, 1]
 
-        return _with_ends(polished(series.real_parts_of_roots(slope), residual))
+        return _with_ends(polished(chebyshev.real_parts_of_roots(slope), residual))
 
     def _power_candidates(self) -> Array:
         b, c, j = (self._series(nu) for nu in (1, 2, 3))
-        slope = series.product(b, j)
-        square = series.product(c, c)
+        slope = chebyshev.product(b, j)
+        square = chebyshev.product(c, c)
         slope[: len(square)] += square[: len(slope)]
         columns = self._columns(1, 2, 3, 4)
 
         def residual(x: Array) -> tuple[Array, Array]:
-            b, c, j, s = (series.basis_values(x, len(columns)) @ columns).T
+            b, c, j, s = (chebyshev.basis_values(x, len(columns)) @ columns).T
             return c * c + b * j, 2.0 * (3.0 * c * j + b * s)
 
-        return _with_ends(polished(series.real_parts_of_roots(slope), residual))
+        return _with_ends(polished(chebyshev.real_parts_of_roots(slope), residual))
 
     def _columns(self, *orders: int) -> Array:
         parts = [self._series(nu) for nu in orders]
@@ -188,7 +188,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
         return columns
 
     def _mean_square(self, nu: int) -> float:
-        return series.mean_product(self._series(nu), self._series(nu))
+        return chebyshev.mean_product(self._series(nu), self._series(nu))
 
     def _summary(self) -> str:
         return f"degree={self.degree}"
@@ -248,7 +248,7 @@ def _numbers(values: Any, name: str) -> tuple[float, ...]:  # noqa: ANN401
         right = False
     if right and array.size <= MOST_TERMS and np.all(np.abs(array) <= MAGNITUDE_LIMIT):
         return tuple(array.astype(np.float64).tolist())
-    return chebyshev.rounded(fractions(values, name))
+    return exact.rounded(fractions(values, name))
 
 
 def _with_ends(x: Array) -> Array:

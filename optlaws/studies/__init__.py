@@ -1,1 +1,1 @@
-"""Problem files and the jobs they name."""
+"""Studies: many problems solved on all cores or on a cluster, safe against interruption."""

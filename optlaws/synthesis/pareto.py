@@ -12,12 +12,12 @@ import numpy as np
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.numbers import real, whole
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.bounds import Range
-from optlaws.synthesis.exchange import solve
-from optlaws.synthesis.fronts import Front, undominated, value_of
-from optlaws.synthesis.functionals import FUNCTIONALS
-from optlaws.synthesis.problem import CONSTANTS, Problem
-from optlaws.synthesis.programs import extreme_velocity
+from optlaws.synthesis.front import Front, undominated, value_of
+from optlaws.synthesis.method.exchange import solve
+from optlaws.synthesis.problem.constants import FUNCTIONALS
+from optlaws.synthesis.problem.problem import CONSTANTS, Problem
+from optlaws.synthesis.problem.ranges import Range
+from optlaws.synthesis.program.writer import extreme_velocity
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import synthesize
 

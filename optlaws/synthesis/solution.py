@@ -13,12 +13,12 @@ import numpy as np
 
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
-from optlaws.synthesis.active_set import ActiveSet
-from optlaws.synthesis.bases import PolynomialBasis, Powers
-from optlaws.synthesis.certificate import Certificate
-from optlaws.synthesis.power_certificate import PowerCertificate
-from optlaws.synthesis.problem import Problem
-from optlaws.synthesis.spline_bases import PiecewiseBasis
+from optlaws.synthesis.method.newton import ActiveSet
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.proof.power.certificate import PowerCertificate
+from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
+from optlaws.synthesis.spaces.splines import PiecewiseBasis
 
 # an objective that is zero but for rounding, such as the jounce of a cubic, is judged absolutely
 NOTHING = 1e-6

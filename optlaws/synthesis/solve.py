@@ -13,22 +13,23 @@ from numpy.typing import NDArray
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.laws import MotionLaw
 from optlaws.suggest import unknown_key
-from optlaws.synthesis import mirroring, starts
-from optlaws.synthesis.active_set import ActiveSet
-from optlaws.synthesis.bounding import certify, lower_bound
-from optlaws.synthesis.contacts import VIOLATION
-from optlaws.synthesis.exchange import Outcome, solve
-from optlaws.synthesis.failure import failure
-from optlaws.synthesis.forcing import raised
-from optlaws.synthesis.mixtures import warn_of_mixture
-from optlaws.synthesis.power_bound import tightened
-from optlaws.synthesis.power_certificate import PowerCertificate
-from optlaws.synthesis.problem import CONSTANTS, Problem
-from optlaws.synthesis.problem_limits import known_limit
-from optlaws.synthesis.programs import Model, model
+from optlaws.synthesis.limits.of_problem import known_limit
+from optlaws.synthesis.method import starts
+from optlaws.synthesis.method.contacts import VIOLATION
+from optlaws.synthesis.method.exchange import Outcome, solve
+from optlaws.synthesis.method.lower_bounds import raised
+from optlaws.synthesis.method.newton import ActiveSet
+from optlaws.synthesis.problem.mixtures import warn_of_mixture
+from optlaws.synthesis.problem.problem import CONSTANTS, Problem
+from optlaws.synthesis.program.evaluation import shortfalls, worth
+from optlaws.synthesis.program.writer import Model, model
+from optlaws.synthesis.proof import mirroring
+from optlaws.synthesis.proof.infeasible import failure
+from optlaws.synthesis.proof.make import certify, lower_bound
+from optlaws.synthesis.proof.power.certificate import PowerCertificate
+from optlaws.synthesis.proof.power.search import tightened
 from optlaws.synthesis.solution import NOTHING, Solution, Status
-from optlaws.synthesis.spaces import space_of
-from optlaws.synthesis.worth import shortfalls, worth
+from optlaws.synthesis.spaces.of_basis import space_of
 
 GAP = 1e-8
 _SAME = 1e-9

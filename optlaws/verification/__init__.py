@@ -13,7 +13,7 @@ from typing import Any
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.synthesis.certificate import Certificate
+from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.verification.result import Claim, Verification
 
 __all__ = ["Claim", "Verification", "enclosures", "exact_bound", "verify", "verify_all"]
@@ -42,9 +42,9 @@ def verify(source: Mapping[str, Any] | Path | str) -> Verification:
     (True, 4.647776025, True)
     """
     _need_flint()
-    from optlaws.verification import checks
+    from optlaws.verification import claims
 
-    return checks.verify(source)
+    return claims.verify(source)
 
 
 def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification]:
@@ -66,7 +66,7 @@ def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification
     [('printed[0]', True)]
     """
     _need_flint()
-    from optlaws.verification import checks
+    from optlaws.verification import claims as checks
 
     return checks.verify_all(source)
 
@@ -89,7 +89,7 @@ def exact_bound(certificate: Certificate) -> Fraction | None:
     True
     """
     _need_flint()
-    from optlaws.verification import bound
+    from optlaws.verification.exact import bound
 
     return bound.prove(certificate).value
 
@@ -111,7 +111,7 @@ def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
     (3.464101615137754, 3.464101615137755)
     """
     _need_flint()
-    from optlaws.verification import exact_law
+    from optlaws.verification.exact import law as exact_law
 
     return exact_law.enclosures(law)
 

@@ -10,13 +10,13 @@ from math import inf, isfinite
 
 from flint import arb, ctx, fmpq_poly, fmpz_poly
 
-from optlaws.synthesis.bounds import Range
-from optlaws.synthesis.functionals import Functional
-from optlaws.synthesis.problem import Problem
-from optlaws.verification.balls import ball, rational, up, upper
-from optlaws.verification.exact_law import ExactLaw
-from optlaws.verification.exact_pieces import PolynomialPiece, between, least_and_greatest
-from optlaws.verification.shapes import shape_of
+from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.ranges import Range
+from optlaws.verification.exact.balls import ball, rational, up, upper
+from optlaws.verification.exact.law import ExactLaw
+from optlaws.verification.exact.pieces import PolynomialPiece, between, least_and_greatest
+from optlaws.verification.law_shape import shape_of
 
 #: what an optimum may break a constraint by, in units of the constraint's bound
 _TOLERANCE = 1e-9

@@ -13,7 +13,7 @@ from typing import Any, Literal
 import msgspec
 
 from optlaws.errors import InputError
-from optlaws.synthesis.proof_data import problem_of
+from optlaws.synthesis.proof.data import problem_of
 
 Data = Mapping[str, Any]
 

@@ -10,7 +10,7 @@ from pathlib import Path
 from typing import Any, TypeVar
 
 from optlaws.errors import InputError
-from optlaws.synthesis.proof_data import as_json
+from optlaws.synthesis.proof.data import as_json
 
 Kind = TypeVar("Kind")
 

@@ -6,7 +6,7 @@ from dataclasses import asdict, dataclass, field
 from math import isfinite
 from typing import Any
 
-from optlaws.synthesis.problem import Problem
+from optlaws.synthesis.problem.problem import Problem
 
 
 @dataclass(frozen=True)

@@ -7,14 +7,14 @@ from collections.abc import Iterator
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.functionals import FUNCTIONALS
-from optlaws.synthesis.proof_data import problem_of
-from optlaws.verification.balls import enclosed
-from optlaws.verification.exact_law import ExactLaw
+from optlaws.synthesis.problem.constants import FUNCTIONALS
+from optlaws.synthesis.proof.data import problem_of
+from optlaws.verification.exact.balls import enclosed
+from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.places import Entry
 from optlaws.verification.reading import built
 from optlaws.verification.result import Claim, Verification
-from optlaws.verification.stated import near
+from optlaws.verification.stated_numbers import near
 
 
 def said_around(entry: Entry, verification: Verification) -> Iterator[Claim]:

@@ -19,10 +19,10 @@ import msgspec
 from rich.console import Console
 from rich.table import Table
 
-from optlaws.studies.sweeps.points import Points
-from optlaws.studies.sweeps.run import run_study, task
-from optlaws.studies.sweeps.solving import Task, rows
-from optlaws.studies.sweeps.study_file import read_study
+from optlaws.studies.points.points import Points
+from optlaws.studies.points.study_file import read_study
+from optlaws.studies.run import run_study, task
+from optlaws.studies.solving.solving import Task, rows
 
 RATE, EFFICIENCY = 300.0, 0.9
 POINTS = 3200
@@ -76,11 +76,11 @@ def watched(points: int, degree: int, workers: int) -> Stopwatch:
 
 
 PARTS = {
-    "IPOPT": ("optlaws.synthesis.exchange.solve_on_points",),
-    "Newton": ("optlaws.synthesis.exchange.newton",),
+    "IPOPT": ("optlaws.synthesis.method.exchange.solve_on_points",),
+    "Newton": ("optlaws.synthesis.method.exchange.newton",),
     "proof": ("optlaws.synthesis.solve.certify", "optlaws.synthesis.solve.lower_bound"),
-    "synthesis": ("optlaws.studies.sweeps.solving.synthesize",),
-    "constants": ("optlaws.studies.sweeps.solving._row",),
+    "synthesis": ("optlaws.studies.solving.solving.synthesize",),
+    "constants": ("optlaws.studies.solving.solving._row",),
 }
 
 

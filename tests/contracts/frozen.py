@@ -20,8 +20,8 @@ import msgspec
 from cyclopts import App
 
 import optlaws
-from optlaws.cli import app
-from optlaws.studies.jobs import JOBS
+from optlaws.cli.commands import app
+from optlaws.jobs.job import JOBS
 
 FROZEN = Path(__file__).with_name("frozen.json")
 Table = dict[str, dict[str, str]]

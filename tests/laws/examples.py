@@ -5,15 +5,15 @@ import itertools
 import numpy as np
 
 from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
-from optlaws.laws.catalogue import catalogue
-from optlaws.laws.fractional import FractionalSegment
-from optlaws.laws.multiplier import multiplied
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.making.multiplier import multiplied
+from optlaws.laws.making.transform import mirrored_law, reversed_law, with_end_velocity
+from optlaws.laws.making.trapezoids import scca, trapezoid
 from optlaws.laws.piecewise import PiecewiseLaw
-from optlaws.laws.savin import savin
-from optlaws.laws.segments import PolynomialSegment, PowerSegment, Segment
-from optlaws.laws.sines import SineSegment
-from optlaws.laws.transform import mirrored_law, reversed_law, with_end_velocity
-from optlaws.laws.trapezoids import scca, trapezoid
+from optlaws.laws.savin.savin import savin
+from optlaws.laws.segments.fractional import FractionalSegment
+from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
+from optlaws.laws.segments.sine import SineSegment
 
 
 def random_law(seed: int, count: int, decay: float = 1.0, b0: float = 0.0) -> PolynomialLaw:

@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, Peak, smoothstep
 from optlaws.laws.piecewise import PiecewiseLaw
-from optlaws.laws.segments import PolynomialSegment, PowerSegment, Segment
-from optlaws.laws.sines import SineSegment
+from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
+from optlaws.laws.segments.sine import SineSegment
 from tests.laws.examples import cut, cut_power, cut_sine
 
 Array = NDArray[np.float64]

@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from optlaws.studies.sweeps.executors import Serial
-from optlaws.studies.sweeps.run import run_study
-from optlaws.studies.sweeps.study import Study
+from optlaws.studies.run import run_study
+from optlaws.studies.solving.executors import Serial
+from optlaws.studies.study import Study
 
 SMALL: dict[str, Any] = {
     "problem": {"order": 4, "degree": 5},

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from optlaws import FUNCTIONALS, MotionLaw
-from optlaws.synthesis.functionals import Peak
+from optlaws.synthesis.problem.constants import Peak
 
 TROUBLED_B = 1.7
 

@@ -17,8 +17,8 @@ from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 
 from optlaws import Functional, Problem
-from optlaws.mechanisms.optimal_polydyne import CamPeak
-from optlaws.mechanisms.robust import Residual
+from optlaws.mechanisms.polydyne.cam_constants import CamPeak
+from optlaws.mechanisms.spectrum.robust import Residual
 from optlaws.synthesis import Maximum, Term
 from tests.synthesis.judge import as_range
 from tests.synthesis.numpy_laws import Laws, Undecided, grid, laws_of

@@ -11,7 +11,7 @@ import pytest
 
 from optlaws import BSplines, Chebyshev, Pieces, Problem, at_least, at_most, between, synthesize
 from optlaws.synthesis import solve
-from optlaws.synthesis.programs import model
+from optlaws.synthesis.program.writer import model
 from optlaws.verification import verify
 
 KINDS: list[dict[str, Any]] = [

@@ -7,10 +7,10 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, InputError, Problem, Solution, synthesize
-from optlaws.synthesis.bounds import Range
-from optlaws.synthesis.fronts import HEADINGS, Front, undominated, value_of
-from optlaws.synthesis.limits import limit
+from optlaws.synthesis.front import HEADINGS, Front, undominated, value_of
+from optlaws.synthesis.limits.closed_forms import limit
 from optlaws.synthesis.pareto import pareto_front
+from optlaws.synthesis.problem.ranges import Range
 
 L4 = Problem(order=4)
 

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Problem, Solution, Status, smoothstep, synthesize
-from optlaws.synthesis import exchange, transcription
-from optlaws.synthesis.rows import LinearFamily, Points, Program
+from optlaws.synthesis.families.family import LinearFamily, Points, Program
+from optlaws.synthesis.method import exchange, ipopt
 from tests.synthesis.independent import acceleration_of, check_solution, extremes, velocity_of, z_of
 
 SHAPES = [
@@ -67,11 +67,11 @@ def test_stopping_at_an_acceptable_level_is_no_success(monkeypatch: pytest.Monke
         def stats(self) -> dict[str, object]:
             return {"success": True, "return_status": "Solved_To_Acceptable_Level", "iter_count": 3}
 
-    monkeypatch.setattr(transcription, "_solver", lambda *_, **__: Acceptable())
+    monkeypatch.setattr(ipopt, "_solver", lambda *_, **__: Acceptable())
     family = LinearFamily("f", np.array([0.0, 1.0]), series=np.ones((1, 3)))
     program = Program((family,), np.ones((1, 2)), np.ones(1), np.array([0.0, 1.0]))
     points = Points(np.array([0.0, 0.5]), np.ones(2))
-    answer = transcription.solve_on_points(program, [points], None)
+    answer = ipopt.solve_on_points(program, [points], None)
     assert not answer.success
     assert answer.status == "Solved_To_Acceptable_Level"
     # it may still show where the contacts are: the exact active set decides
@@ -82,10 +82,10 @@ def test_stopping_at_an_acceptable_level_is_no_success(monkeypatch: pytest.Monke
 def test_an_answer_of_ipopt_is_only_a_start(monkeypatch: pytest.MonkeyPatch, noise: float) -> None:
     problem = Problem(B=1.859, order=4, basis=Chebyshev(9))
     true = synthesize(problem)
-    honest = transcription.solve_on_points
+    honest = ipopt.solve_on_points
     numbers = np.random.default_rng(5)
 
-    def rough(*args: object, **kwargs: object) -> transcription.Answer:
+    def rough(*args: object, **kwargs: object) -> ipopt.Answer:
         answer = honest(*args, **kwargs)  # type: ignore[arg-type]
         x = answer.x * (1.0 + noise * numbers.normal(size=len(answer.x)))
         return replace(answer, x=x, success=False, status="Solved_To_Acceptable_Level")

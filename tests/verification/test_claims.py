@@ -12,9 +12,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from optlaws import Chebyshev, InputError, Pieces, Problem, pareto_front
-from optlaws.cli import exit_code
+from optlaws.cli.commands import exit_code
 from optlaws.errors import InfeasibleProblem
-from optlaws.synthesis.certificate import Certificate
+from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.solve import synthesize
 from optlaws.verification import verify, verify_all
 from tests.verification.tampering import Data, Path, changed, data_of, places, value_at

@@ -20,8 +20,8 @@ from optlaws import (
     synthesize,
 )
 from optlaws.synthesis import Window, at_least, at_most, between
-from optlaws.synthesis.rows import Family
-from optlaws.synthesis.space import LawSpace
+from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification import exact_bound, verify
 from tests.verification.tampering import data_of
 

@@ -8,10 +8,10 @@ from typing import Any
 import pytest
 
 from optlaws import Chebyshev, Functional, InputError, Problem, smoothstep
-from optlaws.cli import exit_code
-from optlaws.synthesis.bases import Basis
+from optlaws.cli.commands import exit_code
+from optlaws.synthesis.spaces.bases import Basis
 from optlaws.verification import exact_bound, verify, verify_all
-from optlaws.verification.exact_spaces import exact_space
+from optlaws.verification.exact.of_basis import exact_space
 from tests.documents import ROOT
 from tests.verification.tampering import data_of, text_of
 
@@ -134,7 +134,7 @@ def test_own_constants_are_refused_even_if_they_look_like_known_ones() -> None:
     from dataclasses import dataclass
 
     from optlaws import synthesize
-    from optlaws.synthesis.functionals import Peak
+    from optlaws.synthesis.problem.constants import Peak
 
     @dataclass(frozen=True, repr=False)
     class Half(Peak):

@@ -1,0 +1,200 @@
+"""The command `optlaws lever`: the cam-lever mechanism with torsion bars."""
+
+from __future__ import annotations
+
+import json
+from math import degrees
+from pathlib import Path
+from typing import Annotated, Any
+
+from cyclopts import Parameter
+from rich.console import Console
+from rich.table import Table
+
+from optlaws.errors import InputError
+from optlaws.mechanisms.angles import deg
+from optlaws.mechanisms.lever.design import BETA, LAM, find_torsion_levers
+from optlaws.mechanisms.lever.lever import TorsionLever
+from optlaws.mechanisms.lever.motion import LeverMotion
+
+_ANGLES = ("chi01", "chi02")
+_CONSTANTS = ("zeta", "B1", "B3", "C1", "C3")
+
+
+def lever(
+    *,
+    swing: float,
+    beta: float | None = None,
+    lam: float | None = None,
+    rho: float = 0.15,
+    nu: float = 0.15,
+    wanted: list[str] | None = None,
+    inertia: float | None = None,
+    stiffness: float | None = None,
+    period: float | None = None,
+    least_transmission: float = 30.0,
+    most_rocker_swing: float = 60.0,
+    as_json: Annotated[bool, Parameter(name="--json")] = False,
+    output: Path | None = None,
+) -> None:
+    """Law of motion of a mass that swings between torsion bars on a cam-lever mechanism: exact and asymptotic.
+
+    Parameters
+    ----------
+    swing
+        Swing of the driven link from extreme to extreme, degrees.
+    beta
+        Length of the driven link in units of the rocker; sought where --wanted asks.
+    lam
+        Length of the coupler in units of the rocker; sought where --wanted asks.
+    rho
+        Part of the first bar's pre-twist that is left at its extreme.
+    nu
+        Part of the second bar's pre-twist that is left at its extreme.
+    wanted
+        A constant of the exact motion, such as B1/B3=0.99 or T=6.1, for which the length not given is sought; twice for
+        two of them and both lengths.
+    inertia
+        Moment of inertia of the driven mass, kg m².
+    stiffness
+        Stiffness c1 of the first bar, N m/rad: with --inertia, gives the period in seconds.
+    period
+        Wanted period, seconds: with --inertia, gives the stiffness of both bars.
+    least_transmission
+        Least angle between the coupler and either link, degrees; the greatest is its supplement.
+    most_rocker_swing
+        Greatest swing of the rocker, degrees.
+    as_json
+        Print one JSON object on stdout and nothing else; angles in radians.
+    output
+        Write the exact law of the stroke to this JSON file.
+    """
+    if period is not None and stiffness is not None:
+        raise InputError("--period and --stiffness exclude each other: one gives the other")
+    if (inertia is None) != (period is None and stiffness is None):
+        raise InputError("--inertia goes with --stiffness or --period")
+    angles = {"--swing": (swing, 180.0), "--least-transmission": (least_transmission, 90.0)}
+    for option, (angle, most) in {**angles, "--most-rocker-swing": (most_rocker_swing, 180.0)}.items():
+        if not 0.0 < angle < most:
+            raise InputError(f"{option} must be above 0 and below {most:g} degrees, got {angle:g}")
+    given: dict[str, float] = {
+        "rho": rho,
+        "nu": nu,
+        "swing": deg(swing),
+        "least_transmission": deg(least_transmission),
+        "most_rocker_swing": deg(most_rocker_swing),
+    }
+    levers = _levers(beta, lam, wanted or [], given)
+    machines = [_machine(one.exact, inertia, stiffness, period, one.xi) for one in levers]
+    if output is not None:
+        _save(output, levers)
+    if as_json:
+        found = [_plain(one) | machine for one, machine in zip(levers, machines, strict=True)]
+        print(json.dumps(found[0] if wanted is None else {"levers": found}))  # noqa: T201
+        return
+    for one, machine in zip(levers, machines, strict=True):
+        _show(one, machine)
+
+
+def _levers(
+    beta: float | None, lam: float | None, wanted: list[str], given: dict[str, float]
+) -> tuple[TorsionLever, ...]:
+    if wanted:
+        values = dict(_value(text) for text in wanted)
+        return find_torsion_levers(
+            values, beta=BETA if beta is None else beta, lam=LAM if lam is None else lam, **given
+        )
+    if beta is None or lam is None:
+        raise InputError("give --beta and --lam, or with --wanted a constant for each that is left out")
+    return (TorsionLever(beta=beta, lam=lam, **given),)
+
+
+def _value(text: str) -> tuple[str, float]:
+    name, _, number = text.partition("=")
+    try:
+        return name.strip(), float(number)
+    except ValueError:
+        raise InputError(f"--wanted takes NAME=NUMBER, such as B1/B3=0.99, got {text!r}") from None
+
+
+def _machine(
+    motion: LeverMotion, inertia: float | None, stiffness: float | None, period: float | None, xi: float
+) -> dict[str, float]:
+    if inertia is None:
+        return {}
+    first = motion.stiffness(period, inertia) if period is not None else stiffness
+    if first is None:
+        return {}
+    return {
+        "period_seconds": motion.seconds(first, inertia),
+        "stiffness_1": first,
+        "stiffness_2": xi * first,
+    }
+
+
+def _plain(one: TorsionLever) -> dict[str, Any]:
+    linkage = one.linkage
+    return {
+        "beta": one.beta,
+        "lam": one.lam,
+        "rho": one.rho,
+        "nu": one.nu,
+        "swing": one.swing,
+        "alpha": linkage.alpha,
+        "psi0": linkage.psi0,
+        **{name: getattr(linkage, name) for name in "QPSR"},
+        **{name: getattr(one, name) for name in ("xi", "gamma01", "n", "q", "p", "T0")},
+        "twists": list(one.twists),
+        "twists_left": list(one.twists_left),
+        "exact": _motion(one.exact),
+        "asymptotic": _motion(one.asymptotic),
+        "errors": one.errors,
+        "law": one.law().to_dict(),
+    }
+
+
+def _motion(motion: LeverMotion) -> dict[str, Any]:
+    return {"T": motion.period, **{name: getattr(motion, name) for name in (*_ANGLES, *_CONSTANTS)}}
+
+
+def _save(file: Path, levers: tuple[TorsionLever, ...]) -> None:
+    from optlaws.files.writing import MARK, write
+
+    if len(levers) > 1:
+        raise InputError(f"--output takes one law, found are {len(levers)}: give --beta or --lam of one of them")
+    write(file, json.dumps({"about": MARK, "law": levers[0].law().to_dict()}, indent=1) + "\n")
+
+
+def _show(one: TorsionLever, machine: dict[str, float]) -> None:
+    console = Console()
+    table = Table(show_header=False, box=None, pad_edge=False)
+    linkage = one.linkage
+    table.add_row("beta, lambda", f"{one.beta:.8g}, {one.lam:.8g}")
+    table.add_row("alpha, psi0", f"{linkage.alpha:.8g}, {degrees(linkage.psi0):.6g} deg")
+    table.add_row("xi = c2/c1", f"{one.xi:.8g}")
+    for name, twist, left in zip(("1", "2"), one.twists, one.twists_left, strict=True):
+        slack = "" if left > 0.0 else ": slack"
+        table.add_row(
+            f"twist of bar {name}", f"{degrees(twist):.6g} deg at rest, {degrees(left):.4g} deg at least{slack}"
+        )
+    for name, value in machine.items():
+        unit = "s" if name == "period_seconds" else "N m/rad"
+        table.add_row(name.replace("_", " ").replace(" seconds", ""), f"{value:.8g} {unit}")
+    console.print(table)
+    console.print(_compared(one))
+
+
+def _compared(one: TorsionLever) -> Table:
+    table = Table("", "exact", "asymptotic", "off by, %", box=None, pad_edge=False)
+    exact, asymptotic = _motion(one.exact), _motion(one.asymptotic)
+    table.add_row("T, sqrt(I/c1)", f"{exact['T']:.8g}", f"{asymptotic['T']:.8g}", f"{100 * one.errors['T']:.2g}")
+    for name in (*_ANGLES, *_CONSTANTS):
+        scale, unit = (degrees(1.0), ", deg") if name in _ANGLES else (1.0, "")
+        table.add_row(
+            f"{name}{unit}",
+            f"{scale * exact[name]:.8g}",
+            f"{scale * asymptotic[name]:.8g}",
+            f"{100 * one.errors[name]:.2g}",
+        )
+    table.add_row("max |da|", "", "", f"{100 * one.errors['max |da|']:.2g}")
+    return table

@@ -1,0 +1,91 @@
+"""The subcommand `optlaws study`: many problems, on all cores or on a cluster."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from concurrent.futures import Executor
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Annotated
+
+from cyclopts import Parameter
+from rich.console import Console
+
+from optlaws.errors import InputError
+from optlaws.studies.progress import Bar, Lines, listed
+from optlaws.studies.run import run_study
+from optlaws.studies.store.table import NotInstalled
+from optlaws.studies.study import Study, open_study
+
+
+def study(
+    file: Path | None = None,
+    *,
+    out: Path | None = None,
+    workers: int | None = None,
+    dask: str | None = None,
+    status: Path | None = None,
+    as_json: Annotated[bool, Parameter(name="--json")] = False,
+) -> None:
+    """Solve every point of a study; the same command goes on where an interrupted one stopped.
+
+    Parameters
+    ----------
+    file
+        Study file (TOML).
+    out
+        Directory of the study; studies/NAME beside the folder of the study file unless given.
+    workers
+        How many points are solved at a time; all cores, or all threads of the cluster, unless given.
+    dask
+        Address of a Dask scheduler, such as tcp://10.0.0.1:8786.
+    status
+        Say how far the study in this directory is, and solve nothing.
+    as_json
+        Print one JSON object on stdout and nothing else.
+    """
+    if status is not None:
+        if file is not None or out is not None or dask is not None:
+            raise InputError("--status takes a directory and neither a study file nor --out nor --dask")
+        _show(open_study(status), as_json=as_json)
+        return
+    if file is None:
+        raise InputError("name a study file, or a directory by --status DIR")
+    target = out if out is not None else file.resolve().parent.parent / "studies" / file.stem
+    progress = Console(stderr=True)
+    watch = Bar(progress) if progress.is_terminal else Lines(progress)
+    with _cluster(dask) as (executor, threads):
+        found = run_study(file, target, executor=executor, workers=workers or threads, watch=watch)
+    _show(found, as_json=as_json)
+
+
+@contextmanager
+def _cluster(address: str | None) -> Iterator[tuple[Executor | None, int | None]]:
+    if address is None:
+        yield None, None
+        return
+    try:
+        from distributed import Client
+    except ImportError:
+        raise NotInstalled("--dask needs distributed: pip install 'optlaws[cluster]'") from None
+    try:
+        client = Client(address, timeout=10)
+    except (OSError, ValueError) as error:
+        raise InputError(f"--dask {address}: no scheduler answers there: {error}") from None
+    with client:
+        yield client.get_executor(), max(1, sum(client.nthreads().values()))
+
+
+def _show(found: Study, *, as_json: bool) -> None:
+    counts, total, running = found.counts, len(found), found.running
+    done = sum(counts.values())
+    if as_json:
+        progress = {"path": str(found.path), "points": total, "done": done, "running": running, "counts": counts}
+        print(json.dumps({**found.about, **progress}))  # noqa: T201
+        return
+    console = Console()
+    state = "finished" if done == total else "under way" if running else "interrupted: run the same command again"
+    console.print(f"{found.path}: {done} of {total} points, {state}", markup=False, highlight=False, soft_wrap=True)
+    if counts:
+        console.print(listed(counts), markup=False, highlight=False, soft_wrap=True)

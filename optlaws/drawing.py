@@ -1,0 +1,121 @@
+"""Pictures in one style; matplotlib is imported when the first one is drawn."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import TYPE_CHECKING, Any, Literal
+
+from optlaws.files.writing import MARK
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+    from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum
+    from optlaws.synthesis.front import Front
+
+BLUES = ("#b3cde3", "#74add1", "#4292c6", "#2166ac", "#08306b")
+WARM = "#d95f02"
+GREEN = "#1b7f5c"
+GREY = "#595959"
+
+_STYLE: Any = {  # matplotlib's type lists every key there is
+    "font.family": "DejaVu Sans",
+    "font.size": 10.0,
+    "axes.titlesize": 11.0,
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e6e6e6",
+    "grid.linewidth": 0.7,
+    "axes.axisbelow": True,
+    "lines.linewidth": 1.6,
+    "legend.frameon": False,
+    "legend.fontsize": 9.0,
+    "figure.dpi": 100.0,
+    "savefig.dpi": 160.0,
+    "svg.hashsalt": "optlaws",
+    "svg.fonttype": "path",
+}
+
+
+@contextmanager
+def style() -> Iterator[None]:
+    """The style of every picture of the project, for the time of a `with` block."""
+    import matplotlib as mpl
+
+    with mpl.rc_context(_STYLE):
+        yield
+
+
+def figure(width: float = 7.2, height: float = 4.6) -> Figure:
+    """An empty figure that no window system knows of; sizes in inches."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+_AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D", "J": "peak jerk J"}
+
+
+def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
+    """Draw a front into axes, new ones unless given, and return the artists; a third constant gives the colour.
+
+    Examples
+    --------
+    >>> from optlaws import Problem
+    >>> from optlaws.synthesis.pareto import pareto_front
+    >>> (line,) = draw_front(pareto_front(Problem(order=4), points=3), color=GREEN)
+    >>> line.axes.get_xlabel()
+    'peak velocity B (dimensionless)'
+    """
+    if axes is None:
+        axes = figure().subplots()
+    for axis, name in zip("xy", front.over, strict=False):
+        axes.set(**{f"{axis}label": f"{_AXES.get(name, name)} (dimensionless)"})
+    values = front.values
+    if len(front.over) == 2:
+        return list(axes.plot(*values.T, **style))
+    style = {"s": 18.0, "c": values[:, 2], **{key: one for key, one in style.items() if key != "color"}}
+    points = axes.scatter(values[:, 0], values[:, 1], **style)
+    bar = axes.get_figure(root=True).colorbar(points, ax=axes)  # type: ignore[union-attr] # these axes have a figure
+    bar.set_label(f"{_AXES.get(front.over[2], front.over[2])} (dimensionless)")
+    return [points]
+
+
+def draw_spectrum(
+    spectrum: ResponseSpectrum,
+    axes: Axes | None = None,
+    *,
+    what: Literal["residual", "peak"] = "residual",
+    over: float = 1.0,
+    **style: Any,  # noqa: ANN401 - matplotlib's
+) -> list[Artist]:
+    """Draw residual or peak acceleration over nu into axes, new ones unless given, and return the artists.
+
+    `over` divides the acceleration, for example by C of the law meant for the mass.
+
+    Examples
+    --------
+    >>> from optlaws import response_spectrum, savin
+    >>> (line,) = draw_spectrum(response_spectrum(savin("III", 7.2), [18.0, 19.0, 20.0]), color=GREEN)
+    >>> line.axes.get_ylabel()
+    'residual acceleration'
+    """
+    if axes is None:
+        axes = figure().subplots()
+    values = spectrum.residual_acceleration if what == "residual" else spectrum.peak_acceleration
+    axes.set(xlabel="nu, radians of the free vibration in the rise", ylabel=f"{what} acceleration")
+    return list(axes.plot(spectrum.nu, values / over, **style))
+
+
+def rendered(drawing: Figure, kind: str) -> bytes:
+    """The picture as svg or png, without the date: the same drawing gives the same bytes."""
+    stream = io.BytesIO()
+    metadata = {"svg": {"Date": None, "Creator": MARK}, "png": {"Software": MARK}}[kind]
+    drawing.savefig(stream, format=kind, metadata=metadata)
+    return stream.getvalue()

@@ -1,1 +1,0 @@
-"""What leaves the library: files and tables."""

@@ -1,0 +1,1 @@
+"""What `optlaws run` does: a problem file names its job."""

@@ -1,0 +1,1 @@
+"""Jobs about balancing mechanisms for dwells."""

@@ -1,0 +1,1 @@
+"""Jobs about elastic followers and the cams made for them."""

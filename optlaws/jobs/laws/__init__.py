@@ -1,0 +1,1 @@
+"""Jobs about laws: tables, fronts, families, an atlas."""

@@ -1,0 +1,80 @@
+"""The job "atlas": a study over objective, order, degree and B, kept as one table and drawn over B."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from itertools import pairwise
+from pathlib import Path
+from tempfile import TemporaryDirectory
+from typing import Any
+
+from optlaws.errors import InputError
+from optlaws.files import tables, writing
+from optlaws.jobs.laws.figure_atlas import draw
+from optlaws.studies.point import StudyPoint
+from optlaws.studies.points.study_file import read_study
+from optlaws.studies.run import run_study
+
+AXES = ("minimise", "order", "degree", "B")
+CONSTANTS = ("B", "C", "D", "J", "rms_c")
+COLUMNS = ("minimise", "order", "degree", "B asked", "status", "lower bound", *CONSTANTS)
+_ROWS = 8
+
+
+def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
+    """Do the job and return the files written."""
+    study = read_study(file)
+    if tuple(study.vary) != AXES or study.together or study.sample or dict(data).get("job") != "atlas":
+        raise InputError(f"{file}: an atlas varies {', '.join(AXES)}, in this order, and nothing else")
+    with TemporaryDirectory() as folder:
+        points = list(run_study(file, folder))
+    about = f"{study.title}; from {file.name}"
+    written = [
+        writing.write(out / "atlas.csv", tables.to_csv(COLUMNS, [_cells(point) for point in points], about=about)),
+        writing.write(out / "atlas.md", _markdown(study.title, points)),
+    ]
+    for name, drawing in draw(points).items():
+        written += [writing.write(out / f"{name}.{kind}", content) for kind, content in drawing.items()]
+    return written
+
+
+def _cells(point: StudyPoint) -> list[tables.Cell]:
+    asked: list[tables.Cell] = [point.inputs[name] for name in AXES]
+    return [*asked, point.status, point.lower_bound, *(point.constants.get(name) for name in CONSTANTS)]
+
+
+def _markdown(title: str, points: Sequence[StudyPoint]) -> str:
+    text = [f"# {title}", "", f"<!-- {writing.MARK} -->", ""]
+    laws = sum(point.law is not None for point in points)
+    summary = (
+        f"{len(points)} points, of which {laws} have a law; all of them are in `atlas.csv`. Each order l asks for one "
+        "more derivative that vanishes at the ends: below is what that costs at the highest degree of Z; it "
+        "pays where the number is below 0, for with the order the degree of the law grows too."
+    )
+    text += [summary, ""]
+    for constant in ("C", "D"):
+        text += [f"## Least {constant}", "", f"![Least {constant} over B](least-{constant.lower()}.svg)", ""]
+        text += [tables.to_markdown(*_costs(points, constant))]
+    return "\n".join(text)
+
+
+def _costs(points: Sequence[StudyPoint], constant: str) -> tuple[list[str], list[list[tables.Cell]]]:
+    """By B the least constant of each order, and what each order costs over the one below it."""
+    degree = max(point.inputs["degree"] for point in points)
+    found = {
+        (point.inputs["B"], point.inputs["order"]): point.constants.get(constant)
+        for point in points
+        if point.inputs["minimise"] == constant and point.inputs["degree"] == degree
+    }
+    velocities, orders = (sorted({key[i] for key in found}) for i in (0, 1))
+    headings = ["B", *(f"l = {order}" for order in orders)]
+    headings += [f"l = {order} over {below}, %" for below, order in pairwise(orders)]
+    rows: list[list[tables.Cell]] = []
+    for B in velocities[:: max(1, len(velocities) // _ROWS)]:
+        values = [found[B, order] for order in orders]
+        steps = [
+            None if one is None or other is None else f"{100.0 * (other / one - 1.0):.1f}"
+            for one, other in pairwise(values)
+        ]
+        rows.append([B, *values, *steps])
+    return headings, rows

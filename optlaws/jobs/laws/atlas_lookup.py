@@ -1,0 +1,98 @@
+"""Looking a law up in the atlas: the nearest point that keeps what is asked, and its problem as asked."""
+
+from __future__ import annotations
+
+import csv
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from optlaws.errors import InputError
+from optlaws.files import reading
+from optlaws.jobs.laws.atlas import COLUMNS, CONSTANTS
+from optlaws.suggest import unknown_key
+from optlaws.synthesis import Chebyshev, Problem, at_most
+
+
+@dataclass(frozen=True)
+class AtlasPoint:
+    """A point of the atlas: what was asked there, and the constants of its law; J is missing where c jumps."""
+
+    minimise: str
+    order: int
+    degree: int
+    B: float
+    constants: Mapping[str, float]
+
+
+def look_up(
+    file: Path, *, minimise: str, order: int, B: float | None = None, most: Mapping[str, float] | None = None
+) -> AtlasPoint:
+    """The point with the nearest B or, where B is free, the best one; among equals the one with the least objective.
+
+    Parameters
+    ----------
+    file
+        The atlas, `atlas.csv`.
+    minimise, order
+        What is minimised, and l, as in the atlas.
+    B
+        Peak velocity.
+    most
+        Greatest values of constants.
+
+    Raises
+    ------
+    InputError
+        If there is no atlas, it has no such objective or order, or no point of it keeps what is asked.
+    """
+    asked = dict(most or {})
+    for name in asked:
+        if name not in CONSTANTS:
+            raise InputError(unknown_key(name, CONSTANTS, "constant"))
+    points = read(file)
+    for name, value in (("minimise", minimise), ("order", order)):
+        known = sorted({getattr(point, name) for point in points})
+        if value not in known:
+            raise InputError(f"the atlas has {name} = {', '.join(map(str, known))}, not {value}")
+    some = [point for point in points if (point.minimise, point.order) == (minimise, order)]
+    if B is not None:
+        low, high = min(point.B for point in some), max(point.B for point in some)
+        if not low <= B <= high:
+            raise InputError(f"the atlas has B from {low:g} to {high:g}, not {B:g}")
+    kept = [p for p in some if all(p.constants.get(name, float("inf")) <= value for name, value in asked.items())]
+    if not kept:
+        least = {name: min(p.constants.get(name, float("inf")) for p in some) for name in asked}
+        wanted = ", ".join(f"{name} <= {value:g} (the least there is {least[name]:g})" for name, value in asked.items())
+        raise InputError(f"no law of order {order} with the least {minimise} in the atlas keeps {wanted}")
+    return min(kept, key=lambda p: (0.0 if B is None else abs(p.B - B), p.constants[minimise]))
+
+
+def problem(point: AtlasPoint, *, B: float | None = None, most: Mapping[str, float] | None = None) -> Problem:
+    """The problem as asked, with the degree of a point of the atlas."""
+    bounds: dict[str, Any] = {name: at_most(value) for name, value in (most or {}).items()}
+    if B is not None:
+        bounds.pop("B", None)
+    return Problem(B=B, order=point.order, basis=Chebyshev(point.degree), minimise=point.minimise, bounds=bounds)
+
+
+def read(file: Path) -> list[AtlasPoint]:
+    """The points of an atlas that have a law."""
+    if not file.exists():
+        raise InputError(f"there is no atlas {file}; `optlaws run problems/atlas.toml` makes one")
+    lines = [line for line in reading.text(file).splitlines() if not line.startswith("#")]
+    rows = list(csv.DictReader(lines))
+    if not rows or tuple(rows[0]) != COLUMNS:
+        raise InputError(f"{file} is no atlas: its columns are not {', '.join(COLUMNS)}")
+    return [
+        AtlasPoint(
+            minimise=row["minimise"],
+            order=int(row["order"]),
+            degree=int(row["degree"]),
+            B=float(row["B asked"]),
+            constants={name: float(row[name]) for name in CONSTANTS if row[name]},
+        )
+        for row in rows
+        if row["C"]
+    ]

@@ -1,0 +1,235 @@
+"""The job "solutions": a table of problems, each solved, with its bound, its limit and laws to compare with."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import product
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.files import reading, tables, writing
+from optlaws.files.problem_file import convert
+from optlaws.files.problems import HEADINGS, Asked, Asking, Count, Text, gap, problem, record, shown
+from optlaws.jobs import printed
+from optlaws.suggest import unknown_key
+from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, synthesize
+
+Some = msgspec.Meta(min_length=1)
+
+RESULTS = ("objective", "lower bound", "gap", "limit", "above limit, %", "status")
+COLUMNS = (*FUNCTIONALS, *RESULTS)
+
+
+class Sweep(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """Values that entries take in turn; lists in one table go together and are of one length."""
+
+    minimise: Annotated[list[Text], Some] | None = None
+    B: Annotated[list[Asking], Some] | None = None
+    C: Annotated[list[Asking], Some] | None = None
+    D: Annotated[list[Asking], Some] | None = None
+    J: Annotated[list[Asking], Some] | None = None
+    order: Annotated[list[Count], Some] | None = None
+    basis: Annotated[list[Literal["powers", "chebyshev"]], Some] | None = None
+    degree: Annotated[list[Count], Some] | None = None
+    monotone: Annotated[list[bool], Some] | None = None
+
+    def values(self) -> dict[str, list[Any]]:
+        """The lists that are there."""
+        return {name: getattr(self, name) for name in Sweep.__struct_fields__ if getattr(self, name) is not None}
+
+
+class Compare(msgspec.Struct, forbid_unknown_fields=True):
+    """Another problem for each row, for example `minimise = "C"`, and which of its columns to show."""
+
+    name: Text
+    columns: Annotated[list[str], Some]
+    problem: Asked
+
+
+class Beside(msgspec.Struct, forbid_unknown_fields=True):
+    """Printed data to stand beside: a CSV file, the swept entry that finds its row, and which columns to show."""
+
+    file: Text
+    name: Text
+    match: Literal["B", "C", "D", "J"]
+    columns: Annotated[list[str], Some]
+
+
+class Study(msgspec.Struct, forbid_unknown_fields=True):
+    """The problem file."""
+
+    job: str
+    title: Text
+    problem: Asked
+    sweep: Annotated[list[Sweep], Some]
+    text: str = ""
+    bound: Literal["quick", "tight"] = "quick"
+    columns: Annotated[list[str], Some] = msgspec.field(default_factory=lambda: ["B", "C", "D", "J", *RESULTS[1:]])
+    compare: list[Compare] = []
+    beside: Beside | None = None
+
+
+@dataclass(frozen=True)
+class Row:
+    """The swept entries, what they ask, and the answers: None where there is no law, with the reason and its proof."""
+
+    entries: Mapping[str, Any]
+    asked: Problem
+    solution: Solution | None
+    others: tuple[Solution | None, ...]
+    status: str
+    proof: Certificate | None
+
+
+def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
+    """Do the job and return the files written."""
+    spec = convert(data, Study, file)
+    for name in [*spec.columns, *(name for one in spec.compare for name in one.columns)]:
+        if name not in COLUMNS:
+            raise InputError(unknown_key(name, COLUMNS, "column"))
+    entries = list(_entries(spec))
+    beside = _beside(spec, file, entries)
+    problems = [_problems(spec, i, one) for i, one in enumerate(entries, 1)]
+    rows = [_solved(spec, one, *asked) for one, asked in zip(entries, problems, strict=True)]
+    headings, cells = _cells(spec, rows, beside)
+    about = f"{spec.title}; from {file.name}"
+    return [
+        writing.write(out / "table.csv", tables.to_csv(headings, cells, about=about)),
+        writing.write(out / "table.md", _markdown(spec, headings, cells)),
+        writing.write(out / "laws.json", _laws(about, rows)),
+    ]
+
+
+def _entries(spec: Study) -> Iterator[dict[str, Any]]:
+    """The swept entries of each row; the last table of `sweep` varies fastest."""
+    parts = []
+    names: list[str] = []
+    for i, one in enumerate(spec.sweep):
+        values = one.values()
+        lengths = {len(value) for value in values.values()}
+        if len(lengths) != 1:
+            raise InputError(f"sweep[{i}]: needs one or more lists of one length, got lengths {sorted(lengths)}")
+        for name in values:
+            if name in names:
+                raise InputError(f"sweep[{i}], {name}: it is swept twice")
+            names.append(name)
+        parts.append([dict(zip(values, some, strict=True)) for some in zip(*values.values(), strict=True)])
+    for chosen in product(*parts):
+        yield {name: value for part in chosen for name, value in part.items()}
+
+
+def _problems(spec: Study, number: int, entries: Mapping[str, Any]) -> tuple[Problem, list[Problem]]:
+    base = spec.problem.given()
+    others = [problem(f"compare, {one.name}, row {number}", base, entries, one.problem.given()) for one in spec.compare]
+    return problem(f"row {number}", base, entries), others
+
+
+def _solved(spec: Study, entries: Mapping[str, Any], asked: Problem, others: Sequence[Problem]) -> Row:
+    status = "infeasible"
+    solution, proof = None, None
+    try:
+        solution = synthesize(asked, bound=spec.bound)
+        status = solution.status.value
+    except InfeasibleProblem as error:
+        proof = error.proof if isinstance(error.proof, Certificate) and error.proof.problem == asked else None
+    except SolverFailure:
+        status = "not found"
+    return Row(entries, asked, solution, tuple(_tried(one) for one in others), status, proof)
+
+
+def _tried(asked: Problem) -> Solution | None:
+    try:
+        return synthesize(asked)
+    except (InfeasibleProblem, SolverFailure):
+        return None
+
+
+def _beside(spec: Study, file: Path, entries: Sequence[Mapping[str, Any]]) -> list[list[tables.Cell]]:
+    """The printed cells of each row, as printed."""
+    if spec.beside is None:
+        return [[] for _ in entries]
+    source = file.parent / spec.beside.file
+    lines = printed.rows(source, _header(source))
+    if not lines:
+        raise InputError(f"beside: {source} has no rows")
+    for name in (spec.beside.match, *spec.beside.columns):
+        if name not in lines[0]:
+            raise InputError(f"beside: {source}: {unknown_key(name, lines[0], 'column')}")
+    by_value = {printed.number(line[spec.beside.match], str(source)): line for line in lines}
+    found: list[list[tables.Cell]] = []
+    for one in entries:
+        value = one.get(spec.beside.match)
+        line = by_value.get(value, {}) if isinstance(value, float) else {}
+        found.append([line.get(name) for name in spec.beside.columns])
+    return found
+
+
+def _header(source: Path) -> tuple[str, ...]:
+    try:
+        lines = reading.text(source).splitlines()
+    except InputError as error:
+        raise InputError(f"beside: {error}") from None
+    return tuple(next((line.split(",") for line in lines if line and not line.startswith("#")), []))
+
+
+def _cells(
+    spec: Study, rows: Sequence[Row], beside: Sequence[Sequence[tables.Cell]]
+) -> tuple[list[str], list[list[tables.Cell]]]:
+    swept = list(rows[0].entries)
+    headings = [HEADINGS.get(name, name) for name in swept] + spec.columns
+    headings += [f"{column}, {one.name}" for one in spec.compare for column in one.columns]
+    if spec.beside is not None:
+        headings += [f"{column}, {spec.beside.name}" for column in spec.beside.columns]
+    cells = []
+    for row, aside in zip(rows, beside, strict=True):
+        line: list[tables.Cell] = [shown(row.entries[name]) for name in swept]
+        line += [row.status if name == "status" else _cell(row.solution, name) for name in spec.columns]
+        for one, other in zip(spec.compare, row.others, strict=True):
+            line += [_cell(other, name) for name in one.columns]
+        cells.append([*line, *aside])
+    return headings, cells
+
+
+def _cell(solution: Solution | None, name: str) -> tables.Cell:
+    if solution is None:
+        return None
+    if name in FUNCTIONALS:
+        return FUNCTIONALS[name].value(solution.law)
+    limit = solution.limit
+    cells: dict[str, tables.Cell] = {
+        "objective": solution.objective,
+        "lower bound": solution.lower_bound,
+        "gap": gap(solution),
+        "limit": limit,
+        "above limit, %": None if limit is None else f"{100.0 * (solution.objective / limit - 1.0):.2f}",
+        "status": solution.status.value,
+    }
+    return cells[name]
+
+
+def _markdown(spec: Study, headings: Sequence[str], cells: Sequence[Sequence[tables.Cell]]) -> str:
+    text = [spec.text.strip(), ""] if spec.text.strip() else []
+    return "\n".join(
+        [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", "", *text, tables.to_markdown(headings, cells)]
+    )
+
+
+def _laws(about: str, rows: Sequence[Row]) -> str:
+    lines = [
+        json.dumps(
+            {
+                "asked": row.asked.to_dict(),
+                "status": row.status,
+                "solution": None if row.solution is None else record(row.solution),
+                **({} if row.proof is None else {"proof": row.proof.to_dict()}),
+            }
+        )
+        for row in rows
+    ]
+    head = json.dumps({"about": f"{about}; {writing.MARK}"})[1:-1]
+    return f'{{{head}, "rows": [\n' + ",\n".join(lines) + "\n]}\n"

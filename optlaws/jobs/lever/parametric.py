@@ -1,0 +1,164 @@
+"""The job "lever parametric": how the constants of the torsion lever vary with its lengths, pre-twists and swing."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Annotated, Any
+
+import msgspec
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.files import tables, writing
+from optlaws.files.problem_file import convert
+from optlaws.jobs.lever.cases import Lengths, Swings, Text, Twists, levers
+from optlaws.jobs.lever.figure_constants import draw
+from optlaws.mechanisms.lever.lever import TorsionLever
+
+CONSTANTS = ("B1", "B3", "C1", "C3")
+
+
+class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, rename={"lam": "lambda"}):
+    """The problem file; swings in degrees."""
+
+    job: str
+    title: Text
+    beta: Lengths
+    lam: Lengths
+    rho: Twists
+    nu: Twists
+    swing: Swings
+    drawn: Annotated[Lengths, msgspec.Meta(max_length=10)]
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class Group:
+    """The levers of one beta and one swing: their number, the constants of each, and how far the formulas are off.
+
+    Attributes
+    ----------
+    values
+        B1, B3, C1, |C3| and T/T0 of the asymptotic motion, shape (number, 5).
+    exact
+        The same of the exact motion, of those levers whose exact motion keeps to the limits.
+    truncated
+        Greatest difference of eq. (4) from the exact moment, as a share of the greatest moment.
+    off
+        Greatest relative error of T, B1, B3, C1 and C3, and greatest |da|.
+    """
+
+    beta: float
+    swing: float
+    values: np.ndarray[Any, np.dtype[np.float64]]
+    exact: np.ndarray[Any, np.dtype[np.float64]]
+    truncated: float
+    off: np.ndarray[Any, np.dtype[np.float64]]
+
+
+def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
+    """Do the job and return the files written."""
+    spec = convert(data, Study, file)
+    if missing := [f"{beta:g}" for beta in spec.drawn if beta not in spec.beta]:
+        raise InputError(f"drawn: {', '.join(missing)} not among beta")
+    groups = [
+        _group(beta, swing, found)
+        for beta in spec.beta
+        for swing in spec.swing
+        if (found := levers(beta, swing, spec.lam, spec.rho, spec.nu))
+    ]
+    if not groups:
+        raise InputError("no combination of beta, lambda, rho, nu and swing keeps to the limits")
+    about = f"{spec.title}; from {file.name}"
+    headings, cells = _cells(groups)
+    drawing = draw(spec.drawn, groups)
+    return [
+        writing.write(out / "parametric.csv", tables.to_csv(headings, cells, about=about)),
+        writing.write(out / "parametric.md", _markdown(spec, groups)),
+        *(writing.write(out / f"constants.{kind}", content) for kind, content in drawing.items()),
+    ]
+
+
+def _group(beta: float, swing: float, found: Sequence[TorsionLever]) -> Group:
+    values = [_values(one, one.asymptotic) for one in found]
+    exact, off = [], []
+    for one in found:
+        try:
+            exact.append(_values(one, one.exact))
+        except InputError:  # the exact motion leaves the limits by a little
+            continue
+        off.append([abs(one.errors[name]) for name in ("T", *CONSTANTS, "max |da|")])
+    return Group(
+        beta,
+        swing,
+        np.array(values),
+        np.array(exact).reshape(-1, 5),
+        max(_truncated(one) for one in found),
+        np.array(off).reshape(-1, 6).max(axis=0, initial=0.0),
+    )
+
+
+def _values(one: TorsionLever, motion: Any) -> list[float]:  # noqa: ANN401
+    return [*(abs(getattr(motion, name)) for name in CONSTANTS), motion.period / one.T0]
+
+
+def _truncated(one: TorsionLever) -> float:
+    chi = np.linspace(one.asymptotic.chi02, one.chi01, 201)
+    moment = one.moment(chi)
+    return float(np.abs(one.taylor_moment(chi) - moment).max() / np.abs(moment).max())
+
+
+def _cells(groups: Sequence[Group]) -> tuple[list[str], list[list[tables.Cell]]]:
+    names = ("B1", "B3", "C1", "|C3|", "T/T0")
+    headings = ["beta", "swing, deg", "levers", "within the limits in the exact motion"]
+    headings += [f"{name} {end}{kind}" for kind in ("", ", exact") for name in names for end in ("least", "greatest")]
+    headings += [f"spread of {name}, %" for name in names[:4]]
+    headings += ["Taylor error of the moment, %", *(f"{name} off by, %" for name in ("T", *CONSTANTS)), "max |da|"]
+    rows: list[list[tables.Cell]] = []
+    for one in groups:
+        spread = 100 * np.ptp(one.values[:, :4], axis=0) / one.values[:, :4].min(axis=0)
+        rows.append(
+            [
+                one.beta,
+                one.swing,
+                len(one.values),
+                len(one.exact),
+                *_ends(one.values),
+                *_ends(one.exact),
+                *np.round(spread, 6).tolist(),
+                round(100 * one.truncated, 6),
+                *np.round(100 * one.off[:5], 6).tolist(),
+                round(float(one.off[5]), 8),
+            ]
+        )
+    return headings, rows
+
+
+def _ends(values: np.ndarray[Any, np.dtype[np.float64]]) -> list[float]:
+    # a parallelogram has no spread but rounding
+    return np.round(np.stack([values.min(axis=0), values.max(axis=0)], axis=1), 9).ravel().tolist()
+
+
+def _markdown(spec: Study, groups: Sequence[Group]) -> str:
+    text = [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", ""]
+    if spec.text.strip():
+        text += [spec.text.strip(), ""]
+    text += ["![B and C over the swing](constants.svg)", "", "## Asymptotic constants", ""]
+    headings = ["beta", "swing, deg", "levers", "B1", "B3", "C1", "abs C3", "T/T0"]
+    rows: list[list[tables.Cell]] = [
+        [one.beta, one.swing, len(one.values), *(_span(column) for column in one.values.T)] for one in groups
+    ]
+    text += [tables.to_markdown(headings, rows), "## What they are off by, at most", ""]
+    headings = ["beta", "swing, deg", "moment, %", "T, %", "B1, %", "B3, %", "C1, %", "C3, %", "max da"]
+    rows = [
+        [one.beta, one.swing, *(f"{100 * value:.3f}" for value in (one.truncated, *one.off[:5])), f"{one.off[5]:.5f}"]
+        for one in groups
+    ]
+    return "\n".join([*text, tables.to_markdown(headings, rows)])
+
+
+def _span(column: np.ndarray[Any, np.dtype[np.float64]]) -> str:
+    low, high = (f"{end:.4f}" for end in (column.min(), column.max()))
+    return low if low == high else f"{low} to {high}"

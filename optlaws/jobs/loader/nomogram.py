@@ -1,0 +1,86 @@
+"""The job "loader nomogram": Y and the peaks of loaders of trapezia over e13 and gamma_w, table and figure."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import Annotated, Any
+
+import msgspec
+
+from optlaws.errors import InputError
+from optlaws.files import tables, writing
+from optlaws.files.problem_file import convert
+from optlaws.jobs.loader import figure_nomogram
+from optlaws.mechanisms.loader.loader import loader
+from optlaws.mechanisms.loader.trapezium import TrapeziumSubstitute
+
+HEADINGS = ("e13", "gamma_w", "m", "n", "Y by eq. 25", "Y", "B", "C", "D", "B of loader", "C of loader", "D of loader")
+
+Text = Annotated[str, msgspec.Meta(min_length=1)]
+Positive = Annotated[float, msgspec.Meta(gt=0)]
+
+
+class Steps(msgspec.Struct, forbid_unknown_fields=True, rename={"start": "from", "stop": "to"}):
+    """A range of values."""
+
+    start: Positive
+    stop: Positive
+    step: Positive
+
+    def values(self) -> list[float]:
+        """The values, without what adding up steps would round."""
+        count = round((self.stop - self.start) / self.step)
+        return [round(self.start + i * self.step, 9) for i in range(count + 1)]
+
+
+class Nomogram(msgspec.Struct, forbid_unknown_fields=True):
+    """The problem file."""
+
+    job: str
+    title: Text
+    gamma_w: Annotated[list[Positive], msgspec.Meta(min_length=1)]
+    e13: Steps
+
+
+def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
+    """Do the job and return the files written."""
+    spec = convert(data, Nomogram, file)
+    rows = [row for gamma_w in spec.gamma_w for e13 in spec.e13.values() if (row := _row(e13, gamma_w)) is not None]
+    if not rows:
+        raise InputError(f"{file}: no trapezium has these e13 and gamma_w; try e13 from 0.5 to 0.66, gamma_w from 0.25")
+    about = f"{spec.title}; from {file.name}"
+    drawing = figure_nomogram.draw(spec.title, HEADINGS, rows)
+    return [
+        writing.write(out / "nomogram.csv", tables.to_csv(HEADINGS, rows, about=about)),
+        writing.write(out / "nomogram.md", _markdown(spec, rows)),
+        *(writing.write(out / f"nomogram.{kind}", content) for kind, content in drawing.items()),
+    ]
+
+
+def _row(e13: float, gamma_w: float) -> list[float] | None:
+    try:
+        one = TrapeziumSubstitute(e13, gamma_w)
+    except InputError:
+        return None
+    exact = loader(one.law)
+    peaks = one.law.constants
+    own = [peaks.B.value, peaks.C.value, peaks.D.value]
+    return [e13, gamma_w, one.m, one.n, one.Y, exact.Y, *own, exact.B, exact.C, exact.D]
+
+
+def _markdown(spec: Nomogram, rows: Sequence[Sequence[float]]) -> str:
+    worst = max(abs(row[4] / row[5] - 1.0) for row in rows)
+    return "\n".join(
+        [
+            f"# {spec.title}",
+            "",
+            f"<!-- {writing.MARK} -->",
+            "",
+            f"Y of eq. 25 is within {worst:.1g} of the exact one, relative to it.",
+            "",
+            "![Y, B, C and D of the loader](nomogram.svg)",
+            "",
+            tables.to_markdown(HEADINGS, rows, digits=6),
+        ]
+    )

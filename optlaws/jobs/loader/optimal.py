@@ -1,0 +1,198 @@
+"""The job "loader optimal": printed laws beside laws that are made for their inertial loaders."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping, Sequence
+from contextlib import suppress
+from dataclasses import dataclass
+from math import isfinite
+from pathlib import Path
+from typing import Annotated, Any
+
+import msgspec
+
+from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.files import tables, writing
+from optlaws.files.problem_file import convert
+from optlaws.jobs import printed
+from optlaws.jobs.loader import figure_optimal
+from optlaws.jobs.loader.table import COLUMNS
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.mechanisms.loader.limits import loader_acceleration_limit
+from optlaws.mechanisms.loader.loader import Loader, loader
+from optlaws.mechanisms.loader.optimal import BalancedLaw, balanced_law
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.spaces.bases import Chebyshev
+
+MIXTURE = "0.5*C/4 + 0.5*C_loader/4"
+KINDS = ("least C_l", "C no greater", "mixture", "least B_l")
+
+_ABOUT_LEAST = (
+    "C and C_l are those of the printed law and of its loader. The least C_l at the same B was found for laws of the "
+    "order and degree of Z in the heading (local optima: laws.json has where each start led, those that lost their "
+    "way left out); no law with b >= 0 is below the limit. Better by: the best of them against the printed law."
+)
+_ABOUT_RIVALS = (
+    "Laws of the printed law's own B and order, of the greatest degree: with the least C_l among those whose C is no "
+    f"greater than that of the printed law, with the least {MIXTURE}, and with the least B_l. Better by: the peak "
+    "that is minimised, against the printed law; gap: how much better still it could be, at most."
+)
+
+Text = Annotated[str, msgspec.Meta(min_length=1)]
+Orders = Annotated[list[Annotated[int, msgspec.Meta(ge=2)]], msgspec.Meta(min_length=1)]
+Degrees = Annotated[list[Annotated[int, msgspec.Meta(ge=3)]], msgspec.Meta(min_length=1)]
+
+
+class Spec(msgspec.Struct, forbid_unknown_fields=True):
+    """The problem file."""
+
+    job: str
+    title: Text
+    printed: Text
+    orders: Orders
+    degrees: Degrees
+    shown: Text
+
+
+@dataclass(frozen=True)
+class Row:
+    """A printed law with its loader, and its rivals."""
+
+    code: str
+    one: Loader
+    order: int
+    least: Mapping[tuple[int, int], BalancedLaw]
+    rivals: Mapping[str, BalancedLaw | None]
+
+    @property
+    def B(self) -> float:
+        """Peak velocity of the law."""
+        return self.one.executive.constants.B.value
+
+    @property
+    def C(self) -> float:
+        """Peak acceleration of the law."""
+        return self.one.executive.constants.C.value
+
+    @property
+    def best(self) -> BalancedLaw:
+        """The law with the least C of the loader."""
+        return min(self.least.values(), key=lambda found: found.objective)
+
+    def printed(self, kind: str) -> float:
+        """What the printed law has of what a rival is best at."""
+        return {"mixture": 0.125 * (self.C + self.one.C), "least B_l": self.one.B}.get(kind, self.one.C)
+
+
+def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
+    """Do the job and return the files written."""
+    spec = convert(data, Spec, file)
+    given = printed.rows(file.parent / spec.printed, COLUMNS)
+    codes = [one["code"] for one in given]
+    if spec.shown not in codes:
+        raise InputError(f"{file}: {unknown_key(spec.shown, codes, 'law')}")
+    rows = [_row(one, spec) for one in given]
+    about = f"{spec.title}; from {file.name}"
+    least, headings = _least(rows), _headings(rows)
+    rivals = _rivals(rows)
+    kept = {
+        row.code: {kind: None if one is None else one.to_dict() for kind, one in row.rivals.items()} for row in rows
+    }
+    drawing = figure_optimal.draw(spec.title, rows, next(row for row in rows if row.code == spec.shown))
+    return [
+        writing.write(out / "table.csv", tables.to_csv(headings, least, about=about)),
+        writing.write(out / "rivals.csv", tables.to_csv(RIVALS, rivals, about=about)),
+        writing.write(out / "laws.json", json.dumps({"about": writing.MARK, "laws": kept}, indent=1) + "\n"),
+        writing.write(out / "table.md", _markdown(spec, (headings, least), rivals)),
+        *(writing.write(out / f"figure.{kind}", content) for kind, content in drawing.items()),
+    ]
+
+
+def _row(given: Mapping[str, str], spec: Spec) -> Row:
+    law = catalogue[given["law"]].law
+    B, C = law.constants.B.value, law.constants.C.value
+    order = 2 if abs(law.c(0.0)) > 1e-9 * C else 3
+    least = {
+        (order, degree): balanced_law(B, order=order, basis=Chebyshev(degree))
+        for order in spec.orders
+        for degree in spec.degrees
+    }
+    basis = Chebyshev(max(spec.degrees))
+    own = least.get((order, basis.degree)) or balanced_law(B, order=order, basis=basis)
+    rivals: dict[str, BalancedLaw | None] = {"least C_l": own, "C no greater": None}
+    with suppress(InfeasibleProblem):  # at B = 2 no polynomial has C = 4
+        rivals["C no greater"] = balanced_law(B, order=order, basis=basis, most_C=C)
+    rivals["mixture"] = balanced_law(B, order=order, basis=basis, minimise=MIXTURE)
+    rivals["least B_l"] = balanced_law(B, order=order, basis=basis, minimise="B_loader")
+    return Row(given["code"], loader(law), order, least, rivals)
+
+
+def _headings(rows: Sequence[Row]) -> list[str]:
+    pairs = [f"l = {order}, degree {degree}" for order, degree in rows[0].least]
+    return ["law", "B", "C", "C_l", *pairs, "limit", "better by, %"]
+
+
+def _least(rows: Sequence[Row]) -> list[list[tables.Cell]]:
+    return [
+        [
+            row.code,
+            row.B,
+            row.C,
+            _finite(row.one.C),
+            *(one.objective for one in row.least.values()),
+            loader_acceleration_limit(row.B),
+            _better(row.best.objective, row.one.C),
+        ]
+        for row in rows
+    ]
+
+
+RIVALS = ("law", "order", "rival", "C", "C_l", "B_l", "printed C", "printed C_l", "printed B_l", "better by, %", "gap")
+
+
+def _rivals(rows: Sequence[Row]) -> list[list[tables.Cell]]:
+    found: list[list[tables.Cell]] = []
+    for row in rows:
+        own = [row.C, _finite(row.one.C), row.one.B]
+        for kind in KINDS:
+            one = row.rivals[kind]
+            if one is None:
+                found.append([row.code, row.order, f"{kind}: none exists", None, None, None, *own, None, None])
+                continue
+            peaks = [one.law.constants.C.value, one.loader.C, one.loader.B]
+            better = _better(one.objective, row.printed(kind))
+            gap = max(0.0, round(one.gap, 6))
+            found.append([row.code, row.order, kind, *peaks, *own, better, gap])
+    return found
+
+
+def _finite(value: float) -> float | None:
+    return value if isfinite(value) else None
+
+
+def _better(found: float, own: float) -> float | None:
+    return round(100.0 * (1.0 - found / own), 3) if isfinite(own) else None
+
+
+def _markdown(
+    spec: Spec, least: tuple[Sequence[str], Sequence[Sequence[tables.Cell]]], rivals: Sequence[Sequence[tables.Cell]]
+) -> str:
+    return "\n".join(
+        [
+            f"# {spec.title}",
+            "",
+            f"<!-- {writing.MARK} -->",
+            "",
+            _ABOUT_LEAST,
+            "",
+            tables.to_markdown(*least),
+            "![C of the loader over B, and a printed law beside its rival](figure.svg)",
+            "",
+            "## Rivals of the same order",
+            "",
+            _ABOUT_RIVALS,
+            "",
+            tables.to_markdown(RIVALS, rivals, digits=6),
+        ]
+    )

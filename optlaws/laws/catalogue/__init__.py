@@ -1,0 +1,1 @@
+"""Standard laws by their names and codes, with published constants."""

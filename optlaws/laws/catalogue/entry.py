@@ -1,0 +1,186 @@
+"""An entry of the catalogue: a law with its names, source and published constants."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from fractions import Fraction
+from math import pi
+from typing import Any
+
+import numpy as np
+
+from optlaws.kept import kept_property
+from optlaws.laws.catalogue.tyr_codes import coded
+from optlaws.laws.law import MotionLaw
+from optlaws.laws.making.trapezoids import scca, trapezoid
+from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.polynomial import smoothstep
+from optlaws.laws.segments.segment import Segment
+from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
+from optlaws.series.peaks import Constants
+
+SMOOTH = 1e-9  # a derivative at an end below this share of its size is zero
+HIGHEST = 9
+BUILDERS = ("smoothstep", "sines", "cosines", "scca", "trapezoid", "code")
+
+
+@dataclass(frozen=True)
+class Published:
+    """Constants as somebody printed them, and whether they are those of the law to the digits printed.
+
+    Examples
+    --------
+    >>> Published(by="a table", printed=(("C", "4.89"),)).disagreements(smoothstep(2).constants)
+    ('C = 4.89 is 6',)
+    """
+
+    by: str
+    printed: tuple[tuple[str, str], ...]
+
+    def disagreements(self, constants: Constants) -> tuple[str, ...]:
+        """What is printed otherwise than the constants are when rounded to the printed digits."""
+        found = []
+        for name, text in self.printed:
+            value = getattr(constants, name).value
+            digits = len(text.partition(".")[2])
+            if abs(value - float(text)) > 0.5 * 10.0**-digits * (1.0 + 1e-9):
+                found.append(f"{name} = {text} is {value:.7g}")
+        return tuple(found)
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A law of the catalogue.
+
+    Attributes
+    ----------
+    name
+        What the catalogue calls it.
+    names
+        Other names, by language or controller.
+    definition
+        How it is built: the name of a construction and its numbers, fractions as text.
+    source
+        Where the definition comes from.
+    from_memory
+        Whether the definition was written down from memory and not compared with its source.
+    published
+        Constants printed elsewhere.
+
+    Examples
+    --------
+    >>> from optlaws.laws.catalogue.catalogue import catalogue
+    >>> entry = catalogue["BESTEHORN"]
+    >>> entry.name, entry.continuity, entry.constants.B.value
+    ('cycloidal', 2, 2.0)
+    """
+
+    name: str
+    names: tuple[tuple[str, tuple[str, ...]], ...]
+    definition: tuple[str, Any]
+    source: str
+    from_memory: bool
+    published: tuple[Published, ...]
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Entry:
+        """The entry of a table of the catalogue's data file."""
+        (builder,) = (key for key in BUILDERS if key in data)
+        numbers = data[builder]
+        if isinstance(numbers, list | dict):
+            numbers = tuple(numbers.items() if isinstance(numbers, dict) else numbers)
+        return cls(
+            name=data["name"],
+            names=tuple((language, tuple(some)) for language, some in data.get("names", {}).items()),
+            definition=(builder, numbers),
+            source=data["source"],
+            from_memory=data.get("from_memory", False),
+            published=tuple(
+                Published(one["by"], tuple((key, text) for key, text in one.items() if key != "by"))
+                for one in data.get("published", ())
+            ),
+        )
+
+    @property
+    def aliases(self) -> tuple[str, ...]:
+        """Its other names, without the numbers of enumerations."""
+        return tuple(one.partition(" = ")[0] for _, some in self.names for one in some)
+
+    @kept_property
+    def law(self) -> MotionLaw:
+        """The law, from exact segments."""
+        return _built(*self.definition)
+
+    @property
+    def constants(self) -> Constants:
+        """B, C, D, J and the RMS of c, within the motion: a jump of c at its ends counts in `continuity` alone."""
+        return self.law.constants
+
+    @kept_property
+    def continuity(self) -> int:
+        """The highest order whose derivative, and all below, are continuous with rest before and after the motion.
+
+        0 is a, 1 is b, 2 is c, 3 is j; c that is not continuous is a jerk without bound.
+        """
+        law = self.law
+        inside = law.continuity if isinstance(law, PiecewiseLaw) else HIGHEST
+        start, end = law.boundary_values(HIGHEST + 1)
+        for nu in range(1, inside + 1):
+            size = float(np.abs(law(np.linspace(0.0, 1.0, 65), nu)).max())
+            if max(abs(start[nu]), abs(end[nu])) > SMOOTH * size:
+                return nu - 1
+        return inside
+
+    @property
+    def formula(self) -> str:
+        """How the law is built, in a few words."""
+        builder, numbers = self.definition
+        if builder in ("sines", "cosines"):
+            wave, base, outer = ("sin", 2, "2π") if builder == "sines" else ("cos", 1, "π²")
+            terms = " + ".join(f"{q} {wave} {base * int(n)}πk" for n, q in numbers)
+            return f"c = {outer} ({terms})".replace("+ -", "- ").replace("(1 ", "(").replace(" 1πk", " πk")
+        if builder == "code":
+            return f"code {numbers}"
+        return f"{builder}({numbers if builder == 'smoothstep' else ', '.join(numbers)})"
+
+    def to_dict(self) -> dict[str, Any]:
+        """The entry as plain data.
+
+        Examples
+        --------
+        >>> from optlaws.laws.catalogue.catalogue import catalogue
+        >>> sorted(catalogue["cubic"].to_dict())
+        ['aliases', 'constants', 'continuity', 'formula', 'from_memory', 'law', 'name', 'published', 'source']
+        """
+        return {
+            "name": self.name,
+            "aliases": {language: list(some) for language, some in self.names},
+            "formula": self.formula,
+            "source": self.source,
+            "from_memory": self.from_memory,
+            "continuity": self.continuity,
+            "constants": self.constants.to_dict(rms=True),
+            "published": [{"by": one.by, **dict(one.printed)} for one in self.published],
+            "law": self.law.to_dict(),
+        }
+
+
+def _built(builder: str, numbers: Any) -> MotionLaw:  # noqa: ANN401 - whatever the data file holds
+    if builder == "smoothstep":
+        return smoothstep(numbers)
+    if builder == "code":
+        return coded(numbers)
+    if builder in ("scca", "trapezoid"):
+        build = scca if builder == "scca" else trapezoid
+        return build(*(float(Fraction(one)) for one in numbers))
+    terms = [(int(n), float(Fraction(q))) for n, q in numbers]
+    scale, base, phase = (2.0 * pi, 2.0 * pi, 0.0) if builder == "sines" else (pi * pi, pi, 0.5 * pi)
+    amplitudes = tuple(scale * q for _, q in terms)
+    frequencies = tuple(base * n for n, _ in terms)
+    phases = tuple(phase for _ in terms)
+    if len(terms) == 1:
+        wave: Segment = SineSegment(amplitudes[0], frequencies[0], phase)
+    else:
+        wave = HarmonicSegment(amplitudes, frequencies, phases)
+    return PiecewiseLaw([0.0, 1.0], [wave])

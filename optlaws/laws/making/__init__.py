@@ -1,0 +1,1 @@
+"""Laws made: by their shape, from other laws, by the multiplier method."""

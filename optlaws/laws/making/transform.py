@@ -1,0 +1,138 @@
+"""Laws made from laws: with an end velocity (eq. 1.17), reversed in time, mirrored."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.laws.law import MotionLaw
+from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.polynomial import PolynomialLaw
+from optlaws.laws.segments import transforms
+from optlaws.numbers import finite
+from optlaws.series import interpolation
+
+Array = NDArray[np.float64]
+
+
+def with_end_velocity(law: MotionLaw, b0: float) -> MotionLaw:
+    """The law (1 - b0) a + b0 k (eq. 1.17): a rest-to-rest law then begins and ends with the velocity b0.
+
+    C becomes |1 - b0| C and, for 0 <= b0 <= 1, B becomes (1 - b0) B + b0. A polynomial law stays one, a piecewise
+    law keeps its segments in closed form; any other law becomes a polynomial, to machine accuracy.
+
+    Parameters
+    ----------
+    law
+        The law a, as a rule from rest to rest.
+    b0
+        Velocity at both ends, relative to the mean velocity.
+
+    Raises
+    ------
+    InputError
+        If `b0` is not a finite real number, or a law of another kind is not smooth.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> with_end_velocity(smoothstep(3), 0.25).b([0.0, 0.5, 1.0]).round(12).tolist()
+    [0.25, 1.65625, 0.25]
+    """
+    velocity = finite(b0, "b0")
+    return _scaled(law, 1.0 - velocity, velocity)
+
+
+def reversed_law(law: MotionLaw) -> MotionLaw:
+    """The law run backwards in time and in displacement, 1 - a(1 - k): a rise again, with the ends exchanged.
+
+    A law that does not begin at 0 and end at 1 keeps its own ends. One whose graph is symmetric about its middle
+    point is its own reverse.
+
+    Parameters
+    ----------
+    law
+        Any law; the result is of the same representation, as for `with_end_velocity`.
+
+    Raises
+    ------
+    InputError
+        If a law of another kind is not smooth.
+
+    Examples
+    --------
+    >>> law = PolynomialLaw.from_powers([0, 0, 0, 4, -3])
+    >>> reversed_law(law).c([0.0, 1.0]).tolist(), law.c([0.0, 1.0]).tolist()
+    ([12.0, 0.0], [0.0, -12.0])
+    """
+    if isinstance(law, PolynomialLaw):
+        turned = [one if n % 2 else -one for n, one in enumerate(law.acceleration)]
+        return PolynomialLaw(turned, law.a0, law.b(1.0))
+    if isinstance(law, PiecewiseLaw):
+        lengths = [end - start for start, end in pairwise(law.breaks)]
+        turned_pieces = [transforms.backwards(one, length) for one, length in zip(law.segments, lengths, strict=True)]
+        return PiecewiseLaw([1.0 - k for k in law.breaks[::-1]], turned_pieces[::-1], law.a0)
+    return reversed_law(as_polynomial(law))
+
+
+def mirrored_law(law: MotionLaw) -> MotionLaw:
+    """The law run backwards in time alone, a(1 - k): the fall whose flank mirrors that of the rise.
+
+    The fall that runs like the rise, 1 - a(k), is the mirrored law of the reversed one.
+
+    Parameters
+    ----------
+    law
+        Any law; the result is of the same representation, as for `with_end_velocity`.
+
+    Raises
+    ------
+    InputError
+        If a law of another kind is not smooth.
+
+    Examples
+    --------
+    >>> law = PolynomialLaw.from_powers([0, 0, 0, 4, -3])
+    >>> mirrored_law(law)([0.0, 0.25, 1.0]).tolist() == law([1.0, 0.75, 0.0]).tolist()
+    True
+    >>> round(mirrored_law(reversed_law(law))(0.25) + law(0.25), 12)
+    1.0
+    """
+    turned = _scaled(reversed_law(law), -1.0, 0.0)
+    height = law.a(1.0) - turned.a(0.0)
+    if isinstance(turned, PiecewiseLaw):
+        return PiecewiseLaw(turned.breaks, turned.segments, turned.a0 + height)
+    return PolynomialLaw(turned.acceleration, turned.a0 + height, turned.b0)
+
+
+def as_polynomial(law: MotionLaw) -> PolynomialLaw:
+    """A smooth law of any kind as a polynomial one, its acceleration interpolated to machine accuracy.
+
+    Raises
+    ------
+    InputError
+        If the acceleration is not smooth.
+
+    Examples
+    --------
+    >>> from optlaws.laws.segments import SineSegment
+    >>> as_polynomial(PiecewiseLaw([0, 1], [SineSegment(6.28, 6.28)])).degree > 15
+    True
+    """
+    found = interpolation.chebyshev_series(lambda x: law.c(0.5 * (x + 1.0)), f"c of {type(law).__name__}")
+    return PolynomialLaw(found, law.a(0.0), law.b(0.0))
+
+
+def _scaled(law: MotionLaw, scale: float, drift: float) -> PolynomialLaw | PiecewiseLaw:
+    if isinstance(law, PolynomialLaw):
+        acceleration = [scale * one for one in law.acceleration]
+        return PolynomialLaw(acceleration, scale * law.a0, scale * law.b0 + drift)
+    if isinstance(law, PiecewiseLaw):
+        lengths = [end - start for start, end in pairwise(law.breaks)]
+        segments = [
+            transforms.scaled(one, length, scale, drift) for one, length in zip(law.segments, lengths, strict=True)
+        ]
+        return PiecewiseLaw(law.breaks, segments, scale * law.a0)
+    return _scaled(as_polynomial(law), scale, drift)

@@ -1,0 +1,96 @@
+"""Families of piecewise laws: sine-constant-cosine acceleration (SCCA), trapezoids and S-curves."""
+
+from __future__ import annotations
+
+from math import pi
+
+from optlaws.errors import InputError
+from optlaws.laws.making.half_cycle import SHORTEST, from_half
+from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.fractional import FractionalSegment
+from optlaws.laws.segments.segment import PolynomialSegment, Segment
+from optlaws.laws.segments.sine import SineSegment
+from optlaws.numbers import finite
+from optlaws.series.exact import chebyshev_from_powers
+
+HIGHEST_POWER = 12  # of a fall that is kept as a polynomial; above it a power of time is the more exact
+
+
+def scca(a: float, b: float, c: float) -> PiecewiseLaw:
+    """Sine-constant-cosine acceleration: sine ramp, constant, cosine fall, uniform velocity, and the mirror image.
+
+    The modified trapezoid is (1/4, 1/2, 1/4), the modified sine (1/4, 0, 3/4), the cycloid (1/2, 0, 1/2), the simple
+    harmonic (0, 0, 1), constant acceleration (0, 1, 0).
+
+    Parameters
+    ----------
+    a, b, c
+        Shares of the motion in which c runs along a sine, is constant and runs along a cosine, each counted over both
+        halves; what is missing to 1 is run at a uniform velocity.
+
+    Raises
+    ------
+    InputError
+        If a share is negative, or their sum is zero or above 1.
+
+    Examples
+    --------
+    >>> scca(1 / 4, 1 / 2, 1 / 4)
+    PiecewiseLaw(segments=6, B=2, C=4.88812, D=8.08998, J=61.426)
+    >>> scca(1 / 8, 0, 3 / 8).constants.B
+    Peak(value=1.275258, k=0.25)
+    """
+    shares = finite(a, "a"), finite(b, "b"), finite(c, "c")
+    if min(shares) < 0.0 or not 0.0 < sum(shares) <= 1.0 + SHORTEST:
+        raise InputError(f"shares a, b, c must be at least 0, not all 0, and at most 1 in all, got {a}, {b}, {c}")
+    sine, constant, cosine = shares
+    pieces: list[tuple[float, Segment]] = []
+    if sine > SHORTEST:
+        pieces.append((0.5 * sine, SineSegment(1.0, pi / sine)))
+    pieces.append((0.5 * constant, PolynomialSegment((1.0,))))
+    if cosine > SHORTEST:
+        pieces.append((0.5 * cosine, SineSegment(1.0, pi / cosine, 0.5 * pi)))
+    return from_half(pieces)
+
+
+def trapezoid(ramp: float, plateau: float, fall: float | None = None, *, exponent: float = 1.0) -> PiecewiseLaw:
+    """Trapezoidal acceleration: straight ramp, plateau, fall like a power of time, uniform velocity, mirror image.
+
+    With a straight fall it is an S-curve of constant jerks; without ramp and fall the velocity is a trapezoid.
+
+    Parameters
+    ----------
+    ramp, plateau, fall
+        Lengths within the accelerating half of the motion, [0, 1/2]; the fall reaches to k = 1/2 unless given.
+    exponent
+        The fall is (x / fall)^exponent, x the time to its end; above 0.
+
+    Raises
+    ------
+    InputError
+        If a length is negative, their sum is zero or above 1/2, or the exponent is not above 0.
+
+    Examples
+    --------
+    >>> trapezoid(1 / 4, 0)
+    PiecewiseLaw(segments=4, B=2, C=8, D=8.7093, J=32)
+    >>> trapezoid(0, 1 / 3, 0)
+    PiecewiseLaw(segments=3, B=1.5, C=4.5, D=6.75, J=inf)
+    >>> trapezoid(0.03, 0.17, exponent=1.5).constants.C
+    Peak(value=5.083146, k=0.03)
+    """
+    first, flat = finite(ramp, "ramp"), finite(plateau, "plateau")
+    last = 0.5 - first - flat if fall is None else finite(fall, "fall")
+    power = finite(exponent, "exponent")
+    if power <= 0.0:
+        raise InputError(f"exponent must be above 0, got {exponent}")
+    pieces = [(first, PolynomialSegment((0.5, 0.5))), (flat, PolynomialSegment((1.0,))), (last, _fall(power))]
+    return from_half(pieces)
+
+
+def _fall(power: float) -> Segment:
+    if power == int(power) and power <= HIGHEST_POWER:
+        rise = [0] * int(power) + [1]
+        turned = (-one if n % 2 else one for n, one in enumerate(chebyshev_from_powers(rise)))
+        return PolynomialSegment(tuple(turned))
+    return FractionalSegment(power, 1.0, 0.0, (1.0,))

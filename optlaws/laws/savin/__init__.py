@@ -1,0 +1,1 @@
+"""Savin's families of laws, for every u, with their members by any peak constant."""

@@ -1,0 +1,216 @@
+"""Savin's families of laws: a base law whose acceleration is multiplied by y = 1 + alpha (k² - k + M)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from fractions import Fraction
+from math import comb, factorial
+
+from optlaws.errors import InputError
+from optlaws.laws.polynomial import PolynomialLaw
+from optlaws.laws.savin.members import alphas
+from optlaws.laws.savin.peaks import acceleration_peak, least_power, power_peak
+from optlaws.numbers import MOST_EXPONENT, fractions, whole
+from optlaws.series.peaks import Peak
+from optlaws.suggest import unknown_key
+
+ROUNDING = Fraction(1, 2**51)  # an end of a range such as 44/3 is no float, but means itself
+
+FAMILIES = {"I": 0, "II": 1, "III": 2, "IV": 3}
+
+
+@dataclass(frozen=True)
+class SavinFamily:
+    """The family over the base law c = H (k(1-k))^u (1/2-k); its constants are closed forms of alpha.
+
+    The paper's families I to IV have u = 0 to 3; every further u gives a family as well.
+
+    Parameters
+    ----------
+    u
+        Exponent of the base law, an integer of at least 0. Derivatives of a of orders 1 to u + 1 vanish at the ends.
+
+    Raises
+    ------
+    InputError
+        If `u` is not an integer of at least 0.
+
+    Examples
+    --------
+    >>> family = SavinFamily.of("III")
+    >>> family.u, family.H, family.M, family.range
+    (2, 840, Fraction(1, 6), (Fraction(-6, 1), Fraction(12, 1)))
+    >>> family.B(7.2), family.C(7.2)
+    (Peak(value=1.859375, k=0.5), Peak(value=6.760957, k=0.200661))
+    >>> family.law(-6.0) == family.next.law(0.0)
+    True
+    """
+
+    u: int
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "u", whole(self.u, "u", most=MOST_EXPONENT))
+
+    @classmethod
+    def of(cls, family: str | int) -> SavinFamily:
+        """The family of a name I to IV, or of an exponent u.
+
+        Raises
+        ------
+        InputError
+            If it is neither.
+        """
+        if isinstance(family, str):
+            if family not in FAMILIES:
+                raise InputError(f"{unknown_key(family, FAMILIES, 'family')}, or an integer u of at least 0")
+            return cls(FAMILIES[family])
+        return cls(whole(family, "family (I, II, III, IV or the exponent u of the base law)"))
+
+    def __str__(self) -> str:
+        names = {u: name for name, u in FAMILIES.items()}
+        return f"family {names[self.u]}" if self.u in names else f"the family of u = {self.u}"
+
+    @property
+    def H(self) -> int:
+        """Factor of the base law, 2 (2u+3)! / (u! (u+1)!)."""
+        return 2 * factorial(2 * self.u + 3) // (factorial(self.u) * factorial(self.u + 1))
+
+    @property
+    def M(self) -> Fraction:
+        """Mean of k (1 - k) that keeps the stroke at 1, (u+1) / (2 (2u+5)); all c of a family meet where k(1-k) = M."""
+        return Fraction(self.u + 1, 2 * (2 * self.u + 5))
+
+    @property
+    def range(self) -> tuple[Fraction, Fraction]:
+        """Least and greatest alpha, -1/M and 1/(1/4 - M), between which y >= 0."""
+        return -1 / self.M, 1 / (Fraction(1, 4) - self.M)
+
+    @property
+    def next(self) -> SavinFamily:
+        """The family whose base law is this one's member of least alpha."""
+        return SavinFamily(self.u + 1)
+
+    @property
+    def order(self) -> int:
+        """Number l of conditions at each end that every member meets, u + 2."""
+        return self.u + 2
+
+    def check(self, alpha: float) -> Fraction:
+        """The exact value of an alpha that lies in the range.
+
+        Raises
+        ------
+        InputError
+            If it does not, or is not a finite real number.
+        """
+        (exact,) = fractions([alpha], "alpha")
+        for end in self.range:
+            if abs(exact - end) <= ROUNDING * abs(end):
+                return end
+        if self.range[0] < exact < self.range[1]:
+            return exact
+        low, high = map(float, self.range)
+        raise InputError(f"alpha of {self} must be between {low:.9g} and {high:.9g} (y >= 0), got {alpha!r}")
+
+    def law(self, alpha: float) -> PolynomialLaw:
+        """The member `alpha`, of degree 2u + 5, by exact arithmetic.
+
+        Raises
+        ------
+        InputError
+            If `alpha` is outside the range.
+        """
+        exact = self.check(alpha)
+        multiplier = [1 + exact * self.M, -exact, exact]
+        acceleration = [Fraction(0)] * (2 * self.u + 4)
+        for i in range(self.u + 1):
+            for m, factor in enumerate(multiplier):
+                part = self.H * (-1) ** i * comb(self.u, i) * factor
+                acceleration[self.u + i + m] += part / 2
+                acceleration[self.u + i + m + 1] -= part
+        displacement = [Fraction(0), Fraction(0)]
+        displacement += [value / ((n + 1) * (n + 2)) for n, value in enumerate(acceleration)]
+        return PolynomialLaw.from_powers(displacement)
+
+    def start(self, alpha: float) -> tuple[int, float]:
+        """Order and value of the first derivative of a that is not zero at k = 0 (eq. 1.11 for family I).
+
+        Raises
+        ------
+        InputError
+            If `alpha` is outside the range.
+        """
+        first = 1 + self.check(alpha) * self.M
+        if first == 0:
+            return self.next.start(0.0)
+        return self.order, float(Fraction(self.H * factorial(self.u), 2) * first)
+
+    def B(self, alpha: float) -> Peak:
+        """Peak velocity, linear in alpha and always at k = 1/2.
+
+        Raises
+        ------
+        InputError
+            If `alpha` is outside the range.
+        """
+        u, exact = self.u, self.check(alpha)
+        slope = (1 + exact * self.M) / (u + 1) - exact / (4 * (u + 2))
+        return Peak(float(Fraction(self.H, 2 * 4 ** (u + 1)) * slope), 0.5)
+
+    def C(self, alpha: float) -> Peak:
+        """Peak acceleration, at a root of a quadratic in (1/2 - k)², or at the start (u = 0).
+
+        Raises
+        ------
+        InputError
+            If `alpha` is outside the range.
+        """
+        return acceleration_peak(self.u, self.H, float(self.M), self.check(alpha))
+
+    def D(self, alpha: float) -> Peak:
+        """Peak power, at a root of a cubic in k (1 - k).
+
+        Raises
+        ------
+        InputError
+            If `alpha` is outside the range.
+        """
+        return power_peak(self.u, self.H, self.M, self.check(alpha))
+
+    @property
+    def least_C(self) -> tuple[float, Peak]:
+        """The alpha of least C, u/M - 1/(2 (1/4 - M)), and that C with its place, where k (1 - k) = M."""
+        spare = Fraction(1, 4) - self.M
+        alpha = float(self.u / self.M - 1 / (2 * spare))
+        k = 0.5 - float(spare) ** 0.5
+        return alpha, Peak(self.H * float(spare) ** 0.5 * float(self.M) ** self.u, k)
+
+    @property
+    def least_D(self) -> tuple[float, Peak]:
+        """The alpha of least D and that D with its place: from the root of a cubic, or the greatest alpha (u > 3)."""
+        alpha, end = least_power(self.u, self.M), float(self.range[1])
+        best = min(alpha, end)
+        return best, self.D(best)
+
+    def alphas(self, *, B: float | None = None, C: float | None = None, D: float | None = None) -> tuple[float, ...]:
+        """Every alpha whose member has the peak given, ascending: one for B, one or two for C and D.
+
+        C and D fall with alpha to their least value and rise again, so that the first of two members is the one on
+        the side of the next family's base law.
+
+        Parameters
+        ----------
+        B, C, D
+            The peak; exactly one.
+
+        Raises
+        ------
+        InputError
+            If not exactly one is given, or no member has it; the message says the reachable range.
+
+        Examples
+        --------
+        >>> SavinFamily(2).alphas(C=7.0)
+        (2.489092, 10.244387)
+        """
+        return alphas(self, B=B, C=C, D=D)

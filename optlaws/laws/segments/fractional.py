@@ -1,0 +1,113 @@
+"""Segments whose acceleration falls or rises with any real power of time, exact as they stand."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.laws.segments.segment import Segment
+from optlaws.series import real_powers
+
+Array = NDArray[np.float64]
+
+SMALLEST = 1e-30  # of the other end: below it a power of v that is not 0 may overflow
+
+
+@dataclass(frozen=True)
+class FractionalSegment(Segment, kind="fractional"):
+    """Acceleration c = v^exponent (q0 + q1 v + q2 v² + ...), v running straight from `first` to `last`.
+
+    Velocity is `steady` plus powers of v, each integrated from v = 0; so a segment whose v ends at zero ends with the
+    velocity `steady` exactly. With a negative exponent c is infinite there, and given as such.
+
+    Parameters
+    ----------
+    exponent
+        Any number above -1; one within 1e-9 of an integer is taken for it.
+    first, last
+        v at the start and at the end of the segment, at least 0 and different.
+    coefficients
+        q0, q1, ...
+    steady
+        Velocity apart from the powers of v.
+
+    Examples
+    --------
+    >>> fall = FractionalSegment(1.5, 1.0, 0.0, (4.0,), 2.0)
+    >>> fall.derivative(np.array([0.0, 0.75, 1.0]), 0.5, 2)
+    array([4. , 0.5, 0. ])
+    """
+
+    exponent: float
+    first: float
+    last: float
+    coefficients: tuple[float, ...]
+    steady: float = 0.0
+
+    def __post_init__(self) -> None:
+        self._check()
+        if abs(self.exponent - round(self.exponent)) < real_powers.ONE:
+            object.__setattr__(self, "exponent", float(round(self.exponent)))
+        low, high = sorted((self.first, self.last))
+        if self.exponent <= -1.0 or low < 0.0 or low == high:
+            raise InputError(f"a fractional segment needs exponent > -1 and first, last >= 0 and different, got {self}")
+        if 0.0 < low < SMALLEST * high:
+            raise InputError(f"first and last of a fractional segment must be 0 or of sizes that compare, got {self}")
+
+    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
+        v = self._v(u)
+        if nu > 0:
+            return real_powers.value(self._powers(length, nu), v)
+        rate = (self.last - self.first) / length
+        raised = {e + 1.0: q / ((e + 1.0) * rate) for e, q in self._swing(length).items()}
+        start = real_powers.value(raised, np.array(self.first))
+        return np.asarray(self.steady * length * u + real_powers.value(raised, v) - start, dtype=np.float64)
+
+    def power(self, u: Array, length: float) -> Array:
+        """Kinetic power d = b c at u, finite where c is infinite and b zero."""
+        return real_powers.value(self._power(length), self._v(u))
+
+    def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
+        return self._u(self._powers(length, nu + 1))
+
+    def power_candidates(self, length: float) -> Array:  # noqa: D102
+        return self._u(real_powers.derivative(self._power(length)))
+
+    def square(self, length: float, nu: int) -> float:  # noqa: D102
+        powers = self._powers(length, nu)
+        lowest = min(powers, default=0.0)
+        if 2.0 * lowest <= -1.0 and min(self.first, self.last) == 0.0:
+            return inf
+        low, high = sorted((self.first, self.last))
+        return real_powers.integral(real_powers.product(powers, powers), low, high) * length / (high - low)
+
+    def _v(self, u: Array) -> Array:
+        return np.asarray(self.first * (1.0 - u) + self.last * u, dtype=np.float64)
+
+    def _u(self, powers: real_powers.Sum) -> Array:
+        low, high = sorted((self.first, self.last))
+        found = np.array(real_powers.roots(powers, low, high))
+        return (found - self.first) / (self.last - self.first)
+
+    def _swing(self, length: float) -> dict[float, float]:
+        """Velocity without its steady part, in powers of v."""
+        rate = (self.last - self.first) / length
+        terms = ((self.exponent + i + 1.0, q) for i, q in enumerate(self.coefficients))
+        return real_powers.gathered((e, q / (e * rate)) for e, q in terms)
+
+    def _powers(self, length: float, nu: int) -> dict[float, float]:
+        """The derivative of order nu, at least 1, in powers of v."""
+        if nu == 1:
+            return real_powers.gathered([(0.0, self.steady), *self._swing(length).items()])
+        rate = (self.last - self.first) / length
+        found = real_powers.gathered((self.exponent + i, q) for i, q in enumerate(self.coefficients))
+        for _ in range(nu - 2):
+            found = {e: q * rate for e, q in real_powers.derivative(found).items()}
+        return found
+
+    def _power(self, length: float) -> dict[float, float]:
+        return real_powers.product(self._powers(length, 1), self._powers(length, 2))

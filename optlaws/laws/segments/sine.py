@@ -1,0 +1,150 @@
+"""Sine segments of piecewise laws, for cycloids, modified sines and trapezoids; sums of sines, for harmonics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import cos
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws.segments.segment import Segment
+from optlaws.series.waves import wave_roots, wave_square
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class SineSegment(Segment, kind="sine"):
+    """Acceleration c = p0 + p1 s + p2 s² + A sin(w s + phi) of s = k - start; velocity b0 at the start.
+
+    Parameters
+    ----------
+    amplitude, frequency, phase
+        A, w > 0 and phi; w in radians per unit of k.
+    b0
+        Velocity at the segment's start.
+    powers
+        Up to three numbers p0, p1, p2.
+
+    Examples
+    --------
+    >>> segment = SineSegment(amplitude=2 * np.pi, frequency=2 * np.pi)
+    >>> segment.derivative(np.array([0.5, 1.0]), 1.0, 0).round(12)
+    array([0.5, 1. ])
+    """
+
+    amplitude: float
+    frequency: float
+    phase: float = 0.0
+    b0: float = 0.0
+    powers: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        self._check()
+        if self.frequency <= 0.0 or len(self.powers) > 3:
+            raise InputError(f"a sine segment needs frequency > 0 and at most three powers, got {self}")
+
+    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
+        s, w = u * length, self.frequency
+        steady = np.polynomial.Polynomial([*self.powers, 0.0])
+        if nu >= 2:
+            # a shift of the phase by quarter turns is a change of function: no rounding of multiples of pi
+            turned = (np.sin, np.cos, lambda x: -np.sin(x), lambda x: -np.cos(x))[(nu - 2) % 4]
+            smooth = steady.deriv(nu - 2)(s) if nu > 2 else steady(s)
+            return np.asarray(smooth + self.amplitude * w ** (nu - 2) * turned(w * s + self.phase), dtype=np.float64)
+        half = 0.5 * w * s
+        if nu == 1:
+            swing = 2.0 * np.sin(half + self.phase) * np.sin(half)
+        else:
+            swing = s * cos(self.phase) - 2.0 / w * np.cos(half + self.phase) * np.sin(half)
+        start = self.b0 if nu else self.b0 * s
+        return np.asarray(start + steady.integ(2 - nu)(s) + self.amplitude / w * swing, dtype=np.float64)
+
+    def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
+        return candidates(self, self.frequency, length, nu)
+
+    def power_candidates(self, length: float) -> Array:  # noqa: D102
+        return power_candidates(self, self.frequency, length)
+
+    def square(self, length: float, nu: int) -> float:  # noqa: D102
+        return wave_square(lambda u: self.derivative(u, length, nu), self.frequency, length)
+
+
+@dataclass(frozen=True)
+class HarmonicSegment(Segment, kind="harmonics"):
+    """Acceleration c = sum of A sin(w s + phi) of s = k - start; velocity b0 at the start.
+
+    Parameters
+    ----------
+    amplitudes, frequencies, phases
+        As many A as w > 0 and phi, at least one of each; w in radians per unit of k.
+    b0
+        Velocity at the segment's start.
+
+    Examples
+    --------
+    >>> segment = HarmonicSegment(amplitudes=(6.0, 1.0), frequencies=(2 * np.pi, 6 * np.pi), phases=(0.0, 0.0))
+    >>> segment.derivative(np.array([0.25]), 1.0, 2).round(12)
+    array([5.])
+    """
+
+    amplitudes: tuple[float, ...]
+    frequencies: tuple[float, ...]
+    phases: tuple[float, ...]
+    b0: float = 0.0
+
+    def __post_init__(self) -> None:
+        self._check()
+        alike = len({len(one) for one in (self.amplitudes, self.frequencies, self.phases)}) == 1
+        if not alike or not self.amplitudes or min(self.frequencies) <= 0.0:
+            raise InputError(f"a harmonic segment needs as many amplitudes as frequencies > 0 and phases, got {self}")
+
+    @kept_property
+    def sines(self) -> tuple[SineSegment, ...]:
+        """The sines it is the sum of; the first has the velocity at the start."""
+        waves = zip(self.amplitudes, self.frequencies, self.phases, strict=True)
+        return tuple(SineSegment(*one, b0=0.0 if i else self.b0) for i, one in enumerate(waves))
+
+    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
+        return np.asarray(sum(one.derivative(u, length, nu) for one in self.sines), dtype=np.float64)
+
+    def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
+        return candidates(self, max(self.frequencies), length, nu)
+
+    def power_candidates(self, length: float) -> Array:  # noqa: D102
+        return power_candidates(self, max(self.frequencies), length)
+
+    def square(self, length: float, nu: int) -> float:  # noqa: D102
+        return wave_square(lambda u: self.derivative(u, length, nu), max(self.frequencies), length)
+
+
+def candidates(wave: Segment, frequency: float, length: float, nu: int) -> Array:
+    """Every u where the derivative of order nu of a segment that swings at most at a frequency may be extreme.
+
+    Examples
+    --------
+    >>> 0.523599 in candidates(SineSegment(1.0, 3.0), 3.0, 1.0, 2).round(6)
+    True
+    """
+    return wave_roots(
+        lambda u: (wave.derivative(u, length, nu + 1), wave.derivative(u, length, nu + 2)), frequency, length
+    )
+
+
+def power_candidates(wave: Segment, frequency: float, length: float) -> Array:
+    """Every u where d = b c of a segment that swings at most at a frequency may be extreme.
+
+    Examples
+    --------
+    >>> power_candidates(SineSegment(1.0, 1.0, b0=-1.0), 1.0, 1.0).size > 0
+    True
+    """
+
+    def slope(u: Array) -> tuple[Array, Array]:
+        b, c, j, s = (wave.derivative(u, length, nu) for nu in (1, 2, 3, 4))
+        return c * c + b * j, 3.0 * c * j + b * s
+
+    return wave_roots(slope, frequency, length)

@@ -1,0 +1,1 @@
+"""The elastic follower: what a cam makes of the mass that it drives."""

@@ -1,0 +1,153 @@
+"""Motion of the mass over a chain of stretches: values, and extremes over the whole of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import ceil, log2
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.kept import kept_property
+from optlaws.mechanisms.follower.cam_motion import Forcing
+from optlaws.mechanisms.follower.particular import RADIANS, Stretch, stretches
+from optlaws.mechanisms.follower.vibration import Oscillator
+from optlaws.series import chebyshev, interpolation
+from optlaws.series.peaks import polished
+
+Array = NDArray[np.float64]
+State = tuple[float, float]
+
+RESOLVED = (
+    1e-9  # what a series misses by, relative to the whole motion, where roots are looked for; Newton does the rest
+)
+DEEPEST = 5
+MANY = 64
+COUNT = 41
+SAMPLES = 0.5 - 0.5 * np.cos((np.arange(17) + 0.5) * (np.pi / 17.0))
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """What the mass does over consecutive forcings, from a given state at their start.
+
+    Parameters
+    ----------
+    oscillator
+        Its free vibration.
+    forcings
+        What the cam does, without gaps in time.
+    initial
+        Displacement and velocity of the mass at the start.
+    """
+
+    oscillator: Oscillator
+    forcings: Sequence[Forcing]
+    initial: State
+
+    @kept_property
+    def stretches(self) -> list[Stretch]:
+        """The forcings with their particular solutions."""
+        return [one for forcing in self.forcings for one in stretches(forcing, self.oscillator)]
+
+    @kept_property
+    def _joints(self) -> tuple[list[State], State]:
+        """State of the free part at the start of every stretch, and the mass off its cam at the end."""
+        starts: list[State] = []
+        end = np.zeros(1)
+        before: Forcing | None = None
+        u, v = 0.0, 0.0
+        for one in self.stretches:
+            if one.forcing is not before:
+                cam = [float(one.cam(end, order)[0]) for order in (0, 1)]
+                if before is None:
+                    u, v = self.initial[0] - cam[0], self.initial[1] - cam[1]
+                else:  # displacement and velocity of the mass are continuous, whatever the cam does
+                    last = np.array([before.length])
+                    u += float(before.derivative(last, 0)[0]) - cam[0]
+                    v += float(before.derivative(last, 1)[0]) - cam[1]
+                before = one.forcing
+            free = u - float(one.particular.derivative(end, 0)[0]), v - float(one.particular.derivative(end, 1)[0])
+            starts.append(free)
+            last = np.array([one.length])
+            u, v = (
+                float(one.particular.derivative(last, order)[0] + self.oscillator.motion(*free, last, order)[0])
+                for order in (0, 1)
+            )
+        return starts, (u, v)
+
+    @property
+    def off_at_end(self) -> State:
+        """Displacement and velocity of the mass relative to the cam at the end."""
+        return self._joints[1]
+
+    @kept_property
+    def end(self) -> State:
+        """Displacement and velocity of the mass at the end."""
+        last = self.stretches[-1]
+        cam = [float(last.cam(np.array([last.length]), order)[0]) for order in (0, 1)]
+        return cam[0] + self.off_at_end[0], cam[1] + self.off_at_end[1]
+
+    def derivative(self, time: Array, order: int) -> Array:
+        """Derivative of order `order` of a_m at times of any shape within the chain."""
+        starts = np.array([one.start for one in self.stretches])
+        places = np.clip(np.searchsorted(starts, time, side="right") - 1, 0, len(starts) - 1)
+        found = np.empty(np.shape(time))
+        for i in np.unique(places):
+            here = places == i
+            s = np.clip(np.asarray(time)[here] - starts[i], 0.0, self.stretches[i].length)
+            found[here] = self._values(int(i), s, order)
+        return found
+
+    def candidates(self, order: int) -> tuple[Array, Array]:
+        """Times, and values there, among which the extremes of the derivative of order `order` are."""
+        times, values = [], []
+        slopes = [self._values(i, one.length * SAMPLES, order + 1) for i, one in enumerate(self.stretches)]
+        size = float(max(np.abs(slope).max() for slope in slopes))
+        for i, one in enumerate(self.stretches):
+            s = np.concatenate([[0.0], self._stops(i, order, RESOLVED * size), [one.length]])
+            times.append(one.start + s)
+            values.append(self._values(i, s, order))
+        return np.concatenate(times), np.concatenate(values)
+
+    def _values(self, i: int, s: Array, order: int) -> Array:
+        """a + u where u is small beside a; else, from a_m'' on, the equation of motion, which cancels less."""
+        one, free = self.stretches[i], self._joints[0][i]
+
+        def off(order: int) -> Array:
+            return np.asarray(one.particular.derivative(s, order) + self.oscillator.motion(*free, s, order))
+
+        if order < 2 or one.closed:
+            return one.cam(s, order) + off(order)
+        twice, square = 2.0 * self.oscillator.n, self.oscillator.nu**2
+        value = one.cam(s, 1) + off(1)
+        for m in range(order - 1):
+            value = -twice * value - square * off(m)
+        return value
+
+    def _stops(self, i: int, order: int, negligible: float) -> Array:
+        """Points of a stretch where the derivative of order + 1 is zero, each found by a Chebyshev series there."""
+        one = self.stretches[i]
+        x = interpolation.points(COUNT)
+        count = max(1, ceil(self.oscillator.fastest * one.length / RADIANS))
+        deepest = DEEPEST
+        if count > MANY:  # a vibration that has died out needs no short panels
+            count, deepest = 1, DEEPEST + ceil(log2(count))
+        waiting = [(part / count * one.length, one.length / count, 0) for part in range(count)]
+        found = [np.empty(0)]
+        while waiting:
+            start, length, depth = waiting.pop()
+
+            def residual(x: Array, start: float = start, length: float = length) -> tuple[Array, Array]:
+                s = np.clip(start + 0.5 * length * (x + 1.0), 0.0, one.length)
+                return self._values(i, s, order + 1), 0.5 * length * self._values(i, s, order + 2)
+
+            coefficients = interpolation.transformed(residual(x)[0])
+            if np.abs(coefficients[-3:]).max() > negligible and depth < deepest:
+                half = 0.5 * length
+                waiting += [(start, half, depth + 1), (start + half, half, depth + 1)]
+                continue
+            roots = polished(chebyshev.real_parts_of_roots(coefficients), residual)
+            found.append(np.clip(start + 0.5 * length * (roots + 1.0), 0.0, one.length))
+        return np.concatenate(found)

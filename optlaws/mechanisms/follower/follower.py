@@ -1,0 +1,205 @@
+"""The elastic follower: a mass driven by its cam through a spring (1.19)."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import pi, sqrt
+
+from optlaws.laws import MotionLaw
+from optlaws.mechanisms.checks import motion_law, state
+from optlaws.mechanisms.follower.cycle import CycleResponse
+from optlaws.mechanisms.follower.response import Response
+from optlaws.numbers import not_negative, positive
+
+
+@dataclass(frozen=True)
+class Follower:
+    """A mass on a spring that a cam moves: a_m'' + 2 n a_m' + nu² a_m = nu² a, n = damping nu (1.19).
+
+    Time is k = t/T, T the duration of the rise, so that nu = T sqrt(stiffness/mass) is the phase in radians that the
+    undamped vibration runs through during the rise.
+
+    Parameters
+    ----------
+    nu
+        Dimensionless circular frequency, above 0.
+    damping
+        Ratio zeta = n/nu of the damping to the critical one, at least 0; 1 and more are allowed.
+
+    Raises
+    ------
+    InputError
+        If a number is not finite or out of its range.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> response = Follower(nu=20, damping=0.05).response(smoothstep(4))
+    >>> response
+    Response(nu=20, damping=0.05, peak acceleration=10.254, residual acceleration=1.65015)
+    >>> response(0.5), response.residual_displacement
+    (0.489570, 0.004125)
+    """
+
+    nu: float
+    damping: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "nu", positive(self.nu, "nu"))
+        object.__setattr__(self, "damping", not_negative(self.damping, "damping"))
+
+    @property
+    def n(self) -> float:
+        """Damping coefficient n = damping nu of (1.19).
+
+        Examples
+        --------
+        >>> Follower(nu=20, damping=0.05).n
+        1.0
+        """
+        return self.damping * self.nu
+
+    @classmethod
+    def from_units(cls, *, mass: float, stiffness: float, duration: float, damping: float = 0.0) -> Follower:
+        """The follower of a machine; a rotating one with moment of inertia, torsional stiffness and damping alike.
+
+        Parameters
+        ----------
+        mass
+            Driven mass in kg, or moment of inertia in kg m².
+        stiffness
+            Stiffness of the link in N/m, or N m/rad.
+        duration
+            Duration of the rise in s.
+        damping
+            Viscous damping of the link in N s/m, or N m s/rad; not the ratio.
+
+        Raises
+        ------
+        InputError
+            If a number is not finite or out of its range.
+
+        Examples
+        --------
+        >>> Follower.from_units(mass=2.0, stiffness=80e3, duration=0.1, damping=40.0)
+        Follower(nu=20.0, damping=0.05)
+        """
+        m, kappa = positive(mass, "mass"), positive(stiffness, "stiffness")
+        h = not_negative(damping, "damping")
+        return cls(positive(duration, "duration") * sqrt(kappa / m), h / (2.0 * sqrt(kappa * m)))
+
+    @classmethod
+    def from_speed(
+        cls, *, speed_rpm: float, rise_angle_deg: float, natural_period: float, damping: float = 0.0
+    ) -> Follower:
+        """The follower at a speed of the cam: nu = 60 phi / (speed natural_period), phi in radians (1.26).
+
+        Parameters
+        ----------
+        speed_rpm
+            Revolutions of the cam per minute.
+        rise_angle_deg
+            Angle of the cam during the rise, degrees.
+        natural_period
+            Period of the undamped free vibration, s.
+        damping
+            Ratio zeta.
+
+        Raises
+        ------
+        InputError
+            If a number is not finite or out of its range.
+
+        Examples
+        --------
+        >>> Follower.from_speed(speed_rpm=105, rise_angle_deg=120, natural_period=0.06, damping=0.05)
+        Follower(nu=19.9466, damping=0.05)
+        """
+        turn = positive(speed_rpm, "speed_rpm") * positive(natural_period, "natural_period")
+        return cls(pi / 3.0 * positive(rise_angle_deg, "rise_angle_deg") / turn, damping)
+
+    def speed_rpm(self, *, rise_angle_deg: float, natural_period: float) -> float:
+        """Speed of the cam, in revolutions per minute, at which a machine is this follower (1.26).
+
+        Parameters
+        ----------
+        rise_angle_deg
+            Angle of the cam during the rise, degrees.
+        natural_period
+            Period of the undamped free vibration, s.
+
+        Raises
+        ------
+        InputError
+            If a number is not finite or not positive.
+
+        Examples
+        --------
+        >>> Follower(nu=20).speed_rpm(rise_angle_deg=120, natural_period=0.06)
+        104.72
+        """
+        angle, period = positive(rise_angle_deg, "rise_angle_deg"), positive(natural_period, "natural_period")
+        return pi / 3.0 * angle / (self.nu * period)
+
+    def response(self, law: MotionLaw, *, initial: tuple[float, float] | None = None) -> Response:
+        """Motion of the mass when the cam moves by `law` and rests afterwards.
+
+        Parameters
+        ----------
+        law
+            Motion of the cam.
+        initial
+            Displacement and velocity of the mass at k = 0; at rest on the cam unless given.
+
+        Raises
+        ------
+        InputError
+            If `law` is no motion law, or `initial` are not two finite numbers.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> Follower(nu=20).response(smoothstep(4), initial=(0.01, 0.0))(0.0)
+        0.01
+        """
+        at_start = (float(motion_law(law).a(0.0)), 0.0) if initial is None else state(initial)
+        return Response(self.nu, self.damping, law, at_start)
+
+    def cycle(
+        self, rise: MotionLaw, fall: MotionLaw | None = None, *, dwell: float, fall_duration: float = 1.0, rest: float
+    ) -> CycleResponse:
+        """Steady motion of the mass when the cam rises, dwells, returns and rests again and again.
+
+        Parameters
+        ----------
+        rise
+            Motion of the cam during 0 <= k <= 1.
+        fall
+            Law of the return, run from its end of the rise as a(1) - (fall(k) - fall(0)); the rise's own unless given.
+        dwell, rest
+            Durations of the upper and of the lower dwell, in durations of the rise; 0 or more.
+        fall_duration
+            Duration of the return, in durations of the rise.
+
+        Raises
+        ------
+        InputError
+            If a duration is out of range, the return does not lead back, or the follower is undamped and in resonance
+            with the cycle.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> steady = Follower(nu=20, damping=0.05).cycle(smoothstep(4), dwell=0.5, rest=1.0)
+        >>> steady.period, round(steady(0.0) - steady(3.5), 12)
+        (3.5, 0.0)
+        """
+        return CycleResponse(
+            self.nu,
+            self.damping,
+            motion_law(rise, "rise"),
+            motion_law(rise if fall is None else fall, "fall"),
+            not_negative(dwell, "dwell"),
+            positive(fall_duration, "fall_duration"),
+            not_negative(rest, "rest"),
+        )

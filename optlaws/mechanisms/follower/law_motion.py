@@ -1,0 +1,110 @@
+"""Laws as forcings: polynomials and sines as they are, everything else as Chebyshev series on short stretches."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.laws import MotionLaw, PolynomialLaw
+from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.segment import PolynomialSegment, Segment
+from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
+from optlaws.mechanisms.follower.cam_motion import Forcing, PolynomialForcing, SineForcing
+from optlaws.series import chebyshev, interpolation
+
+Array = NDArray[np.float64]
+
+COUNT = 41
+RESOLVED = 1e-14  # of the velocity, what a series may miss anywhere
+ABSORBED = 1e-15  # the same times half the length on which it is missed
+
+
+def forcings(
+    law: MotionLaw, start: float = 0.0, length: float = 1.0, a0: float | None = None, stroke: float = 1.0
+) -> tuple[Forcing, ...]:
+    """Pieces of a0 + stroke (law(k) - law(0)), k = (time - start) / length.
+
+    Parameters
+    ----------
+    law
+        Any law.
+    start, length
+        When it begins, and how long it takes.
+    a0
+        Displacement at its start; the law's own unless given.
+    stroke
+        Factor of the displacement, -1 for a return.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> [one.derivative(np.array([2.0]), 0).tolist() for one in forcings(smoothstep(3), 1.0, 2.0, 1.0, -1.0)]
+    [[0.0]]
+    """
+    return _Frame(law, start, length, float(law.a(0.0)) if a0 is None else a0, stroke).pieces()
+
+
+@dataclass(frozen=True)
+class _Frame:
+    """A law in units of time."""
+
+    law: MotionLaw
+    start: float
+    length: float
+    a0: float
+    stroke: float
+
+    def pieces(self) -> tuple[Forcing, ...]:
+        law = self.law
+        if isinstance(law, PolynomialLaw):
+            return (self._polynomial(law.acceleration, law.b0, 0.0, 1.0),)
+        if isinstance(law, PiecewiseLaw):
+            stretches = zip(law.segments, pairwise(law.breaks), strict=True)
+            return tuple(piece for one, (low, high) in stretches for piece in self._segment(one, low, high))
+        return tuple(self._interpolated(lambda k: np.asarray(law.b(k)), 0.0, 1.0))
+
+    def _segment(self, segment: Segment, low: float, high: float) -> list[Forcing]:
+        if isinstance(segment, PolynomialSegment):
+            return [self._polynomial(segment.acceleration, segment.b0, low, high)]
+        if isinstance(segment, SineSegment | HarmonicSegment):
+            sines = (segment,) if isinstance(segment, SineSegment) else segment.sines
+            return [SineForcing(*self._place(low, high), tuple(self._sine(one) for one in sines))]
+        return self._interpolated(lambda k: segment.derivative((k - low) / (high - low), high - low, 1), low, high)
+
+    def _place(self, low: float, high: float) -> tuple[float, float, float]:
+        a0 = self.a0 + self.stroke * (float(self.law.a(low)) - float(self.law.a(0.0)))
+        return self.start + self.length * low, self.length * (high - low), a0
+
+    def _polynomial(self, acceleration: tuple[float, ...], b0: float, low: float, high: float) -> Forcing:
+        c = self.stroke / self.length**2 * np.array(acceleration or (0.0,))
+        return PolynomialForcing(*self._place(low, high), c, self.stroke / self.length * b0)
+
+    def _sine(self, sine: SineSegment) -> SineSegment:
+        return SineSegment(
+            amplitude=self.stroke / self.length**2 * sine.amplitude,
+            frequency=sine.frequency / self.length,
+            phase=sine.phase,
+            b0=self.stroke / self.length * sine.b0,
+            powers=tuple(self.stroke * power / self.length ** (2 + i) for i, power in enumerate(sine.powers)),
+        )
+
+    def _interpolated(self, velocity: Callable[[Array], Array], low: float, high: float) -> list[Forcing]:
+        x = interpolation.points(COUNT)
+        found: list[Forcing] = []
+        waiting = [(low, high)]
+        size = float(np.abs(velocity(0.5 * (low + high) + 0.5 * (high - low) * x)).max()) or 1.0
+        while waiting:
+            first, last = waiting.pop()
+            middle, half = 0.5 * (first + last), 0.5 * (last - first)
+            b = interpolation.transformed(velocity(middle + half * x))
+            missed = float(np.abs(b[-4:]).max()) / size
+            if missed > RESOLVED and missed * half > ABSORBED:
+                waiting += [(middle, last), (first, middle)]
+                continue
+            c = tuple((chebyshev.derivative(b) / (2.0 * half)).tolist())
+            found.append(self._polynomial(c, chebyshev.value(b, -1.0), first, last))
+        return found

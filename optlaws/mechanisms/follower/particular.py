@@ -1,0 +1,212 @@
+"""Particular solutions of u'' + 2 n u' + nu² u = -(c + 2 n b), u = a_m - a: how far the mass is off its cam.
+
+The closed form, (1.25) in Chebyshev series or the transfer function of a sine, sums derivatives of the law divided by
+powers of nu. Where these grow instead of falling, because nu is small for the law, the closed form is a large number
+that the free vibration must cancel; there u is sought as the Chebyshev series that starts from rest, from the integral
+equation for u'', on stretches of a few radians each. Both are exact but for rounding.
+"""
+
+from __future__ import annotations
+
+import cmath
+from dataclasses import dataclass
+from math import ceil
+from typing import Protocol
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.kept import kept_property
+from optlaws.mechanisms.follower.cam_motion import Forcing, PolynomialForcing, SineForcing
+from optlaws.mechanisms.follower.vibration import Oscillator
+from optlaws.series import chebyshev, interpolation
+
+Array = NDArray[np.float64]
+
+GROWTH = 100.0  # the closed form may be this much larger than the forcing: it costs two digits of sixteen
+RADIANS = 10.0  # length of the stretches where the integral equation is solved
+WAVE_TERMS = 41
+SPARE = 31  # coefficients beyond those of the forcing that resolve the vibration on such a stretch
+
+
+class Particular(Protocol):
+    """One solution over one stretch."""
+
+    def derivative(self, s: Array, order: int) -> Array:
+        """Derivative of order `order` of u, s counted from the stretch's start."""
+        ...
+
+
+@dataclass(frozen=True, eq=False)
+class Stretch:
+    """A part of a forcing with a particular solution on it.
+
+    Parameters
+    ----------
+    forcing
+        The forcing it is a part of.
+    offset, length
+        Where the stretch begins in the forcing, and how long it is.
+    particular
+        The solution.
+    closed
+        Whether it is the closed form.
+    """
+
+    forcing: Forcing
+    offset: float
+    length: float
+    particular: Particular
+    closed: bool
+
+    @property
+    def start(self) -> float:
+        """Time at which it begins."""
+        return self.forcing.start + self.offset
+
+    def cam(self, s: Array, order: int) -> Array:
+        """Derivative of order `order` of the cam's displacement, s counted from the stretch's start."""
+        return self.forcing.derivative(np.minimum(self.offset + s, self.forcing.length), order)
+
+
+@dataclass(frozen=True, eq=False)
+class PolynomialSolution:
+    """Chebyshev series of u, u' and u'' on a stretch of this length."""
+
+    length: float
+    series: tuple[Array, Array, Array]
+
+    def derivative(self, s: Array, order: int) -> Array:
+        """Derivative of order `order` at s."""
+        return chebyshev.value(self._series(order), 2.0 * s / self.length - 1.0)
+
+    @kept_property
+    def _higher(self) -> dict[int, Array]:
+        return dict(enumerate(self.series))
+
+    def _series(self, order: int) -> Array:
+        if order not in self._higher:
+            self._higher[order] = chebyshev.derivative(self._series(order - 1)) / self.length
+        return self._higher[order]
+
+
+@dataclass(frozen=True, eq=False)
+class SineSolution:
+    """A polynomial and the real parts of amplitude exp(i frequency s)."""
+
+    steady: PolynomialSolution
+    waves: tuple[tuple[complex, float], ...]
+
+    def derivative(self, s: Array, order: int) -> Array:
+        """Derivative of order `order` at s."""
+        found = self.steady.derivative(s, order)
+        for amplitude, frequency in self.waves:
+            turned = amplitude * (1j * frequency) ** order
+            found += turned.real * np.cos(frequency * s) - turned.imag * np.sin(frequency * s)
+        return found
+
+
+def stretches(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
+    """A forcing with particular solutions: the closed form, or short stretches where that would cancel.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> from optlaws.mechanisms.follower.law_motion import forcings
+    >>> (rise,) = forcings(smoothstep(20))
+    >>> len(stretches(rise, Oscillator(60.0, 0.0))), len(stretches(rise, Oscillator(15.0, 0.0)))
+    (1, 2)
+    """
+    if isinstance(forcing, PolynomialForcing):
+        load = _load(forcing, oscillator)
+        closed = closed_form(load, oscillator, forcing.length)
+        if closed is not None:
+            return [Stretch(forcing, 0.0, forcing.length, closed, closed=True)]
+        return _solved(forcing, oscillator, len(load))
+    if isinstance(forcing, SineForcing):
+        wave = _sine(forcing, oscillator)
+        if wave is not None:
+            return [Stretch(forcing, 0.0, forcing.length, wave, closed=True)]
+    return _solved(forcing, oscillator, 0)
+
+
+def closed_form(load: Array, oscillator: Oscillator, length: float) -> PolynomialSolution | None:
+    """The polynomial u with u'' + 2 n u' + nu² u = -load (1.25); None where it is large beside the load.
+
+    Examples
+    --------
+    >>> closed_form(np.array([8.0]), Oscillator(2.0, 0.0), 1.0).series[0].tolist()
+    [-2.0]
+    """
+    size = len(load)
+    u, v, w = np.zeros(size + 2), np.zeros(size + 2), np.zeros(size + 2)
+    steps = 4.0 / length * np.arange(size + 2)
+    twice, square = 2.0 * oscillator.n, oscillator.nu**2
+    most = GROWTH * float(np.abs(load).sum())
+    sum_of_u = 0.0
+    for i in range(size - 1, -1, -1):
+        v[i] = v[i + 2] + steps[i + 1] * u[i + 1]
+        w[i] = w[i + 2] + steps[i + 1] * v[i + 1]
+        if i == 0:
+            v[0], w[0] = 0.5 * v[0], 0.5 * w[0]
+        u[i] = -(load[i] + twice * v[i] + w[i]) / square
+        sum_of_u += abs(float(u[i]))
+        if square * sum_of_u > most:
+            return None
+    return PolynomialSolution(length, (u[:size], v[:size], w[:size]))
+
+
+def _load(forcing: PolynomialForcing, oscillator: Oscillator) -> Array:
+    load = 2.0 * oscillator.n * forcing.velocity
+    load[: len(forcing.acceleration)] += forcing.acceleration
+    return load
+
+
+def _sine(forcing: SineForcing, oscillator: Oscillator) -> SineSolution | None:
+    n, square = oscillator.n, oscillator.nu**2
+    waves: list[tuple[complex, float]] = []
+    b0 = 0.0
+    for one in forcing.sines:
+        w = one.frequency
+        # c is the real part of amplitude exp(i w s) and a polynomial, and b its integral from b0
+        amplitude = -1j * one.amplitude * cmath.exp(1j * one.phase)
+        velocity = amplitude / (1j * w)
+        b0 += one.b0 - velocity.real
+        stiffness = complex(square - w * w, 2.0 * n * w)
+        if abs(stiffness) * GROWTH < square:
+            return None
+        waves.append((-(amplitude + 2.0 * n * velocity) / stiffness, w))
+    polynomial = PolynomialForcing(0.0, forcing.length, 0.0, forcing.steady, b0)
+    steady = closed_form(_load(polynomial, oscillator), oscillator, forcing.length)
+    return None if steady is None else SineSolution(steady, tuple(waves))
+
+
+def _solved(forcing: Forcing, oscillator: Oscillator, terms: int) -> list[Stretch]:
+    fastest = oscillator.fastest
+    if isinstance(forcing, SineForcing):
+        fastest = max(fastest, *(one.frequency for one in forcing.sines))
+        terms = WAVE_TERMS
+    count = max(1, ceil(fastest * forcing.length / RADIANS))
+    length = forcing.length / count
+    size = terms + SPARE
+    x = interpolation.points(terms)
+    offsets = length * np.arange(count)
+    s = np.minimum(offsets + 0.5 * length * (x[:, None] + 1.0), forcing.length)
+    values = forcing.derivative(s, 2) + 2.0 * oscillator.n * forcing.derivative(s, 1)
+    load = np.zeros((size, count))
+    load[:terms] = interpolation.transformed(values)
+    integral = length * _integration(size)
+    matrix = np.eye(size) + 2.0 * oscillator.n * integral + oscillator.nu**2 * (integral @ integral)
+    found: Array = np.asarray(np.linalg.solve(matrix, -load), dtype=np.float64)
+    made = []
+    for i in range(count):
+        w = found[:, i]
+        v = chebyshev.integral(length * w, 0.0)
+        solution = PolynomialSolution(length, (chebyshev.integral(length * v, 0.0), v, w))
+        made.append(Stretch(forcing, float(offsets[i]), length, solution, closed=False))
+    return made
+
+
+def _integration(size: int) -> Array:
+    """Matrix of the integral over [0, 1] from 0 of a Chebyshev series, cut to `size` coefficients."""
+    return np.array([chebyshev.integral(row, 0.0)[:size] for row in np.eye(size)]).T

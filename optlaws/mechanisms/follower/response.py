@@ -1,0 +1,152 @@
+"""Response of a follower to one rise and the dwell after it."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw, Peak
+from optlaws.mechanisms.checks import motion_law
+from optlaws.mechanisms.follower.chain import Motion
+from optlaws.mechanisms.follower.law_motion import forcings
+from optlaws.mechanisms.follower.mass_motion import MassMotion
+from optlaws.mechanisms.follower.vibration import Oscillator
+from optlaws.numbers import whole
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, repr=False)
+class Response(MassMotion):
+    """Motion of the mass during the rise, 0 <= k <= 1, and in the dwell after it, k > 1; made by a `Follower`.
+
+    Call it like a law: ``response(k, nu=2)``, ``response.c(k)``. `peak` and `extrema` look at the rise, the greatest
+    of its whole length; `dwell_peak` at all that follows.
+
+    Parameters
+    ----------
+    nu, damping
+        The follower's frequency and damping ratio.
+    law
+        Motion of the cam.
+    initial
+        Displacement and velocity of the mass at k = 0.
+
+    Examples
+    --------
+    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.mechanisms import Follower
+    >>> response = Follower(nu=18).response(savin("III", 7.2))
+    >>> response.dynamic_factor(), response.residual_acceleration
+    (2.035976, 7.204401)
+    """
+
+    nu: float
+    damping: float
+    law: MotionLaw
+    initial: tuple[float, float]
+
+    def dynamic_factor(self, reference: MotionLaw | None = None, *, dwell: bool = False) -> float:
+        """Greatest acceleration of the mass over that of a law, max |a_m''| / C.
+
+        Parameters
+        ----------
+        reference
+            The law whose C counts: the one meant for the mass; the cam's own unless given.
+        dwell
+            Look at the dwell as well as at the rise.
+
+        Raises
+        ------
+        InputError
+            If C of the reference is zero or infinite.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> from optlaws.mechanisms import Follower
+        >>> Follower(nu=200).response(smoothstep(4)).dynamic_factor()
+        1.003417
+        """
+        law = self.law if reference is None else motion_law(reference, "reference")
+        C = law.constants.C.value
+        if not 0.0 < C < inf:
+            raise InputError(f"reference must have a finite C above 0 to compare with, got {law!r}; name another law")
+        highest = self.peak(2).value
+        return (max(highest, self.dwell_peak(2).value) if dwell else highest) / C
+
+    @property
+    def residual_displacement(self) -> float:
+        """Amplitude of the free vibration at k = 1, its envelope if damped (1.21).
+
+        At and above critical damping nothing vibrates, and this is the greatest deviation from rest in the dwell.
+        """
+        return self._oscillator.amplitude(*self._off)
+
+    @property
+    def residual_acceleration(self) -> float:
+        """nu² times the residual displacement: without damping, the amplitude of a_m'' in the dwell."""
+        return self.nu**2 * self.residual_displacement
+
+    @property
+    def final(self) -> tuple[float, float]:
+        """Displacement and velocity of the mass at k = 1."""
+        return self._motion.end
+
+    def dwell_peak(self, nu: int) -> Peak:
+        """Greatest magnitude from k = 1 on of the derivative of order `nu`, for nu = 0 of the deviation from rest.
+
+        Raises
+        ------
+        InputError
+            If `nu` is not an integer of at least 0.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> from optlaws.mechanisms import Follower
+        >>> Follower(nu=20, damping=0.05).response(smoothstep(4)).dwell_peak(2)
+        Peak(value=1.620669, k=1.016776)
+        """
+        found = self._oscillator.peak(*self._off, whole(nu, "nu"))
+        return Peak(found.value, 1.0 + found.k)
+
+    def __repr__(self) -> str:
+        return (
+            f"Response(nu={self.nu:g}, damping={self.damping:g}, peak acceleration={self.peak(2).value:g}, "
+            f"residual acceleration={self.residual_acceleration:g})"
+        )
+
+    @property
+    def _oscillator(self) -> Oscillator:
+        return Oscillator(self.nu, self.damping)
+
+    @kept_property
+    def _motion(self) -> Motion:
+        return Motion(self._oscillator, forcings(self.law), self.initial)
+
+    @kept_property
+    def _off(self) -> tuple[float, float]:
+        """Displacement and velocity at k = 1 relative to the dwell, where the cam stands still."""
+        last = self._motion.stretches[-1]
+        velocity = float(last.cam(np.array([last.length]), 1)[0])
+        off = self._motion.off_at_end
+        return off[0], off[1] + velocity
+
+    def _derivative(self, k: Array, order: int) -> Array:
+        if (k < 0.0).any():
+            raise InputError(f"k must be at least 0, got {float(k.min())!r}")
+        found = self._motion.derivative(np.minimum(k, 1.0), order)
+        after = k > 1.0
+        if after.any():
+            free = self._oscillator.motion(*self._off, k[after] - 1.0, order)
+            found[after] = free + (float(self.law.a(1.0)) if order == 0 else 0.0)
+        return found
+
+    def _candidates(self, order: int) -> tuple[Array, Array]:
+        return self._motion.candidates(order)

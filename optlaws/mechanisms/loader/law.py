@@ -1,0 +1,190 @@
+"""The law of an inertial loader: velocity Y sqrt(B² - b²), opposite in sign on the two sides of the top of b."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+from typing import Any, Self, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw, Peak
+from optlaws.laws.law import Many
+from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
+from optlaws.mechanisms.loader.segment import LoaderSegment
+from optlaws.mechanisms.loader.tops import breaks, tops
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, repr=False)
+class LoaderLaw(MotionLaw, kind="loader"):
+    """The motion of the inertial loader that balances an executive law, over the k of that law (eq. 1).
+
+    b_l = Y sqrt(B² - b²) up to the top of b and the opposite after it, so that b_l² + Y² b² = Y² B² and the powers
+    cancel, d_l = -Y² d. The loader swings from a_l(0) = 0 to its turning point and back; the other half of its
+    swing of 1 belongs to the return of the executive link. It may break where the executive law does; peaks look at
+    both sides of a break as those of a piecewise law do.
+
+    Parameters
+    ----------
+    executive
+        The executive law; symmetric or not, from rest to rest or not.
+
+    Raises
+    ------
+    InputError
+        If the executive velocity is zero or not finite, or has its peak at k = 0 or 1 or an even number of times.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> law = LoaderLaw(smoothstep(2))
+    >>> law
+    LoaderLaw(Y=1.09384, B=1.64075, C=4.64075, D=4.14472, J=26.2521)
+    >>> law.a(0.5), law.b(0.5), round(law.a(1.0), 15)
+    (0.5, 0.0, 0.0)
+    """
+
+    executive: MotionLaw
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.executive, MotionLaw):
+            raise InputError(f"the executive law must be a MotionLaw, got {self.executive!r}")
+        tops(self.executive)
+
+    @kept_property
+    def Y(self) -> float:
+        """The energy parameter Y: 1 / integral of the signed sqrt(B² - b²), so that the loader's swing is 1."""
+        middle = len(self._tops) // 2
+        turn = self._tops[middle].first
+        swing = 0.0
+        for (start, end), segment in zip(pairwise(self._stretches[0]), self._segments(1.0), strict=True):
+            travel = float(segment.derivative(np.ones(1), end - start, 0)[0])
+            swing += travel if end <= turn else -travel
+        return 1.0 / swing
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Where the executive law breaks or its velocity has a top, 0 and 1 included."""
+        return self._pieces.breaks
+
+    def jumps(self, nu: int) -> tuple[tuple[float, float], ...]:
+        """Breaks inside (0, 1) where the derivative of order nu jumps, with right-hand less left-hand value.
+
+        Raises
+        ------
+        InputError
+            If `nu` is not an integer of at least 0.
+        """
+        return self._pieces.jumps(nu)
+
+    @property
+    def continuity(self) -> int:
+        """The highest nu, up to 9, such that all derivatives up to order nu are finite and continuous."""
+        return self._pieces.continuity
+
+    @overload
+    def d(self, k: float) -> float: ...
+    @overload
+    def d(self, k: Many) -> Array: ...
+    def d(self, k: float | Many) -> float | Array:
+        """Kinetic power b c at k, which is -Y² times that of the executive law; finite where c is not."""
+        c = np.asarray(self.c(k))
+        known = np.isfinite(c)
+        values = np.asarray(self.b(k)) * np.where(known, c, 0.0)
+        if not known.all():
+            values = np.where(known, values, -(self.Y**2) * np.asarray(self.executive.d(k)))
+        return values if np.ndim(values) else float(values)
+
+    def peak(self, nu: int) -> Peak:  # noqa: D102
+        return self._pieces.peak(nu)
+
+    def extrema(self, nu: int, within: tuple[float, float] = (0.0, 1.0)) -> tuple[Peak, Peak]:  # noqa: D102
+        return self._pieces.extrema(nu, within)
+
+    def power_peak(self) -> Peak:  # noqa: D102
+        found = self.executive.power_peak()
+        return Peak(self.Y**2 * found.value, found.k)
+
+    @kept_property
+    def _tops(self) -> Any:  # noqa: ANN401
+        return tops(self.executive)
+
+    @kept_property
+    def _stretches(self) -> tuple[list[float], list[str]]:
+        """Places that bound the stretches, and for each stretch which of its ends is a top, "flat" where both are."""
+        places = {0.0, 1.0, *breaks(self.executive)}
+        for one in self._tops:
+            places |= {one.first, one.last}
+            places -= {k for k in places if one.first < k < one.last}
+        bounds = sorted(places)
+        kinds = [self._kind(start, end) for start, end in pairwise(bounds)]
+        for i in reversed([i for i, one in enumerate(kinds) if one == "both"]):
+            bounds.insert(i + 1, 0.5 * (bounds[i] + bounds[i + 1]))
+            kinds[i : i + 1] = ["start", "end"]
+        return bounds, kinds
+
+    def _kind(self, start: float, end: float) -> str:
+        if any((start, end) == (one.first, one.last) for one in self._tops):
+            return "flat"
+        begins = any(start == one.last for one in self._tops)
+        ends = any(end == one.first for one in self._tops)
+        return "both" if begins and ends else "start" if begins else "end" if ends else ""
+
+    def _segments(self, Y: float) -> list[Segment]:
+        bounds, kinds = self._stretches
+        found: list[Segment] = []
+        for (start, end), kind in zip(pairwise(bounds), kinds, strict=True):
+            passed = sum(one.last <= start for one in self._tops)
+            found.append(self._segment(start, end, kind, Y * (-1) ** passed))
+        return found
+
+    def _segment(self, start: float, end: float, kind: str, scale: float) -> Segment:
+        if kind == "flat":
+            return PolynomialSegment(())
+        if isinstance(self.executive, PiecewiseLaw):
+            here = int(np.searchsorted(self.executive.breaks, 0.5 * (start + end))) - 1
+            if isinstance(self.executive.segments[here], PowerSegment):
+                # B² - b² is as straight as b² is: constant power again
+                B = self.executive.peak(1).value
+                inner = np.array([start, end])
+                inner[1] = end if end == 1.0 else np.nextafter(end, start)
+                b0, b1 = scale * np.sqrt(np.maximum(B * B - self.executive.b(inner) ** 2, 0.0))
+                return PowerSegment(0.0 if kind == "start" else b0, 0.0 if kind == "end" else b1)
+        return LoaderSegment(self.executive, start, end, scale, kind)
+
+    @kept_property
+    def _pieces(self) -> PiecewiseLaw:
+        return PiecewiseLaw(self._stretches[0], self._segments(self.Y))
+
+    def _derivative(self, k: Array, nu: int) -> Array:
+        return np.asarray(self._pieces(k, nu))
+
+    def _candidates(self, nu: int) -> Array:
+        low, high = self.extrema(nu)
+        return np.array([0.0, low.k, high.k, 1.0])
+
+    def _power_candidates(self) -> Array:
+        return np.array([0.0, self.power_peak().k, 1.0])
+
+    def _mean_square(self, nu: int) -> float:
+        return self._pieces.rms(nu) ** 2
+
+    def _summary(self) -> str:
+        return f"Y={self.Y:g}"
+
+    def _fields(self) -> dict[str, Any]:
+        return {"executive": self.executive.to_dict()}
+
+    @classmethod
+    def _from_fields(cls, fields: dict[str, Any]) -> Self:
+        if problems := [f"{key!r} is unknown" for key in fields if key != "executive"] + [
+            "'executive' is missing" for _ in range("executive" not in fields)
+        ]:
+            raise InputError(f"a loader's law has the key executive; {', '.join(problems)}")
+        return cls(MotionLaw.from_dict(fields["executive"]))

@@ -1,0 +1,151 @@
+"""Polydyne laws: the cam that makes an elastic follower's mass move by a given law (1.27), and back (1.25)."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw, PolynomialLaw
+from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.mechanisms.checks import motion_law
+from optlaws.mechanisms.polydyne.cam_segments import cam_segment
+from optlaws.mechanisms.polydyne.smoothness import check_mass_law
+from optlaws.numbers import not_negative, positive
+from optlaws.series import interpolation
+
+Array = NDArray[np.float64]
+
+
+def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
+    """The cam law whose follower's mass, at rest at first, moves exactly by `law`: a + 2 n b/nu² + c/nu² (1.27).
+
+    A polynomial gives a polynomial, by exact arithmetic. A piecewise law gives a piecewise law: polynomials and sines
+    stay what they are. Anything else becomes a polynomial, to machine accuracy.
+
+    Parameters
+    ----------
+    law
+        Motion meant for the mass, from rest to rest: b, c and j zero at both ends, j continuous in between.
+    nu
+        Frequency at which the cam is to run.
+    damping
+        Ratio zeta = n/nu.
+
+    Raises
+    ------
+    InputError
+        If the law is not smooth enough (the message says which derivative and where), or a number is out of range.
+
+    Examples
+    --------
+    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.mechanisms import Follower
+    >>> law = savin("III", 7.2)
+    >>> cam = polydyne(law, nu=20, damping=0.05)
+    >>> cam.c(0.0), cam.constants.C
+    (4.62, Peak(value=5.755781, k=0.772243))
+    >>> Follower(nu=20, damping=0.05).response(cam).dynamic_factor(reference=law)
+    1.000000
+    >>> polydyne(savin("II", 7.0), nu=20)
+    Traceback (most recent call last):
+    optlaws.errors.InputError: the mass law has jerk j(0) = 120, so the velocity of the cam would jump there; ...
+    """
+    frequency, ratio = positive(nu, "nu"), not_negative(damping, "damping")
+    check_mass_law(motion_law(law))
+    if isinstance(law, PolynomialLaw):
+        return _from_powers(cam_powers(law.exact_powers(), frequency, ratio), law)
+    once, twice = (float(one) for one in cam_factors(frequency, ratio))
+    if isinstance(law, PiecewiseLaw):
+        places = zip(law.segments, pairwise(law.breaks), strict=True)
+        return PiecewiseLaw(
+            law.breaks, [cam_segment(one, high - low, once, twice) for one, (low, high) in places], law.a0
+        )
+
+    def c(x: Array) -> Array:
+        k = 0.5 * (x + 1.0)
+        return law(k, 2) + once * law(k, 3) + twice * law(k, 4)
+
+    return PolynomialLaw(interpolation.chebyshev_series(c, "acceleration of the cam"), float(law.a(0.0)))
+
+
+def mass_law(cam: MotionLaw, nu: float, damping: float = 0.0) -> PolynomialLaw:
+    """The polynomial by which the mass moves under a polynomial cam if it starts on it without vibration (1.25).
+
+    It is the particular solution Pk; the mass, at rest at first, follows it where Pk and its velocity start from
+    zero. Of a cam that `polydyne` made from a polynomial it is that polynomial. With small nu the coefficients of any
+    other cam's Pk are huge; `Follower.response` gives its motion without this detour.
+
+    Parameters
+    ----------
+    cam
+        Law of the cam.
+    nu
+        Frequency of the follower.
+    damping
+        Ratio zeta = n/nu.
+
+    Raises
+    ------
+    InputError
+        If the law is no polynomial, or a number is out of range.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> back = mass_law(polydyne(smoothstep(4), nu=20), nu=20)
+    >>> [round(value, 9) for value in back.to_powers()]
+    [0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0]
+    """
+    if not isinstance(cam, PolynomialLaw):
+        raise InputError(f"cam must be a PolynomialLaw; Follower(nu, damping).response(cam) takes any law, got {cam!r}")
+    frequency, ratio = positive(nu, "nu"), not_negative(damping, "damping")
+    return PolynomialLaw.from_powers(mass_powers(cam.exact_powers(), frequency, ratio))
+
+
+def cam_powers(mass: tuple[Fraction, ...], nu: float, damping: float) -> list[Fraction]:
+    """Coefficients q of the cam from Q of the mass, in ascending powers of k, exactly (1.27).
+
+    Examples
+    --------
+    >>> cam_powers((Fraction(0), Fraction(0), Fraction(1)), 2.0, 0.5)
+    [Fraction(1, 2), Fraction(1, 1), Fraction(1, 1)]
+    """
+    once, twice = cam_factors(nu, damping)
+    Q = [*mass, Fraction(0), Fraction(0)]
+    return [Q[i] + (i + 1) * (once * Q[i + 1] + (i + 2) * twice * Q[i + 2]) for i in range(len(mass))]
+
+
+def mass_powers(cam: tuple[Fraction, ...], nu: float, damping: float) -> list[Fraction]:
+    """Coefficients Q of the mass's particular solution from q of the cam, exactly (1.25).
+
+    Examples
+    --------
+    >>> mass_powers((Fraction(1, 2), Fraction(1, 1), Fraction(1, 1)), 2.0, 0.5)
+    [Fraction(0, 1), Fraction(0, 1), Fraction(1, 1)]
+    """
+    once, twice = cam_factors(nu, damping)
+    Q = [*cam, Fraction(0), Fraction(0)]
+    for i in range(len(cam) - 1, -1, -1):
+        Q[i] -= (i + 1) * (once * Q[i + 1] + (i + 2) * twice * Q[i + 2])
+    return Q[: len(cam)]
+
+
+def cam_factors(nu: float, damping: float) -> tuple[Fraction, Fraction]:
+    """Factors 2 n/nu² of b and 1/nu² of c in (1.27), exactly.
+
+    Examples
+    --------
+    >>> cam_factors(4.0, 0.25)
+    (Fraction(1, 8), Fraction(1, 16))
+    """
+    exact = Fraction(nu)
+    return 2 * Fraction(damping) / exact, 1 / exact**2
+
+
+def _from_powers(powers: list[Fraction], law: PolynomialLaw) -> PolynomialLaw:
+    # what the checks let pass as zero at the start is rounding, and would be a step of the cam
+    return PolynomialLaw.from_powers([Fraction(law.a0), Fraction(law.b0), *powers[2:]])

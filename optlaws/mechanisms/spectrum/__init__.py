@@ -1,0 +1,1 @@
+"""Followers of every frequency: vibration left behind, response spectra, robust laws."""

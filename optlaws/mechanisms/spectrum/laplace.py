@@ -1,0 +1,68 @@
+"""Exponential transforms of laws, in closed form."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.laws import MotionLaw
+from optlaws.mechanisms.checks import motion_law
+from optlaws.mechanisms.follower.cam_motion import Forcing, PolynomialForcing, SineForcing
+from optlaws.mechanisms.follower.law_motion import forcings
+from optlaws.mechanisms.spectrum.bessel import legendre_from_chebyshev, moments
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+
+def velocity_transform(law: MotionLaw, w: Complex) -> Complex:
+    """Integral over [0, 1] of exp(w (1 - k)) b(k) for w with real part at most 0, shape of w.
+
+    Computed from c and from the jumps of b, the ends among them: so it is as small beside c as it should be.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> velocity_transform(smoothstep(1), np.array([-1.0 + 0.0j])).real.round(6)
+    array([0.632121])
+    """
+    pieces = forcings(motion_law(law))
+    exponential = cache(lambda k: np.exp(w * (1.0 - k)))
+    ends = np.array([0.0])
+    total = exponential(0.0) * pieces[0].derivative(ends, 1)
+    for before, after in pairwise(pieces):
+        jump = float(after.derivative(ends, 1)[0] - before.derivative(np.array([before.length]), 1)[0])
+        if jump:
+            total = total + jump * exponential(after.start)
+    total = total - pieces[-1].derivative(np.array([pieces[-1].length]), 1)
+    for one in pieces:
+        total = total + exponential(one.start + one.length) * _acceleration_transform(one, w)
+    return np.asarray(total / w)
+
+
+def _acceleration_transform(piece: Forcing, w: Complex) -> Complex:
+    """Integral over the piece of exp(w (length - s)) c(s)."""
+    if isinstance(piece, PolynomialForcing):
+        return _polynomial(piece.acceleration, piece.length, w)
+    assert isinstance(piece, SineForcing)  # noqa: S101 - there is no third kind
+    found = _polynomial(piece.steady, piece.length, w)
+    for one in piece.sines:
+        wave = 1j * one.frequency
+        for sign in (1.0, -1.0):
+            turn = np.exp(1j * sign * (one.frequency * piece.length + one.phase))
+            found += -0.5j * sign * one.amplitude * turn * piece.length * _mean((w - sign * wave) * piece.length)
+    return found
+
+
+def _mean(z: Complex) -> Complex:
+    """(exp(z) - 1) / z, 1 at 0."""
+    safe = np.where(z == 0.0, 1.0, z)
+    return np.where(z == 0.0, 1.0, np.expm1(safe) / safe)
+
+
+def _polynomial(acceleration: Array, length: float, w: Complex) -> Complex:
+    legendre = legendre_from_chebyshev(len(acceleration)) @ acceleration
+    return length * (moments(0.5 * length * w, len(acceleration)) @ legendre)

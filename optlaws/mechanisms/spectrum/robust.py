@@ -1,0 +1,222 @@
+"""The residual vibration over a whole interval of frequencies as a constant of a law, to be minimised or bounded.
+
+For each frequency the complex amplitude of the free vibration is affine in the law, so that its magnitude is a
+second-order cone; the greatest of them over the interval is convex.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import ceil, nan
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw
+from optlaws.mechanisms.polydyne.cam_constants import check_order
+from optlaws.mechanisms.spectrum.residual import residual_phasor, roots
+from optlaws.numbers import not_negative, positive
+from optlaws.series.gegenbauer import chebyshev_series
+from optlaws.series.peaks import Peak
+from optlaws.synthesis.families.cone import ConeFamily, stationary_places
+from optlaws.synthesis.problem.constants import MAKERS, Functional
+from optlaws.synthesis.spaces.space import LawSpace
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_WIDEST = 1000.0
+_SPARE = 40
+_MOST_POLYDYNE = 4
+
+
+@dataclass(frozen=True, repr=False)
+class Residual(Functional):
+    """Greatest residual acceleration over an interval of frequencies; made by `residual`.
+
+    Attributes
+    ----------
+    low, high
+        The interval of nu.
+    damping
+        Ratio zeta.
+    design
+        Frequency for which the cam is made if the law is the mass's; None if the law is the cam's own.
+    design_damping
+        The ratio for which it is made.
+    """
+
+    low: float
+    high: float
+    damping: float = 0.0
+    design: float | None = None
+    design_damping: float = 0.0
+
+    def value(self, law: MotionLaw) -> float:
+        """The greatest over the whole interval."""
+        return self.peak(law).value
+
+    def peak(self, law: MotionLaw) -> Peak:
+        """The greatest over the whole interval; its `k` is the frequency at which it is."""
+        places = np.array([1.0])
+        if self.low < self.high:
+            u, angle = _nodes(self.low, self.high)
+            phasors = _series(self._phasors(law, self._frequencies(u))[:, None], angle)[:, 0]
+            inner = stationary_places(phasors)
+            places = np.concatenate([[-1.0, 1.0], inner])
+        frequencies = self._frequencies(places)
+        sizes = np.abs(self._phasors(law, frequencies))
+        best = int(np.argmax(sizes))
+        return Peak(float(sizes[best]), float(frequencies[best]))
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
+        """One cone for each frequency. A bound becomes 1, so that residuals are measured by it."""
+        if self.design is not None:
+            check_order(self.name, space, _MOST_POLYDYNE)
+        elif space.start_velocity != 0.0 or space.velocity_change != 0.0 or space.boundary.order < 2:
+            raise InputError(f"{self.name} needs laws from rest to rest, of order 2 at least")
+        columns = self._columns(space)
+        wide = np.zeros((len(columns), len(slack) + 1), dtype=np.complex128)
+        wide[:, : space.terms], wide[:, -1] = columns[:, :-1], columns[:, -1]
+        unit = bound or 1.0
+        single = self.low == self.high
+        domain = (1.0, 1.0) if single else (-1.0, 1.0)
+        return (ConeFamily(self.name, slack, bound / unit, domain=domain, series=wide / unit),)
+
+    def where(self, k: float) -> str:
+        """The frequency of a place."""
+        return f"nu = {self.frequency(k):.5g}"
+
+    def frequency(self, place: float) -> float:
+        """The frequency of a certificate's contact, which stands there as a number k from 0 to 1."""
+        return float(self._frequencies(np.array([2.0 * place - 1.0]))[0])
+
+    def _frequencies(self, u: Array) -> Array:
+        inner: Array = 0.5 * ((1.0 - u) * self.low + (1.0 + u) * self.high)
+        return inner
+
+    def _phasors(self, law: MotionLaw, frequencies: Array) -> Complex:
+        phasors = residual_phasor(law, frequencies, self.damping)
+        return np.asarray(frequencies**2 * self._detuning(frequencies) * phasors)
+
+    def _detuning(self, frequencies: Array) -> Complex:
+        """What the polydyne cam leaves of the residual of its mass law cut directly on a cam."""
+        if self.design is None:
+            return np.ones(len(frequencies), dtype=np.complex128)
+        _, w, _ = roots(frequencies, self.damping)
+        n = self.damping * frequencies
+        n0 = self.design_damping * self.design
+        ratio = frequencies / self.design
+        return np.asarray(1.0 - ratio**2 + 2.0 * (n0 - n) * w / self.design**2)
+
+    def _columns(self, space: LawSpace) -> Complex:
+        """Chebyshev series in u of nu² times the complex amplitude: free functions, then the base law."""
+        key = ("residual", self.name)
+        parts = space.cached(key, lambda: self._computed(space).view(np.float64))
+        return parts.view(np.complex128)
+
+    def _computed(self, space: LawSpace) -> Complex:
+        u, angle = _nodes(self.low, self.high) if self.low < self.high else (np.ones(1), np.zeros(1))
+        frequencies = self._frequencies(u)
+        _, w, damped = roots(frequencies, self.damping)
+        k, weights = _rule(space, self.high)
+        family = space.derivative(1, "b", np.zeros(space.terms))
+        # b of a symmetric law is even about 1/2, and its rows may be those of the first half
+        places = np.abs(1.0 - 2.0 * k) if space.symmetric else 1.0 - 2.0 * k
+        velocities = family.columns(places)[0]
+        transform = np.exp(w[:, None] * (1.0 - k)) @ (weights[:, None] * velocities)
+        scale = -1j * frequencies**2 * w.conj() / damped * self._detuning(frequencies)
+        return np.ascontiguousarray(_series(scale[:, None] * transform, angle))
+
+
+def residual(
+    *,
+    nu: float | tuple[float, float],
+    damping: float = 0.0,
+    design: float | None = None,
+    design_damping: float | None = None,
+) -> Residual:
+    """The greatest residual acceleration of an elastic follower over a whole interval of frequencies.
+
+    In units of a'': nu² times the amplitude of the free vibration at k = 1, its envelope where damped, as
+    `Response.residual_acceleration`.
+
+    Parameters
+    ----------
+    nu
+        The interval (low, high) of frequencies, or one of them.
+    damping
+        Ratio zeta of the follower, below 1.
+    design
+        If given, the law is the mass's and the cam is made from it for this frequency; otherwise it is the cam's own.
+    design_damping
+        The ratio for which that cam is made; `damping` unless given.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+
+    Examples
+    --------
+    >>> from optlaws.laws.savin.savin import savin
+    >>> one = residual(nu=18)
+    >>> round(one.value(savin("III", 7.2)), 6)
+    7.204401
+    >>> wide = residual(nu=(18, 22), design=20)
+    >>> wide, wide.peak(savin("III", 7.2))
+    (residual(nu=(18.0, 22.0), design=20.0), Peak(value=1.368836, k=18.0))
+    """
+    pair = tuple(nu) if isinstance(nu, list | tuple) else (nu, nu)
+    if len(pair) != 2:
+        raise InputError(f"nu must be a frequency or two, (low, high), got {nu!r}")
+    low, high = (positive(one, "nu") for one in pair)
+    if low > high or high - low > _WIDEST:
+        raise InputError(f"nu must be an interval (low, high) no longer than {_WIDEST:g}, got {nu!r}")
+    ratio = not_negative(damping, "damping")
+    roots(low, ratio)
+    if design is None and design_damping is not None:
+        raise InputError("design_damping belongs to a design frequency: give design too")
+    made = None if design is None else positive(design, "design")
+    made_ratio = ratio if design_damping is None else not_negative(design_damping, "design_damping")
+    parts = [f"nu={low!r}" if low == high else f"nu=({low!r}, {high!r})"]
+    parts += [f"damping={ratio!r}"] if ratio else []
+    parts += [f"design={made!r}"] if made else []
+    parts += [f"design_damping={made_ratio!r}"] if made and made_ratio != ratio else []
+    name = f"residual({', '.join(parts)})"
+    return Residual(
+        name,
+        nan,
+        convex=True,
+        low=low,
+        high=high,
+        damping=ratio,
+        design=made,
+        design_damping=made_ratio if made else 0.0,
+    )
+
+
+def _nodes(low: float, high: float) -> tuple[Array, Array]:
+    """Chebyshev points of [-1, 1], enough for functions of exponential type 1 in nu, and their angles."""
+    count = ceil(0.75 * (high - low)) + _SPARE
+    angle = (np.arange(count) + 0.5) * np.pi / count
+    return np.cos(angle), angle
+
+
+def _series(values: Complex, angle: Array) -> Complex:
+    return np.asarray(chebyshev_series(values.real, angle) + 1j * chebyshev_series(values.imag, angle))
+
+
+def _rule(space: LawSpace, highest: float) -> tuple[Array, Array]:
+    """Gauss points on every piece of the law, enough for a vibration of the highest frequency, and weights."""
+    breaks = np.array(getattr(space, "breaks", (0.0, 1.0)))
+    degree = len(space.derivative(1, "b", np.zeros(space.terms)).series)
+    x, weights = legendre.leggauss(degree + ceil(0.5 * highest) + _SPARE)
+    lengths = np.diff(breaks)
+    k = breaks[:-1, None] + lengths[:, None] * (1.0 + x) / 2.0
+    return k.ravel(), (lengths[:, None] * weights / 2.0).ravel()
+
+
+MAKERS.setdefault("residual", residual)

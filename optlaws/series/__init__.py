@@ -1,0 +1,1 @@
+"""Functions of one variable: Chebyshev series, sums of powers, their roots and peaks. Knows no law."""

@@ -1,0 +1,199 @@
+"""Running a study: chunks out, rows into the journal, the table at the end."""
+
+from __future__ import annotations
+
+import importlib
+from collections import Counter
+from collections.abc import Mapping
+from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
+from contextlib import closing
+from pathlib import Path
+from time import monotonic
+from typing import Any
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError, SolverFailure
+from optlaws.studies.points.points import Points
+from optlaws.studies.points.study_file import StudyFile, entries, read_study
+from optlaws.studies.progress import Silent, Watch
+from optlaws.studies.solving.executors import Crew
+from optlaws.studies.store import table
+from optlaws.studies.store.directory import StudyDirectory
+from optlaws.studies.store.journal import Journal
+from optlaws.studies.study import Study
+from optlaws.synthesis import Problem
+
+_TRIES = 3
+_TICK = 1.0
+#: how long a cluster may be without workers; whoever has to wait for them does so before the study
+_LOST_SECONDS = 120.0
+
+
+def run_study(
+    source: Path | str | Mapping[str, Any],
+    out: Path | str,
+    *,
+    executor: Executor | None = None,
+    workers: int | None = None,
+    watch: Watch | None = None,
+) -> Study:
+    """Solve every point of a study into a directory, or go on with one that was interrupted.
+
+    Parameters
+    ----------
+    source
+        The study file, or the same as a dict.
+    out
+        The directory. The same call goes on where an earlier one stopped, whatever stopped it.
+    executor
+        Anything that speaks `concurrent.futures.Executor`; watched processes of this machine unless given.
+    workers
+        How many points are solved at a time; all cores, or what the executor has, unless given.
+    watch
+        What is told of the progress.
+
+    Returns
+    -------
+    Study
+        The finished study.
+
+    Raises
+    ------
+    InputError
+        If the study file is wrong, or the directory holds another study or is in use.
+    StoreFailure
+        If the directory cannot be written, for example on a full disk; what was written stands.
+    SolverFailure
+        If the workers cannot work at all. A point that fails is a row with its error.
+
+    Examples
+    --------
+    >>> import tempfile
+    >>> from optlaws.studies.solving.executors import Serial
+    >>> asked = {"problem": {"order": 4}, "vary": {"B": [1.6, 1.7], "degree": [3, 9]}}
+    >>> with tempfile.TemporaryDirectory() as out:
+    ...     study = run_study(asked, out, executor=Serial())
+    ...     print(study.counts, round(study.best("C").constants["C"], 6))
+    {'optimal': 4} 4.819774
+    """
+    study = read_study(source)
+    points = Points.of(study)
+    check(study, points)
+    directory, seen = StudyDirectory(Path(out)), watch or Silent()
+    with directory.locked():
+        directory.claim(study, points)
+        if not _finished(directory, points):
+            with closing(Journal(directory.journal)) as journal:
+                journal.open()
+                seen.begin(len(points), journal.counts)
+                try:
+                    _solve(study, points, journal, Crew(executor, workers), seen)
+                finally:
+                    seen.end(journal.counts)
+            table.compact(directory, points)
+        if directory.table.exists():
+            # it is whole, and a run may have been killed between the two
+            directory.journal.unlink(missing_ok=True)
+    return Study(directory.path)
+
+
+def _finished(directory: StudyDirectory, points: Points) -> bool:
+    """Whether the table is there and whole; one that is damaged is made again where the journal still has its rows."""
+    if not directory.table.exists():
+        return False
+    try:
+        table.check(directory, len(points))
+    except table.DamagedTable:
+        if not directory.journal.exists():
+            raise
+        return False
+    return True
+
+
+def task(study: StudyFile, points: Points, number: int) -> dict[str, Any]:
+    """A chunk as plain data."""
+    return {
+        "chunk": number,
+        "problem": study.problem.given(),
+        "points": [(index, points.inputs(index)) for index in points.of_chunk(number)],
+        "bound": study.bound,
+        "time_limit": study.time_limit,
+        "imports": study.imports,
+    }
+
+
+def check(study: StudyFile, points: Points) -> None:
+    """Refuse a study whose modules are missing or whose first point is no problem."""
+    for module in study.imports:
+        try:
+            importlib.import_module(module)
+        except (ImportError, SyntaxError, TypeError, ValueError) as error:
+            raise InputError(f"imports: {module}: {error}") from None
+    first = points.inputs(0)
+    try:
+        Problem.from_dict(entries(study.problem.given(), first))
+    except InputError as error:
+        shown = ", ".join(f"{name} = {shortened(value)}" for name, value in first.items())
+        raise InputError(f"the first point, {shown}, is no problem: {error}") from None
+
+
+def _solve(study: StudyFile, points: Points, journal: Journal, crew: Crew, watch: Watch) -> None:
+    waiting = (number for number in range(points.chunks) if number not in journal.done)
+    under_way: dict[Future[list[bytes]], int] = {}
+    tries: Counter[int] = Counter()
+    alive = _Alive(crew)
+
+    def submit(number: int) -> None:
+        under_way[crew.submit(task(study, points, number))] = number
+
+    try:
+        while True:
+            while len(under_way) < crew.most and (number := next(waiting, None)) is not None:
+                submit(number)
+            if not under_way:
+                return
+            done, _ = wait(under_way, timeout=_TICK, return_when=FIRST_COMPLETED)
+            if not done:
+                alive.check()
+            lost = {under_way[future]: error for future in done if (error := _failure(future)) is not None}
+            whole = [(number, one.result()) for one in done if (number := under_way.pop(one)) not in lost]
+            journal.append(whole)
+            watch.advance(journal.counts)
+            for number, error in lost.items():
+                tries[number] += 1
+                if isinstance(error, SolverFailure | BrokenExecutor) or tries[number] == _TRIES:
+                    raise SolverFailure(
+                        f"chunk {number} cannot be solved: {str(error) or type(error).__name__}"
+                    ) from error
+                submit(number)
+    finally:
+        for future in under_way:
+            future.cancel()
+        crew.close()
+
+
+class _Alive:
+    """Sees that a cluster has workers while nothing comes from it."""
+
+    def __init__(self, crew: Crew) -> None:
+        self._crew = crew
+        self._empty_since: float | None = None
+
+    def check(self) -> None:
+        if not self._crew.empty:
+            self._empty_since = None
+            return
+        now = monotonic()
+        self._empty_since = self._empty_since or now
+        if now - self._empty_since >= _LOST_SECONDS:
+            raise SolverFailure(
+                f"the cluster has had no worker for {_LOST_SECONDS:g} s; what is solved is safe: start workers, wait "
+                "for them by client.wait_for_workers(1), and run the same study again"
+            )
+
+
+def _failure(future: Future[list[bytes]]) -> BaseException | None:
+    """What a chunk ended with; an executor that is closed under a study cancels its chunks."""
+    if future.cancelled():
+        return SolverFailure("the executor gave it up: it was closed, or its scheduler is gone")
+    return future.exception()

@@ -1,0 +1,126 @@
+"""Solving a chunk of points in this process: plain data in, rows out."""
+
+from __future__ import annotations
+
+import importlib
+import warnings
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from math import isfinite
+from time import perf_counter
+from typing import Any
+
+import msgspec
+
+from optlaws.echo import cut
+from optlaws.errors import InfeasibleProblem, InputError, NotNormalised, SolverFailure
+from optlaws.studies.points.points import key
+from optlaws.studies.points.study_file import entries
+from optlaws.synthesis import Problem, Solution, synthesize
+
+INFEASIBLE, WRONG_INPUT, NOT_FOUND = "infeasible", "wrong input", "not found"
+TIME_LIMIT, DIED, ERROR = "time limit", "worker died", "error"
+SOLVED = ("optimal", "local", "inaccurate")
+STATUSES = (*SOLVED, INFEASIBLE, NOT_FOUND, WRONG_INPUT, TIME_LIMIT, DIED, ERROR)
+_CONSTANTS = ("B", "C", "D", "J")
+
+Row = dict[str, Any]
+
+
+class Task(msgspec.Struct, kw_only=True):
+    """A chunk of points as plain data: the shared entries of their problems and what varies, by index."""
+
+    chunk: int
+    problem: dict[str, Any]
+    points: list[tuple[int, dict[str, Any]]]
+    bound: str = "quick"
+    time_limit: float = 60.0
+    imports: list[str] = []
+
+
+def in_process(task: Mapping[str, Any]) -> list[bytes]:
+    """The rows of a chunk, solved here: for executors that need no watch over them, such as a serial one."""
+    return list(rows(msgspec.convert(task, Task)))
+
+
+def rows(task: Task, begin: int = 0) -> Iterator[bytes]:
+    """The rows of a chunk from one of its points on, one JSON text each; convex neighbours start each other.
+
+    A chunk begins cold, and so does a point after one without a law: its rows depend on nothing solved before it.
+    """
+    encode = msgspec.json.Encoder().encode
+    for module in task.imports:
+        importlib.import_module(module)
+    previous: Solution | None = None
+    for index, inputs in task.points[begin:]:
+        solved = solve(task, inputs, previous)
+        previous = solved.solution
+        yield encode({**blank(task, index, inputs), **solved.row})
+
+
+@dataclass(frozen=True)
+class Solved:
+    """What a point gave: the entries of its row, and the solution to start a neighbour from."""
+
+    row: Row
+    solution: Solution | None = None
+
+
+def blank(task: Task, index: int, inputs: Mapping[str, Any]) -> Row:
+    """The row of a point before anything is known of it."""
+    asked = entries(task.problem, inputs)
+    row: Row = {"index": index, "key": key(asked), "inputs": inputs, "status": ERROR}
+    row |= dict.fromkeys(("objective", "lower_bound", "gap", "limit", *_CONSTANTS, "rms_c", "iterations"))
+    return row | {"seconds": 0.0, "law": None, "error": None}
+
+
+def failed(task: Task, place: int, status: str, error: str, seconds: float) -> bytes:
+    """The row of a point that did not come back."""
+    index, inputs = task.points[place]
+    return msgspec.json.encode(blank(task, index, inputs) | {"status": status, "error": cut(error), "seconds": seconds})
+
+
+def solve(task: Task, inputs: Mapping[str, Any], previous: Solution | None) -> Solved:
+    """Solve one point; whatever happens ends in its row."""
+    began = perf_counter()
+    try:
+        problem = Problem.from_dict(entries(task.problem, inputs))
+        # continued where problems are not convex, the law of a branch that has become the worse one would stay
+        start = previous if problem.convex else None
+        with warnings.catch_warnings():
+            # weights that vary are meant
+            warnings.simplefilter("ignore", NotNormalised)
+            solution = synthesize(problem, start=start, bound=task.bound)
+        row = _row(solution)
+    except InfeasibleProblem as error:
+        return Solved(_without(INFEASIBLE, error.args[0], began))
+    except InputError as error:
+        return Solved(_without(WRONG_INPUT, str(error), began))
+    except SolverFailure as error:
+        return Solved(_without(NOT_FOUND, error.args[0], began))
+    except Exception as error:  # noqa: BLE001 - a point must not end the study; its row keeps what happened
+        return Solved(_without(ERROR, f"{type(error).__name__}: {error}", began))
+    return Solved({**row, "seconds": perf_counter() - began}, solution)
+
+
+def _without(status: str, error: str, began: float) -> Row:
+    return {"status": status, "error": cut(error), "seconds": perf_counter() - began}
+
+
+def _row(solution: Solution) -> Row:
+    constants = solution.constants
+    row: Row = {name: _finite(getattr(constants, name).value) for name in _CONSTANTS}
+    return row | {
+        "status": solution.status.value,
+        "objective": solution.objective,
+        "lower_bound": _finite(solution.lower_bound),
+        "gap": _finite(solution.gap),
+        "limit": solution.limit,
+        "rms_c": _finite(constants.rms_c),
+        "iterations": solution.iterations,
+        "law": solution.law.to_dict(),
+    }
+
+
+def _finite(value: float) -> float | None:
+    return value if isfinite(value) else None

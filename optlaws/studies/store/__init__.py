@@ -1,0 +1,1 @@
+"""Where the rows of a study are kept while it runs and after."""

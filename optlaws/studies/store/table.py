@@ -1,0 +1,227 @@
+"""The table of a study: its rows in the order of the points, as an Arrow table and a Parquet file."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+import os
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import suppress
+from functools import lru_cache
+from itertools import islice
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+import msgspec
+
+from optlaws.errors import InputError
+from optlaws.files import writing
+from optlaws.files.writing import MARK
+from optlaws.studies.points.axes import SWITCHES, TEXTS, WHOLE, Axis
+from optlaws.studies.points.points import Points
+from optlaws.studies.solving.solving import Row
+from optlaws.studies.store.directory import StudyDirectory
+from optlaws.studies.store.journal import Journal, StoreFailure
+
+if TYPE_CHECKING:
+    import pyarrow as pa
+
+NUMBERS = ("objective", "lower_bound", "gap", "limit", "B", "C", "D", "J", "rms_c", "seconds")
+OTHERS = ("index", "key", "status", "iterations", "law", "error")
+#: rows of one group in the Parquet file
+GROUP = 4096
+
+
+class NotInstalled(InputError, ImportError):  # noqa: N818 - as SolverFailure
+    """A library is missing that an extra of optlaws brings.
+
+    Examples
+    --------
+    >>> raise NotInstalled("to_pandas needs pandas: pip install optlaws[studies]")
+    Traceback (most recent call last):
+    optlaws.studies.store.table.NotInstalled: to_pandas needs pandas: pip install optlaws[studies]
+    """
+
+
+class DamagedTable(InputError):  # noqa: N818 - beside NotInstalled
+    """The table of a study is not what was written.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> raise DamagedTable(Path("rows.parquet"), "it is empty")
+    Traceback (most recent call last):
+    optlaws.studies.store.table.DamagedTable: rows.parquet is damaged: it is empty; put a whole copy in its place, or
+    remove it and rows.sha256 and run the same study again: its points are then solved anew
+    """
+
+    def __init__(self, file: Path, reason: str) -> None:
+        super().__init__(
+            f"{file} is damaged: {reason}; put a whole copy in its place, or remove it and rows.sha256 "
+            "and run the same study again: its points are then solved anew"
+        )
+
+
+def column(name: str) -> str:
+    """The column of an entry that varies; what was asked of B is not what the law's B came out as.
+
+    Examples
+    --------
+    >>> column("B"), column("order")
+    ('B asked', 'order')
+    """
+    return f"{name} asked" if name in (*NUMBERS, *OTHERS) else name
+
+
+def rows_in_order(journal: Journal, points: Points) -> Iterator[Row]:
+    """The rows that a journal has, in the order of the points; a few chunks are in memory at a time."""
+
+    @lru_cache(maxsize=16)
+    def chunk(number: int) -> dict[int, Row]:
+        return {row["index"]: row for row in map(msgspec.json.decode, journal.rows(number))}
+
+    for index in range(len(points)):
+        number = points.chunk_of(index)
+        if number in journal.done:
+            yield chunk(number)[index]
+
+
+def compact(directory: StudyDirectory, points: Points) -> None:
+    """Write the Parquet file of a finished study, whole or not at all; without pyarrow the journal stays the store."""
+    try:
+        import pyarrow.parquet as pq
+    except ImportError:
+        return
+    shape = schema(points, about={"optlaws": directory.about.read_bytes()})
+    copy = directory.table.with_suffix(".unfinished")
+    journal = Journal(directory.journal)
+    try:
+        with pq.ParquetWriter(copy, shape, compression="zstd", write_page_checksum=True) as writer:
+            rows = rows_in_order(journal, points)
+            while some := list(islice(rows, GROUP)):
+                writer.write_table(arrow(some, shape))
+        with copy.open("rb+") as stream:
+            os.fsync(stream.fileno())
+        # read again before the journal goes
+        check_rows(copy, len(points), journal.counts)
+        writing.write(directory.checksum, f"{digest(copy)}  {directory.table.name}\n# {MARK}\n")
+        copy.replace(directory.table)
+    except OSError as error:
+        copy.unlink(missing_ok=True)
+        raise StoreFailure(
+            f"cannot write {directory.table}: {error.strerror or error}; every row is safe in {directory.journal}: "
+            "make room and run the same command again"
+        ) from error
+
+
+def check(directory: StudyDirectory, points: int) -> None:
+    """Refuse a table that is not what was written: by its checksum, or one without by reading all of it.
+
+    Raises
+    ------
+    DamagedTable
+        If it is another file, or no table of so many rows.
+    """
+    try:
+        stated = directory.checksum.read_text(encoding="utf-8").split()[:1]
+    except FileNotFoundError:
+        stated = []
+    except (OSError, ValueError) as error:
+        raise DamagedTable(directory.checksum, f"it cannot be read: {error}") from None
+    try:
+        same = not stated or stated[0] == digest(directory.table)
+    except OSError as error:
+        raise DamagedTable(directory.table, f"it cannot be read: {error.strerror}") from None
+    if not same:
+        raise DamagedTable(directory.table, f"its content is not what {directory.checksum.name} says was written")
+    if not stated:
+        # without pyarrow there is nothing to read it with, which whoever reads it is told
+        with suppress(ImportError):
+            check_rows(directory.table, points)
+
+
+def check_rows(file: Path, points: int, counts: Mapping[str, int] | None = None) -> None:
+    """Read a table and see that it has every point, in order, and as many of each status as were counted.
+
+    Raises
+    ------
+    DamagedTable
+        Saying what is not right.
+    """
+    import pyarrow as pa
+    import pyarrow.parquet as pq
+
+    try:
+        with pq.ParquetFile(file, page_checksum_verification=True) as table:
+            missing = [name for name in ("index", "key", "status", "law", "error") if name not in table.schema.names]
+            if missing:
+                raise DamagedTable(file, f"it has no column {missing[0]!r}")
+            found: Counter[str] = Counter()
+            count = 0
+            for batch in table.iter_batches(batch_size=GROUP):
+                if batch["index"].to_pylist() != list(range(count, count + len(batch))):
+                    raise DamagedTable(file, f"its rows from {count} on are not in the order of the points")
+                found.update(batch["status"].to_pylist())
+                count += len(batch)
+    except (pa.ArrowException, OSError, ValueError, TypeError) as error:
+        if isinstance(error, DamagedTable):
+            raise
+        raise DamagedTable(file, f"it cannot be read: {' '.join(str(error).split())[:200]}") from None
+    if count != points or (counts is not None and found != counts):
+        raise DamagedTable(file, f"it has {count} rows of {points} points, {dict(found)}")
+
+
+def digest(file: Path) -> str:
+    """The SHA-256 of a file."""
+    with file.open("rb") as stream:
+        return hashlib.file_digest(stream, "sha256").hexdigest()
+
+
+def schema(points: Points, about: Mapping[str, bytes] | None = None) -> pa.Schema:
+    """The columns: what was asked, what came out, and the law as JSON that `MotionLaw.from_json` reads."""
+    import pyarrow as pa
+
+    kinds = {"number": pa.float64(), "whole": pa.int64(), "text": pa.string(), "switch": pa.bool_()}
+    fields = [("index", pa.int64()), ("key", pa.string())]
+    fields += [(column(name), kinds[kind(axis, name)]) for axis in points.axes for name in axis.names]
+    fields += [("status", pa.string()), *((name, pa.float64()) for name in NUMBERS)]
+    fields += [("iterations", pa.int64()), ("law", pa.string()), ("error", pa.string())]
+    return pa.schema(fields, metadata={**(about or {}), "made by": MARK})
+
+
+def kind(axis: Axis, name: str) -> str:
+    """What the values of an entry are; numbers among texts, or pairs, are text too: JSON."""
+    values = axis.columns[axis.names.index(name)]
+    if name in WHOLE:
+        return "whole"
+    if name in TEXTS:
+        return "text"
+    if name in SWITCHES:
+        return "switch"
+    if isinstance(values, list) and not all(isinstance(value, float) for value in values):
+        return "text"
+    return "number"
+
+
+def arrow(rows: Iterable[Row], shape: pa.Schema) -> pa.Table:
+    """Rows as an Arrow table."""
+    import pyarrow as pa
+
+    flat = [_flat(row, shape) for row in rows]
+    return pa.table({name: [row.get(name) for row in flat] for name in shape.names}, schema=shape)
+
+
+def _flat(row: Row, shape: pa.Schema) -> Row:
+    found = {name: value for name, value in row.items() if name not in {"inputs", "law"}}
+    for name, value in row["inputs"].items():
+        plain = isinstance(value, str) or str(shape.field(column(name)).type) != "string"
+        found[column(name)] = value if plain else json.dumps(value)
+    return found | {"law": None if row["law"] is None else json.dumps(row["law"])}
+
+
+def unflat(row: Row, points: Points) -> Row:
+    """A row of the Parquet file as the journal had it."""
+    kept = {name: value for name, value in row.items() if name in (*NUMBERS, *OTHERS)}
+    law = None if row["law"] is None else json.loads(row["law"])
+    return {**kept, "inputs": points.inputs(row["index"]), "law": law}

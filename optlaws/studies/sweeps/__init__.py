@@ -1,1 +1,0 @@
-"""Studies: many problems solved on all cores or on a cluster, safe against interruption."""

@@ -1,0 +1,1 @@
+"""Constraints that hold at every k, and the semi-infinite programs made of them."""

@@ -1,0 +1,140 @@
+"""Laws of which none is better in every constant."""
+
+from __future__ import annotations
+
+import html
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.kept import kept_property
+from optlaws.synthesis.problem.constants import FUNCTIONALS
+from optlaws.synthesis.problem.problem import CONSTANTS
+from optlaws.synthesis.solution import Solution
+
+Array = NDArray[np.float64]
+
+HEADINGS = ("B", "C", "D", "J", "lower bound", "gap", "limit", "status")
+
+_SAME = 1e-9
+_SHOWN = 12
+
+
+@dataclass(frozen=True, eq=False)
+class Front:
+    """Laws of which none is better in every constant: each the best of its own problem.
+
+    Attributes
+    ----------
+    over
+        The constants exchanged; the last is minimised, the others are given.
+    points
+        The solutions, by ascending values of the first constant.
+    failed
+        Values of the first constant at which the solver found no law.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis import Problem
+    >>> from optlaws.synthesis.pareto import pareto_front
+    >>> front = pareto_front(Problem(order=4), over=("B", "C"), points=5, between=(1.5, 1.8))
+    >>> front
+    Front(over=('B', 'C'), 5 points, B 1.5 to 1.8, C 5.70496 to 4.69579)
+    >>> front.values.shape, max(solution.gap for solution in front) < 1e-8
+    ((5, 2), True)
+    """
+
+    over: tuple[str, ...]
+    points: tuple[Solution, ...]
+    failed: tuple[float, ...] = ()
+
+    @kept_property
+    def values(self) -> Array:
+        """The constants of each point: one row a point, one column a constant of `over`."""
+        return np.array([[value_of(point, name) for name in self.over] for point in self.points])
+
+    @property
+    def rows(self) -> list[list[float | str | None]]:
+        """What `HEADINGS` names, a row for each point."""
+        return [
+            [
+                *(value_of(point, name) for name in CONSTANTS),
+                point.lower_bound,
+                point.gap,
+                point.limit,
+                point.status.value,
+            ]
+            for point in self.points
+        ]
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict with every solution whole."""
+        return {
+            "over": list(self.over),
+            "values": self.values.tolist(),
+            "points": [point.to_dict() for point in self.points],
+            "failed": list(self.failed),
+        }
+
+    def __len__(self) -> int:
+        return len(self.points)
+
+    def __iter__(self) -> Iterator[Solution]:
+        return iter(self.points)
+
+    def __getitem__(self, place: int) -> Solution:
+        return self.points[place]
+
+    def __repr__(self) -> str:
+        ends = [f"{name} {v[0]:.6g} to {v[-1]:.6g}" for name, v in zip(self.over, self.values.T, strict=True)]
+        return f"Front(over={self.over!r}, {len(self)} points, {', '.join(ends)})"
+
+    def _repr_html_(self) -> str:
+        head = "".join(f"<th>{name}</th>" for name in HEADINGS)
+        lines = [
+            "".join(f"<td>{'' if cell is None else _shown(cell)}</td>" for cell in row)
+            for row in self.rows[:: 1 + len(self) // _SHOWN]
+        ]
+        body = "".join(f"<tr>{line}</tr>" for line in lines)
+        return f"<p>{html.escape(repr(self))}</p><table><tr>{head}</tr>{body}</table>"
+
+
+def undominated(solutions: Sequence[Solution], over: Sequence[str]) -> list[Solution]:
+    """Those than which no other is better in one constant and as good in all, by ascending constants.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis import Problem, sweep
+    >>> solutions = list(sweep(Problem(B=B, order=4) for B in (1.6, 1.8, 2.2)))
+    >>> [solution.problem.B for solution in undominated(solutions, ("B", "C"))]
+    [1.6, 1.8]
+    """
+    values = np.array([[value_of(solution, name) for name in over] for solution in solutions])
+    order = np.lexsort(values.T[::-1])
+    kept: list[int] = []
+    for i in order:
+        no_worse = (values <= values[i] * (1.0 + _SAME)).all(axis=1)
+        better = no_worse & (values < values[i] * (1.0 - _SAME)).any(axis=1)
+        same = (np.abs(values[kept] / values[i] - 1.0) <= _SAME).all(axis=1).any() if kept else False
+        if not better.any() and not same:
+            kept.append(int(i))
+    return [solutions[i] for i in kept]
+
+
+def value_of(solution: Solution, name: str) -> float:
+    """A constant of a solution's law.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis import Problem, synthesize
+    >>> round(value_of(synthesize(Problem(B=1.641, order=4)), "C"), 6)
+    5.080702
+    """
+    return FUNCTIONALS[name].value(solution.law)
+
+
+def _shown(cell: float | str) -> str:
+    return cell if isinstance(cell, str) else f"{cell:.6g}"

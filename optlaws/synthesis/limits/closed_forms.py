@@ -1,0 +1,284 @@
+"""Peak constants that no law can beat, in closed form (derivations: docs/theory/limits.md and limit-laws.md).
+
+Each is the infimum over all laws from rest to rest with stroke 1, b(1/2) = B and b <= B, dimensionless; smooth laws
+come as near as one likes. For D the bound holds for unsymmetric laws too, for the others they can do no better.
+"""
+
+from __future__ import annotations
+
+from math import hypot, inf, sqrt
+from typing import Any
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.numbers import MOST_ORDER, MOST_VELOCITY, real, whole
+from optlaws.synthesis.limits.times import back_time, back_velocity, run_in, trapezoid
+
+CONSTANTS = ("C", "D", "J", "RMS")
+
+
+def acceleration_limit(B: float, *, monotone: bool = False, order: int = 2) -> float:
+    """Infimum of C over all laws with b <= B, b(1/2) = B, zero end positions (dimensionless).
+
+    Rest-to-rest laws (order >= 2) may come as near as they like; where `monotone`, b >= 0 is asked too. With order 1
+    the end velocities are free and the infimum is lower.
+
+    Parameters
+    ----------
+    B
+        Peak velocity, above 1.
+    monotone
+        Whether b >= 0 is asked.
+    order
+        Number l of boundary conditions at each end.
+
+    Raises
+    ------
+    InputError
+        If B is not a finite number above 1, or order is not an integer of at least 1.
+
+    Examples
+    --------
+    >>> acceleration_limit(2.0)
+    4.0
+    >>> acceleration_limit(3.0, monotone=True)
+    9.0
+    """
+    peak_velocity(B)
+    if whole(order, "order", least=1, most=MOST_ORDER) == 1:
+        return B * B if monotone and B > 2.0 else 4.0 * (B - 1.0)
+    if B <= 2.0:
+        return B * B / (B - 1.0)
+    return B * B if monotone else 2.0 * (B - 2.0 + hypot(B - 2.0, B))
+
+
+def power_limit(B: float, *, monotone: bool = False) -> float:
+    """Infimum of D at given B: constant speed and constant power. The least of all is 9/4, at B = 3/2.
+
+    B³/(3(B-1)) for B <= 3/2; above, 2B³/3 where b >= 0 is asked, else B² + 2u² with 2u³ + 3u² = B²(B - 3/2).
+
+    Parameters
+    ----------
+    B
+        Peak velocity, above 1.
+    monotone
+        Whether b >= 0 is asked.
+
+    Raises
+    ------
+    InputError
+        If B is not a finite number above 1.
+
+    Examples
+    --------
+    >>> power_limit(1.5), power_limit(3.0, monotone=True)
+    (2.25, 18.0)
+    >>> round(power_limit(3.0), 6)
+    13.5
+    """
+    peak_velocity(B)
+    if B <= 1.5:
+        return B**3 / (3.0 * (B - 1.0))
+    return 2.0 * B**3 / 3.0 if monotone else B * B + 2.0 * back_velocity(B) ** 2
+
+
+def rms_limit(B: float, *, monotone: bool = False) -> float:
+    """Infimum of the RMS of c at given B: parabolas of velocity. The least of all is sqrt 12, at B = 3/2.
+
+    (4B/3) sqrt(B/(B-1)) for B <= 3/2 and 4 sqrt(B² - 3B + 3) above; where b >= 0 is asked, (4/3) sqrt(B³) for B >= 3.
+
+    Parameters
+    ----------
+    B
+        Peak velocity, above 1.
+    monotone
+        Whether b >= 0 is asked.
+
+    Raises
+    ------
+    InputError
+        If B is not a finite number above 1.
+
+    Examples
+    --------
+    >>> round(rms_limit(1.5) ** 2, 12)
+    12.0
+    >>> rms_limit(4.0, monotone=True) > rms_limit(4.0)
+    True
+    """
+    peak_velocity(B)
+    if B <= 1.5:
+        return 4.0 * B / 3.0 * sqrt(B / (B - 1.0))
+    if monotone and B >= 3.0:
+        return 4.0 / 3.0 * sqrt(B) * B
+    return 4.0 * sqrt((B - 1.5) ** 2 + 0.75)
+
+
+def jerk_limit(B: float, *, monotone: bool = False, order: int = 3) -> float:
+    """Infimum of J at given B: jerk in steps. The least of all is 12 at B = 3/2 (order 2), 32 at B = 2 (order >= 3).
+
+    End accelerations zero (order >= 3): 4B³/(B-1)² for B <= 2 and 16 (2(B-2) + sqrt(4(B-2)² + B²)) above. End
+    accelerations free (order 2): 8B³/(9(B-1)²) for B <= 3/2 and 8B/(1 - 2r²) above, with the root r of
+    2B r³ - 6(B-1) r² + 2B - 3 = 0 in [0, 1/sqrt 2). Where b >= 0 is asked, 4B³ for B >= 2 at either order.
+
+    Parameters
+    ----------
+    B
+        Peak velocity, above 1.
+    monotone
+        Whether b >= 0 is asked.
+    order
+        Number l of boundary conditions at each end, at least 2.
+
+    Raises
+    ------
+    InputError
+        If B is not a finite number above 1, or order is not an integer of at least 2.
+
+    Examples
+    --------
+    >>> jerk_limit(2.0), round(jerk_limit(1.5, order=2), 12)
+    (32.0, 12.0)
+    >>> jerk_limit(3.0, monotone=True)
+    108.0
+    """
+    peak_velocity(B)
+    free = whole(order, "order", least=2, most=MOST_ORDER) == 2
+    if monotone and B >= 2.0:
+        return 4.0 * B**3
+    if free:
+        return 8.0 * B**3 / (9.0 * (B - 1.0) ** 2) if B <= 1.5 else 8.0 * B / (1.0 - 2.0 * run_in(B) ** 2)
+    return 4.0 * B**3 / (B - 1.0) ** 2 if B <= 2.0 else 16.0 * (2.0 * (B - 2.0) + hypot(2.0 * (B - 2.0), B))
+
+
+def acceleration_limit_at_jerk(B: float, J: float, *, monotone: bool = False) -> float:
+    """Infimum of C at given B over laws with |j| <= J and zero end accelerations: trapezoids of acceleration.
+
+    2B/(w + sqrt(w² - 4B/J)) with w = (B-1)/B for B <= 2, and w = 1/B for B >= 2 where b >= 0 is asked. Else, for
+    B > 2, a back-and-forth law: the root next above `acceleration_limit` of 4C³/J = C² - 4(B-2) C - 4B², or a closed
+    form where the motion back is so short that its acceleration has no constant part.
+
+    Parameters
+    ----------
+    B
+        Peak velocity, above 1.
+    J
+        Peak jerk that is allowed, at least `jerk_limit(B, monotone=monotone)`.
+    monotone
+        Whether b >= 0 is asked.
+
+    Raises
+    ------
+    InputError
+        If B is not a finite number above 1, or no law has so small a J.
+
+    Examples
+    --------
+    >>> acceleration_limit_at_jerk(2.0, 32.0)
+    8.0
+    >>> round(acceleration_limit_at_jerk(1.5, 1e9), 6)
+    4.5
+    """
+    peak_velocity(B)
+    least = jerk_limit(B, monotone=monotone)
+    number = real(J)
+    if number is None or not least * (1.0 - 1e-14) <= number < inf:
+        raise InputError(
+            f"J must be a finite number of at least {least!r} (no law has less at B = {B!r}), got {shortened(J)}"
+        )
+    if B <= 2.0 or monotone:
+        return trapezoid(B, (B - 1.0) / B if B <= 2.0 else 1.0 / B, J)
+    back = back_time(B, J)
+    C = trapezoid(B + 0.25 * J * back * back, 0.5 - back, J)
+    if 0.5 * J * back <= C:
+        return C
+    # in 1/C the cubic is convex and rises at its largest root: Newton's method comes down to it from the limit's 1/C
+    inverse = 1.0 / acceleration_limit(B)
+    while True:
+        value = ((4.0 * B * B * inverse + 4.0 * (B - 2.0)) * inverse - 1.0) * inverse + 4.0 / J
+        slope = (12.0 * B * B * inverse + 8.0 * (B - 2.0)) * inverse - 1.0
+        lower = inverse - value / slope
+        if not lower < inverse * (1.0 - 1e-16):
+            return 1.0 / inverse
+        inverse = lower
+
+
+def limit(
+    constant: str, B: float | None = None, *, order: int = 3, monotone: bool = False, J: float | None = None
+) -> float:
+    """Infimum of a constant over all laws from rest to rest, at a given B or over all B.
+
+    Parameters
+    ----------
+    constant
+        "C", "D", "J" or "RMS" (of c).
+    B
+        Peak velocity b(1/2), above 1; without it the least over all B.
+    order
+        Number l of boundary conditions at each end. All orders from 3 (zero end accelerations) have the same limits;
+        J is lower at order 2, C at order 1.
+    monotone
+        Whether b >= 0 is asked.
+    J
+        For "C" alone: the peak jerk that is allowed; end accelerations are zero then (order >= 3).
+
+    Raises
+    ------
+    InputError
+        If the constant is unknown, a value is out of range, or there is no such limit.
+
+    Examples
+    --------
+    >>> limit("C", 1.6), limit("D"), limit("J"), round(limit("J", order=2), 9)
+    (4.266667, 2.25, 32.0, 12.0)
+    >>> limit("C", 1.6, J=200.0)
+    4.541693
+    """
+    if constant not in tuple(CONSTANTS):
+        raise InputError(f"constant {shortened(constant)} is unknown; known are {', '.join(CONSTANTS)}")
+    least = 1 if constant == "C" and J is None else 3 if constant == "C" else 2
+    number = whole(order, "order", least=least, most=MOST_ORDER)
+    if B is None:
+        B = best_velocity(constant, number)
+    if J is not None:
+        if constant != "C":
+            raise InputError(f"J is given for the constant 'C' only, not for {constant!r}")
+        return acceleration_limit_at_jerk(B, J, monotone=monotone)
+    if constant == "C":
+        return acceleration_limit(B, monotone=monotone, order=number)
+    if constant == "J":
+        return jerk_limit(B, monotone=monotone, order=number)
+    return power_limit(B, monotone=monotone) if constant == "D" else rms_limit(B, monotone=monotone)
+
+
+def best_velocity(constant: str, order: int) -> float:
+    """The B at which the limit of a constant is least.
+
+    Raises
+    ------
+    InputError
+        If there is none: at order 1 the least C is 0, in uniform motion.
+
+    Examples
+    --------
+    >>> best_velocity("D", 3)
+    1.5
+    """
+    if order == 1:
+        raise InputError("B must be given at order 1: C falls to 0 as B falls to 1")
+    return 2.0 if constant == "C" or (constant == "J" and order > 2) else 1.5
+
+
+def peak_velocity(B: Any) -> None:  # noqa: ANN401
+    """Refuse a B that no law can have.
+
+    Raises
+    ------
+    InputError
+        If B is not a finite number above 1.
+    """
+    number = real(B)
+    if number is None or not 1.0 < number < inf:
+        raise InputError(f"B must be a finite number above 1 (the mean velocity is 1), got {shortened(B)}")
+    if number > MOST_VELOCITY:
+        raise InputError(f"B must not exceed {MOST_VELOCITY:g}, got {number!r}")

@@ -1,0 +1,129 @@
+"""Optima of linear programs on points, sharpened: no contact need be an extremum, none need be alone.
+
+Where an optimum is flat (a jerk that is constant, constraints that contradict each other along an interval) there is
+no exact active set for Newton's method. IPOPT's answer then shows by its multipliers which rows bind; to make those
+rows hold exactly, and the multipliers balance exactly, are two linear problems, solved by the least change.
+"""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.family import LinearFamily, Points, Program
+from optlaws.synthesis.method.ipopt import Answer
+from optlaws.synthesis.method.newton import ActiveSet
+
+Array = NDArray[np.float64]
+
+#: a row binds if its multiplier exceeds its distance times this, in units in which it has length 1
+_FEWER = (1.0, 1e2, 1e4)
+_MORE = (1.0, 1e-2, 1e-4, 1e-6, 1e-8)
+_GAP = 1e-9
+_RANK = 1e-12
+_HELD = 1e-11
+_BALANCED = 1e-12
+
+
+def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveSet | None:
+    """The optimum on the points that IPOPT's answer is near to; None where its multipliers do not show it.
+
+    Parameters
+    ----------
+    program
+        A program whose families are all linear.
+    points, answer
+        Where its families were held, and IPOPT's answer to that.
+    """
+    table = Table(program, points)
+    weights = np.concatenate(answer.multipliers[:-1]) * table.length
+    ease = weights / max(1.0, float(weights.max(initial=0.0)))
+    room = -table.residuals(answer.x)
+    # too many rows cannot all hold, too few multipliers cannot balance: each is sought by itself
+    held = (table.held(ease > share * room, answer.x) for share in _FEWER)
+    x = next((one for one in held if one is not None), None)
+    if x is None:
+        return None
+    for share in _MORE:
+        binding = ease > share * room
+        found = table.balanced(binding, weights, answer.multipliers[-1])
+        if found is not None:
+            multipliers, equations = found
+            kept = np.flatnonzero(binding)
+            gap = float(np.abs(multipliers * table.residuals(x)[kept]).sum())
+            if gap > _GAP * max(1.0, abs(program.worth(x))):
+                return None
+            return ActiveSet(
+                x=x,
+                family=table.family[kept],
+                u=table.u[kept],
+                s=table.s[kept],
+                free=np.zeros(len(kept), dtype=np.bool_),
+                multipliers=multipliers / table.length[kept],
+                equality_multipliers=equations,
+            )
+    return None
+
+
+class Table:
+    """All rows of a linear program on points, and its equations, scaled to length 1.
+
+    Attributes
+    ----------
+    rows, right, length
+        The rows, their right sides and what each was divided by.
+    equations, equation_right, equation_length
+        The same of the equations: high derivatives at the ends of short pieces make some of them very long.
+    family, u, s
+        To which family a row belongs, its place and its sign.
+    """
+
+    def __init__(self, program: Program, points: list[Points]) -> None:
+        self.objective = program.objective
+        self.equation_length = np.linalg.norm(program.equalities, axis=1)
+        self.equation_length[self.equation_length < _RANK] = 1.0
+        self.equations = program.equalities / self.equation_length[:, None]
+        self.equation_right = program.right / self.equation_length
+        families = [family for family in program.families if isinstance(family, LinearFamily)]
+        parts = [family.rows(mine.u, mine.s) for family, mine in zip(families, points, strict=True)]
+        rows = np.vstack([np.empty((0, program.size)), *(part for part, _ in parts)])
+        self.length = np.linalg.norm(rows, axis=1)
+        self.length[self.length < _RANK] = 1.0
+        self.rows = rows / self.length[:, None]
+        self.right = np.concatenate([np.empty(0), *(right for _, right in parts)]) / self.length
+        self.family = np.repeat(np.arange(len(families)), [len(mine.u) for mine in points])
+        self.u = np.concatenate([mine.u for mine in points])
+        self.s = np.concatenate([mine.s for mine in points])
+
+    def residuals(self, x: Array) -> Array:
+        """Rows . x - right: negative where a row has room."""
+        return np.asarray(self.rows @ x - self.right)
+
+    def held(self, binding: NDArray[np.bool_], x: Array) -> Array | None:
+        """The nearest x at which the binding rows and the equations hold exactly; None if there is none."""
+        matrix = np.vstack([self.rows[binding], self.equations])
+        right = np.concatenate([self.right[binding], self.equation_right])
+        for _ in range(2):
+            x = x + np.linalg.lstsq(matrix, right - matrix @ x, rcond=_RANK)[0]
+        left = np.abs(matrix @ x - right).max(initial=0.0)
+        return x if left <= _HELD * max(1.0, float(np.abs(x).max())) else None
+
+    def balanced(self, binding: NDArray[np.bool_], weights: Array, equations: Array) -> tuple[Array, Array] | None:
+        """Multipliers near the given ones that balance the objective exactly; None if there are none above 0.
+
+        Those of the rows belong to rows of length 1, those of the equations to the program's own.
+        """
+        own, mine = self.rows[binding], weights[binding]
+        matrix = np.hstack([own.T * mine, self.equations.T])
+        scaled = equations * self.equation_length
+        share = np.zeros(len(mine) + len(scaled))
+        for _ in range(2):
+            changed = mine * (1.0 + share[: len(mine)])
+            share = share - np.linalg.lstsq(matrix, self._defect(own, changed, scaled + share[len(mine) :]), _RANK)[0]
+        changed, scaled = mine * (1.0 + share[: len(mine)]), scaled + share[len(mine) :]
+        left = np.abs(self._defect(own, changed, scaled)).max()
+        sound = left <= _BALANCED * max(1.0, float(changed.max(initial=0.0)))
+        return (changed, scaled / self.equation_length) if sound and not (changed < 0.0).any() else None
+
+    def _defect(self, rows: Array, multipliers: Array, equations: Array) -> Array:
+        return np.asarray(self.objective + rows.T @ multipliers + self.equations.T @ equations)

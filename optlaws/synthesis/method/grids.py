@@ -1,0 +1,51 @@
+"""Where families are held: first at few points, then at the true extrema of the answer too."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.family import EvenFamily, Family, Points, Program
+
+Array = NDArray[np.float64]
+
+
+def first_points(program: Program) -> list[Points]:
+    """As many points for each family as show IPOPT where its contacts are."""
+    # with no peak to hold them, the velocity constraints need points enough by themselves
+    share = 0.75 if any(len(family.signs) > 1 for family in program.families) else 1.5
+    return [_points(family, program.size, share) for family in program.families]
+
+
+def _points(family: Family, size: int, even_share: float) -> Points:
+    """As many points as make IPOPT quick and the contacts plain; the rarer sign of a magnitude gets half as many."""
+    low, high = family.domain
+    if low == high:
+        return Points(np.repeat([low], len(family.signs)), np.array(family.signs))
+    own = family.nodes()
+    if own is not None:
+        return Points(np.tile(own, len(family.signs)), np.repeat(family.signs, len(own)))
+    u, s = [], []
+    for i, sign in enumerate(family.signs):
+        if isinstance(family, EvenFamily):
+            count = int(even_share * size) + 4
+            places = np.cos(np.arange(count) * np.pi / (count - 1))
+        elif low == 0.0:
+            count = int((1.5, 0.75)[i] * size) + 4
+            places = high * np.cos((np.arange(count) + 0.5) * np.pi / (2 * count))
+        else:
+            count = int(1.5 * size) + 4
+            places = (high + low) / 2 + (high - low) / 2 * np.cos((np.arange(count) + 0.5) * np.pi / count)
+        u.append(places)
+        s.append(np.full(count, sign))
+    return Points(np.concatenate(u), np.concatenate(s))
+
+
+def exchanged(family: Family, points: Points, x: Array) -> Points:
+    """The points, and those extrema at x that bind or nearly do."""
+    if family.domain[0] == family.domain[1]:
+        return points
+    u, s, residual = family.extremes(x)
+    near = residual > -1e-2 * max(1.0, abs(family.room(x)))
+    known = np.any((points.u == u[:, None]) & (points.s == s[:, None]), axis=1)
+    return points.joined(Points(u[near & ~known], s[near & ~known]))

@@ -1,0 +1,151 @@
+"""Lower bounds of peaks: rows hold a peak down everywhere, but it is held up at one place, and which is to be found.
+
+The optimum without the lower bound is continued: one extremum of the constant is held as an equation, first at the
+value that it has and then, step by step, at the bound. Where no extremum leads there, the peak is asked at one place
+after the other, which is a program like any other, and then let go to where it is best. Each way leads to a candidate.
+"""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.family import Family, NormFamily, Program
+from optlaws.synthesis.method.between_laws import between, family_of, places
+from optlaws.synthesis.method.exchange import polished, solve
+from optlaws.synthesis.method.newton import ActiveSet
+from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.problem.expression import leaves
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.evaluation import shortfalls
+from optlaws.synthesis.program.writer import Model
+
+Array = NDArray[np.float64]
+
+_FIRST_STEP = 0.25
+_LEAST_STEP = 1e-3
+_WORTHY = 0.2
+_FOLLOWED = 4
+_ROUNDS = 4
+_ROOM = 1e3
+_SHORT = 1e-9
+
+
+def raised(problem: Problem, found: Model, optimum: ActiveSet) -> list[ActiveSet]:
+    """Candidates in which every constant is at or above its lower bound, from the optimum without these bounds.
+
+    Raises
+    ------
+    InputError
+        If a constant with a lower bound is made of several families of rows.
+    """
+    short = shortfalls(problem, found.space.law(optimum.x[: found.space.terms]))
+    if not short:
+        return [optimum]
+    constant, low = next(iter(short.items()))
+    # where nothing else is minimised, every law with the constant at its lower bound is best, and no contact shows one
+    alone = all(leaf == constant for _, leaf in leaves(problem.objective))
+    ways = [] if alone else _held_up(problem, found, optimum, constant, low)
+    ways.sort(key=lambda way: way[0].program.worth(way[1].x))
+    led = [one for way in ways[:_FOLLOWED] if _reached(*way, constant, low) for one in raised(problem, *way)]
+    return led or list(islice(between(problem, found, optimum, constant, low), 1 if alone else None))
+
+
+def _reached(found: Model, state: ActiveSet, constant: Functional, low: float) -> bool:
+    return constant.value(found.space.law(state.x[: found.space.terms])) >= low * (1.0 - _SHORT)
+
+
+def _held_up(
+    problem: Problem, found: Model, plain: ActiveSet, constant: Functional, low: float
+) -> list[tuple[Model, ActiveSet]]:
+    """Optima in which the constant is `low` at one place, with the programs that ask it there."""
+    family = family_of(found, constant)
+    held = replace(family, held=True)
+    extrema, signs, height = family.extremes(plain.x)
+    led = []
+    for j in np.flatnonzero(height > _WORTHY * height.max()):
+        free = _inside(family, float(extrema[j]))
+        start = plain.joined(len(found.program.families), float(extrema[j]), float(signs[j]), free=free)
+        led.append(_continued(found.program, held, start, (float(height[j]), low)))
+    ways = [_rested(found.program, family, one, low) for one in led if one is not None]
+    if not ways and not isinstance(family, NormFamily):
+        ways = _asked(found.program, family, plain, (constant.name, low), places(problem, family))
+    return [(replace(found, program=program), state) for program, state in ways]
+
+
+def _continued(program: Program, held: Family, state: ActiveSet, heights: tuple[float, float]) -> ActiveSet | None:
+    height, low = heights
+    done, step = 0.0, _FIRST_STEP
+    while done < 1.0:
+        target = min(done + step, 1.0)
+        bound = height + target * (low - height)
+        moved = polished(_with(program, replace(held, bound=bound)), state, lambda _: False)
+        if moved is None:
+            step /= 2.0
+            if step < _LEAST_STEP:
+                return None
+            continue
+        state, done = moved, target
+        step *= 1.5
+    return state
+
+
+def _asked(
+    program: Program, family: Family, plain: ActiveSet, asked: tuple[str, float], where: Array
+) -> list[tuple[Program, ActiveSet]]:
+    """Optima of the programs in which the peak is asked at one place, let go from there."""
+    name, low = asked
+    # held at the bound from both sides, c would have no slope at the place: the upper side waits until it may move
+    loose = [replace(one, bound=one.bound + _ROOM) if one.name == name else one for one in program.families]
+    ways = []
+    for u in where.tolist():
+        for s in family.signs:
+            at_u = _with(replace(program, families=tuple(loose)), _row(family, u, s, low))
+            state = solve(at_u, start=plain.x if at_u.curved else None, rounds=_ROUNDS).optimum
+            way = None if state is None else _let_go(program, family, state, low)
+            if way is not None:
+                ways.append(way)
+    return ways
+
+
+def _let_go(program: Program, family: Family, state: ActiveSet, low: float) -> tuple[Program, ActiveSet] | None:
+    """With the peak at the best place nearby; None where Newton's method does not find it, or where none is asked."""
+    last = state.family == len(program.families)
+    if last.sum() != 1:
+        return None
+    start = _turned(state, last, free=_inside(family, float(state.u[last][0])))
+    moved = polished(_with(program, replace(family, held=True, bound=low)), start, lambda _: False)
+    return None if moved is None else _rested(program, family, moved, low)
+
+
+def _rested(program: Program, family: Family, state: ActiveSet, low: float) -> tuple[Program, ActiveSet]:
+    """A state in which the peak is held up, as one of the program in which it is asked where it is."""
+    last = state.family == len(program.families)
+    row = _row(family, float(state.u[last][0]), float(state.s[last][0]), low)
+    return _with(program, row), _turned(state, last, free=False)
+
+
+def _turned(state: ActiveSet, last: NDArray[np.bool_], *, free: bool) -> ActiveSet:
+    """The same with the last family's row written from the other side: s f = low, or -s f <= -low."""
+    return replace(
+        state,
+        s=np.where(last, -state.s, state.s),
+        multipliers=np.where(last, -state.multipliers, state.multipliers),
+        free=np.where(last, free, state.free),
+    )
+
+
+def _row(family: Family, u: float, s: float, low: float) -> Family:
+    """The one row s f(u) >= low."""
+    return replace(family, signs=(-s,), bound=-low, domain=(u, u))
+
+
+def _with(program: Program, family: Family) -> Program:
+    return replace(program, families=(*program.families, family))
+
+
+def _inside(family: Family, u: float) -> bool:
+    return family.domain[0] < u < family.domain[1] and not family.pinned(np.array([u]))[0]

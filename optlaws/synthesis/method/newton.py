@@ -1,0 +1,147 @@
+"""Newton's method on the optimality conditions of the exact active set.
+
+At the optimum a few contacts carry the whole program: points where a constraint binds, each at an extremum of its
+residual. Unknown are the variables x, the free positions u and the multipliers. The system is square, so convergence
+is quadratic, and fewer contacts than variables are no difficulty (the curvature of the contacts closes it).
+"""
+
+from __future__ import annotations
+
+from contextlib import suppress
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.family import Program
+
+Array = NDArray[np.float64]
+
+_STEPS = 14
+_CONVERGED = 1e-13
+_STALLED = 1e-10
+_FAR = 1.05
+_WILD = 1e6
+_RANK = 1e-11
+_FULFILLED = 1e-9
+_STILL = 1e-6
+
+
+@dataclass(frozen=True, eq=False)
+class ActiveSet:
+    """Variables, contacts (family, position u, sign, whether it may move) and multipliers, the equations' apart."""
+
+    x: Array
+    family: NDArray[np.intp]
+    u: Array
+    s: Array
+    free: NDArray[np.bool_]
+    multipliers: Array
+    equality_multipliers: Array
+
+    def moved(self, contact: int, u: float) -> ActiveSet:
+        """With one contact let go from its end to u."""
+        places, free = self.u.copy(), self.free.copy()
+        places[contact], free[contact] = u, True
+        return replace(self, u=places, free=free)
+
+    def joined(self, family: int, u: float, s: float, *, free: bool) -> ActiveSet:
+        """With one more contact, without weight yet."""
+        return replace(
+            self,
+            family=np.append(self.family, family),
+            u=np.append(self.u, u),
+            s=np.append(self.s, s),
+            free=np.append(self.free, free),
+            multipliers=np.append(self.multipliers, 0.0),
+        )
+
+
+def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> ActiveSet | None:
+    """Solve the optimality conditions from `start`; None where that does not converge.
+
+    `deficient` says that they are known to have no unique solution.
+    """
+    state = start
+    previous = np.inf
+    for _ in range(_STEPS):
+        system, defect = _conditions(program, state)
+        step = _step(system, defect, deficient=deficient)
+        if not np.isfinite(step).all():
+            return None
+        before, state = state, _moved(state, step)
+        scale = max(1.0, float(np.abs(state.x).max()))
+        size = float(np.abs(step[: program.size]).max()) / scale
+        # x may stand still where the conditions do not hold: in a deficient system, or where the optimum is flat
+        off = max(
+            float(np.abs(defect[: program.size]).max()), float(np.abs(defect[program.size :]).max(initial=0.0)) / scale
+        )
+        if off < _FULFILLED and (size < _CONVERGED or (size < _STALLED and size > previous / 4)):
+            wandering = float(np.abs(step).max()) > _STILL
+            if not wandering or off < _STALLED:
+                return before if wandering else state
+        if np.any(np.abs(state.u) > _FAR):
+            return None
+        previous = size
+    return None
+
+
+def _conditions(program: Program, state: ActiveSet) -> tuple[Array, Array]:
+    """The optimality conditions' defect and its derivative."""
+    n, p = program.size, len(state.u)
+    value, slope, curvature = np.empty((3, p))
+    rows, slopes = np.empty((2, p, n))
+    free = state.free
+    m = int(free.sum())
+    last = n + m + p
+    system = np.zeros((last + len(program.right),) * 2)
+    for i, family in enumerate(program.families):
+        mine = state.family == i
+        if mine.any():
+            u, s = state.u[mine], state.s[mine]
+            jet = family.jet(state.x, u, s)
+            value[mine], slope[mine], curvature[mine] = jet.value, jet.slope, jet.curvature
+            rows[mine], slopes[mine] = jet.gradient, jet.slope_gradient
+            bent = family.hessian(state.x, u, state.multipliers[mine] * s)
+            if bent is not None:
+                system[:n, :n] += bent
+
+    system[:n, n : n + m] = (slopes[free] * state.multipliers[free, None]).T
+    system[:n, n + m : last] = rows.T
+    system[:n, last:] = program.equalities.T
+    system[last:, :n] = program.equalities
+    system[n : n + m, :n] = slopes[free]
+    system[n : n + m, n : n + m] = np.diag(curvature[free])
+    system[n + m : last, :n] = rows
+    system[n + m + np.flatnonzero(free), n + np.arange(m)] = slope[free]
+
+    defect = np.empty(len(system))
+    defect[:n] = program.objective + rows.T @ state.multipliers + program.equalities.T @ state.equality_multipliers
+    defect[n : n + m] = slope[free]
+    defect[n + m : last] = value
+    defect[last:] = program.equalities @ state.x - program.right
+    return system, defect
+
+
+def _step(system: Array, defect: Array, *, deficient: bool) -> Array:
+    """Newton's step; where the system has not full rank, the shortest of the best steps."""
+    if not deficient:
+        with suppress(np.linalg.LinAlgError):
+            step: Array = np.linalg.solve(system, -defect).astype(np.float64, copy=False)
+            if np.abs(step).max(initial=0.0) < _WILD:
+                return step
+    # where the optimum is not unique the shortest step leads to one of them
+    return np.linalg.lstsq(system, -defect, rcond=_RANK)[0].astype(np.float64, copy=False)
+
+
+def _moved(state: ActiveSet, step: Array) -> ActiveSet:
+    n, p, m = len(state.x), len(state.u), int(state.free.sum())
+    u = state.u.copy()
+    u[state.free] += step[n : n + m]
+    return replace(
+        state,
+        x=state.x + step[:n],
+        u=u,
+        multipliers=state.multipliers + step[n + m : n + m + p],
+        equality_multipliers=state.equality_multipliers + step[n + m + p :],
+    )

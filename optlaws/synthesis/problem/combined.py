@@ -1,0 +1,101 @@
+"""Constants of a combination of a law's derivatives, such as of the cam law a + 2 n b/nu² + c/nu² of a mass law."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from dataclasses import dataclass
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.laws import MotionLaw
+from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.problem.constants import Functional, Power
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.spaces.space import LawSpace
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, repr=False)
+class CombinedPeak(Functional):
+    """Peak of w0 a^(nu) + w1 a^(nu+1) + ..., magnitude or one sign only.
+
+    Attributes
+    ----------
+    nu
+        Order of the lowest derivative.
+    weights
+        The w, exact.
+    signs
+        Which signs count.
+    """
+
+    nu: int
+    weights: tuple[Fraction, ...]
+    signs: tuple[float, ...] = (1.0, -1.0)
+
+    @abstractmethod
+    def value(self, law: MotionLaw) -> float:
+        """The peak over the whole interval."""
+
+    @abstractmethod
+    def check(self, space: LawSpace) -> None:
+        """Refuse laws for which the combination is beyond every bound."""
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+        """One family; two where symmetric laws count on half the interval but the combination is not symmetric."""
+        self.check(space)
+        return tuple(
+            space.combination(self.nu, floats(weights), name, slack, bound, signs=signs)
+            for name, weights, signs in self.sides(symmetric=space.symmetric)
+        )
+
+    def sides(self, *, symmetric: bool) -> list[tuple[str, tuple[Fraction, ...], tuple[float, ...]]]:
+        """Names, weights and signs of the rows that hold it: all over the interval, or over each half on the first one.
+
+        In a symmetric law a^(i)(1-k) = (-1)^(i+1) a^(i)(k), so that odd weights change their sign on the second half.
+        """
+        plain = (self.name, self.weights, self.signs)
+        if not symmetric:
+            return [plain]
+        facing = self.signs if self.nu % 2 else tuple(-sign for sign in self.signs)
+        if any(self.weights[1::2]):
+            mirrored = tuple(-w if i % 2 else w for i, w in enumerate(self.weights))
+            return [plain, (f"{self.name} mirrored", mirrored, facing)]
+        return [(self.name, self.weights, tuple(dict.fromkeys((*self.signs, *facing))))]
+
+
+@dataclass(frozen=True, repr=False)
+class CombinedPower(Power):
+    """Peak of the product of a combination of b, c, ... and its derivative: not convex in the law."""
+
+    @abstractmethod
+    def value(self, law: MotionLaw) -> float:
+        """The peak over the whole interval."""
+
+    @abstractmethod
+    def check(self, space: LawSpace) -> None:
+        """Refuse laws for which the combination is beyond every bound."""
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+        """The product's family; one for each half where symmetric laws have a combination that is not."""
+        self.check(space)
+        sides = [(self.name, self.weights)]
+        if space.symmetric and any(self.weights[1::2]):
+            sides.append((f"{self.name} mirrored", tuple(-w if i % 2 else w for i, w in enumerate(self.weights))))
+        return tuple(space.power(name, slack, bound, floats(weights)) for name, weights in sides)
+
+
+def floats(weights: tuple[Fraction, ...]) -> tuple[float, ...]:
+    """The weights rounded.
+
+    Examples
+    --------
+    >>> floats((Fraction(1), Fraction(1, 200)))
+    (1.0, 0.005)
+    """
+    return tuple(map(float, weights))

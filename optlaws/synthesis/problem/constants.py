@@ -1,0 +1,190 @@
+"""What can be minimised or bounded: constants of a law, each with its NLP form and its exact value.
+
+One more constant is one class: say how it reads off a law (`value`), which rows make a variable at least as great
+(`families`), and, if known, what no law can beat (`limit`).
+"""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from fractions import Fraction
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.laws import MotionLaw
+from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.problem.expression import Term
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.spaces.space import LawSpace
+
+Array = NDArray[np.float64]
+
+_NO_ACCELERATION = 3  # the order from which laws begin and end without acceleration
+
+
+@dataclass(frozen=True, repr=False)
+class Functional(Term):
+    """A constant of a law, at least 0 (dimensionless).
+
+    Attributes
+    ----------
+    name
+        Its name in expressions, problem files and results.
+    reference
+        The least value that laws from rest to rest of any order can have; NaN where it is not known.
+    convex
+        Whether it is convex in the law; then optima are proven, otherwise only bounded.
+
+    Examples
+    --------
+    >>> C.name, C.reference, D.convex
+    ('C', 4.0, False)
+    """
+
+    name: str
+    reference: float = field(compare=False)
+    convex: bool
+
+    def least(self, order: int) -> float:  # noqa: ARG002 - a constant may depend on it
+        """The least value that laws from rest to rest of this order can have, by which mixtures are normalised.
+
+        Examples
+        --------
+        >>> C.least(4), J.least(2), J.least(4)
+        (4.0, 12.0, 32.0)
+        """
+        return self.reference
+
+    def curbs(self) -> tuple[tuple[int, float], ...]:
+        """Pairs of an order and a factor: the mean of |a^(order)| is at most factor times the constant, in every law.
+
+        For a power it is the constant's root. A certificate needs such a bound of the law's size; those of the
+        constants that optlaws names itself it knows.
+        """
+        return ()
+
+    def where(self, k: float) -> str:
+        """What a certificate's place says, in words."""
+        return f"k = {k:.4g}"
+
+    @abstractmethod
+    def value(self, law: MotionLaw) -> float:
+        """The constant of a law, over the whole interval."""
+
+    @abstractmethod
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+        """Rows that hold if and only if the constant is at most slack . x + bound."""
+
+    def __repr__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True, repr=False)
+class Peak(Functional):
+    """Peak of a derivative: magnitude, or one sign only.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> C.value(smoothstep(2)), C_plus.value(smoothstep(2))
+    (6.0, 6.0)
+    """
+
+    nu: int
+    signs: tuple[float, ...] = (1.0, -1.0)
+
+    def value(self, law: MotionLaw) -> float:
+        """The peak, by the roots of the next derivative."""
+        if len(self.signs) == 2:
+            return law.peak(self.nu).value
+        lowest, highest = law.extrema(self.nu)
+        return highest.value if self.signs[0] > 0 else -lowest.value
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+        """The derivative's own family."""
+        # over the whole interval one sign of a derivative that is odd about k = 1/2 is both over the half
+        signs = (1.0, -1.0) if space.symmetric and self.nu % 2 == 0 else self.signs
+        return (space.derivative(self.nu, self.name, slack, bound, signs),)
+
+
+@dataclass(frozen=True, repr=False)
+class PeakJerk(Peak):
+    """Peak of the jerk, which costs more where the acceleration must begin and end with 0.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> J.value(smoothstep(3)), J.least(3)
+    (60.0, 32.0)
+    """
+
+    from_no_acceleration: float = 32.0
+
+    def least(self, order: int) -> float:
+        """The reference with order 2, 32 from order 3 on."""
+        return self.reference if order < _NO_ACCELERATION else self.from_no_acceleration
+
+
+@dataclass(frozen=True, repr=False)
+class Power(Functional):
+    """Peak D of the kinetic power d = b c: not convex in the law.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> round(D.value(smoothstep(2)), 6)
+    3.464102
+    """
+
+    weights: tuple[Fraction, ...] = (Fraction(1),)
+
+    def value(self, law: MotionLaw) -> float:
+        """The peak, b and c evaluated separately."""
+        return law.power_peak().value
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+        """The product's family."""
+        return (space.power(self.name, slack, bound),)
+
+
+@dataclass(frozen=True, repr=False)
+class RootMeanSquare(Functional):
+    """RMS of a derivative over the interval.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> round(rms_c.value(smoothstep(2)) ** 2, 9)
+    12.0
+    """
+
+    nu: int
+
+    def value(self, law: MotionLaw) -> float:
+        """The root of the mean square, by Gauss-Legendre quadrature exact for the law's degree."""
+        return law.rms(self.nu)
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+        """A norm of the coordinates."""
+        return (space.norm(self.nu, self.name, slack, bound),)
+
+
+B = Peak("B", 1.0, convex=True, nu=1)
+C = Peak("C", 4.0, convex=True, nu=2)
+C_plus = Peak("C_plus", 2.0, convex=True, nu=2, signs=(1.0,))
+C_minus = Peak("C_minus", 2.0, convex=True, nu=2, signs=(-1.0,))
+D = Power("D", 2.25, convex=False)
+J = PeakJerk("J", 12.0, convex=True, nu=3)
+jounce = Peak("jounce", np.nan, convex=True, nu=4)
+rms_c = RootMeanSquare("rms_c", 12.0**0.5, convex=True, nu=2)
+rms_j = RootMeanSquare("rms_j", np.nan, convex=True, nu=3)
+
+FUNCTIONALS: dict[str, Functional] = {f.name: f for f in (B, C, C_plus, C_minus, D, J, jounce, rms_c, rms_j)}
+ALIASES: dict[str, Functional] = {"rms": rms_c}
+#: what makes a constant from arguments, by the name that text calls it by: `C_cam(nu=20)`
+MAKERS: dict[str, Callable[..., Functional]] = {}

@@ -1,0 +1,244 @@
+"""The small grammar of objectives written as text. Nothing is ever evaluated as Python.
+
+sum     = product { "+" product }
+product = factor { ("*" | "/") factor }
+factor  = number | constant | "max" "(" sum { "," sum } ")" | "(" sum ")"
+constant = name [ "(" name "=" value { "," name "=" value } ")" ]
+value   = number | "(" number "," number ")"
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import NoReturn
+
+from optlaws.errors import InputError
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.problem.expression import Expression, Term, maximum
+
+_TOKEN = re.compile(
+    r"\s*(?:(?P<number>\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)|(?P<sign>[-+*/(),=]))"
+)
+
+Value = float | Expression
+
+_BLANK = re.compile(r"\s*")
+
+_DEPTH = 40
+_LONGEST = 10_000
+_SHOWN = 120
+
+
+@dataclass(frozen=True)
+class Token:
+    """A number, name or sign with its place in the text; an empty text ends the list."""
+
+    kind: str
+    text: str
+    place: int
+
+
+Makers = Mapping[str, Callable[..., Term]]
+
+
+def parse(text: str, names: Mapping[str, Term], makers: Makers | None = None) -> Expression:
+    """Read an objective such as `0.6*C/4 + 0.4*D/2.25` or `max(C/4, D/2.25)`.
+
+    Parameters
+    ----------
+    text
+        The objective.
+    names
+        The terms by name.
+    makers
+        What makes a term from arguments, by name: `C_cam(nu=20, damping=0.05)`.
+
+    Raises
+    ------
+    InputError
+        If the text is not an objective; the message shows it and points at the character.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis import FUNCTIONALS
+    >>> parse("0.5*C/4 + 0.5*D/2", FUNCTIONALS)
+    0.125*C + 0.25*D
+    """
+    if len(text) > _LONGEST:
+        raise InputError(f"an objective may have {_LONGEST} characters, got {len(text)}")
+    reader = _Reader(text, names, makers or {})
+    depth = greatest = 0
+    for character in text:
+        depth += (character == "(") - (character == ")")
+        greatest = max(greatest, depth)
+    if greatest > _DEPTH:
+        raise InputError(f"an objective may have {_DEPTH} brackets within each other, got {greatest}")
+    value = reader.sum()
+    if reader.token.kind != "end":
+        reader.refuse("expected + * / or the end")
+    if isinstance(value, float):
+        reader.refuse("an objective needs at least one constant such as C or D", 0)
+    return value
+
+
+class _Reader:
+    def __init__(self, text: str, names: Mapping[str, Term], makers: Makers) -> None:
+        self.text, self.names, self.makers = text, names, makers
+        self.tokens = iter(self._tokens())
+        self.token = next(self.tokens)
+
+    def _tokens(self) -> list[Token]:
+        found, place, end = [], 0, len(self.text.rstrip())
+        while place < end:
+            match = _TOKEN.match(self.text, place)
+            if match is None:
+                place = _BLANK.match(self.text, place).end()  # type: ignore[union-attr] # blanks may be none
+                self.refuse(f"{self.text[place]!r} is not understood", place)
+            kind = str(match.lastgroup)
+            found.append(Token(kind, match.group(kind), match.start(kind)))
+            place = match.end()
+        return [*found, Token("end", "", len(self.text))]
+
+    def refuse(self, what: str, place: int | None = None) -> NoReturn:
+        at = self.token.place if place is None else place
+        first = max(0, at - _SHOWN // 2)
+        before, after = "..." if first else "", "..." if first + _SHOWN < len(self.text) else ""
+        shown = f"{before}{self.text[first : first + _SHOWN]}{after}"
+        raise InputError(f"{what}\n  {shown}\n  {' ' * (len(before) + at - first)}^")
+
+    def take(self) -> Token:
+        token = self.token
+        self.token = next(self.tokens, token)
+        return token
+
+    def sum(self) -> Value:
+        value = self.product()
+        while self.token.text == "+":
+            place = self.take().place
+            other = self.product()
+            if isinstance(value, float) != isinstance(other, float):
+                self.refuse("a number cannot be added to a constant of the law", place)
+            value = value + other  # type: ignore[operator] # both are numbers or both are not
+        if self.token.text == "-":
+            self.refuse("terms can only be added: a constant that is subtracted has no least value")
+        return value
+
+    def product(self) -> Value:
+        value = self.factor()
+        while self.token.text in {"*", "/"}:
+            sign = self.take()
+            place = self.token.place
+            other = self.factor()
+            value = self._multiplied(value, other, place) if sign.text == "*" else self._divided(value, other, place)
+        return value
+
+    def _multiplied(self, first: Value, second: Value, place: int) -> Value:
+        if isinstance(second, float):
+            return first * second
+        if isinstance(first, float):
+            return self._scaled(second, first, place)
+        return self.refuse("two constants of the law cannot be multiplied", place)
+
+    def _divided(self, first: Value, second: Value, place: int) -> Value:
+        if not isinstance(second, float):
+            self.refuse("the divisor must be a number", place)
+        if second == 0.0:
+            self.refuse("division by 0", place)
+        return first / second
+
+    def _scaled(self, expression: Expression, factor: float, place: int) -> Expression:
+        if factor <= 0.0:
+            self.refuse("a weight must be above 0", place)
+        return expression * factor
+
+    def factor(self) -> Value:
+        token = self.token
+        if token.kind == "number":
+            return float(self.take().text)
+        if token.text == "(":
+            self.take()
+            value = self.sum()
+            self._close()
+            return value
+        if token.text == "max":
+            return self._maximum()
+        if token.kind == "name":
+            return self._named()
+        return self.refuse("expected a number, a constant, max or (")
+
+    def _named(self) -> Expression:
+        token = self.token
+        if token.text not in self.names and token.text not in self.makers:
+            self.refuse(unknown_key(token.text, (*self.names, *self.makers), "constant"))
+        self.take()
+        if token.text in self.names:
+            return self.names[token.text].expression()
+        return self._made(token).expression()
+
+    def _made(self, token: Token) -> Term:
+        if self.token.text != "(":
+            self.refuse(f"{token.text} needs its arguments, such as {token.text}(nu=20)")
+        given: dict[str, float | tuple[float, float]] = {}
+        while self.token.text != ")":
+            self.take()
+            name = self.take()
+            if name.kind != "name" or self.token.text != "=":
+                self.refuse(f"expected an argument of {token.text} such as nu=20", name.place)
+            if name.text in given:
+                self.refuse(f"{name.text} is given twice", name.place)
+            self.take()
+            given[name.text] = self._value()
+            if self.token.text not in {",", ")"}:
+                self.refuse("expected , or )")
+        self.take()
+        try:
+            return self.makers[token.text](**given)
+        except InputError as error:
+            self.refuse(str(error), token.place)
+        except TypeError:
+            self.refuse(f"{token.text} does not take the arguments {', '.join(given)}", token.place)
+
+    def _value(self) -> float | tuple[float, float]:
+        if self.token.text != "(":
+            return self._number()
+        self.take()
+        low = self._number()
+        if self.token.text != ",":
+            self.refuse("expected , between two numbers")
+        self.take()
+        high = self._number()
+        self._close()
+        return low, high
+
+    def _number(self) -> float:
+        if self.token.kind != "number":
+            self.refuse("expected a number")
+        return float(self.take().text)
+
+    def _maximum(self) -> Expression:
+        self.take()
+        if self.token.text != "(":
+            self.refuse("expected ( after max")
+        self.take()
+        parts = [self._part()]
+        while self.token.text == ",":
+            self.take()
+            parts.append(self._part())
+        self._close()
+        if len(parts) < 2:
+            self.refuse("max needs at least two parts")
+        return maximum(*parts).expression()
+
+    def _part(self) -> Expression:
+        place = self.token.place
+        value = self.sum()
+        if isinstance(value, float):
+            self.refuse("a part of max needs a constant of the law", place)
+        return value
+
+    def _close(self) -> None:
+        if self.token.text != ")":
+            self.refuse("expected )")
+        self.take()

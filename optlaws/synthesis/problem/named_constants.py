@@ -1,0 +1,67 @@
+"""Constants by their names: plain ones such as rms_c, and ones with arguments such as C_cam(nu=20, damping=0.05)."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+from optlaws.errors import InputError
+from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, Functional
+from optlaws.synthesis.problem.expression import Expression, Term
+from optlaws.synthesis.problem.grammar import parse
+
+
+@lru_cache(maxsize=256)
+def expression(text: str) -> Expression:
+    """The objective that a text says.
+
+    Raises
+    ------
+    InputError
+        If it says none; the message points at the character.
+
+    Examples
+    --------
+    >>> expression("0.5*C/4 + C_cam(nu=20)")
+    0.125*C + C_cam(nu=20.0)
+    """
+    return parse(text, FUNCTIONALS | ALIASES, MAKERS)
+
+
+def named(text: str) -> Functional:
+    """The constant that a text names.
+
+    Raises
+    ------
+    InputError
+        If it names none.
+
+    Examples
+    --------
+    >>> named("rms_c"), named("residual(nu=(18, 22))")
+    (rms_c, residual(nu=(18.0, 22.0)))
+    """
+    found = expression(text).terms
+    (weight, constant), *others = found
+    if others or weight != 1.0 or not isinstance(constant, Functional):
+        raise InputError(f"{text!r} is no constant of a law but an expression")
+    return constant
+
+
+def is_named(term: Term) -> bool:
+    """Whether its name alone tells what it is, so that text can stand for it.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis import C
+    >>> is_named(C)
+    True
+    """
+    text = repr(term)
+    if FUNCTIONALS.get(text) == term:
+        return True
+    if text.partition("(")[0] not in MAKERS:
+        return False
+    try:
+        return named(text) == term
+    except InputError:
+        return False

@@ -1,0 +1,268 @@
+"""The problem to be solved, a frozen value."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field, fields, replace
+from math import isfinite
+from typing import Any
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.problem.checks import check_choices, constant, inflexion_of, listed, one_of, order_of, windows_of
+from optlaws.synthesis.problem.constants import FUNCTIONALS, C_minus, C_plus, Functional
+from optlaws.synthesis.problem.expression import Expression, Term, leaves
+from optlaws.synthesis.problem.named_constants import expression, is_named
+from optlaws.synthesis.problem.ranges import Bounds, Range, as_range
+from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.spaces.bases import Basis, Chebyshev, basis
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+
+CONSTANTS = ("B", "C", "D", "J")
+_NAMED = tuple(FUNCTIONALS[name] for name in CONSTANTS)
+
+
+@dataclass(frozen=True, kw_only=True, repr=False)
+class Problem:
+    """Minimise an objective over the laws (8) with given end conditions and constants (eq. 10); dimensionless.
+
+    Parameters
+    ----------
+    order
+        Number l of boundary conditions at each end, at least 1.
+    minimise
+        A constant or a sum or maximum of constants: "C", "D", "0.6*C/4 + 0.4*D/2.25", `0.6 * C / 4 + 0.4 * D / 2.25`.
+    B, C, D, J
+        Peak velocity, acceleration, power and jerk: a number fixes the constant, a `Range` such as
+        `between(1.5, 1.8)` or `at_most(60)` bounds it, None leaves it free. `at_most` asks |b| <= B everywhere and
+        nothing else. From rest to rest a number, and a lower bound above the mean velocity 1, also put the peak in
+        the middle, unless there is an inflexion: b(1/2) is B, the greatest |b|.
+    bounds
+        The same for any constant: `{"rms_c": at_most(4), "C_minus": at_most(5)}`, by its name or itself.
+    basis
+        Basis of Z(k) with its degree: `Powers(9)`, `Chebyshev(9)`, `BSplines(8, 3)`.
+    monotone
+        Ask b >= 0 too.
+    symmetric
+        Ask a(k) + a(1-k) = 1. From rest to rest the optimum is the same either way where the objective is convex and
+        treats rise and fall alike and there are no windows (the mean of a law and its mirror image is no worse).
+    boundary
+        End conditions; rest to rest unless given. Others make the law unsymmetric.
+    inflexion
+        The k at which b is greatest: b <= b(inflexion) everywhere and c is 0 there, whatever the sign of b. A fixed
+        or lower bounded B is asked of b there. Without an inflexion that is k = 1/2 for laws from rest to rest with
+        a fixed B or one bounded from below, else wherever it falls. Symmetric laws can have it at 1/2 only.
+    windows
+        Values and windows of a, b, c, j: `via("a", 0.3, at=0.4)`, `Window("b", high=1.2, start=0.2, stop=0.3)`.
+
+    Raises
+    ------
+    InputError
+        If a value is out of range, or the degree leaves Z no freedom.
+
+    Examples
+    --------
+    >>> Problem(B=1.859, order=4, basis=Chebyshev(9))
+    Problem(B=1.859, order=4, basis=Chebyshev(degree=9), minimise='C')
+    """
+
+    B: float | Range | None = None
+    order: int = 0
+    basis: Basis = field(default_factory=lambda: Chebyshev(9))
+    minimise: str | Term | Expression = "C"
+    monotone: bool = False
+    symmetric: bool = True
+    C: float | Range | None = None
+    D: float | Range | None = None
+    J: float | Range | None = None
+    boundary: BoundaryConditions | None = None
+    windows: tuple[Window, ...] = ()
+    bounds: Mapping[Any, Any] = Bounds()
+    inflexion: float | None = None
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "order", order_of(self.order, self.boundary))
+        object.__setattr__(self, "windows", windows_of(self.windows))
+        object.__setattr__(self, "inflexion", inflexion_of(self.inflexion, symmetric=self.symmetric))
+        check_choices(self.basis, monotone=self.monotone, symmetric=self.symmetric)
+        object.__setattr__(self, "minimise", _canonical(self.minimise))
+        own = {one: asked for one, asked in Bounds(self.bounds).items() if one not in _NAMED}
+        for one in _NAMED:
+            asked = one_of(getattr(self, one.name), self.bounds, one)
+            object.__setattr__(self, one.name, constant(asked, one.name))
+        object.__setattr__(self, "bounds", Bounds(own))
+        self._drop_implied_inflexion()
+        if self.boundary is not None:
+            if self.boundary == BoundaryConditions.rest(self.order):
+                object.__setattr__(self, "boundary", None)
+            elif self.symmetric:
+                raise InputError("a law with these boundary conditions is not symmetric: ask symmetric=False")
+        self.basis.check(symmetric=self.symmetric)
+
+    def _drop_implied_inflexion(self) -> None:
+        """Problems that ask the same are equal: of symmetric laws B may put the peak in the middle already."""
+        if self.symmetric and self.inflexion is not None and _above_mean(as_range(self.B, "B")):
+            object.__setattr__(self, "inflexion", None)
+
+    @kept_property
+    def objective(self) -> Expression:
+        """What is minimised."""
+        return expression(self.minimise) if isinstance(self.minimise, str) else self.minimise.expression()
+
+    @property
+    def conditions(self) -> BoundaryConditions:
+        """The end conditions."""
+        return self.boundary if self.boundary is not None else BoundaryConditions.rest(self.order)
+
+    @kept_property
+    def convex(self) -> bool:
+        """Whether every constant in the objective and every bounded one is convex in the law."""
+        return all(one.convex for one in self.constants)
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether unsymmetric laws are sought but every bound of symmetric ones holds for them too.
+
+        Where the objective is convex the mean of a law and its mirror image is no worse; where D is in it, that is
+        so for the relaxed program.
+        """
+        even = all(FUNCTIONALS.get(one.name) == one and one not in {C_plus, C_minus} for one in self.constants)
+        plain = self.boundary is None and not self.windows and self.basis.mirrored and self.inflexion is None
+        return not self.symmetric and plain and even
+
+    @property
+    def peak_at(self) -> float | None:
+        """The k at which b is asked to be greatest and c is 0; None where it may be greatest anywhere."""
+        if self.inflexion is not None:
+            return self.inflexion
+        return 0.5 if self.boundary is None and _above_mean(self.range("B")) else None
+
+    @property
+    def peak_is_variable(self) -> bool:
+        """Whether programs have a variable B for the peak velocity that is asked, beside those of the objective."""
+        wanted = self.range("B")
+        if wanted is None:
+            return False
+        return not self.symmetric if wanted.fixed else wanted.low > 0.0 and self.peak_at is not None
+
+    def range(self, name: str) -> Range | None:
+        """What is asked of a constant, by its name."""
+        return self._ranges.get(name)
+
+    @kept_property
+    def bounded(self) -> tuple[tuple[Functional, Range], ...]:
+        """The constants but B of which something is asked, and what."""
+        own = ((one, self._ranges[one.name]) for one in _NAMED if one.name != "B")
+        return (*((one, asked) for one, asked in own if asked is not None), *self.bounds.items())
+
+    @kept_property
+    def _ranges(self) -> dict[str, Range | None]:
+        own = {name: as_range(getattr(self, name), name) for name in CONSTANTS}
+        return own | {one.name: asked for one, asked in self.bounds.items()}
+
+    @kept_property
+    def constants(self) -> set[Functional]:
+        """The constants in the objective and the bounded ones."""
+        found = {leaf for _, leaf in leaves(self.objective) if isinstance(leaf, Functional)}
+        return found | {one for one, _ in self.bounded}
+
+    @kept_property
+    def shape(self) -> Problem:
+        """The problem with a fixed B replaced by 2: problems of one shape share their program."""
+        return replace(self, B=2.0) if isinstance(self.B, float) and self.B != 2.0 else self
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict.
+
+        Examples
+        --------
+        >>> Problem.from_dict(Problem(B=2, order=3).to_dict()) == Problem(B=2, order=3)
+        True
+        """
+        found: dict[str, Any] = {"minimise": str(self.minimise), "order": self.order}
+        found |= self.basis.to_dict()
+        found |= {"monotone": self.monotone, "symmetric": self.symmetric}
+        for name in CONSTANTS:
+            value = getattr(self, name)
+            if value is not None:
+                found[name] = value if isinstance(value, float) else _plain(value)
+        if self.bounds:
+            found["bounds"] = {
+                one.name: asked.high if asked.fixed else _plain(asked) for one, asked in self.bounds.items()
+            }
+        if self.inflexion is not None:
+            found["inflexion"] = self.inflexion
+        if self.boundary is not None:
+            found["start"] = [float(v) for v in self.boundary.start]
+            found["end"] = [float(v) for v in self.boundary.end]
+        if self.windows:
+            found["windows"] = [window.to_dict() for window in self.windows]
+        return found
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Problem:
+        """Read a problem from what `to_dict` wrote, or a part of it: the order is needed.
+
+        Raises
+        ------
+        InputError
+            If a key is unknown (the nearest right one is named) or missing, or a value is out of range.
+        """
+        known: tuple[str, ...] = (
+            "minimise",
+            *CONSTANTS,
+            "bounds",
+            "inflexion",
+            "order",
+            "basis",
+            "degree",
+            "monotone",
+            "symmetric",
+            "start",
+            "end",
+            "windows",
+        )
+        known = (*known, "breaks", "continuity")
+        for key in data:
+            if key not in known:
+                raise InputError(unknown_key(key, known))
+        if "order" not in data and "start" not in data:
+            raise InputError("the problem lacks order")
+        given = dict(data)
+        shape = {name: given.pop(name) for name in ("breaks", "continuity") if name in given}
+        chosen = basis(given.pop("basis", "chebyshev"), given.pop("degree", 9), **shape)
+        if "start" in given or "end" in given:
+            start, end = (listed(given.pop(name, ()), name) for name in ("start", "end"))
+            given["boundary"] = BoundaryConditions(start, end)
+        given["windows"] = tuple(Window.from_dict(window) for window in listed(given.pop("windows", ()), "windows"))
+        return cls(basis=chosen, **given)
+
+    def __repr__(self) -> str:
+        shown = ("B", "order", "basis", "minimise")
+        parts = [f"{f.name}={getattr(self, f.name)!r}" for f in fields(self) if f.name in shown or _given(self, f)]
+        return f"Problem({', '.join(parts)})"
+
+
+def _above_mean(wanted: Range | None) -> bool:
+    """Whether a lower bound of B says anything of laws with stroke 1."""
+    return wanted is not None and wanted.low > 1.0
+
+
+def _given(problem: Problem, one: Any) -> bool:  # noqa: ANN401 - a dataclass field
+    return bool(getattr(problem, one.name) != one.default)
+
+
+def _canonical(minimise: Any) -> str | Expression:  # noqa: ANN401 - it is checked here
+    if isinstance(minimise, str):
+        found = expression(minimise)
+    elif isinstance(minimise, Term | Expression):
+        found = minimise.expression()
+    else:
+        raise InputError(f"minimise must be a constant such as 'C', a sum or an expression, got {shortened(minimise)}")
+    return repr(found) if all(is_named(leaf) for _, leaf in leaves(found)) else found
+
+
+def _plain(one: Range) -> list[float | None]:
+    return [one.low, one.high if isfinite(one.high) else None]

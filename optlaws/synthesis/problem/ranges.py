@@ -1,0 +1,218 @@
+"""What a problem says of a constant: fixed, bounded or free."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from math import inf, isfinite
+from typing import Any
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.numbers import finite, real
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, Functional
+from optlaws.synthesis.problem.named_constants import is_named, named
+
+
+@dataclass(frozen=True, repr=False)
+class Range:
+    """A constant between two values, dimensionless; `low` is 0 where there is none, `high` infinite.
+
+    Examples
+    --------
+    >>> between(1.5, 1.8)
+    between(1.5, 1.8)
+    """
+
+    low: float = 0.0
+    high: float = inf
+
+    def __post_init__(self) -> None:
+        for value in (self.low, self.high):
+            _bound(value)
+        if not isfinite(self.low) or self.low > self.high:
+            raise InputError(f"the lower bound {self.low!r} must be finite and at most the upper one, {self.high!r}")
+
+    def __repr__(self) -> str:
+        if self.high == inf:
+            return f"at_least({self.low!r})"
+        return f"at_most({self.high!r})" if self.low == 0.0 else f"between({self.low!r}, {self.high!r})"
+
+    @property
+    def fixed(self) -> bool:
+        """Whether the constant has one value."""
+        return self.low == self.high
+
+
+def _bound(value: Any) -> float:  # noqa: ANN401 - it is checked here
+    number = real(value)
+    if number is None or number < 0.0:
+        raise InputError(f"bounds must be numbers of at least 0, got {shortened(value)}")
+    return finite(number, "a bound") if isfinite(number) else number
+
+
+def between(low: float, high: float) -> Range:
+    """At least `low` and at most `high`.
+
+    Raises
+    ------
+    InputError
+        If they are not numbers of at least 0 in this order.
+
+    Examples
+    --------
+    >>> between(1.5, 1.8).high
+    1.8
+    """
+    return Range(low, high)
+
+
+def at_most(high: float) -> Range:
+    """At most `high`.
+
+    Raises
+    ------
+    InputError
+        If it is not a number of at least 0.
+
+    Examples
+    --------
+    >>> at_most(60)
+    at_most(60)
+    """
+    return Range(0.0, high)
+
+
+def at_least(low: float) -> Range:
+    """At least `low`.
+
+    Raises
+    ------
+    InputError
+        If it is not a finite number of at least 0.
+
+    Examples
+    --------
+    >>> at_least(1.5).low
+    1.5
+    """
+    return Range(low, inf)
+
+
+def as_range(value: Any, name: str) -> Range | None:  # noqa: ANN401 - it is checked here
+    """A number, a Range, a pair [low, high] or None as a Range or None; `name` is what an error calls it.
+
+    Raises
+    ------
+    InputError
+        If it is none of these.
+
+    Examples
+    --------
+    >>> as_range(2, "B")
+    between(2.0, 2.0)
+    """
+    if value is None or isinstance(value, Range):
+        return value
+    if isinstance(value, list | tuple) and len(value) == 2:
+        low, high = value
+        return Range(0.0 if low is None else low, inf if high is None else high)
+    number = real(value)
+    if number is None or not isfinite(number):
+        raise InputError(
+            f"{name} must be a finite number, a range such as between(1.5, 1.8), or None, got {shortened(value)}"
+        )
+    return Range(number, number)
+
+
+class Bounds(Mapping[Functional, Range]):
+    """What is asked of constants, by constant; frozen and hashable. Names find the known ones.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, a constant is named twice, or a value is no number, range or pair.
+
+    Examples
+    --------
+    >>> Bounds({"rms_c": at_most(4), "jounce": None})
+    {'rms_c': at_most(4)}
+    """
+
+    def __init__(self, asked: Any = ()) -> None:  # noqa: ANN401 - it is checked here
+        if not isinstance(asked, Mapping) and asked != ():
+            raise InputError(f"bounds must be a dict such as {{'rms_c': at_most(5)}}, got {shortened(asked)}")
+        self._ranges: dict[Functional, Range] = {}
+        for key, value in dict(asked).items():
+            constant = _constant(key)
+            if constant.name in {one.name for one in self._ranges}:
+                raise InputError(f"bounds name {constant.name!r} twice")
+            found = as_range(value, constant.name)
+            if found is not None and found.high <= 0.0:
+                raise InputError(f"{constant.name} must be able to exceed 0, got {shortened(value)}")
+            if found is not None and found != Range():
+                self._ranges[constant] = found
+
+    def __getitem__(self, key: Functional | str) -> Range:
+        if isinstance(key, str):
+            return {one.name: value for one, value in self._ranges.items()}[key]
+        return self._ranges[key]
+
+    def __iter__(self) -> Iterator[Functional]:
+        return iter(self._ranges)
+
+    def __len__(self) -> int:
+        return len(self._ranges)
+
+    def __hash__(self) -> int:
+        return hash(frozenset(self._ranges.items()))
+
+    def __repr__(self) -> str:
+        known = {one: repr(one.name) if is_named(one) else repr(one) for one in self._ranges}
+        return "{" + ", ".join(f"{known[one]}: {value!r}" for one, value in self._ranges.items()) + "}"
+
+
+def _constant(key: Any) -> Functional:  # noqa: ANN401 - it is checked here
+    if isinstance(key, Functional):
+        return key
+    known = FUNCTIONALS | ALIASES
+    if not isinstance(key, str):
+        raise InputError(f"bounds are of constants such as 'rms_c' or rms_c, got {shortened(key)}")
+    if "(" in key:
+        return named(key)
+    if key not in known:
+        raise InputError(unknown_key(key, (*known, *MAKERS), "constant"))
+    return known[key]
+
+
+def read_bounds(most: Sequence[str], least: Sequence[str] = ()) -> dict[str, Range]:
+    """Bounds from texts such as "rms_c=4": the greatest and the least values.
+
+    Raises
+    ------
+    InputError
+        If a text is not a name and a number, or a name comes twice on one side.
+
+    Examples
+    --------
+    >>> read_bounds(["rms_c=4", "jounce=900"], ["rms_c=3.5"])
+    {'rms_c': between(3.5, 4.0), 'jounce': at_most(900.0)}
+    """
+    sides: tuple[dict[str, float], dict[str, float]] = ({}, {})
+    for texts, side in ((least, sides[0]), (most, sides[1])):
+        for text in texts:
+            name, _, value = (part.strip() for part in text.rpartition("="))
+            if "=" in name.partition("(")[0]:
+                value = ""  # one sign too many; within brackets they belong to arguments
+            try:
+                number = float(value)
+            except ValueError:
+                raise InputError(
+                    f"a bound is written as a constant = a number, such as rms_c=4, got {shortened(text)}"
+                ) from None
+            if name in side:
+                raise InputError(f"{name!r} is bounded twice on one side")
+            side[name] = number
+    lows, highs = sides
+    return {name: Range(lows.get(name, 0.0), highs.get(name, inf)) for name in dict.fromkeys((*highs, *lows))}

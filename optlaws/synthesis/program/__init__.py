@@ -1,0 +1,1 @@
+"""Problem -> semi-infinite program, and what a law is worth to a problem."""

@@ -1,0 +1,78 @@
+"""What a law is worth to a problem, recomputed from the law over the whole interval."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import isfinite
+
+from optlaws.laws import MotionLaw
+from optlaws.synthesis.problem.constants import B, Functional
+from optlaws.synthesis.problem.expression import Expression, Maximum
+from optlaws.synthesis.problem.problem import Problem
+
+_SHORT = 1e-9
+
+
+@dataclass(frozen=True)
+class Worth:
+    """The objective of a law, and by how much it breaks a constraint, relative to the constraint's bound."""
+
+    objective: float
+    excess: float
+
+
+def worth(problem: Problem, law: MotionLaw) -> Worth:
+    """Objective and greatest excess over the constraints."""
+    values: dict[str, float] = {}
+    objective = _total(problem.objective, law, values)
+    excess = _velocity_excess(problem, law)
+    for constant, asked in problem.bounded:
+        if isfinite(asked.high):
+            value = values[constant.name] if constant.name in values else constant.value(law)
+            excess = max(excess, value / asked.high - 1.0)
+    for window in problem.windows:
+        lowest, highest = law.extrema(window.order, within=(window.start, window.stop))
+        excess = max(excess, highest.value - window.high, window.low - lowest.value)
+    return Worth(objective, excess)
+
+
+def _velocity_excess(problem: Problem, law: MotionLaw) -> float:
+    wanted, peak = problem.range("B"), problem.peak_at
+    if wanted is None and peak is None and not problem.monotone:
+        return 0.0
+    lowest, highest = law.extrema(1)
+    greatest = max(highest.value, -lowest.value)
+    excess = max(-lowest.value, 0.0) if problem.monotone else 0.0
+    if wanted is not None and isfinite(wanted.high):
+        excess = max(excess, greatest / wanted.high - 1.0)
+    if peak is not None:
+        # b at the peak may be 0 or negative: what is above it is measured by the law's speed
+        at_peak = float(law.b(peak))
+        excess = max(excess, (highest.value - at_peak) / max(greatest, 1.0))
+        if wanted is not None and wanted.low > 0.0:
+            excess = max(excess, 1.0 - at_peak / wanted.low, (greatest - at_peak) / max(greatest, 1.0))
+    return excess
+
+
+def shortfalls(problem: Problem, law: MotionLaw) -> dict[Functional, float]:
+    """Constants that are below their lower bound, with that bound: a peak can be held down by rows, but not up."""
+    # where the place of the peak is asked rows hold it up
+    velocity = problem.range("B") if problem.peak_at is None else None
+    asked = [*problem.bounded, *([] if velocity is None else [(B, velocity)])]
+    return {
+        constant: wanted.low
+        for constant, wanted in asked
+        if wanted.low > 0.0 and constant.value(law) < wanted.low * (1.0 - _SHORT)
+    }
+
+
+def _total(expression: Expression, law: MotionLaw, values: dict[str, float]) -> float:
+    total = 0.0
+    for weight, term in expression.terms:
+        if isinstance(term, Maximum):
+            total += weight * max(_total(part, law, values) for part in term.parts)
+        elif isinstance(term, Functional):
+            if term.name not in values:
+                values[term.name] = term.value(law)
+            total += weight * values[term.name]
+    return total

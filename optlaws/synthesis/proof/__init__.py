@@ -1,0 +1,1 @@
+"""Lower bounds that stand by themselves, and proofs that there is no law."""

@@ -1,0 +1,337 @@
+"""Lower bounds that stand by themselves: contacts and multipliers, checked by weak duality with numpy alone.
+
+Every law of the problem, with its own constants as variables, obeys the rows of the program. Added up with multipliers
+m >= 0 (any sign for equations) to the objective they give an affine function of the coordinates of the law, and its
+value is a lower bound of the objective wherever it is constant. The multipliers are such that it hardly varies; what
+rounding leaves of its dependence is charged against the bound, for which the law's coordinates are bounded through
+their Legendre moments: a law that contradicts the claim has a small objective, so small constants.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import asdict, dataclass, replace
+from math import inf, isfinite
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
+from optlaws.synthesis.problem.constants import Power
+from optlaws.synthesis.problem.expression import Expression, Maximum
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import ROOT, Model, least_violation, model, relaxed, relaxed_power
+from optlaws.synthesis.proof.data import StatedCertificate, StatedContact, problem_of, stated
+from optlaws.synthesis.proof.farkas import surplus
+from optlaws.synthesis.spaces.space import LawSpace
+
+Array = NDArray[np.float64]
+
+OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
+#: how far from a contact its neighbours are, and how much of its multiplier each takes
+_NEAR, _SHARE = 2.0**-12, 2.0**-14
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A constraint at one k: which family of rows, with which sign, and its multiplier (dimensionless).
+
+    `direction` belongs to an RMS and to a complex amplitude: the unit vector by which its size is bounded from below.
+
+    Examples
+    --------
+    >>> Contact("C", 1.0, 0.25, 0.5).multiplier
+    0.5
+    """
+
+    constraint: str
+    sign: float
+    k: float
+    multiplier: float
+    direction: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        finite = all(map(isfinite, (self.multiplier, *self.direction)))
+        if not 0.0 <= self.k <= 1.0 or not finite or abs(self.sign) != 1.0:
+            raise InputError(
+                f"a contact needs k in [0, 1], a sign 1 or -1, a finite multiplier and direction, got {self!r}"
+            )
+
+
+def contact_of(found: StatedContact) -> Contact:
+    """The contact that was stated.
+
+    Raises
+    ------
+    InputError
+        If its k, sign, multiplier or direction is none.
+    """
+    return Contact(found.constraint, found.sign, found.k, found.multiplier, found.direction)
+
+
+@dataclass(frozen=True)
+class Certificate:
+    """Contacts and multipliers that prove a lower bound of a problem's objective, or that it has no law.
+
+    Attributes
+    ----------
+    problem
+        Of which problem it speaks: of every law of it, symmetric or not if that is not asked.
+    contacts, equations
+        Multipliers of the rows that bind, and of the program's equations.
+    program
+        "objective", or "relaxed" for a problem that is not convex: the bound is then that of a convex program
+        that every law of the problem obeys too; or "violation" for a proof that no law exists.
+    tangent
+        Where the relaxed program replaces D by its tangent.
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> solution = optlaws.synthesize(optlaws.Problem(B=1.859, order=4, basis=optlaws.Chebyshev(9)))
+    >>> bool(solution.certificate.bound <= solution.constants.C.value)
+    True
+    """
+
+    problem: Problem
+    contacts: tuple[Contact, ...]
+    equations: tuple[float, ...]
+    program: str = OBJECTIVE
+    tangent: float = 0.0
+
+    def __post_init__(self) -> None:
+        if self.program not in {OBJECTIVE, RELAXED, VIOLATION}:
+            raise InputError(f"program of a certificate must be objective, relaxed or violation, got {self.program!r}")
+        if not all(map(isfinite, (*self.equations, self.tangent))):
+            raise InputError("the equations' multipliers and the tangent of a certificate must be finite numbers")
+
+    @kept_property
+    def bound(self) -> float:
+        """The proven lower bound of the objective, recomputed from the contacts by numpy; -inf for a mere violation."""
+        return excess(self) if self.program != VIOLATION else -inf
+
+    @kept_property
+    def proves_infeasible(self) -> bool:
+        """Whether the contacts contradict each other (Farkas): every law breaks one by more than 0."""
+        return self.program == VIOLATION and excess(self) > 0.0
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict with the recomputed bound (None where there is none)."""
+        return {
+            "problem": self.problem.to_dict(),
+            "program": self.program,
+            "tangent": self.tangent,
+            "contacts": [asdict(contact) for contact in self.contacts],
+            "equations": list(self.equations),
+            "bound": self.bound if isfinite(self.bound) else None,
+        }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Certificate:
+        """Read what `to_dict` wrote; the bound is recomputed, not read.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong.
+        """
+        found = stated(data, StatedCertificate, "certificate")
+        contacts = tuple(contact_of(one) for one in found.contacts)
+        return cls(problem_of(found.problem), contacts, found.equations, found.program, found.tangent)
+
+
+def excess(certificate: Certificate) -> float:
+    """Least value over all laws of the problem of the objective plus the contacts' residuals; a lower bound.
+
+    Negative multipliers count as zero, and so do contacts that the problem does not ask for. Multipliers so large that
+    their sum is beyond double precision prove nothing: the bound is then minus infinity.
+    """
+    with np.errstate(over="ignore", invalid="ignore"):
+        value = _excess(certificate)
+    return value if isfinite(value) else -inf
+
+
+def _excess(certificate: Certificate) -> float:
+    found = _model(certificate)
+    program = found.program
+    slope = program.objective.copy()
+    value = 0.0
+    for contact in certificate.contacts:
+        row, right = row_of(program, contact)
+        weight = max(contact.multiplier, 0.0)
+        slope += weight * row
+        value -= weight * right
+    for row, right, weight in zip(program.equalities, program.right, certificate.equations, strict=False):
+        slope += weight * row
+        value -= weight * float(right)
+    plain = float(found.unit * (value - _charge(found, certificate, slope, found.unit * value)))
+    if certificate.program != VIOLATION or plain > 0.0:
+        return plain
+    return max(plain, _surplus(certificate, program))
+
+
+def _surplus(certificate: Certificate, program: Program) -> float:
+    """The same for a contradiction, with the multipliers corrected where nothing bounds the law."""
+    rows, right, multipliers = [], [], []
+    for contact in certificate.contacts:
+        for k, share in _neighbourhood(contact):
+            row, most = row_of(program, replace(contact, k=k))
+            if contact.multiplier > 0.0 and row.any():
+                rows.append(row)
+                right.append(most)
+                multipliers.append(share * contact.multiplier)
+    count = len(rows)
+    equations = list(certificate.equations)[: len(program.right)]
+    together = np.vstack([np.empty((0, program.size)), *rows, program.equalities[: len(equations)]])
+    # every row has t to spare, and a law keeps to it with t = 0
+    free = program.objective == 0.0
+    return surplus(
+        together[:, free],
+        np.array([*right, *program.right[: len(equations)]]),
+        np.array([*multipliers, *equations]),
+        count,
+    )
+
+
+def _neighbourhood(contact: Contact) -> list[tuple[float, float]]:
+    """A contact's place, and two beside it that take a little of its multiplier: where it is need not be exact."""
+    k = contact.k
+    if contact.direction or not _NEAR < k < 1.0 - _NEAR:
+        return [(k, 1.0)]
+    return [(k, 1.0 - 2.0 * _SHARE), (k - _NEAR, _SHARE), (k + _NEAR, _SHARE)]
+
+
+def _model(certificate: Certificate) -> Model:
+    if certificate.program == RELAXED:
+        return relaxed(certificate.problem, certificate.tangent)
+    if certificate.program == VIOLATION:
+        return least_violation(certificate.problem)
+    return model(certificate.problem)
+
+
+def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
+    """The row of a contact and its right side: row . x <= right for every law of the problem."""
+    for family in program.families:
+        if family.name != contact.constraint or contact.sign not in family.signs:
+            continue
+        u = np.clip(family.u(np.array([contact.k])), *family.domain)
+        if isinstance(family, LinearFamily):
+            rows, right = family.rows(u, np.array([contact.sign]))
+            return rows[0], float(right[0])
+        if isinstance(family, NormFamily) and len(contact.direction) == len(family.matrix):
+            direction = np.array(contact.direction)
+            # a shorter direction bounds the norm too
+            row = (direction / max(float(np.linalg.norm(direction)), 1.0)) @ family.matrix
+            return row[:-1] - family.slack, family.bound - float(row[-1])
+        if isinstance(family, ConeFamily) and len(contact.direction) == 2:
+            direction = np.array(contact.direction)
+            row = family.tangent(float(u[0]), direction / max(float(np.linalg.norm(direction)), 1.0))
+            return row[:-1] - family.slack, family.bound - float(row[-1])
+    return np.zeros(program.size), 0.0
+
+
+def _charge(found: Model, certificate: Certificate, slope: Array, claim: float) -> float:
+    """Most that rounding in the slope can be worth, over all laws that contradict the claim."""
+    terms = found.space.terms
+    greatest = _greatest(certificate, found, max(claim, 0.0))
+    beyond = 0.0
+    for name, place in found.places.items():
+        # constants are at least 0, so a positive slope can only help
+        if slope[place] < 0.0:
+            beyond += -slope[place] * greatest.get(name, inf)
+    return beyond + min(
+        (
+            mean * np.abs(_extension(found.space, nu) @ slope[:terms]).sum()
+            for nu, mean in _means(certificate, found.space, greatest)
+        ),
+        default=0.0 if not slope[:terms].any() else inf,
+    )
+
+
+def _greatest(certificate: Certificate, found: Model, claim: float) -> dict[str, float]:
+    """Greatest values of the program's variables in a law that contradicts the claim."""
+    bounds: dict[str, float] = {}
+    if certificate.program == VIOLATION:
+        bounds["t"] = 0.0
+    else:
+        spread(certificate.problem.objective, claim, bounds)
+    problem = certificate.problem
+    for name in ("B", *(one.name for one, _ in problem.bounded)):
+        asked = problem.range(name)
+        if asked is not None:
+            bounds[name] = min(bounds.get(name, inf), asked.high)
+    power = relaxed_power(problem)
+    if power is not None and power.name in bounds:
+        bounds[ROOT] = bounds[power.name] ** 0.5
+    if "B" in found.places and not isfinite(bounds["B"]):
+        # b is nowhere further from its mean, the stroke, than the integral of |c|
+        curved = min(bounds.get(name, inf) for name in ("C", "rms_c"))
+        bounds["B"] = abs(found.space.stroke) + min(curved, *_from_one_sign(problem, found.space, bounds))
+    return bounds
+
+
+def _from_one_sign(problem: Problem, space: LawSpace, greatest: dict[str, float]) -> tuple[float, float]:
+    """Bounds of the integral of |c| from the peaks of one sign: what is above 0 less what is below is b(1) - b(0)."""
+    if problem.conditions.order == 1:
+        return inf, inf
+    drop = abs(space.velocity_change)
+    return 2.0 * greatest.get("C_plus", inf) + drop, 2.0 * greatest.get("C_minus", inf) + drop
+
+
+def spread(expression: Expression, claim: float, bounds: dict[str, float]) -> None:
+    """Note in `bounds` what the constants of an expression are at most, where its value is below the claim."""
+    for weight, term in expression.terms:
+        name = repr(term)
+        bounds[name] = min(bounds.get(name, inf), claim / weight)
+        if isinstance(term, Maximum):
+            for part in term.parts:
+                spread(part, claim / weight, bounds)
+
+
+def _means(certificate: Certificate, space: LawSpace, greatest: dict[str, float]) -> list[tuple[int, float]]:
+    """Orders of derivatives whose mean magnitude is bounded, with the bound for law and base law together."""
+    means = [(2, greatest.get("C", inf)), (2, greatest.get("rms_c", inf)), (3, greatest.get("J", inf))]
+    means += [(2, mean) for mean in _from_one_sign(certificate.problem, space, greatest)]
+    means += [(3, greatest.get("rms_j", inf)), (4, greatest.get("jounce", inf))]
+    stroke = abs(space.stroke)
+    if "D" in greatest and certificate.problem.order > 1 and space.start_velocity == 0.0:
+        # b² <= 2 D k from rest
+        means += [(1, greatest["D"] ** 0.5)]
+    means += [(1, 2.0 * greatest.get("B", inf) + stroke)]
+    if certificate.problem.monotone:
+        means += [(1, stroke)]
+    for one in certificate.problem.constants:
+        size = greatest.get(one.name, inf)
+        means += [(nu, factor * (size**0.5 if isinstance(one, Power) else size)) for nu, factor in one.curbs()]
+    least: dict[int, float] = {}
+    for nu, mean in means:
+        if isfinite(mean):
+            least[nu] = min(least.get(nu, inf), mean)
+    return [(nu, mean + _base_rms(space, nu)) for nu, mean in least.items()]
+
+
+def _base_rms(space: LawSpace, nu: int) -> float:
+    def computed() -> Array:
+        rule = space.quadrature(nu)
+        return np.sqrt(np.array([rule.weights @ rule.values[:, -1] ** 2], dtype=np.float64))
+
+    return float(space.cached(("RMS", nu), computed)[0])
+
+
+def _extension(space: LawSpace, nu: int) -> Array:
+    """Matrix from a functional's values on the free functions to weights of moments of the derivative of order nu.
+
+    A moment is the integral of the derivative times a function that is nowhere above 1 in magnitude, so at most its
+    mean magnitude; for polynomials these are Legendre's.
+    """
+
+    def computed() -> Array:
+        rule = space.quadrature(nu)
+        moments = rule.moments.T @ (rule.weights[:, None] * rule.values[:, :-1])
+        return np.asarray(np.linalg.pinv(moments.T), dtype=np.float64)
+
+    return space.cached(("extension", nu), computed)

@@ -1,0 +1,220 @@
+"""Why there is no law: infeasible, with proof and with what would help, or a failure of the solver."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import ceil, floor
+
+import numpy as np
+
+from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.family import Points
+from optlaws.synthesis.limits.of_problem import known_limit
+from optlaws.synthesis.method.equations import contradiction
+from optlaws.synthesis.method.exchange import Outcome, as_answered, solve
+from optlaws.synthesis.method.grids import exchanged, first_points
+from optlaws.synthesis.method.highs import vertex_on_points
+from optlaws.synthesis.problem.constants import C
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model
+from optlaws.synthesis.proof.certificate import OBJECTIVE, VIOLATION, Certificate
+from optlaws.synthesis.proof.make import certificate, violation_certificate
+from optlaws.synthesis.spaces.bases import Basis, PolynomialBasis
+
+_WEIGHTLESS = 1e-9
+_ROUNDING = 1e-12
+_ROUNDS = 6
+_PLAIN = 2  # so few equations contradict each other whatever freedom the law has
+_MORE_FREEDOM = {
+    PolynomialBasis: "A higher degree of Z",
+    Basis: "More pieces, a higher degree, a lower continuity",
+}
+
+_TEXT = {
+    "chord": "b <= B",
+    "b": "|b| <= B",
+    "ratio": "b >= 0",
+    "forward": "b >= 0",
+    "C": "|c| <= C",
+    "J": "|j| <= J",
+    "D": "|d| <= D",
+}
+
+
+def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFailure:
+    """The error to raise; an elastic phase tells which constraints contradict each other, or a limit does."""
+    tried = f"IPOPT said {outcome.status!r} after {outcome.iterations} iterations, {outcome.rounds} rounds of exchange"
+    straight = _convex_part(problem)
+    elastic = least_violation(straight)
+    disagreement = _disagreement(straight, elastic)
+    if disagreement is not None:
+        return InfeasibleProblem(
+            _disagreeing(problem, disagreement, elastic),
+            problem=problem,
+            proof=disagreement,
+            tried="the equations contradict each other by linear algebra alone (error.proof has their multipliers)",
+        )
+    trial = solve(elastic.program)
+    proof = None if trial.optimum is None else violation_certificate(straight, elastic, trial.optimum)
+    if proof is None or not proof.proves_infeasible:
+        proof = _at_vertices(straight, elastic) or proof
+    if proof is not None and proof.proves_infeasible:
+        return InfeasibleProblem(
+            _why(problem, proof, elastic), problem=problem, proof=proof, tried=_contradiction(proof)
+        )
+    if trial.optimum is not None:
+        tried += f"; the constraints leave {-trial.optimum.x[-1]:.3e} to spare"
+    beyond = _beyond_limit(problem)
+    if beyond:
+        return InfeasibleProblem(beyond, problem=problem, tried=tried)
+    least = _out_of_reach(problem, elastic)
+    if least is not None:
+        return InfeasibleProblem(
+            f"no law of this problem has {least.problem.minimise} below {least.bound:.6g}, proven by error.proof. A "
+            "higher degree of Z or a lower order helps",
+            problem=problem,
+            proof=least,
+            tried=tried,
+        )
+    msg = "no law was found, and none was shown not to exist; try a degree higher or lower by 2, or other numbers"
+    return SolverFailure(msg, problem=problem, tried=tried)
+
+
+def _convex_part(problem: Problem) -> Problem:
+    """The problem without the bounds that are not convex: what contradicts itself there does so with them too."""
+    kept = {one: asked for one, asked in problem.bounded if one.convex}
+    if len(kept) == len(problem.bounded):
+        return problem
+    return replace(problem, C=None, D=None, J=None, bounds=kept)
+
+
+def _beyond_limit(problem: Problem) -> str:
+    """Which constant is asked to be below what no law of any degree can beat; empty if none is."""
+    for constant, asked in problem.bounded:
+        least = known_limit(replace(problem, minimise=constant.expression()))
+        if least is not None and asked.high < least * (1.0 - _ROUNDING):
+            return (
+                f"no law of any degree has {constant!r} <= {asked.high:g} with the other constraints: "
+                f"its limit is {least:.7g} (optlaws.limit). A higher bound of {constant!r} helps, or another B"
+            )
+    return ""
+
+
+def _contradiction(proof: Certificate) -> str:
+    where = {one.name: one.where for one in proof.problem.constants}
+    acting = [contact for contact in proof.contacts if contact.multiplier > 0.0]
+    words = [where.get(one.constraint, C.where)(one.k).partition(" = ") for one in acting]
+    symbols = dict.fromkeys(symbol for symbol, _, _ in words)
+    places = ", ".join(f"{one} = {', '.join(at for symbol, _, at in words if symbol == one)}" for one in symbols)
+    return f"the constraints contradict each other at {places} (error.proof is the certificate)"
+
+
+def _out_of_reach(problem: Problem, elastic: Model) -> Certificate | None:
+    """Proof that an amplitude cannot be as small as asked, from its least under all other constraints."""
+    cones = {family.name for family in elastic.program.families if isinstance(family, ConeFamily)}
+    for one, asked in problem.bounds.items():
+        others = {other: wanted for other, wanted in problem.bounds.items() if other != one}
+        if one.name in cones:
+            least = replace(problem, minimise=one.expression(), bounds=others)
+            found = model(least)
+            optimum = solve(found.program).optimum
+            proof = None if optimum is None else certificate(least, found, optimum, OBJECTIVE)
+            if proof is not None and proof.bound > asked.high:
+                return proof
+    return None
+
+
+def _why(problem: Problem, proof: Certificate, elastic: Model) -> str:
+    """Which constraints contradict each other: those with a multiplier in the proof."""
+    names = [_named(problem, c.constraint) for c in proof.contacts if c.multiplier > 0.0]
+    names += _equations(problem, proof, elastic)
+    asked = " and ".join(dict.fromkeys(reversed(names)))
+    return (
+        f"no law of order {problem.order} with {_shape(problem)} has {asked}. "
+        f"{_MORE_FREEDOM[_kind(problem)]} or a lower order helps{_possible(problem)}"
+    )
+
+
+def _disagreement(problem: Problem, elastic: Model) -> Certificate | None:
+    """Proof that the equations alone have no solution."""
+    weights = contradiction(elastic.program.equalities, elastic.program.right)
+    if weights is None:
+        return None
+    proof = Certificate(problem, (), tuple(weights.tolist()), VIOLATION)
+    return proof if proof.proves_infeasible else None
+
+
+def _at_vertices(problem: Problem, elastic: Model) -> Certificate | None:
+    """Proof by the simplex method that rows at finitely many places contradict each other: so do those everywhere."""
+    program = elastic.program
+    if program.curved:
+        return None
+    points = [
+        mine.joined(Points(np.tile(family.domain, len(family.signs)), np.repeat(family.signs, 2)))
+        for family, mine in zip(program.families, first_points(program), strict=True)
+    ]
+    for _ in range(_ROUNDS):
+        answer = vertex_on_points(program, points)
+        if answer is None:
+            return None
+        proof = violation_certificate(problem, elastic, as_answered(points, answer))
+        if proof.proves_infeasible:
+            return proof
+        points = [exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
+    return None
+
+
+def _disagreeing(problem: Problem, proof: Certificate, elastic: Model) -> str:
+    names = list(dict.fromkeys(_equations(problem, proof, elastic)))
+    law = f"no law of order {problem.order} with {_shape(problem)} has {' and '.join(names)}: "
+    if len(names) <= _PLAIN:
+        return f"{law}with the end conditions {'that' if len(names) == 1 else 'these'} cannot be. Leave one out"
+    return f"{law}these equations contradict each other. {_MORE_FREEDOM[_kind(problem)]} may help, or one left out"
+
+
+def _equations(problem: Problem, proof: Certificate, elastic: Model) -> list[str]:
+    """The equations that have a multiplier in the proof."""
+    return [
+        f"{name} = {problem.B:g}" if name == "b(1/2) = B" and isinstance(problem.B, float) else name
+        for name, weight in zip(elastic.equation_names, proof.equations, strict=True)
+        if abs(weight) > _WEIGHTLESS
+    ]
+
+
+def _kind(problem: Problem) -> type[PolynomialBasis | Basis]:
+    return PolynomialBasis if isinstance(problem.basis, PolynomialBasis) else Basis
+
+
+def _shape(problem: Problem) -> str:
+    basis = problem.basis
+    return f"Z of degree {basis.degree}" if isinstance(basis, PolynomialBasis) else repr(basis)
+
+
+def _named(problem: Problem, constraint: str) -> str:
+    if constraint.startswith("window "):
+        return repr(problem.windows[int(constraint.split()[1].rstrip(",")) - 1])
+    asked = problem.range(constraint)
+    if constraint not in _TEXT and asked is not None:
+        return f"{constraint} <= {asked.high:g}"
+    text = _TEXT.get(constraint, constraint)
+    value = getattr(problem, text[-1], None) if text[-1] in "CDJ" else None
+    return f"{text} = {value!r} everywhere" if value is not None else f"{text} everywhere"
+
+
+def _possible(problem: Problem) -> str:
+    """Which B this order and degree can have, to six digits, inward."""
+    if not isinstance(problem.B, float):
+        return ""
+    low, high = (_extreme(problem, greatest=greatest) for greatest in (False, True))
+    least = f"from {ceil(low * 1e6) / 1e6:.7g}" if low is not None else ""
+    greatest = f"up to {floor(high * 1e6) / 1e6:.7g}" if high is not None else ""
+    return f"; so does a B {' '.join(p for p in (least, greatest) if p)}" if least or greatest else ""
+
+
+def _extreme(problem: Problem, *, greatest: bool) -> float | None:
+    if greatest and problem.peak_at is None:
+        return None
+    found = extreme_velocity(problem, greatest=greatest)
+    optimum = solve(found.program).optimum
+    return None if optimum is None else float(optimum.x[found.places["B"]])

@@ -1,0 +1,117 @@
+"""From an optimum's multipliers to a certificate, and the best bound that can be proven."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+
+import numpy as np
+
+from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.family import NormFamily
+from optlaws.synthesis.method.exchange import solve
+from optlaws.synthesis.method.newton import ActiveSet
+from optlaws.synthesis.problem.constants import D
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import ROOT, Model, relaxed
+from optlaws.synthesis.proof.certificate import OBJECTIVE, RELAXED, VIOLATION, Certificate, Contact
+from optlaws.synthesis.spaces.bases import PolynomialBasis
+
+_TANGENTS = 4
+_PLACES = 256
+_NEAR = 0.9
+_NO_NORM = 1e-300
+_NOTHING = 1e-14
+
+
+def certify(problem: Problem, found: Model, optimum: ActiveSet, objective: float, limit: float | None) -> Certificate:
+    """The certificate of an optimum; of the relaxed program, solved here, where the problem is not convex.
+
+    The tangent begins at the root that the best law itself needs and is moved to where the relaxed optimum asks for
+    it, as long as that may pay: not below the limit.
+    """
+    if problem.convex:
+        return certificate(problem, found, optimum, OBJECTIVE)
+    tangent = _needed_root(found, optimum) or float(np.sqrt(objective))
+    best: Certificate | None = None
+    warm: ActiveSet | None = None
+    plain = _by_the_peak(problem)
+    if plain is not None and limit is not None and problem.objective.terms[0][0] * tangent**2 < limit:
+        # the best law obeys the relaxed program with that square for D: its bound cannot reach the limit
+        return plain
+    for _ in range(_TANGENTS):
+        loose = relaxed(problem, tangent)
+        outcome = solve(loose.program, warm)
+        warm = outcome.optimum
+        if warm is None:
+            break
+        proof = certificate(problem, loose, warm, RELAXED, tangent)
+        if best is None or proof.bound > best.bound:
+            best = proof
+        if limit is not None and best.bound < _NEAR * limit:
+            break
+        moved = float(warm.x[loose.places[ROOT]])
+        if abs(moved - tangent) < 1e-6 * tangent:
+            break
+        tangent = moved
+    return best if best is not None else Certificate(problem, (), (), RELAXED, tangent)
+
+
+def _by_the_peak(problem: Problem) -> Certificate | None:
+    """D >= B², without a solver: B = b(1/2) <= r, and D >= r² >= 2 t r - t² with t = B."""
+    (weight, term), *others = problem.objective.terms
+    plain = problem.symmetric and problem.boundary is None and isinstance(problem.basis, PolynomialBasis)
+    if others or term != D or not plain or problem.order == 1 or not isinstance(problem.B, float):
+        return None
+    found = relaxed(problem, problem.B)
+    pull = 2.0 * weight * problem.B / found.unit
+    contacts = (
+        Contact("tangent", 1.0, 0.0, weight / found.unit),
+        Contact("b / sqrt(2k)", 1.0, 0.5, pull),
+    )
+    equations = [0.0] * len(found.program.right)
+    equations[found.equation_names.index("b(1/2) = B")] = -pull
+    return Certificate(problem, contacts, tuple(equations), RELAXED, problem.B)
+
+
+def _needed_root(found: Model, optimum: ActiveSet) -> float:
+    """The least r with |b| <= r sqrt(2k) and r sqrt(2(1-k)) everywhere, nearly."""
+    k = np.arange(1, _PLACES) / _PLACES
+    if found.space.symmetric:
+        # the rest is its mirror image, and not every space has it
+        k = k[k <= 0.5]
+    family = found.space.derivative(1, "b", np.zeros(found.program.size))
+    velocity = family.value(optimum.x, family.u(k))
+    return float((np.abs(velocity) / np.sqrt(2.0 * np.minimum(k, 1.0 - k))).max())
+
+
+def certificate(problem: Problem, found: Model, optimum: ActiveSet, program: str, tangent: float = 0.0) -> Certificate:
+    """Contacts and multipliers of an optimum in terms of k."""
+    contacts = []
+    for i, family in enumerate(found.program.families):
+        mine = np.flatnonzero(optimum.family == i)
+        direction: tuple[float, ...] = ()
+        if isinstance(family, NormFamily):
+            image = family.matrix @ np.append(optimum.x, 1.0)
+            direction = tuple((image / max(float(np.linalg.norm(image)), _NO_NORM)).tolist())
+        for j, k in zip(mine, family.k(optimum.u[mine]), strict=True):
+            if isinstance(family, ConeFamily):
+                direction = family.direction(optimum.x, float(optimum.u[j]))
+            multiplier = float(optimum.multipliers[j])
+            place = float(min(max(k, 0.0), 1.0))
+            contacts.append(Contact(family.name, float(optimum.s[j]), place, multiplier, direction))
+    equations = tuple(optimum.equality_multipliers.tolist())
+    return Certificate(problem, tuple(contacts), equations, program, tangent)
+
+
+def violation_certificate(problem: Problem, found: Model, optimum: ActiveSet) -> Certificate:
+    """The certificate that no law exists, without multipliers that are mere rounding."""
+    sizes = (optimum.multipliers, optimum.equality_multipliers)
+    least = _NOTHING * max((float(np.abs(one).max(initial=0.0)) for one in sizes), default=0.0)
+    kept = [np.where(np.abs(one) < least, 0.0, one) for one in sizes]
+    plain = replace(optimum, multipliers=kept[0], equality_multipliers=kept[1])
+    return certificate(problem, found, plain, VIOLATION)
+
+
+def lower_bound(proof: Certificate, limit: float | None) -> float:
+    """The better of the certificate's bound and the limit."""
+    return max(proof.bound, -np.inf if limit is None else limit)

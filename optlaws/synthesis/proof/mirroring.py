@@ -1,0 +1,94 @@
+"""A symmetric optimum as one of the unsymmetric problem, where the mean of a law and its mirror image is no worse."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.laws import MotionLaw
+from optlaws.synthesis.families.family import Family, Program
+from optlaws.synthesis.method.newton import ActiveSet
+from optlaws.synthesis.problem.constants import Peak
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import Model
+
+Array = NDArray[np.float64]
+
+Contact = tuple[int, float, float, float]
+
+
+def unfolded(problem: Problem, found: Model, half: Model, optimum: ActiveSet) -> ActiveSet:
+    """The optimum of the program of symmetric laws as a point of that of all laws, with multipliers that fit it.
+
+    Each contact is there twice, at k and at 1 - k, with half its multiplier. The equations' multipliers are those that
+    leave least of the sum of rows; what the whole proves is for a certificate to say.
+
+    Parameters
+    ----------
+    problem, found
+        The unsymmetric problem and its program.
+    half, optimum
+        The program of the same problem with symmetric laws, and its optimum.
+    """
+    names = {family.name: i for i, family in enumerate(found.program.families)}
+    odd = {one.name for one in problem.constants if isinstance(one, Peak) and one.nu % 2 == 0}
+    contacts: list[Contact] = []
+    for i, family in enumerate(half.program.families):
+        if family.name in names:
+            target, sign = names[family.name], -1.0 if family.name in odd else 1.0
+            for j in np.flatnonzero(optimum.family == i):
+                row = (float(optimum.u[j]), float(optimum.s[j]), float(optimum.multipliers[j]))
+                contacts += _both(found.program.families[target], family, (target, *row), sign)
+    return _with_equations(found.program, _unfolded_point(found, half, optimum.x), contacts)
+
+
+def coordinates(found: Model, law: MotionLaw) -> Array:
+    """The coordinates of a law of the space, from its velocity at places that determine it."""
+    family = found.space.derivative(1, "b", np.zeros(found.program.size))
+    u = family.nodes()
+    if u is None:
+        u = np.cos((np.arange(2 * found.space.terms + 16) + 0.5) * np.pi / (2 * found.space.terms + 16))
+    columns = family.columns(u)[0]
+    velocities = np.array([float(law.b(k)) for k in np.clip(family.k(u), 0.0, 1.0).tolist()]) - columns[:, -1]
+    solution = np.linalg.lstsq(columns[:, : found.space.terms], velocities, rcond=None)[0]
+    return np.asarray(solution, dtype=np.float64)
+
+
+def _unfolded_point(found: Model, half: Model, x: Array) -> Array:
+    point = np.zeros(found.program.size)
+    law = half.space.law(x[: half.space.terms])
+    point[: found.space.terms] = coordinates(found, law)
+    for name, place in found.places.items():
+        # where B is given it is a variable of unsymmetric laws alone
+        point[place] = x[half.places[name]] if name in half.places else law.peak(1).value
+    return point
+
+
+def _both(family: Family, half: Family, contact: Contact, sign: float) -> list[Contact]:
+    target, u, s, multiplier = contact
+    if family.domain[0] == family.domain[1]:
+        return [(target, family.domain[0], s, multiplier)]
+    k = half.k(np.array([u]))
+    here, there = (float(np.clip(family.u(place), *family.domain)[0]) for place in (k, 1.0 - k))
+    return [(target, here, s, multiplier / 2.0), (target, there, s * sign, multiplier / 2.0)]
+
+
+def _with_equations(program: Program, x: Array, contacts: list[Contact]) -> ActiveSet:
+    family, u, s, multipliers = (np.array(column) for column in zip(*contacts, strict=True)) if contacts else [[]] * 4
+    family = np.asarray(family, dtype=np.intp)
+    u, s, multipliers = (np.asarray(one, dtype=np.float64) for one in (u, s, multipliers))
+    slope = program.objective.copy()
+    for i, one in enumerate(program.families):
+        mine = np.flatnonzero(family == i)
+        if len(mine):
+            slope += multipliers[mine] @ one.jet(x, u[mine], s[mine]).gradient
+    weights = np.linalg.lstsq(program.equalities.T, -slope, rcond=None)[0] if len(program.right) else np.empty(0)
+    return ActiveSet(
+        x=x,
+        family=family,
+        u=u,
+        s=s,
+        free=np.zeros(len(u), dtype=np.bool_),
+        multipliers=multipliers,
+        equality_multipliers=np.asarray(weights, dtype=np.float64),
+    )

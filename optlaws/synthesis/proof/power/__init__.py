@@ -1,0 +1,1 @@
+"""Tight lower bounds with D: boxes that hold all laws are shrunk until none is left."""

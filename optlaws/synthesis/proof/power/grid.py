@@ -1,0 +1,194 @@
+"""The rows of a box at finitely many places, scaled to the box, as a linear program."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily
+from optlaws.synthesis.proof.certificate import Contact
+from optlaws.synthesis.proof.power.certificate import Step
+from optlaws.synthesis.proof.power.rows import LEAST_POWER, POWER, Box, PowerRows
+
+Array = NDArray[np.float64]
+
+_PLACES = 16
+_NEAR = 1e-3
+_EMPTY = 1e-9
+_LIGHT = 1e-13
+_INFEASIBLE = 2
+_TOLERANCES = {"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10}
+
+
+@dataclass(frozen=True, eq=False)
+class Linear:
+    """Rows A z <= h and E z = f over the unit cube that a box is scaled to, with what they were before."""
+
+    matrix: Array
+    right: Array
+    length: Array
+    which: NDArray[np.intp]
+    equal: Array
+    equal_right: Array
+    equal_length: Array
+
+
+def _solved(goal: Array, rows: tuple[Array, Array], equations: tuple[Array, Array], last: float = 1.0) -> Any:  # noqa: ANN401
+    # scipy's result, imported late; its types know nothing of the tolerances
+    from scipy.optimize import linprog
+
+    solve: Any = linprog
+    return solve(
+        goal,
+        A_ub=rows[0],
+        b_ub=rows[1],
+        A_eq=equations[0],
+        b_eq=equations[1],
+        bounds=[(-1.0, 1.0)] * (len(goal) - 1) + [(-1.0, last)],
+        method="highs-ds",
+        options=_TOLERANCES,
+    )
+
+
+class Grid:
+    """The places k at which rows are held, for every family of the program and for the power."""
+
+    def __init__(self, rows: PowerRows, x: Array) -> None:
+        self.rows = rows
+        self.contacts: list[Contact] = []
+        self.fixed = np.empty((0, rows.size + 1))
+        self.k = np.empty(0)
+        self.velocity = self.acceleration = self.fixed
+        self._seen: dict[str, list[float]] = {}
+        last = 0.5 if rows.space.symmetric else 1.0
+        count = _PLACES + 2 * rows.terms
+        k = last * (1.0 - np.cos(np.pi * np.arange(1, count + 1) / (count + 1))) / 2.0
+        for family in rows.model.program.families:
+            if isinstance(family, NormFamily):
+                self._norm(family, x)
+            elif family.domain[0] == family.domain[1]:
+                self._join(family, family.k(np.array(family.domain[:1])))
+            else:
+                low, high = np.sort(family.k(np.array(family.domain)))
+                self._join(family, np.concatenate([k[(k > low) & (k < high)], [low, high]]))
+        self._power(np.append(k, last))
+        self.exchange(x, 0.0)
+
+    def exchange(self, x: Array, spacing: float) -> None:
+        """Take in the places where the law with variables x is near a bound, but none within the spacing of others."""
+        for family in self.rows.model.program.families:
+            if isinstance(family, NormFamily) or family.domain[0] == family.domain[1]:
+                continue
+            u, _, residual = family.extremes(x)
+            near = family.k(u[residual > -_NEAR * max(1.0, abs(family.room(x)))])
+            seen = self._seen.setdefault(family.name, [])
+            new = [k for k in near.tolist() if not seen or min(abs(k - one) for one in seen) > spacing]
+            if new:
+                self._join(family, np.array(new))
+
+    def _join(self, family: Family, k: Array) -> None:
+        self._seen.setdefault(family.name, []).extend(k.tolist())
+        if isinstance(family, ProductFamily):
+            self._power(k)
+        elif isinstance(family, LinearFamily):
+            joined = [Contact(family.name, sign, one, 0.0) for sign in family.signs for one in k.tolist()]
+            self._fix(joined)
+
+    def _fix(self, contacts: Sequence[Contact]) -> None:
+        self.contacts += contacts
+        self.fixed = np.vstack([self.fixed, self.rows.of_contacts(contacts, self.rows.root())])
+
+    def _norm(self, family: NormFamily, x: Array) -> None:
+        image = family.matrix @ np.append(x, 1.0)
+        length = float(np.linalg.norm(image))
+        if length > 0.0:
+            self._fix([Contact(family.name, 1.0, 0.0, 0.0, tuple((image / length).tolist()))])
+
+    def _power(self, k: Array) -> None:
+        self.k = np.append(self.k, k)
+        self.velocity = np.vstack([self.velocity, self.rows.derivative(1, k)])
+        self.acceleration = np.vstack([self.acceleration, self.rows.derivative(2, k)])
+
+    def _kinds(self, box: Box) -> list[tuple[str, float]]:
+        names = [POWER]
+        if self.rows.place is not None and box.low[self.rows.place] > 0.0:
+            names.append(LEAST_POWER)
+        return [(name, sign) for name in names for sign in (1.0, -1.0)]
+
+    def scaled(self, box: Box) -> Linear:
+        """The rows that may cut something off the box."""
+        rows = self.rows
+        triple = (self.k, self.velocity, self.acceleration)
+        parts = [self.fixed]
+        for name, sign in self._kinds(box):
+            parts.append(rows.power(box, triple, np.full(len(self.k), sign), least=name == LEAST_POWER))
+        parts.append(rows.objective()[None])
+        every = np.vstack(parts)
+        centre, half = (box.low + box.high) / 2.0, (box.high - box.low) / 2.0
+        matrix, right = every[:, :-1] * half, -every[:, -1] - every[:, :-1] @ centre
+        length = np.abs(matrix).sum(axis=1)
+        which = np.flatnonzero((length > right) & (length > _EMPTY * np.abs(every).max(axis=1)))
+        equations = rows.equations()
+        equal, equal_right = equations[:, :-1] * half, -equations[:, -1] - equations[:, :-1] @ centre
+        equal_length = np.abs(equal).sum(axis=1)
+        kept = np.where(equal_length > _EMPTY, equal_length, np.inf)
+        return Linear(
+            matrix[which] / length[which, None],
+            right[which] / length[which],
+            length[which],
+            which,
+            equal / kept[:, None],
+            np.where(np.isfinite(kept), equal_right / kept, 0.0),
+            kept,
+        )
+
+    def step(self, box: Box, variable: int, side: int) -> tuple[Step | None, Array | None]:
+        """The step that a linear program proves, and its answer; the emptiness of the box where it has none."""
+        linear, size = self.scaled(box), self.rows.size
+        goal = np.zeros(size)
+        goal[variable] = side
+        answer = _solved(goal, (linear.matrix, linear.right), (linear.equal, linear.equal_right))
+        if answer.status == _INFEASIBLE:
+            return self._empty(box, linear), None
+        if answer.x is None:
+            return None, None
+        half = (box.high - box.low) / 2.0
+        weights = (-answer.ineqlin.marginals * half[variable], -answer.eqlin.marginals * half[variable])
+        point = (box.low + box.high) / 2.0 + half * answer.x
+        return self._step(box, linear, (variable, side), weights), point
+
+    def _empty(self, box: Box, linear: Linear) -> Step | None:
+        """Multipliers of the least common violation of the rows."""
+        count, size = linear.matrix.shape
+        goal = np.append(np.zeros(size), 1.0)
+        matrix = np.column_stack([linear.matrix, -np.ones(count)])
+        equal = np.column_stack([linear.equal, np.zeros(len(linear.equal))])
+        answer = _solved(goal, (matrix, linear.right), (equal, linear.equal_right), inf)
+        if answer.x is None:
+            return None
+        return self._step(box, linear, (-1, 1), (-answer.ineqlin.marginals, -answer.eqlin.marginals))
+
+    def _step(self, box: Box, linear: Linear, move: tuple[int, int], weights: tuple[Array, Array]) -> Step:
+        multipliers = np.maximum(weights[0], 0.0) / linear.length
+        least = _LIGHT * float(multipliers.max(initial=0.0))
+        kinds = self._kinds(box)
+        contacts = []
+        objective = 0.0
+        for i, weight in zip(linear.which.tolist(), multipliers.tolist(), strict=True):
+            if weight <= least:
+                continue
+            if i < len(self.contacts):
+                one = self.contacts[i]
+                contacts.append(Contact(one.constraint, one.sign, one.k, weight, one.direction))
+            elif (place := i - len(self.contacts)) < len(kinds) * len(self.k):
+                name, sign = kinds[place // len(self.k)]
+                contacts.append(Contact(name, sign, float(self.k[place % len(self.k)]), weight))
+            else:
+                objective = weight
+        equations = tuple((weights[1] / linear.equal_length).tolist())
+        return Step(*move, tuple(contacts), equations, objective)

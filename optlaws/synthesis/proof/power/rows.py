@@ -1,0 +1,216 @@
+"""Rows that every law in a box obeys if its objective is below a claim: |b c| <= D made linear.
+
+A box bounds the velocity at as many places as the laws have coordinates, so it bounds every linear function of the
+law. Where it keeps b from zero, between L and U, the power's bound c <= D/b has a chord: 1/b <= 1/L + 1/U - b/(L U).
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import inf, isfinite, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.kept import kept_property
+from optlaws.synthesis.problem.constants import Peak
+from optlaws.synthesis.problem.expression import leaves
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import Model, model
+from optlaws.synthesis.proof.certificate import Contact, row_of, spread
+from optlaws.synthesis.proof.power.brackets import Anchors, velocity_brackets
+from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
+
+Array = NDArray[np.float64]
+
+POWER, LEAST_POWER = "power", "power, from the least D"
+# a velocity nearer to zero bounds no acceleration worth the name
+_AWAY = 1e-6
+_WORST = 1e10
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    """Least and greatest values of the variables: velocities at the points, then the program's own variables."""
+
+    low: Array
+    high: Array
+
+    def cut(self, variable: int, side: int, value: float) -> Box:
+        """With one side moved: from below (side 1) or from above (-1)."""
+        name = "low" if side > 0 else "high"
+        values = getattr(self, name).copy()
+        values[variable] = value
+        return replace(self, **{name: values})
+
+    def extent(self, rows: Array) -> tuple[Array, Array]:
+        """Least and greatest values in the box of affine functions, a row each with the constant last."""
+        rising, falling = np.maximum(rows[:, :-1], 0.0), np.minimum(rows[:, :-1], 0.0)
+        least = rising @ self.low + falling @ self.high + rows[:, -1]
+        return least, rising @ self.high + falling @ self.low + rows[:, -1]
+
+
+def applies(problem: Problem) -> bool:
+    """Whether the power of the problem's laws can be bounded by boxes: polynomials whose end velocities are given."""
+    found = model(problem)
+    # a peak of one sign may be below 0 where the velocity changes from end to end, and boxes begin at 0
+    one_sided = any(isinstance(leaf, Peak) and len(leaf.signs) == 1 for _, leaf in leaves(problem.objective))
+    if one_sided and problem.boundary is not None:
+        return False
+    known = isinstance(found.space, PolynomialSpace) and found.space.order > 1
+    return known and isfinite(greatest(problem, found, 1.0).get("D", inf))
+
+
+def greatest(problem: Problem, found: Model, claim: float) -> dict[str, float]:
+    """Greatest values of the constants in a law whose objective is below the claim."""
+    bounds: dict[str, float] = {}
+    spread(problem.objective, claim, bounds)
+    for name in ("B", *(one.name for one, _ in problem.bounded)):
+        asked = problem.range(name)
+        if asked is not None:
+            bounds[name] = min(bounds.get(name, inf), asked.high)
+    if "D" in bounds:
+        ends = (found.space.start_velocity, found.space.start_velocity + found.space.velocity_change)
+        bounds["B"] = min(bounds.get("B", inf), sqrt(max(map(abs, ends)) ** 2 + bounds["D"]))
+    return bounds
+
+
+class PowerRows:
+    """The rows of a problem under a claim, over the velocities at some points and the program's own variables.
+
+    Parameters
+    ----------
+    problem
+        One that `applies`.
+    claim
+        Laws with an objective below it are spoken of.
+    points
+        As many k in [0, 1] as the laws have coordinates, at which the velocities determine the law.
+    """
+
+    def __init__(self, problem: Problem, claim: float, points: Sequence[float]) -> None:
+        self.problem, self.claim, self.points = problem, claim, np.array(points, dtype=np.float64)
+        self.model = model(problem)
+        self.space = self.model.space
+        self.terms, self.size = self.space.terms, self.model.program.size
+        self.greatest = greatest(problem, self.model, claim)
+        self.place = self.model.places.get("D")
+        self.anchors = self._anchors()
+        self._families = {nu: self.space.derivative(nu, "", np.zeros(self.size)) for nu in (1, 2)}
+
+    @property
+    def regular(self) -> bool:
+        """Whether the velocities at the points determine the law, with digits to spare."""
+        if len(self.points) != self.terms:
+            return False
+        return float(np.linalg.cond(self.rows(1, self.points)[:, : self.terms])) < _WORST
+
+    @kept_property
+    def _map(self) -> tuple[Array, Array]:
+        """What makes coordinates of velocities at the points, and those of velocities 0 with their sign changed."""
+        columns = self.rows(1, self.points)[:, [*range(self.terms), -1]]
+        inverse: Array = np.linalg.inv(columns[:, :-1]).astype(np.float64)
+        return inverse, inverse @ columns[:, -1]
+
+    def _anchors(self) -> Anchors:
+        ends = self.space.start_velocity, self.space.start_velocity + self.space.velocity_change
+        anchors = Anchors(np.array([0.0, 1.0]), np.array(ends), np.array(ends))
+        asked, peak = self.problem.range("B"), self.problem.peak_at
+        if asked is not None and asked.low > 0.0 and peak is not None:
+            anchors = anchors.joined(np.array([peak]), np.array([asked.low]), np.array([self.greatest["B"]]))
+        return anchors
+
+    def root(self) -> Box:
+        """The box of all laws of the problem whose objective is below the claim."""
+        low, high = self.brackets_at(self.points)
+        others = sorted(self.model.places, key=self.model.places.__getitem__)
+        asked = self.problem.range("B")
+        least = [asked.low if name == "B" and asked is not None else 0.0 for name in others]
+        return Box(np.append(low, least), np.append(high, [self.greatest[name] for name in others]))
+
+    def brackets_at(self, k: Array) -> tuple[Array, Array]:
+        """Least and greatest velocity at the places k of all those laws."""
+        return self._everywhere(self.anchors, k)
+
+    def _everywhere(self, anchors: Anchors, k: Array) -> tuple[Array, Array]:
+        low, high = velocity_brackets(anchors, self.greatest["D"], k)
+        if self.problem.monotone:
+            low = np.maximum(low, 0.0)
+        return low, np.minimum(high, self.greatest["B"])
+
+    def coordinates(self, values: Array) -> Array:
+        """The coordinates of the law whose velocities at the points are the first of the values."""
+        inverse, base = self._map
+        found: Array = inverse @ values[: self.terms] - base
+        return found
+
+    def mapped(self, rows: Array) -> Array:
+        """Rows over the program's variables, the constant last, as rows over those of a box."""
+        inverse, base = self._map
+        free = rows[:, : self.terms]
+        return np.column_stack([free @ inverse, rows[:, self.terms : -1], rows[:, -1] - free @ base])
+
+    def rows(self, nu: int, k: Array) -> Array:
+        """The law's derivative at the places k over the program's variables, the constant last."""
+        family = self._families[nu]
+        found: Array = family.columns(family.u(k))[0]
+        return found
+
+    def derivative(self, nu: int, k: Array) -> Array:
+        """The same over the variables of a box."""
+        return self.mapped(self.rows(nu, k))
+
+    def brackets(self, box: Box, k: Array, velocity: Array) -> tuple[Array, Array]:
+        """Least and greatest velocity at the places k of the laws in the box."""
+        inside = self.anchors.joined(self.points, box.low[: self.terms], box.high[: self.terms])
+        low, high = self._everywhere(inside, k)
+        least, most = box.extent(velocity)
+        return np.maximum(low, least), np.minimum(high, most)
+
+    def power(self, box: Box, rows: tuple[Array, Array, Array], signs: Array, *, least: bool = False) -> Array:
+        """Rows s c <= D/|b| by the chord of 1/|b|, at places k given with the rows of b and c there.
+
+        Where D is a variable, D/|b| is bounded from its greatest value or from its least one. A row of zeros where
+        the box does not keep b from zero.
+        """
+        k, velocity, acceleration = rows
+        low, high = self.brackets(box, k, velocity)
+        forth = np.where(high < -_AWAY, -1.0, 1.0)
+        near, far = np.where(forth > 0.0, low, -high), np.where(forth > 0.0, high, -low)
+        away = (near > _AWAY) & (far >= near)
+        near, far = np.where(away, near, 1.0), np.where(away, far, 1.0)
+        D = self.greatest["D"] if self.place is None else (box.low if least else box.high)[self.place]
+        found = signs[:, None] * acceleration + (D / (near * far) * forth)[:, None] * velocity
+        if self.place is None:
+            found[:, -1] -= D / near + D / far
+        else:
+            other = near if least else far
+            found[:, self.place] -= 1.0 / other
+            found[:, -1] -= D / near + D / far - D / other
+        return np.where(away[:, None], found, 0.0)
+
+    def of_contacts(self, contacts: Sequence[Contact], box: Box) -> Array:
+        """The rows of contacts, each at most 0 with its constant: zeros where the problem does not ask for it."""
+        found = np.zeros((len(contacts), self.size + 1))
+        for name in (POWER, LEAST_POWER):
+            mine = [i for i, one in enumerate(contacts) if one.constraint == name]
+            k = np.array([contacts[i].k for i in mine])
+            signs = np.array([contacts[i].sign for i in mine])
+            if mine:
+                rows = (k, self.derivative(1, k), self.derivative(2, k))
+                found[mine] = self.power(box, rows, signs, least=name == LEAST_POWER)
+        for i, one in enumerate(contacts):
+            if one.constraint not in {POWER, LEAST_POWER}:
+                row, right = row_of(self.model.program, one)
+                found[i] = self.mapped(np.append(row, -right)[None])[0]
+        return found
+
+    def equations(self) -> Array:
+        """The program's equations, each 0 with its constant."""
+        program = self.model.program
+        return self.mapped(np.column_stack([program.equalities, -program.right]))
+
+    def objective(self) -> Array:
+        """The objective less the claim, at most 0."""
+        return np.append(self.model.program.objective, -self.claim / self.model.unit)

@@ -1,0 +1,155 @@
+"""The search for a power certificate: boxes are shrunk by linear programs, and cut in two where that stalls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.problem.constants import D
+from optlaws.synthesis.problem.expression import leaves
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import model
+from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step, moved_by
+from optlaws.synthesis.proof.power.grid import Grid
+from optlaws.synthesis.proof.power.rows import Box, PowerRows, applies
+
+Array = NDArray[np.float64]
+#: tells from the variables of some law whether its neighbourhood has a better one than the best known
+Explore = Callable[[Array], bool]
+
+#: how far below the best objective a claim is, and how many linear programs its proof may take
+_CLAIMS = ((2e-9, 1000), (1e-4, 300), (1e-2, 200), (1e-1, 100))
+#: up to so many coordinates; beyond, the programs grow and their number shrinks
+_COORDINATES = 11
+_CANDIDATES = 60
+_NARROW = 1e-3
+_STALLED = 0.8
+_SPACING = 1e-2
+_ROUNDS = 30
+_TINY = 1e-300
+# narrower, a variable is given
+_FLAT = 1e-9
+
+
+def tightened(problem: Problem, objective: float, x: Array, explore: Explore) -> PowerCertificate | None:
+    """The certificate of the highest claim that can be proven; None if none can, or if there is a better law.
+
+    Parameters
+    ----------
+    problem, objective, x
+        What is solved, the best objective known, and the variables of its law.
+    explore
+        Called with the variables of laws in boxes that resist; True ends the search.
+    """
+    if not applies(problem) or objective <= 0.0:
+        return None
+    share = min(1.0, (_COORDINATES / model(problem).space.terms) ** 3)
+    for gap, budget in _CLAIMS:
+        search = searched(problem, objective * (1.0 - gap), x, int(budget * share), explore)
+        if search.found is not None or search.overtaken:
+            return search.found
+    return None
+
+
+def searched(problem: Problem, claim: float, x: Array, budget: int, explore: Explore) -> Search:
+    """The search for the proof of one claim, done; x are the variables of a law with an objective above it."""
+    rows = PowerRows(problem, claim, _points(problem, claim))
+    search = Search(rows, Grid(rows, x), budget, explore)
+    search.run()
+    return search
+
+
+@dataclass(eq=False)
+class Search:
+    """A search for the proof of one claim.
+
+    Attributes
+    ----------
+    left
+        How many linear programs it may still solve.
+    found
+        The certificate; None before, and where they do not suffice.
+    overtaken
+        Whether a law was found that makes the claim worthless.
+    """
+
+    rows: PowerRows
+    grid: Grid
+    left: int
+    explore: Explore
+    found: PowerCertificate | None = None
+    overtaken: bool = False
+
+    def __post_init__(self) -> None:
+        root = self.rows.root()
+        self._steps: list[Step | Cut] = []
+        self._root_width = root.high - root.low
+        self._variables = [i for i in range(self.rows.terms) if self._root_width[i] > _FLAT]
+        alone = [leaf for _, leaf in leaves(self.rows.problem.objective)] == [D]
+        if self.rows.place is not None and not alone:
+            self._variables.append(self.rows.place)
+
+    def run(self) -> None:
+        """Empty one box after the other."""
+        boxes = [self.rows.root()]
+        while boxes:
+            box = self._shrunk(boxes.pop())
+            if box is None:
+                continue
+            self.overtaken = self.explore(self._variables_of((box.low + box.high) / 2.0))
+            if self.overtaken or self.left <= 0:
+                return
+            variable = max(self._variables, key=lambda i: (box.high[i] - box.low[i]) / self._root_width[i])
+            at = float(box.low[variable] + box.high[variable]) / 2.0
+            self._steps.append(Cut(variable, at))
+            boxes += [box.cut(variable, 1, at), box.cut(variable, -1, at)]
+        points = tuple(self.rows.points.tolist())
+        proof = PowerCertificate(self.rows.problem, self.rows.claim, points, tuple(self._steps))
+        self.found = proof if proof.proven else None
+
+    def _shrunk(self, box: Box) -> Box | None:
+        for _ in range(_ROUNDS):
+            before = (box.high - box.low)[self._variables]
+            for i in np.argsort(-before):
+                for side in (1, -1):
+                    moved = self._moved(box, self._variables[i], side)
+                    if moved is None:
+                        return None
+                    box = moved
+            after = (box.high - box.low)[self._variables]
+            ratio = np.maximum(after, _TINY) / np.maximum(before, _TINY)
+            if self.left <= 0 or float(np.exp(np.log(ratio).mean())) > _STALLED:
+                break
+        return box
+
+    def _moved(self, box: Box, variable: int, side: int) -> Box | None:
+        self.left -= 1
+        if self.left < 0:
+            return box
+        step, point = self.grid.step(box, variable, side)
+        if point is not None:
+            width = float((box.high - box.low)[: self.rows.terms].max())
+            self.grid.exchange(self._variables_of(point), _SPACING * width)
+        moved = box if step is None else moved_by(self.rows, box, step)
+        if step is not None and moved is not box:
+            self._steps.append(step)
+        return moved
+
+    def _variables_of(self, values: Array) -> Array:
+        return np.append(self.rows.coordinates(values), values[self.rows.terms :])
+
+
+def _points(problem: Problem, claim: float) -> list[float]:
+    """Places at which velocities determine the law well, and at which they are known well beforehand."""
+    space = model(problem).space
+    k = (0.5 if space.symmetric else 1.0) * np.sin(np.pi / 2 * np.arange(1, _CANDIDATES + 1) / _CANDIDATES)
+    from scipy.linalg import qr
+
+    rows = PowerRows(problem, claim, ())
+    low, high = rows.brackets_at(k)
+    weighted = rows.rows(1, k)[:, : space.terms] / (high - low + _NARROW)[:, None]
+    chosen = qr(weighted.T, pivoting=True, mode="r")[1][: space.terms]
+    return sorted(k[chosen].tolist())

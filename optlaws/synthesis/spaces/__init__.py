@@ -1,0 +1,1 @@
+"""The laws of a problem as a linear space: end conditions, bases, coordinates, rows."""

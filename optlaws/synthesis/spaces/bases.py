@@ -1,0 +1,288 @@
+"""Basis functions W_i(k) of the free function Z(k) = sum z_i W_i(k) of eq. 8."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from math import comb
+from typing import Any, ClassVar, cast
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.numbers import MOST_DEGREE, MOST_PIECE_DEGREE, fractions, whole
+from optlaws.series.exact import (
+    chebyshev_from_powers,
+    exact_powers,
+    powers_from_chebyshev,
+    rounded,
+)
+from optlaws.synthesis.spaces.breaks import mirrored, order_of_continuity, places
+
+Array = NDArray[np.float64]
+
+
+class Basis(ABC):
+    """In what a law is sought; subclasses are frozen values. `name` calls it in problem files.
+
+    Examples
+    --------
+    >>> sorted(Basis.kinds)
+    ['bernstein', 'bsplines', 'chebyshev', 'pieces', 'powers']
+    """
+
+    name: ClassVar[str]
+    kinds: ClassVar[dict[str, type[Basis]]] = {}
+
+    def __init_subclass__(cls, **kwargs: Any) -> None:  # noqa: ANN401 - whatever a subclass declares
+        super().__init_subclass__(**kwargs)
+        if "name" in cls.__dict__:
+            Basis.kinds[cls.name] = cls
+
+    @property
+    def mirrored(self) -> bool:
+        """Whether it is known to hold with every law from rest to rest its mirror image too."""
+        return False
+
+    @abstractmethod
+    def check(self, *, symmetric: bool) -> None:
+        """Refuse what leaves no freedom, by an InputError."""
+
+    @abstractmethod
+    def to_dict(self) -> dict[str, Any]:
+        """Its name and its parameters, plain."""
+
+
+@dataclass(frozen=True)
+class PolynomialBasis(Basis):
+    """A chosen basis W_0, ..., W_degree for Z(k), dimensionless; subclasses say which.
+
+    A new basis is one subclass: give it a `name` and the two conversions.
+
+    Raises
+    ------
+    InputError
+        If `degree` is not an integer of at least 0.
+
+    Examples
+    --------
+    >>> Powers(3).degree, Chebyshev(3).size
+    (3, 4)
+    """
+
+    degree: int
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "degree", whole(self.degree, "degree of Z", most=MOST_DEGREE))
+
+    @property
+    def mirrored(self) -> bool:
+        """Always: Z(1-k) has the degree of Z(k)."""
+        return True
+
+    @property
+    def size(self) -> int:
+        """Number of basis functions, degree + 1."""
+        return self.degree + 1
+
+    def check(self, *, symmetric: bool) -> None:
+        """Refuse a degree that leaves no freedom."""
+        if self.degree < (1 if symmetric else 0):
+            raise InputError(
+                f"degree {self.degree} leaves no freedom: b(1/2) = B takes the one coefficient of Z that is "
+                "odd about k = 1/2, so the degree of Z must be at least 1 (3 or more to optimise)"
+            )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Name and degree."""
+        return {"basis": self.name, "degree": self.degree}
+
+    @abstractmethod
+    def coefficients(self, series: Array) -> tuple[float, ...]:
+        """z_0, ..., z_degree of a Z given by its Chebyshev series in 2k - 1."""
+
+    @abstractmethod
+    def series(self, z: Sequence[float]) -> Array:
+        """Chebyshev series in 2k - 1 of Z(k) = sum z_i W_i(k)."""
+
+
+class Powers(PolynomialBasis):
+    """W_i(k) = k^i, the basis of the paper; coefficients in ascending powers.
+
+    Examples
+    --------
+    >>> Powers(1).series([-3.0, 6.0]).tolist()
+    [0.0, 3.0]
+    """
+
+    name = "powers"
+
+    def coefficients(self, series: Array) -> tuple[float, ...]:
+        """Ascending powers, converted by exact arithmetic and rounded once."""
+        return _fitted(powers_from_chebyshev(series), self.size)
+
+    def series(self, z: Sequence[float]) -> Array:
+        """Chebyshev series, converted by exact arithmetic and rounded once."""
+        return np.asarray(chebyshev_from_powers(_sized(z, self)), dtype=float)
+
+
+class Chebyshev(PolynomialBasis):
+    """W_i(k) = T_i(2k - 1), well conditioned at any degree.
+
+    Examples
+    --------
+    >>> Chebyshev(1).coefficients(np.array([0.0, 3.0]))
+    (0.0, 3.0)
+    """
+
+    name = "chebyshev"
+
+    def coefficients(self, series: Array) -> tuple[float, ...]:
+        """The series itself, to degree + 1 terms."""
+        return _fitted(series, self.size)
+
+    def series(self, z: Sequence[float]) -> Array:
+        """The coefficients themselves."""
+        return np.asarray(_sized(z, self), dtype=float)
+
+
+class Bernstein(PolynomialBasis):
+    """W_i(k) = C(n, i) k^i (1-k)^(n-i), n the degree: Z lies within the hull of its coefficients.
+
+    Examples
+    --------
+    >>> Bernstein(1).coefficients(np.array([0.0, 3.0]))
+    (-3.0, 3.0)
+    """
+
+    name = "bernstein"
+
+    def coefficients(self, series: Array) -> tuple[float, ...]:
+        """Bernstein coefficients, converted by exact arithmetic and rounded once."""
+        n = self.degree
+        powers = exact_powers(fractions(_fitted(series, self.size), "series"))
+        return rounded(
+            sum((powers[j] * Fraction(comb(i, j), comb(n, j)) for j in range(i + 1)), Fraction(0)) for i in range(n + 1)
+        )
+
+    def series(self, z: Sequence[float]) -> Array:
+        """Chebyshev series, converted by exact arithmetic and rounded once."""
+        n = self.degree
+        exact = fractions(_sized(z, self), "z")
+        powers = [
+            comb(n, j) * sum(((-1) ** (j - i) * comb(j, i) * exact[i] for i in range(j + 1)), Fraction(0))
+            for j in range(n + 1)
+        ]
+        return np.asarray(chebyshev_from_powers(powers), dtype=float)
+
+
+@dataclass(frozen=True)
+class Pieces(Basis):
+    """A free law, polynomial between breaks, in place of a Z: few pieces come near the limits.
+
+    Parameters
+    ----------
+    breaks
+        Dimensionless times from 0 to 1, increasing; a number asks for so many pieces of equal length. Symmetric
+        laws need 1/2 among them and the breaks symmetric about it.
+    degree
+        Degree of a(k) on each piece, at least 2.
+    continuity
+        Order up to which the derivatives of a are continuous at the breaks, 1 to degree - 1: 2 for a continuous
+        acceleration, 3 for a continuous jerk.
+
+    Raises
+    ------
+    InputError
+        If the breaks do not increase from 0 to 1 or the orders do not fit.
+
+    Examples
+    --------
+    >>> Pieces(4).breaks
+    (0.0, 0.25, 0.5, 0.75, 1.0)
+    """
+
+    breaks: tuple[float, ...]
+    degree: int = 5
+    continuity: int = 3
+    name = "pieces"
+
+    def __init__(self, breaks: int | Sequence[float], degree: int = 5, continuity: int = 3) -> None:
+        object.__setattr__(self, "breaks", places(breaks))
+        object.__setattr__(self, "degree", whole(degree, "degree of the pieces", least=2, most=MOST_PIECE_DEGREE))
+        object.__setattr__(self, "continuity", order_of_continuity(continuity, self.degree))
+
+    @classmethod
+    def around(cls, switches: Sequence[float], width: float, degree: int = 4, continuity: int = 3) -> Pieces:
+        """Pieces that leave room for quick changes of acceleration around the given switches, `width` each.
+
+        Take the breaks of a limit law: the optimum then comes near the limit as the width goes to 0.
+
+        Examples
+        --------
+        >>> Pieces.around((0.0, 0.5, 1.0), 0.02).breaks
+        (0.0, 0.02, 0.49, 0.5, 0.51, 0.98, 1.0)
+        """
+        half = width / 2.0
+        found = {0.0, 0.5, 1.0}
+        for k in switches:
+            found |= {width} if k == 0.0 else {1.0 - width} if k == 1.0 else {k - half, k + half}
+        return cls(sorted({round(k, 15) for k in found}), degree, continuity)
+
+    @property
+    def mirrored(self) -> bool:
+        """Where the breaks are symmetric about 1/2 and 1/2 is among them."""
+        return 0.5 in self.breaks and mirrored(self.breaks)
+
+    def check(self, *, symmetric: bool) -> None:
+        """Refuse breaks that are not symmetric where the law is to be."""
+        if symmetric and not self.mirrored:
+            raise InputError(
+                f"a symmetric law needs breaks symmetric about 1/2 and 1/2 among them, got {self.breaks!r}"
+            )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Name, breaks, degree and continuity."""
+        return {"basis": self.name, "breaks": list(self.breaks), "degree": self.degree, "continuity": self.continuity}
+
+
+def basis(name: str, degree: int, **parameters: Any) -> Basis:  # noqa: ANN401 - the basis checks them
+    """The basis called `name` with the given degree and, for B-splines and pieces, breaks and continuity.
+
+    Raises
+    ------
+    InputError
+        If the name is unknown or a parameter does not fit.
+
+    Examples
+    --------
+    >>> basis("chebyshev", 9)
+    Chebyshev(degree=9)
+    """
+    if not _known(name):
+        raise InputError(f"basis {shortened(name)} is unknown; known are {', '.join(sorted(Basis.kinds))}")
+    kind: Any = Basis.kinds[name]
+    try:
+        return cast("Basis", kind(degree=degree, **parameters))
+    except TypeError as error:
+        raise InputError(f"basis {name!r} does not take these parameters: {error}") from None
+
+
+def _known(name: object) -> bool:
+    return isinstance(name, str) and name in Basis.kinds
+
+
+def _sized(z: Sequence[float], chosen: PolynomialBasis) -> Sequence[float]:
+    if len(z) != chosen.size:
+        msg = f"{chosen!r} takes {chosen.size} coefficients z, got {len(z)}"
+        raise InputError(msg)
+    return z
+
+
+def _fitted(values: Sequence[float] | Array, size: int) -> tuple[float, ...]:
+    kept = [float(v) for v in values[:size]]
+    return tuple(kept + [0.0] * (size - len(kept)))

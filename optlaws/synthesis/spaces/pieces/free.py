@@ -1,0 +1,155 @@
+"""Free piecewise-polynomial laws: an acceleration in B-splines, the end conditions as equations."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from itertools import pairwise
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.segment import PolynomialSegment
+from optlaws.series.gegenbauer import chebyshev_series
+from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+from optlaws.synthesis.spaces.pieces.forward import above_rest
+from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
+from optlaws.synthesis.spaces.pieces.space import PiecewiseSpace
+from optlaws.synthesis.spaces.space import Equation
+
+Array = NDArray[np.float64]
+
+
+class PieceSpace(PiecewiseSpace):
+    """Laws that are polynomials of a degree between breaks, with derivatives continuous up to an order.
+
+    Coordinates are the coefficients of the acceleration in B-splines, which makes them local and well conditioned.
+    Where `symmetric` they describe the first half only.
+
+    Examples
+    --------
+    >>> space = piece_space(BoundaryConditions.rest(2), (0.0, 0.5, 1.0), 2, 1, symmetric=False)
+    >>> space.terms
+    2
+    """
+
+    def __init__(
+        self, boundary: BoundaryConditions, breaks: tuple[float, ...], degree: int, continuity: int, *, symmetric: bool
+    ) -> None:
+        super().__init__(breaks, continuity, symmetric=symmetric)
+        self.boundary = boundary
+        kept = np.array([k for k in breaks if not symmetric or k <= 0.5])
+        self.k = kept
+        self._order = degree - 2
+        self._acceleration = self._splines(kept, self._order, self._order - (continuity - 2))
+        self._free_start = boundary.order == 1
+        if self._free_start:
+            # one more coordinate: the velocity at the start, beyond that of a = a(0) + stroke k
+            self._acceleration = np.insert(self._acceleration, -1, 0.0, axis=2)
+        self.terms = self._acceleration.shape[2] - 1
+        self._pieces[2] = PieceSeries(1.0 - 2.0 * kept, self._acceleration)
+        self.stroke = float(boundary.end[0]) - float(boundary.start[0])
+        self.start_velocity = self.stroke if self._free_start else float(boundary.start[1])
+        end_velocity = self.stroke if self._free_start else float(boundary.end[1])
+        self.velocity_change = end_velocity - self.start_velocity
+
+    @staticmethod
+    def _splines(breaks: Array, order: int, multiplicity: int) -> Array:
+        """Chebyshev series of every B-spline on every piece, and a zero column for the base law."""
+        from scipy.interpolate import BSpline
+
+        inner = np.repeat(breaks[1:-1], multiplicity)
+        knots = np.concatenate([np.repeat(breaks[0], order + 1), inner, np.repeat(breaks[-1], order + 1)])
+        count = len(knots) - order - 1
+        angle = (np.arange(order + 1) + 0.5) * np.pi / (order + 1)
+        series = np.zeros((len(breaks) - 1, order + 1, count + 1))
+        splines = BSpline(knots, np.eye(count), order)
+        for i, (low, high) in enumerate(pairwise(breaks.tolist())):
+            # the local variable falls with k
+            values = splines(low + (high - low) * (1.0 - np.cos(angle)) / 2.0)
+            series[i, :, :-1] = chebyshev_series(values, angle)
+        return series
+
+    def pieces(self, nu: int) -> PieceSeries:
+        """Piecewise series of the derivative of order nu, the base law's column last."""
+        if nu not in self._pieces:
+            if nu > 2:
+                lower = self.pieces(nu - 1).derivative()
+                self._pieces[nu] = PieceSeries(lower.breaks, -2.0 * lower.series)
+            else:
+                value = np.zeros(self.terms + 1)
+                value[-1] = self.start_velocity if nu == 1 else float(self.boundary.start[0])
+                if nu == 1 and self._free_start:
+                    value[-2] = 1.0
+                self._pieces[nu] = self._integrated(self.pieces(nu + 1), value)
+        return self._pieces[nu]
+
+    @staticmethod
+    def _integrated(pieces: PieceSeries, value: Array) -> PieceSeries:
+        found = []
+        for i, series in enumerate(pieces.series):
+            length = (pieces.breaks[i] - pieces.breaks[i + 1]) / 2.0
+            # against the local variable, which falls with k and is 1 at the piece's start
+            whole = -np.asarray(chebyshev.chebint(series, axis=0)) * length / 2.0
+            whole[0] += value - whole.sum(axis=0)
+            found.append(whole)
+            value = np.asarray(chebyshev.chebval(-1.0, whole))
+        return PieceSeries(pieces.breaks, np.stack(found))
+
+    def forward(self, slack: Array) -> Family:
+        """Rows b >= 0, from rest to rest divided by what they vanish like at the ends."""
+        order = self.boundary.order
+        whole = len(self.k) == 2 and not self.symmetric
+        if order == 1 or whole or self.boundary != BoundaryConditions.rest(order):
+            return super().forward(slack)
+        pieces = self._wide(above_rest(self.pieces(1), self.pieces(order), order), len(slack))
+        return PieceFamily("ratio", slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces)
+
+    def equations(self) -> list[Equation]:
+        """The end conditions that the base law and the splines do not keep by themselves."""
+        order = self.boundary.order
+        found = [(nu, 0.0, float(self.boundary.start[nu])) for nu in range(2, order)]
+        if self.symmetric:
+            found += [(0, 0.5, 0.5 * (float(self.boundary.start[0]) + float(self.boundary.end[0])))]
+            found += [(nu, 0.5, 0.0) for nu in range(2, min(self.continuity, self._order + 2) + 1, 2)]
+        else:
+            found += [(nu, 1.0, float(self.boundary.end[nu])) for nu in range(order)]
+        symbols = ("a", "b", "c", "j")
+        rows = []
+        for nu, k, value in found:
+            row = self.row(nu, k)
+            symbol = symbols[nu] if nu < len(symbols) else f"a^({nu})"
+            rows.append(Equation(f"{symbol}({k:g}) = {value:g}", row[:-1], value - float(row[-1])))
+        return rows
+
+    def law(self, coordinates: Array) -> PiecewiseLaw:
+        """The law with the given coordinates."""
+        point = np.append(coordinates, 1.0)
+        c, b = self.pieces(2).series @ point, self.pieces(1).series @ point
+        c[:, 1::2] *= -1.0
+        starts = b.sum(axis=1)
+        segments = [PolynomialSegment(tuple(one.tolist()), float(v)) for one, v in zip(c, starts, strict=True)]
+        breaks = self.k.tolist()
+        if self.symmetric:
+            ends = np.array([chebyshev.chebval(-1.0, one) for one in b])
+            mirror = -c[::-1]
+            mirror[:, 1::2] *= -1.0
+            segments += [
+                PolynomialSegment(tuple(one.tolist()), float(v)) for one, v in zip(mirror, ends[::-1], strict=True)
+            ]
+            breaks += [1.0 - k for k in breaks[-2::-1]]
+        return PiecewiseLaw(breaks, segments, float(self.boundary.start[0]))
+
+    def z_series(self, coordinates: Array) -> Array:  # noqa: ARG002
+        """Empty: the law is not written with a Z."""
+        return np.empty(0)
+
+
+@lru_cache(maxsize=16)
+def piece_space(
+    boundary: BoundaryConditions, breaks: tuple[float, ...], degree: int, continuity: int, *, symmetric: bool
+) -> PieceSpace:
+    """The space, kept for the next call."""
+    return PieceSpace(boundary, breaks, degree, continuity, symmetric=symmetric)

@@ -1,0 +1,146 @@
+"""Families whose functions are polynomials between breaks: splines and free piecewise laws."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+from optlaws.kept import kept_property
+from optlaws.series.chebyshev import product, real_parts_of_roots
+from optlaws.synthesis.families.family import LinearFamily, ProductFamily
+
+Array = NDArray[np.float64]
+
+_FLAT = 1e-9
+_BESIDE = 2.0**-50  # far enough from a break that k tells the side too
+
+
+@dataclass(frozen=True, eq=False)
+class PieceSeries:
+    """Breaks in u = 1 - 2k, descending from the piece at k = 0, and a Chebyshev series on each piece for each column.
+
+    Shape of `series`: (pieces, coefficients, columns). On piece i the local variable runs from -1 at breaks[i + 1] to
+    1 at breaks[i].
+    """
+
+    breaks: Array
+    series: Array
+
+    def place(self, u: Array) -> tuple[NDArray[np.intp], Array, Array]:
+        """Piece, local variable and its slope by u; a break belongs to the piece at smaller u, that is later k."""
+        count = len(self.breaks) - 1
+        piece = np.clip(np.searchsorted(-self.breaks, -u, side="right") - 1, 0, count - 1)
+        high, low = self.breaks[piece], self.breaks[piece + 1]
+        slope = 2.0 / (high - low)
+        return piece, np.clip((u - low) * slope - 1.0, -1.0, 1.0), slope
+
+    def derivative(self) -> PieceSeries:
+        """Series of the derivative by u."""
+        slope = 2.0 / (self.breaks[:-1] - self.breaks[1:])
+        lower = chebyshev.chebder(self.series, axis=1) if self.series.shape[1] > 1 else np.zeros_like(self.series)
+        return PieceSeries(self.breaks, np.asarray(lower) * slope[:, None, None])
+
+    def values(self, u: Array) -> Array:
+        """Columns at the points u, shape (points, columns)."""
+        piece, local, _ = self.place(u)
+        vander = chebyshev.chebvander(local, self.series.shape[1] - 1)
+        return np.asarray(np.einsum("pm,pmc->pc", vander, self.series[piece]))
+
+    def global_places(self, piece: int, local: Array) -> Array:
+        """The u of local places on a piece."""
+        high, low = self.breaks[piece], self.breaks[piece + 1]
+        places: Array = low + (local + 1.0) * (high - low) / 2.0
+        return places
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PieceFamily(LinearFamily):
+    """A linear family of piecewise polynomials; contacts at breaks are kinks and stay where they are."""
+
+    pieces: PieceSeries
+    jumps: bool = False
+
+    @kept_property
+    def corners(self) -> Array:
+        """The breaks; where f jumps there, the places just before and just after each."""
+        breaks = self.pieces.breaks
+        if not self.jumps:
+            return breaks
+        return np.concatenate([breaks[[0, -1]], breaks[1:-1] + _BESIDE, breaks[1:-1] - _BESIDE])
+
+    def nodes(self) -> Array:
+        """Corners, and inside each piece as many points as its degree."""
+        count = self.pieces.series.shape[1]
+        local = np.cos((np.arange(count) + 0.5) * np.pi / count) if count > 2 else np.empty(0)
+        inner = [self.pieces.global_places(i, local) for i in range(len(self.pieces.breaks) - 1)]
+        found = np.concatenate([self.corners, *inner])
+        return found[(found >= self.domain[0]) & (found <= self.domain[1])]
+
+    @kept_property
+    def _derivatives(self) -> tuple[PieceSeries, PieceSeries, PieceSeries]:
+        first = self.pieces.derivative()
+        return self.pieces, first, first.derivative()
+
+    def columns(self, u: Array) -> Array:
+        """f's columns with two derivatives by u, shape (3, points, variables + 1)."""
+        return np.stack([pieces.values(u) for pieces in self._derivatives])
+
+    def value(self, x: Array, u: Array) -> Array:
+        """f at the points u."""
+        value: Array = self.pieces.values(u) @ np.append(x, 1.0)
+        return value
+
+    def stationary(self, x: Array) -> Array:
+        """Roots of the derivative on every piece, and the breaks."""
+        return _stationary(self, [self.pieces.series @ np.append(x, 1.0)])
+
+    def pinned(self, u: Array) -> NDArray[np.bool_]:
+        """Whether u is a corner."""
+        return np.isin(u, self.corners)
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PieceProductFamily(ProductFamily):
+    """A product of two piecewise linear families."""
+
+    first: PieceFamily
+    second: PieceFamily
+
+    def stationary(self, x: Array) -> Array:
+        """Roots of the product's derivative on every piece, and the breaks."""
+        point = np.append(x, 1.0)
+        return _stationary(self.second, [self.first.pieces.series @ point, self.second.pieces.series @ point])
+
+    def nodes(self) -> Array:
+        """Those of the acceleration."""
+        return self.second.nodes()
+
+    def pinned(self, u: Array) -> NDArray[np.bool_]:
+        """Whether u is a break."""
+        return self.second.pinned(u)
+
+
+def _stationary(family: PieceFamily, factors: list[Array]) -> Array:
+    """Roots of the derivative on every piece, the ends, and the corners that may be extrema."""
+    pieces = family.pieces
+    found, slopes = [], []
+    for i in range(len(pieces.breaks) - 1):
+        series = factors[0][i]
+        if len(factors) > 1:
+            series = product(factors[0][i], factors[1][i])
+        slope = np.asarray(chebyshev.chebder(series), dtype=np.float64)
+        slopes.append(np.asarray(chebyshev.chebval(np.array([1.0, -1.0]), slope)))
+        if np.abs(slope).max() > _FLAT * np.abs(series).max():
+            roots = real_parts_of_roots(slope)
+            found.append(pieces.global_places(i, roots[np.abs(roots) < 1.0]))
+    kept = np.ones(len(family.corners), dtype=np.bool_)
+    if not family.jumps:
+        # where the function goes on rising or falling, a corner is no extremum
+        kept[1:-1] = [
+            before[1] * after[0] <= _FLAT * max(before[1] ** 2, after[0] ** 2) for before, after in pairwise(slopes)
+        ]
+    return np.concatenate([family.corners[kept], *found])

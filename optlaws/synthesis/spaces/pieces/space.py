@@ -1,0 +1,133 @@
+"""Laws that are polynomials between breaks, as a linear space: what free pieces and Z in B-splines share."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.synthesis.families.family import Family, NormFamily
+from optlaws.synthesis.spaces.pieces.below_peak import below_peak
+from optlaws.synthesis.spaces.pieces.from_rest import PieceMirroredFamily, PieceRootFamily, mirrored
+from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceProductFamily, PieceSeries
+from optlaws.synthesis.spaces.space import LawSpace, Quadrature
+
+Array = NDArray[np.float64]
+
+
+class PiecewiseSpace(LawSpace):
+    """A space given by the piecewise series of every derivative, on the first half only where `symmetric`.
+
+    Attributes
+    ----------
+    breaks
+        All breaks of the laws, of both halves.
+    continuity
+        Order up to which the derivatives of every law are continuous at the breaks.
+    """
+
+    breaks: tuple[float, ...]
+    continuity: int
+
+    def __init__(self, breaks: tuple[float, ...], continuity: int, *, symmetric: bool) -> None:
+        super().__init__()
+        self.breaks, self.continuity, self.symmetric = breaks, continuity, symmetric
+        self.domain = (0.0, 1.0) if symmetric else (-1.0, 1.0)
+        self._pieces: dict[int, PieceSeries] = {}
+
+    @abstractmethod
+    def pieces(self, nu: int) -> PieceSeries:
+        """Piecewise series of the derivative of order nu, the base law's column last."""
+
+    def _finite(self, nu: int) -> None:
+        if nu > self.continuity + 1 and len(self.breaks) > 2:
+            raise InputError(
+                f"with continuity {self.continuity} the derivative of order {nu} has impulses at the breaks, which are "
+                f"beyond every bound: ask a continuity of at least {nu - 1}"
+            )
+
+    def _wide(self, pieces: PieceSeries, size: int) -> PieceSeries:
+        wide = np.zeros((*pieces.series.shape[:2], size + 1))
+        wide[:, :, : self.terms] = pieces.series[:, :, :-1]
+        wide[:, :, -1] = pieces.series[:, :, -1]
+        return PieceSeries(pieces.breaks, wide)
+
+    def combination(
+        self,
+        nu: int,
+        weights: tuple[float, ...],
+        name: str,
+        slack: Array,
+        bound: float = 0.0,
+        *,
+        signs: tuple[float, ...] = (1.0, -1.0),
+    ) -> PieceFamily:
+        """Rows s (w0 a^(nu) + w1 a^(nu+1) + ...) <= slack . x + bound."""
+        pieces = self._wide(self.combined(nu, weights), len(slack))
+        jumps = nu + len(weights) - 1 > self.continuity
+        return PieceFamily(name, slack, bound, signs, self.domain, series=np.zeros((1, 1)), pieces=pieces, jumps=jumps)
+
+    def combined(self, nu: int, weights: tuple[float, ...]) -> PieceSeries:
+        """Series of w0 a^(nu) + w1 a^(nu+1) + ..., the base law's column last."""
+        self._finite(nu + len(weights) - 1)
+        lowest = self.pieces(nu)
+        if weights == (1.0,):
+            return lowest
+        series = weights[0] * lowest.series
+        for i, weight in enumerate(weights[1:], 1):
+            one = self.pieces(nu + i).series
+            series[:, : one.shape[1]] += weight * one[:, : series.shape[1]]
+        return PieceSeries(lowest.breaks, series)
+
+    def power(
+        self, name: str, slack: Array, bound: float = 0.0, weights: tuple[float, ...] = (1.0,)
+    ) -> PieceProductFamily:
+        """Rows |b c| <= slack . x + bound; with weights, of w0 b + w1 c + ... and its derivative."""
+        first, second = (self.combination(nu, weights, name, slack) for nu in (1, 2))
+        return PieceProductFamily(name, slack, bound, (1.0, -1.0), self.domain, first=first, second=second)
+
+    def norm(self, nu: int, name: str, slack: Array, bound: float = 0.0) -> NormFamily:
+        """The row RMS of a^(nu) <= slack . x + bound."""
+        rule = self.quadrature(nu)
+        matrix = np.sqrt(rule.weights)[:, None] * rule.values
+        return NormFamily(name, slack, bound, matrix=self.widened(matrix, len(slack)))
+
+    def row(self, nu: int, k: float) -> Array:
+        """The derivative of order nu at k: free functions, then the base law."""
+        return np.asarray(self.pieces(nu).values(np.array([1.0 - 2.0 * k]))[0])
+
+    def below(self, slack: Array, peak: float = 0.5) -> Family:
+        """Rows b <= b(peak), divided by what they vanish like there: undivided they would be ill posed."""
+        series = below_peak(self.pieces(2), self.pieces(3), 1.0 - 2.0 * peak, smooth=self.continuity > 1)
+        pieces = self._wide(series, len(slack))
+        return PieceFamily("chord", slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces, jumps=True)
+
+    def forward(self, slack: Array) -> Family:
+        """Rows b >= 0."""
+        return self.derivative(1, "forward", slack, signs=(-1.0,))
+
+    def from_rest(
+        self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)
+    ) -> Family:
+        """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
+        pieces, signs, half = self._wide(self.combined(1, weights), len(slack)), (1.0, -1.0), (0.0, 1.0)
+        if backward:
+            return PieceMirroredFamily(name, slack, 0.0, signs, half, series=np.zeros((1, 1)), pieces=mirrored(pieces))
+        return PieceRootFamily(name, slack, 0.0, signs, half, series=np.zeros((1, 1)), pieces=pieces)
+
+    def quadrature(self, nu: int) -> Quadrature:
+        """Gauss points on every piece; moments are Legendre polynomials on one piece each."""
+        self._finite(nu)
+        pieces = self.pieces(nu)
+        count = pieces.series.shape[1] + 1
+        x, weights = legendre.leggauss(count)
+        share = 2.0 if self.symmetric else 1.0
+        number = len(pieces.breaks) - 1
+        u = np.concatenate([pieces.global_places(i, x) for i in range(number)])
+        lengths = (pieces.breaks[:-1] - pieces.breaks[1:]) / 2.0
+        moments = np.asarray(np.kron(np.eye(number), legendre.legvander(x, count - 1)), dtype=np.float64)
+        weighted = np.concatenate([share * length * weights / 2.0 for length in lengths])
+        return Quadrature(weighted, pieces.values(u), moments)

@@ -1,0 +1,1 @@
+"""Laws of eq. 8 with a polynomial Z."""

@@ -1,0 +1,271 @@
+"""The laws of eq. 8 with polynomial Z as a linear space with well-conditioned coordinates.
+
+With u = 1 - 2k the free part of the velocity is (k(1-k))^(l-1) times a polynomial. Gegenbauer polynomials of index
+l - 1/2 are orthogonal for that weight, those of degree 1 and more carry no stroke, and both Z(k) and c(k) are again
+Gegenbauer series (of index l + 1/2 and l - 3/2): every free function has a closed form and nothing is expanded.
+"""
+
+from __future__ import annotations
+
+from functools import lru_cache
+
+import numpy as np
+from numpy.polynomial import chebyshev, legendre
+from numpy.typing import NDArray
+
+from optlaws.kept import kept_property
+from optlaws.laws import PolynomialLaw
+from optlaws.series.gegenbauer import chebyshev_series, gegenbauer
+from optlaws.synthesis.families.family import (
+    EvenFamily,
+    Family,
+    LinearFamily,
+    MirroredFamily,
+    NormFamily,
+    ProductFamily,
+    RatioFamily,
+    RootFamily,
+)
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, construct
+from optlaws.synthesis.spaces.polynomials.below_peak import chord
+from optlaws.synthesis.spaces.space import LawSpace, Quadrature
+
+Array = NDArray[np.float64]
+
+
+class PolynomialSpace(LawSpace):
+    """Laws (8) with the given end conditions and Z of a degree, or, if `symmetric`, its part odd about k = 1/2 only.
+
+    The free functions are scaled so that each has peak acceleration 1. All is dimensionless.
+
+    Parameters
+    ----------
+    boundary
+        End conditions; if `symmetric`, those of a law with a(k) + a(1-k) = 1.
+    degree
+        Degree of Z.
+    symmetric
+        Keep to symmetric laws: half the coordinates, and constraints need to hold on half the interval only.
+
+    Examples
+    --------
+    >>> space = polynomial_space(BoundaryConditions.rest(4), 3, symmetric=True)
+    >>> space.terms, round(float(space.middle[-1]), 12)
+    (2, 2.1875)
+    """
+
+    def __init__(self, boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> None:
+        super().__init__()
+        self.boundary, self.degree, self.symmetric = boundary, degree, symmetric
+        self.order = boundary.order
+        self.at_rest = boundary == BoundaryConditions.rest(self.order)
+        self.domain = (0.0, 1.0) if symmetric else (-1.0, 1.0)
+        self.base = construct(boundary)
+        self.start_velocity = float(self.base.b(0.0))
+        self.velocity_change = float(self.base.b(1.0)) - self.start_velocity
+        self.stroke = float(self.base.a(1.0)) - float(self.base.a(0.0))
+        #: degrees of the free velocities' Gegenbauer polynomials; Z has one degree less
+        self.index = np.arange(2, degree + 2, 2) if symmetric else np.arange(1, degree + 2)
+        self.terms = len(self.index)
+        count = 2 * self.order + degree + 3
+        self._angle = (np.arange(count) + 0.5) * np.pi / count
+        self._u = np.cos(self._angle)
+        self._series: dict[int, Array] = {}
+
+    @kept_property
+    def _shapes(self) -> tuple[Array, Array, Array, Array]:
+        """Displacement, velocity, acceleration and Z of the free functions at the Chebyshev points, and their scale."""
+        l, m, u = self.order, self.index, self._u
+        weight = 1.0 - u * u
+        top = int(m[-1])
+        velocity = weight ** (l - 1) * gegenbauer(l - 0.5, top, u)[m]
+        if l == 1:
+            acceleration = -2.0 * gegenbauer(1.5, top, u)[m - 1]
+        else:
+            factor = 2.0 * (m + 1) * (m + 2 * l - 2) / (2 * l - 3)
+            acceleration = factor[:, None] * weight ** (l - 2) * gegenbauer(l - 1.5, top + 1, u)[m + 1]
+        step = (2 * l - 1) / (2.0 * m * (m + 2 * l - 1))
+        free = gegenbauer(l + 0.5, top - 1, u)[m - 1] * step[:, None]
+        displacement = weight**l * free
+        # k^l (k-1)^l is (-1/4)^l times the weight
+        return displacement, velocity, acceleration, (-4.0) ** l * free
+
+    @kept_property
+    def scale(self) -> Array:
+        """What makes each free function's peak acceleration 1."""
+        return np.asarray(1.0 / np.abs(self._shapes[2]).max(axis=1))
+
+    def series(self, nu: int) -> Array:
+        """Chebyshev series in u = 1 - 2k of the derivative of order nu, the base law's as the last column."""
+        if nu not in self._series:
+            if nu > 2:
+                lower = self.series(nu - 1)
+                found: Array = np.zeros_like(lower)
+                if len(lower) > 1:
+                    found = -2.0 * np.asarray(chebyshev.chebder(lower), dtype=np.float64)
+            else:
+                base = self.base(self._k, nu)
+                values = np.column_stack([(self._shapes[nu] * self.scale[:, None]).T, base])
+                # what lies beyond the degree is rounding
+                found = chebyshev_series(values, self._angle)[: 2 * self.order + self.degree + 1 - nu]
+                if self.symmetric:
+                    # a - 1/2 and c are odd about the middle, b is even: rounding must not blur it
+                    found[(1 if nu == 1 else (2 if nu == 0 else 0)) :: 2] = 0.0
+            found.setflags(write=False)
+            self._series[nu] = found
+        return self._series[nu]
+
+    @property
+    def _k(self) -> Array:
+        return np.asarray((1.0 - self._u) / 2.0)
+
+    def law(self, coordinates: Array) -> PolynomialLaw:
+        """The law with the given coordinates (one for each free function)."""
+        columns = self.series(2)
+        series = columns[:, :-1] @ coordinates + columns[:, -1]
+        series[1::2] *= -1.0
+        start = self._start @ np.append(coordinates, 1.0)
+        return PolynomialLaw(series, a0=float(self.boundary.start[0]), b0=float(start))
+
+    @kept_property
+    def _start(self) -> Array:
+        """b(0): free only where the order is 1."""
+        if self.order == 1:
+            return np.asarray(self.series(1).sum(axis=0))
+        return np.append(np.zeros(self.terms), float(self.boundary.start[1]))
+
+    def z_series(self, coordinates: Array) -> Array:
+        """Chebyshev series of Z in 2k - 1."""
+        series = chebyshev_series((self._shapes[3] * self.scale[:, None]).T, self._angle)[: self.degree + 1]
+        found: Array = series @ coordinates
+        found[1::2] *= -1.0
+        if self.symmetric:
+            found[::2] = 0.0
+        return found
+
+    def combination(
+        self,
+        nu: int,
+        weights: tuple[float, ...],
+        name: str,
+        slack: Array,
+        bound: float = 0.0,
+        *,
+        signs: tuple[float, ...] = (1.0, -1.0),
+    ) -> LinearFamily:
+        """Rows s (w0 a^(nu) + w1 a^(nu+1) + ...) <= slack . x + bound."""
+        series = self.widened(self.combined(nu, weights), len(slack))
+        return LinearFamily(name, slack, bound, signs, self.domain, series=series)
+
+    def combined(self, nu: int, weights: tuple[float, ...]) -> Array:
+        """Series of w0 a^(nu) + w1 a^(nu+1) + ..., the base law's as the last column."""
+        if weights == (1.0,):
+            return self.series(nu)
+        found = np.zeros_like(self.series(nu))
+        for i, weight in enumerate(weights):
+            one = self.series(nu + i)
+            found[: len(one)] += weight * one[: len(found)]
+        return found
+
+    def backward(self, slack: Array, bound: float) -> LinearFamily:
+        """Rows -b <= slack . x + bound; b is even about 1/2 where the law is symmetric."""
+        if not self.symmetric:
+            return super().backward(slack, bound)
+        series = self.widened(self.series(1)[::2], len(slack))
+        return EvenFamily("b", slack, bound, (-1.0,), series=series)
+
+    def power(self, name: str, slack: Array, bound: float = 0.0, weights: tuple[float, ...] = (1.0,)) -> ProductFamily:
+        """Rows |b c| <= slack . x + bound; with weights, of w0 b + w1 c + ... and its derivative."""
+        first, second = (self.combination(nu, weights, name, slack) for nu in (1, 2))
+        return ProductFamily(name, slack, bound, (1.0, -1.0), self.domain, first=first, second=second)
+
+    def norm(self, nu: int, name: str, slack: Array, bound: float = 0.0) -> NormFamily:
+        """The row RMS of a^(nu) <= slack . x + bound."""
+        rule = self.quadrature(nu)
+        matrix = np.sqrt(rule.weights)[:, None] * rule.values
+        return NormFamily(name, slack, bound, matrix=self.widened(matrix, len(slack)))
+
+    def quadrature(self, nu: int) -> Quadrature:
+        """Gauss points; moments are Legendre polynomials."""
+        series = self.series(nu)
+        u, weights = legendre.leggauss(len(series) + 1)
+        values = chebyshev.chebvander(u, len(series) - 1) @ series
+        moments = np.asarray(legendre.legvander(u, len(series)), dtype=np.float64)
+        return Quadrature(weights / 2.0, values, moments)
+
+    def row(self, nu: int, k: float) -> Array:
+        """The derivative of order nu at k: free functions, then the base law."""
+        if k in {0.0, 1.0} and nu < self.order:
+            # the end conditions say it, without rounding
+            return np.append(np.zeros(self.terms), float((self.boundary.end if k else self.boundary.start)[nu]))
+        return np.asarray(chebyshev.chebval(1.0 - 2.0 * k, self.series(nu)))
+
+    @kept_property
+    def middle(self) -> Array:
+        """b(1/2) as a row: free functions, then the base law."""
+        return self.row(1, 0.5)
+
+    @kept_property
+    def base_ratio(self) -> float:
+        """b / (k(1-k))^(l-1) of the base law S_l."""
+        return 4.0 ** (self.order - 1) * float(self.base.b(0.5))
+
+    def below(self, slack: Array, peak: float = 0.5) -> Family:
+        """Rows b <= b(peak) of laws with c(peak) = 0, divided by (2k - 2 peak)²: else they were ill posed."""
+        if self.symmetric:
+            return EvenFamily("chord", slack, series=self.widened(-_chord(self.series(1)[::2]), len(slack)))
+        series = self._below(1.0 - 2.0 * peak)
+        return LinearFamily("chord", slack, domain=self.domain, series=self.widened(series, len(slack)))
+
+    def _below(self, centre: float) -> Array:
+        j = self.series(3)
+        values = chord(lambda u: np.asarray(chebyshev.chebval(u, j).T), self._u, centre, len(self.series(1)) - 1)
+        return chebyshev_series(values, self._angle)[: max(len(self.series(1)) - 2, 1)]
+
+    def forward(self, slack: Array) -> Family:
+        """Rows b >= 0, from rest to rest as b / (k(1-k))^(l-1) >= 0 (in units of the base law's)."""
+        if not self.at_rest:
+            return self.derivative(1, "forward", slack, signs=(-1.0,))
+        scale = np.append(self._ratio_scale, 1.0)
+        columns = gegenbauer(self.order - 0.5, int(self.index[-1]), self._u)[np.append(self.index, 0)] * scale[:, None]
+        series = -chebyshev_series(columns.T, self._angle)
+        if not self.symmetric:
+            return LinearFamily("ratio", slack, domain=self.domain, series=self.widened(series, len(slack)))
+        ratio = self.widened(series[::2], len(slack))
+        return RatioFamily("ratio", slack, series=ratio, index=self.order - 0.5, scale=-scale)
+
+    def from_rest(
+        self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)
+    ) -> Family:
+        """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
+        series, signs, half = self.widened(self.combined(1, weights), len(slack)), (1.0, -1.0), (0.0, 1.0)
+        if not backward:
+            return RootFamily(name, slack, 0.0, signs, half, series=series)
+        mirrored = series * (-1.0) ** np.arange(len(series))[:, None]
+        return MirroredFamily(name, slack, 0.0, signs, half, series=mirrored)
+
+    @kept_property
+    def _ratio_scale(self) -> Array:
+        return self.scale * 4.0 ** (self.order - 1) / self.base_ratio
+
+
+@lru_cache(maxsize=32)
+def polynomial_space(boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> PolynomialSpace:
+    """The space, kept for the next call.
+
+    Examples
+    --------
+    >>> polynomial_space(BoundaryConditions.rest(2), 3, symmetric=False).terms
+    4
+    """
+    return PolynomialSpace(boundary, degree, symmetric=symmetric)
+
+
+def _chord(even: Array) -> Array:
+    # T_2m(x) - T_2m(0) = -2 (-1)^m sin²(m p) with x = sin p: the division by x² has a closed form
+    rows = len(even)
+    angle = (np.arange(rows) + 0.5) * np.pi / rows
+    p = np.arcsin(np.cos(angle / 2))
+    m = np.arange(rows)
+    kernel = 2.0 * (-1.0) ** m * (np.sin(np.outer(p, m)) / np.sin(p)[:, None]) ** 2
+    return chebyshev_series(kernel @ even, angle)

@@ -1,0 +1,138 @@
+"""What a set of laws must offer so that a program can be written over it: affine functions of k for coordinates."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Hashable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.laws import MotionLaw
+from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Equation:
+    """A condition on the coordinates that every law of the space keeps: row . x = right."""
+
+    name: str
+    row: Array
+    right: float
+
+
+@dataclass(frozen=True, eq=False)
+class Quadrature:
+    """Weights (sum 1 over the interval), a derivative's columns at the points, and moment functions there, |.| <= 1."""
+
+    weights: Array
+    values: Array
+    moments: Array
+
+
+class LawSpace(ABC):
+    """Laws base + sum x_i f_i. Variables beyond `terms` belong to the program.
+
+    Attributes
+    ----------
+    boundary
+        End conditions.
+    terms
+        Number of coordinates.
+    symmetric
+        Whether the laws are; then constraints need to hold on the first half only.
+    start_velocity, velocity_change, stroke
+        b(0), b(1) - b(0) and a(1) - a(0) of the base law.
+    """
+
+    boundary: BoundaryConditions
+    terms: int
+    symmetric: bool
+    start_velocity: float
+    velocity_change: float
+    stroke: float
+
+    def __init__(self) -> None:
+        self._kept: dict[Hashable, Array] = {}
+
+    def cached(self, key: Hashable, make: Callable[[], Array]) -> Array:
+        """What `make` gives, made once for each key."""
+        if key not in self._kept:
+            self._kept[key] = make()
+        return self._kept[key]
+
+    @abstractmethod
+    def law(self, coordinates: Array) -> MotionLaw:
+        """The law with the given coordinates."""
+
+    @abstractmethod
+    def z_series(self, coordinates: Array) -> Array:
+        """Chebyshev series of Z in 2k - 1; empty where the laws have none."""
+
+    def derivative(
+        self, nu: int, name: str, slack: Array, bound: float = 0.0, signs: tuple[float, ...] = (1.0, -1.0)
+    ) -> LinearFamily:
+        """Rows s a^(nu) <= slack . x + bound."""
+        return self.combination(nu, (1.0,), name, slack, bound, signs=signs)
+
+    @abstractmethod
+    def combination(
+        self,
+        nu: int,
+        weights: tuple[float, ...],
+        name: str,
+        slack: Array,
+        bound: float = 0.0,
+        *,
+        signs: tuple[float, ...] = (1.0, -1.0),
+    ) -> LinearFamily:
+        """Rows s (w0 a^(nu) + w1 a^(nu+1) + ...) <= slack . x + bound, on the space's part of the interval."""
+
+    def backward(self, slack: Array, bound: float) -> LinearFamily:
+        """Rows -b <= slack . x + bound."""
+        return self.derivative(1, "b", slack, bound, (-1.0,))
+
+    @abstractmethod
+    def power(self, name: str, slack: Array, bound: float = 0.0, weights: tuple[float, ...] = (1.0,)) -> ProductFamily:
+        """Rows |b c| <= slack . x + bound; with weights, of w0 b + w1 c + ... and its derivative."""
+
+    @abstractmethod
+    def norm(self, nu: int, name: str, slack: Array, bound: float = 0.0) -> NormFamily:
+        """The row RMS of a^(nu) <= slack . x + bound."""
+
+    @abstractmethod
+    def row(self, nu: int, k: float) -> Array:
+        """The derivative of order nu at k: free functions, then the base law."""
+
+    @abstractmethod
+    def below(self, slack: Array, peak: float = 0.5) -> Family:
+        """Rows b <= b(peak) of laws with c(peak) = 0; symmetric ones have their peak at 1/2."""
+
+    @abstractmethod
+    def forward(self, slack: Array) -> Family:
+        """Rows b >= 0."""
+
+    @abstractmethod
+    def from_rest(
+        self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)
+    ) -> Family:
+        """Rows |b| / sqrt(2k) <= slack . x for k up to 1/2; |b| / sqrt(2 - 2k) for the other half where `backward`."""
+
+    @abstractmethod
+    def quadrature(self, nu: int) -> Quadrature:
+        """A rule that is exact for the squares of the derivative of order nu, and moments that determine it."""
+
+    def equations(self) -> list[Equation]:
+        """Conditions that the coordinates must keep; none where the free functions keep them all."""
+        return []
+
+    def widened(self, columns: Array, size: int) -> Array:
+        """Columns for `size` variables: those beyond the coordinates are zero, the base law's stays last."""
+        wide = np.zeros((len(columns), size + 1))
+        wide[:, : self.terms] = columns[:, :-1]
+        wide[:, -1] = columns[:, -1]
+        return wide

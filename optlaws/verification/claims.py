@@ -1,0 +1,220 @@
+"""What a file claims, claim by claim."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from fractions import Fraction
+from math import inf
+from pathlib import Path
+from typing import Any
+
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
+from optlaws.synthesis.proof.power.certificate import PowerCertificate
+from optlaws.verification.conditions import excesses
+from optlaws.verification.exact.balls import down, enclosed, up
+from optlaws.verification.exact.bound import Proof, never_negative, prove
+from optlaws.verification.exact.law import ExactLaw, enclosures
+from optlaws.verification.exact.limits import exact_limit
+from optlaws.verification.exact.power import prove_power
+from optlaws.verification.places import NO_FILE, Entry, check_keys, entries, is_entry
+from optlaws.verification.reading import built, number, read
+from optlaws.verification.result import Claim, Verification
+from optlaws.verification.said_around import said_around
+from optlaws.verification.stated_numbers import at_most, stated_constants, stated_numbers
+
+#: an optimum's greatest gap, the greatest correction that rounding explains, and the share that is no multiplier
+_GAP, _CORRECTION, _NOTHING = 1e-8, 1e-6, 1e-9
+
+
+def verify(source: Mapping[str, Any] | Path | str) -> Verification:
+    """Check every claim of one solution, certificate or law."""
+    data = read(source)
+    if not is_entry(data):
+        several = ", ".join(list(entries(data))[:3])
+        inside = f"; it holds others, such as {several}: verify those with verify_all" if several else ""
+        raise InputError(
+            "neither a solution (problem, law, certificate) nor a certificate (problem, contacts) nor a law with its "
+            f"constants: nothing to verify{inside}"
+        )
+    return built(_entry, Entry(data), "the file")
+
+
+def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification]:
+    """Check every solution, certificate and law with constants, by where it is; refuse whatever else is claimed."""
+    found = entries(read(source))
+    if not found:
+        raise InputError(f"{NO_FILE}: nothing in it is a solution, a certificate or a law with its constants")
+    return {path: built(_entry, one, path or "the file") for path, one in found.items()}
+
+
+def _entry(entry: Entry) -> Verification:
+    if not entry.data:
+        claim = Claim(f"{entry.around.status}", proven=False, detail="no certificate stands beside it")
+        return Verification(problem=None, bound=None, claims=(claim,))
+    check_keys(entry.data)
+    found = _alone(entry.data)
+    return replace(found, claims=(*found.claims, *said_around(entry, found)))
+
+
+def _alone(data: Mapping[str, Any]) -> Verification:
+    if "certificate" in data:
+        return _solution(data)
+    if "contacts" in data:
+        return _certificate_alone(built(Certificate.from_dict, data, "the certificate"), data)
+    if "steps" in data:
+        return _power_alone(built(PowerCertificate.from_dict, data, "the power certificate"), data)
+    return _law_alone(data)
+
+
+def _law_alone(data: Mapping[str, Any]) -> Verification:
+    law = built(lambda one: ExactLaw(MotionLaw.from_dict(one)), data["law"], "law")
+    constants = enclosures(law.law)
+    return Verification(problem=None, bound=None, constants=constants, claims=tuple(stated_constants(data, law)))
+
+
+def _power_alone(certificate: PowerCertificate, data: Mapping[str, Any]) -> Verification:
+    proven = _power(certificate)
+    bound = None if proven is None else down(proven)
+    return Verification(problem=certificate.problem, bound=bound, claims=tuple(_of_power(certificate, proven, data)))
+
+
+def _power(certificate: PowerCertificate) -> Fraction | None:
+    # the steps count on constants of at least 0
+    return prove_power(certificate) if never_negative(certificate.problem) else None
+
+
+def _of_power(certificate: PowerCertificate, proven: Fraction | None, data: Mapping[str, Any]) -> Iterator[Claim]:
+    left = "no law has" if proven is not None else "the steps do not show that no law has"
+    yield Claim("steps", proven is not None, f"{left} an objective below {certificate.claim!r}")
+    if data.get("bound") is not None:
+        yield at_most("the power certificate's bound", number(data, "bound"), proven)
+
+
+def _certificate_alone(certificate: Certificate, data: Mapping[str, Any]) -> Verification:
+    proof = prove(certificate)
+    claims = [*_certificate(proof, certificate), *_bound(proof, certificate, data)]
+    return _verification(certificate.problem, certificate, proof, claims)
+
+
+def _bound(proof: Proof, certificate: Certificate, data: Mapping[str, Any]) -> Iterator[Claim]:
+    if certificate.program == VIOLATION:
+        value = float(proof.value or 0)
+        yield Claim("no law exists", value > 0.0, f"the constraints contradict each other by {value:.6g}")
+    elif data.get("bound") is not None:
+        yield at_most("the certificate's bound", number(data, "bound"), proof.value)
+
+
+def _solution(data: Mapping[str, Any]) -> Verification:
+    for name in ("problem", "law", "certificate"):
+        if not isinstance(data[name], Mapping):
+            raise InputError(f"{name} must be an object, got {data[name]!r}")
+    problem = built(Problem.from_dict, data["problem"], "problem")
+    certificate = built(Certificate.from_dict, data["certificate"], "certificate")
+    if certificate.program == VIOLATION:
+        raise InputError("a proof that no law exists beside a law: verify the certificate alone")
+    law = built(lambda one: ExactLaw(MotionLaw.from_dict(one)), data["law"], "law")
+    same = certificate.problem == problem
+    proof = prove(certificate)
+    objective = enclosed(law.sum(problem.objective))
+    power, power_claims = _beside(data.get("power_certificate"), problem)
+    bound, source = _best(proof.value if same else None, power, exact_limit(problem))
+    gap = None
+    if bound is not None and objective[1] < inf:
+        gap = up((Fraction(objective[1]) - bound) / Fraction(objective[1])) if objective[1] else 0.0
+    constants = enclosures(law.law)
+    found = excesses(problem, law)
+    claims = [
+        *(Claim(e.name, e.holds, f"off by at most {max(e.by, 0.0):.1e}, {e.allowed:.1e} is allowed") for e in found),
+        *stated_numbers(data, problem, law, objective),
+        *stated_constants(data, law),
+        _same("the certificate's problem", certificate.problem, problem),
+        *_certificate(proof, certificate, accurate=data.get("status") != "inaccurate"),
+        *_bound(proof, certificate, data["certificate"]),
+        *power_claims,
+    ]
+    if data.get("lower_bound") is not None:
+        claims.append(at_most("the lower bound", number(data, "lower_bound"), bound, source))
+    claims += _of_gap(data, gap)
+    return _verification(
+        problem,
+        certificate,
+        proof,
+        claims,
+        bound=None if bound is None else down(bound),
+        objective=objective,
+        gap=gap,
+        constants=constants,
+        excesses={one.name: one.by for one in found},
+    )
+
+
+def _verification(
+    problem: Problem,
+    certificate: Certificate,
+    proof: Proof,
+    claims: list[Claim],
+    **known: Any,  # noqa: ANN401
+) -> Verification:
+    contradiction = certificate.program == VIOLATION
+    known.setdefault("bound", None if contradiction or proof.value is None else down(proof.value))
+    return Verification(
+        problem=problem,
+        infeasible=contradiction and proof.value is not None and proof.value > 0,
+        charge=proof.charge,
+        claims=tuple(claims),
+        **known,
+    )
+
+
+def _certificate(proof: Proof, certificate: Certificate, *, accurate: bool = True) -> Iterator[Claim]:
+    count = len(certificate.contacts)
+    greatest = max((abs(one.multiplier) for one in certificate.contacts), default=0.0)
+    negative = [one for one in certificate.contacts if one.multiplier < -_NOTHING * greatest]
+    shown = f"{len(negative)} of {count} negative" if negative else f"{count}, none negative"
+    yield Claim("multipliers", not negative, shown)
+    if proof.unknown:
+        detail = f"{proof.unknown} of {count} are not of constraints that this problem has"
+        yield Claim("contacts", proven=False, detail=detail)
+    detail = f"corrected by at most {proof.correction:.1e} of the greatest so that nothing depends on the law"
+    small = proof.correction <= _CORRECTION or not accurate
+    yield Claim("sum of the rows", proof.value is not None and small, detail)
+
+
+def _of_gap(data: Mapping[str, Any], gap: float | None) -> Iterator[Claim]:
+    if data.get("gap") is not None:
+        value = number(data, "gap")
+        holds = gap is not None and value >= gap - _GAP
+        yield Claim("the gap", holds, f"{value:.1e} stated, {_shown(gap)} proven")
+    if data.get("status") == "optimal":
+        yield Claim("optimal", gap is not None and gap <= _GAP, f"the proven gap is {_shown(gap)}")
+
+
+def _beside(data: object, problem: Problem) -> tuple[Fraction | None, list[Claim]]:
+    """What a power certificate beside the other one proves."""
+    if data is None:
+        return None, []
+    if not isinstance(data, Mapping):
+        raise InputError(f"power_certificate must be an object, got {data!r}")
+    certificate = built(PowerCertificate.from_dict, data, "the power certificate")
+    proven = _power(certificate)
+    same = certificate.problem == problem
+    claims = [_same("the power certificate's problem", certificate.problem, problem)]
+    return proven if same else None, [*claims, *_of_power(certificate, proven, data)]
+
+
+def _same(name: str, one: Problem, other: Problem) -> Claim:
+    return Claim(name, one == other, "the file's" if one == other else f"another: {one!r}")
+
+
+def _best(proven: Fraction | None, power: Fraction | None, limit: Fraction | None) -> tuple[Fraction | None, str]:
+    sources = ((proven, ""), (power, " by the power certificate"), (limit, " by the limit of laws of any degree"))
+    known = [(value, source) for value, source in sources if value is not None]
+    return max(known, key=lambda one: one[0], default=(None, ""))
+
+
+def _shown(gap: float | None) -> str:
+    return "not known" if gap is None else f"{gap:.1e}"

@@ -1,0 +1,1 @@
+"""Arithmetic that encloses every rounding: laws, rows and bounds, exact or in balls."""

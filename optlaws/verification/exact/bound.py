@@ -1,0 +1,290 @@
+"""The bound that a certificate proves, with every rounding enclosed.
+
+The multipliers are corrected a little so that the sum of the rows does not depend on the law at all. The corrections
+solve a linear system whose solution is enclosed by balls; that it exists, and that no multiplier becomes negative, is
+all the proof needs. Each contact lends a little of its multiplier to two neighbours, which stand for its place: place
+and multiplier together have as much freedom as the law. Where that is not so (a mean square is minimised, or contacts
+coincide) moments of a derivative join in, which the claim itself bounds: they are charged.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import inf, isfinite
+
+from flint import arb, arb_mat, ctx
+
+from optlaws.synthesis.problem.constants import Peak
+from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.proof.certificate import VIOLATION, Certificate, Contact
+from optlaws.verification.exact.balls import ball, down, lower, up, upper
+from optlaws.verification.exact.rows import ROOT, ExactRows, Row
+
+Vector = list[arb]
+
+_WIDE = 2.0**-80
+_TRIES = 3
+#: how readily moments take part, beside the squares of the multipliers
+_READINESS = (2.0**-60, 1.0)
+#: how far from a contact its neighbours are, and how much of its multiplier each takes
+_NEAR, _SHARE = Fraction(1, 2**20), Fraction(1, 2**22)
+
+
+@dataclass(frozen=True)
+class Proof:
+    """What a certificate proves.
+
+    Attributes
+    ----------
+    value
+        The lower bound; of a proof that no law exists, by how much the constraints contradict each other. None if
+        nothing is proven.
+    charge
+        What was taken off for moments that had to join in; 0 where corrected multipliers do without.
+    correction
+        The greatest change of a multiplier, in units of the greatest one.
+    negative, unknown
+        Numbers of contacts with a negative multiplier, and of those the problem does not ask for: they do not count.
+    """
+
+    value: Fraction | None
+    charge: float = 0.0
+    correction: float = 0.0
+    negative: int = 0
+    unknown: int = 0
+
+
+def prove(certificate: Certificate) -> Proof:
+    """The greatest bound that the certificate's contacts prove with corrected multipliers.
+
+    Raises
+    ------
+    InputError
+        If the laws are of an unknown kind, or a constant that is minimised or bounded is no peak, power or RMS.
+
+    Examples
+    --------
+    >>> from optlaws import Chebyshev, Problem, synthesize
+    >>> solution = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(9)))
+    >>> proof = prove(solution.certificate)
+    >>> round(float(proof.value), 9), proof.charge
+    (4.647776025, 0.0)
+    """
+    basis = certificate.problem.basis
+    bits = 384 + 16 * (2 * certificate.problem.order + int(getattr(basis, "degree", 0)))
+    best: Proof | None = None
+    for _ in range(_TRIES):
+        with ctx.workprec(bits):
+            found, narrow = _System(certificate).best()
+            if found.value is None:
+                # rows that are one another's multiples balance where they are, and beside it they do not
+                found, narrow = _System(certificate, beside=False).best()
+        if best is None or best.value is None or (found.value is not None and found.value > best.value):
+            best = found
+        if narrow:
+            break
+        bits *= 2
+    assert best is not None  # noqa: S101 - there is at least one try
+    if certificate.program != VIOLATION and never_negative(certificate.problem) and (best.value or 0) <= 0:
+        return replace(best, value=Fraction(0))
+    return best
+
+
+@dataclass(frozen=True, eq=False)
+class _Helper:
+    """A moment or a constant that joins in: its row, and bounds of its value in laws that contradict the claim."""
+
+    vector: Vector
+    low: arb
+    high: arb
+
+
+class _System:
+    def __init__(self, certificate: Certificate, *, beside: bool = True) -> None:
+        self.certificate, self.beside = certificate, beside
+        self.rows = rows = ExactRows(certificate)
+        self.vectors: list[Vector] = []
+        self.multipliers: list[arb] = []
+        self.negative = self.unknown = 0
+        for contact in certificate.contacts:
+            row = rows.row(contact)
+            if contact.multiplier < 0.0:
+                self.negative += 1
+            elif row is None:
+                self.unknown += 1
+            elif contact.multiplier > 0.0:
+                self._take(contact, row)
+        self.contacts = len(self.vectors)
+        for row, weight in zip(rows.equations, certificate.equations, strict=False):
+            self.vectors.append(row.vector(rows.names))
+            self.multipliers.append(ball(weight))
+        self.size = rows.space.terms + len(rows.names)
+        self.cost = [arb(0)] * rows.space.terms + [ball(rows.cost.get(name, 0.0)) for name in rows.names]
+
+    def _take(self, contact: Contact, row: Row) -> None:
+        weight = Fraction(contact.multiplier)
+        k = Fraction(contact.k)
+        if self.beside and _NEAR < k < 1 - _NEAR and not contact.direction:
+            for near in (k - _NEAR, k + _NEAR):
+                moved = self.rows.row(contact, near)
+                if moved is not None and self.rows.space.piece(near) == self.rows.space.piece(k):
+                    self.vectors.append(moved.vector(self.rows.names))
+                    self.multipliers.append(ball(Fraction(contact.multiplier) * _SHARE))
+                    weight -= Fraction(contact.multiplier) * _SHARE
+        self.vectors.append(row.vector(self.rows.names))
+        self.multipliers.append(ball(weight))
+
+    def best(self) -> tuple[Proof, bool]:
+        """The best proof, and whether a higher precision could hardly better it."""
+        best = self._corrected([], 1.0)
+        claim = self._claim()
+        for readiness in _READINESS if isfinite(claim) else ():
+            for helpers in self._helpers(claim):
+                found = self._corrected(helpers, readiness, claim)
+                value = found[0].value if found else None
+                if value is not None and (best is None or best[0].value is None or value > best[0].value):
+                    best = found
+        return best if best is not None else (Proof(None, 0.0, 0.0, self.negative, self.unknown), False)
+
+    def _claim(self) -> float:
+        total = sum((m * one[-1] for m, one in zip(self.multipliers, self.vectors, strict=True)), arb(0))
+        return up(upper(total)) if total.is_finite() else inf
+
+    def _corrected(self, helpers: list[_Helper], readiness: float, claim: float = inf) -> tuple[Proof, bool] | None:
+        vectors = self.vectors + [one.vector for one in helpers]
+        weights = [m * m for m in self.multipliers[: self.contacts]]
+        weights += [arb(1)] * (len(self.vectors) - self.contacts) + [arb(readiness)] * len(helpers)
+        changes = _changes(vectors, weights, self._slopes())
+        if changes is None:
+            return None
+        multipliers = [m + one for m, one in zip(self.multipliers, changes, strict=False)]
+        if not all(bool(m >= 0) for m in multipliers[: self.contacts]):
+            return None
+        value = sum((m * one[-1] for m, one in zip(multipliers, self.vectors, strict=True)), arb(0))
+        charge = arb(0)
+        for one, weight in zip(helpers, changes[len(self.vectors) :], strict=True):
+            # the multipliers' sum plus the helpers' is the constant `value`: without them it is that minus their worth
+            value += weight * one.vector[-1]
+            charge += (weight * one.low).max(weight * one.high)
+        if not value.is_finite() or not charge.is_finite():
+            return None
+        total = lower(value - charge)
+        greatest = max((up(upper(abs(m))) for m in self.multipliers), default=0.0) or 1.0
+        moved = max((up(upper(abs(c))) for c in changes[: len(self.vectors)]), default=0.0)
+        # a law either contradicts the claim, and then the helpers are bounded, or it does not
+        proven = min(total, Fraction(claim)) if helpers else total
+        proof = Proof(proven, up(upper(charge)) + 0.0, moved / greatest, self.negative, self.unknown)
+        return proof, bool(value.rad() < _WIDE)
+
+    def _slopes(self) -> Vector:
+        slopes = list(self.cost)
+        for weight, vector in zip(self.multipliers, self.vectors, strict=True):
+            for i in range(self.size):
+                slopes[i] += weight * vector[i]
+        return slopes
+
+    def _helpers(self, claim: float) -> Iterator[list[_Helper]]:
+        """Constants, and moments of one derivative whose mean magnitude is bounded."""
+        rows, greatest = self.rows, greatest_values(self.certificate, self.rows, claim)
+        constants = []
+        for i, name in enumerate(rows.names):
+            if isfinite(greatest.get(name, inf)) and never_negative(self.certificate.problem):
+                unit = [arb(0)] * (self.size + 1)
+                unit[rows.space.terms + i] = arb(1)
+                constants.append(_Helper(unit, arb(0), ball(greatest[name])))
+        for nu, mean in means(self.certificate.problem, rows, greatest).items():
+            moments = []
+            for row in rows.space.moments(nu):
+                free = [arb(one) for one in row]
+                moments.append(_Helper([*free[:-1], *[arb(0)] * len(rows.names), free[-1]], -mean, mean))
+            yield constants + moments
+
+
+def _changes(vectors: list[Vector], weights: Vector, slopes: Vector) -> Vector | None:
+    """Changes with sum(change * vector) = -slopes, least in the weighted mean square; balls around the exact ones."""
+    size = len(slopes)
+    if not vectors:
+        return None
+    if all(bool(slope == 0) for slope in slopes):
+        # rows that are the same but for their right sides: their difference is exact, and nothing need change
+        return [arb(0)] * len(vectors)
+    matrix = arb_mat([vector[:size] for vector in vectors])
+    weighted = arb_mat([[w * one for one in vector[:size]] for w, vector in zip(weights, vectors, strict=True)])
+    try:
+        found = (matrix.transpose() * weighted).solve(arb_mat(size, 1, [-one for one in slopes]))
+    except ZeroDivisionError:
+        return None
+    return list((weighted * found).entries())
+
+
+def never_negative(problem: Problem) -> bool:
+    """Whether every constant of the objective is at least 0: a peak of one sign need not be if the velocity changes."""
+    one_sided = any(isinstance(leaf, Peak) and len(leaf.signs) == 1 for _, leaf in leaves(problem.objective))
+    return not one_sided or (problem.boundary is None and problem.order > 1)
+
+
+def greatest_values(certificate: Certificate, rows: ExactRows, claim: float) -> dict[str, float]:
+    """Greatest values of the named constants in a law whose objective is below the claim."""
+    found: dict[str, float] = {}
+    problem = certificate.problem
+    if certificate.program != VIOLATION and never_negative(problem):
+        _spread(problem.objective, Fraction(max(claim, 0.0)), found)
+    for name in ("B", *(one.name for one, _ in problem.bounded)):
+        asked = problem.range(name)
+        if asked is not None:
+            found[name] = min(found.get(name, inf), asked.high)
+    if isfinite(found.get("D", inf)):
+        found[ROOT] = up(upper(ball(found["D"]).sqrt()))
+    start = rows.space.bounds.start_velocity
+    if "B" in rows.names and not isfinite(found.get("B", inf)) and start is not None:
+        # b is b(0) and the integral of c
+        mean = min(found.get(name, inf) for name in ("C", "rms_c"))
+        if isfinite(mean):
+            found["B"] = up(upper(abs(ball(start)) + ball(mean)))
+    return found
+
+
+def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict[int, arb]:
+    """By order of derivative: a bound of the integral of its magnitude, in every such law."""
+    start, change, stroke = rows.space.bounds
+    found: dict[int, list[arb]] = {}
+
+    def known(nu: int, name: str, factor: int = 1, extra: arb | None = None) -> None:
+        if isfinite(greatest.get(name, inf)):
+            found.setdefault(nu, []).append(factor * ball(greatest[name]) + (arb(0) if extra is None else extra))
+
+    for nu, name in ((2, "C"), (2, "rms_c"), (3, "J"), (3, "rms_j"), (4, "jounce")):
+        known(nu, name)
+    if change is not None:
+        # what is above 0 less what is below is the change, and one of them is at most the peak
+        known(2, "C_plus", 2, -ball(change))
+        known(2, "C_minus", 2, ball(change))
+    known(1, "B", 2, -ball(stroke))
+    if problem.monotone:
+        found.setdefault(1, []).append(ball(stroke))
+    if start is not None and change is not None and start == 0 and start + change == 0:
+        # b² <= 2 D k
+        known(1, ROOT)
+    return {nu: ball(min(map(upper, several))) for nu, several in found.items()}
+
+
+def _spread(expression: Expression, claim: Fraction, found: dict[str, float]) -> None:
+    for weight, term in expression.terms:
+        value = up(claim / Fraction(weight))
+        found[repr(term)] = min(found.get(repr(term), inf), value)
+        if isinstance(term, Maximum):
+            for part in term.parts:
+                _spread(part, Fraction(value), found)
+
+
+def exact_bound(certificate: Certificate) -> Fraction | None:
+    """The proven lower bound; of a proof that no law exists, a number above 0 if it stands."""
+    return prove(certificate).value
+
+
+def rounded_down(value: Fraction | None) -> float:
+    """As a float that is not above it; -inf where nothing is proven."""
+    return -inf if value is None else down(value)

@@ -1,0 +1,189 @@
+"""A law as it is stored, taken exactly, and rigorous enclosures of its constants."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+from functools import reduce
+from itertools import pairwise
+
+from flint import arb, ctx, fmpq
+
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw, PolynomialLaw
+from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
+from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
+from optlaws.synthesis.problem.constants import Power, RootMeanSquare
+from optlaws.synthesis.problem.expression import Expression, Maximum, Term
+from optlaws.verification.exact.ball_pieces import PowerPiece, SinePiece
+from optlaws.verification.exact.balls import ball, enclosed, rational
+from optlaws.verification.exact.known_constants import known
+from optlaws.verification.exact.pieces import ExactPiece, Extremes, PolynomialPiece, least_and_greatest
+
+
+class ExactLaw:
+    """The very function that a law's floats describe, piece by piece.
+
+    Where a derivative jumps by more than rounding, as `PiecewiseLaw.jumps` tells, those above it are infinite.
+
+    Parameters
+    ----------
+    law
+        The law.
+
+    Raises
+    ------
+    InputError
+        If the law is neither polynomial nor made of polynomials, sines and constant power.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> ExactLaw(smoothstep(2)).polynomials[0].derivative(1)
+    (-3/2)*x^2 + 3/2
+    """
+
+    def __init__(self, law: MotionLaw) -> None:
+        self.law = law
+        if isinstance(law, PolynomialLaw):
+            segments: tuple[Segment, ...] = (PolynomialSegment(law.acceleration, law.b0),)
+            breaks = [0.0, 1.0]
+        elif isinstance(law, PiecewiseLaw):
+            segments, breaks = law.segments, list(law.breaks)
+        else:
+            raise InputError(f"exact verification knows polynomial and piecewise laws, got {type(law).__name__}")
+        longest = max(len(one.acceleration) if isinstance(one, PolynomialSegment) else 0 for one in segments)
+        #: bits that leave every enclosure much narrower than a float's rounding, whatever the degree
+        self.precision = 256 + 6 * longest
+        self.start = Fraction(law.a0)
+        self.breaks = [Fraction(k) for k in breaks]
+        with ctx.workprec(self.precision):
+            places = zip(segments, pairwise(self.breaks), strict=True)
+            self.pieces = [_piece(segment, low, high) for segment, (low, high) in places]
+        self._raise()
+
+    def _raise(self) -> None:
+        """Let each polynomial begin where the one before ends."""
+        height = rational(self.start)
+        for piece in self.pieces:
+            if not isinstance(piece, PolynomialPiece):
+                return
+            piece.raised(height)
+            height = piece.exact(0, piece.stop)
+
+    @property
+    def polynomials(self) -> list[PolynomialPiece]:
+        """The pieces, all polynomials.
+
+        Raises
+        ------
+        InputError
+            If one is not.
+        """
+        found = [piece for piece in self.pieces if isinstance(piece, PolynomialPiece)]
+        if len(found) < len(self.pieces):
+            raise InputError("the law of a solution must be made of polynomials")
+        return found
+
+    def value(self, nu: int, k: Fraction) -> fmpq:
+        """The derivative of order nu at k, exact; at a break that of the later piece.
+
+        Raises
+        ------
+        InputError
+            If a piece is no polynomial.
+        """
+        return [piece for piece in self.polynomials if piece.start <= k][-1].exact(nu, k)
+
+    def extremes(self, nu: int, start: Fraction = Fraction(0), stop: Fraction = Fraction(1)) -> Extremes:
+        """Balls that hold the least and the greatest value of the derivative of order nu between two k."""
+        with ctx.workprec(self.precision):
+            if start == stop:
+                value = arb(self.value(nu, start))
+                return value, value
+            found: list[arb] = []
+            for one in self.pieces:
+                low, high = max(start, one.start), min(stop, one.stop)
+                if low < high:
+                    found += one.extremes(nu, low, high)
+            return least_and_greatest(found)
+
+    def peak(self, nu: int) -> arb:
+        """A ball that holds the peak of the magnitude of the derivative of order nu."""
+        return arb.pos_inf() if self._impulses(nu) else self.magnitude(self.extremes(nu))
+
+    def power(self) -> arb:
+        """A ball that holds the peak of |b c|."""
+        if self._impulses(2):
+            return arb.pos_inf()
+        with ctx.workprec(self.precision):
+            return self.magnitude(least_and_greatest([one for piece in self.pieces for one in piece.power()]))
+
+    def rms(self, nu: int) -> arb:
+        """A ball that holds the RMS of the derivative of order nu."""
+        if self._impulses(nu):
+            return arb.pos_inf()
+        with ctx.workprec(self.precision):
+            squares = [piece.square(nu) for piece in self.pieces]
+            return sum(squares, arb(0)).sqrt() if all(one.is_finite() for one in squares) else arb.pos_inf()
+
+    def constants(self) -> dict[str, arb]:
+        """Balls that hold B, C, D, J and rms_c."""
+        peaks = {"B": self.peak(1), "C": self.peak(2), "D": self.power(), "J": self.peak(3)}
+        return {**peaks, "rms_c": self.rms(2)}
+
+    def term(self, term: Term) -> arb:
+        """A ball that holds the value of a constant or a maximum.
+
+        Raises
+        ------
+        InputError
+            If it is neither a peak, the power, an RMS nor a maximum of sums of these.
+        """
+        if isinstance(term, Maximum):
+            with ctx.workprec(self.precision):
+                return reduce(arb.max, map(self.sum, term.parts))
+        one = known(term)
+        if isinstance(one, Power):
+            return self.power()
+        if isinstance(one, RootMeanSquare):
+            return self.rms(one.nu)
+        if len(one.signs) == 2 or self._impulses(one.nu):
+            return self.peak(one.nu)
+        least, greatest = self.extremes(one.nu)
+        with ctx.workprec(self.precision):
+            return greatest if one.signs[0] > 0 else -least
+
+    def sum(self, expression: Expression) -> arb:
+        """A ball that holds the value of an objective."""
+        with ctx.workprec(self.precision):
+            total = arb(0)
+            for weight, term in expression.terms:
+                total += ball(weight) * self.term(term)
+            return total
+
+    def magnitude(self, extremes: Extremes) -> arb:
+        """A ball that holds the greater magnitude of two extremes."""
+        with ctx.workprec(self.precision):
+            return (-extremes[0]).max(extremes[1])
+
+    def _impulses(self, nu: int) -> bool:
+        law = self.law
+        return isinstance(law, PiecewiseLaw) and any(law.jumps(lower) for lower in range(1, nu))
+
+
+def _piece(segment: Segment, start: Fraction, stop: Fraction) -> ExactPiece:
+    if isinstance(segment, PolynomialSegment):
+        return PolynomialPiece(start, stop, segment)
+    if isinstance(segment, SineSegment):
+        return SinePiece(start, stop, (segment,))
+    if isinstance(segment, HarmonicSegment):
+        return SinePiece(start, stop, segment.sines)
+    if isinstance(segment, PowerSegment):
+        return PowerPiece(start, stop, segment)
+    raise InputError(f"exact verification knows no {segment.kind} segments")
+
+
+def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
+    """Floats below and above B, C, D, J and rms_c."""
+    return {name: enclosed(value) for name, value in ExactLaw(law).constants().items()}

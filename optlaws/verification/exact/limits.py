@@ -1,0 +1,69 @@
+"""Limits of C and D over all laws of any degree, from their closed forms (docs/theory/limits.md), rounded down."""
+
+from __future__ import annotations
+
+from fractions import Fraction
+
+from flint import ctx
+
+from optlaws.synthesis.limits.times import back_velocity
+from optlaws.synthesis.problem.expression import Expression, Maximum, Term
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.verification.exact.balls import ball, lower
+
+_BITS = 192
+_SLIGHTLY_LESS = 1 - Fraction(1, 10**13)
+
+
+def exact_limit(problem: Problem) -> Fraction | None:
+    """A number that no law of the problem beats; None where the closed forms say nothing of the objective.
+
+    Only C and D count; every other constant is at least 0.
+
+    Examples
+    --------
+    >>> exact_limit(Problem(B=1.5, order=4, minimise="D"))
+    Fraction(9, 4)
+    """
+    if problem.boundary is not None or problem.order == 1:
+        return None
+    found = _sum(problem, problem.objective)
+    return found if found > 0 else None
+
+
+def _sum(problem: Problem, expression: Expression) -> Fraction:
+    return sum((Fraction(weight) * _term(problem, term) for weight, term in expression.terms), Fraction(0))
+
+
+def _term(problem: Problem, term: Term) -> Fraction:
+    if isinstance(term, Maximum):
+        return max(_sum(problem, part) for part in term.parts)
+    name = repr(term)
+    wanted = problem.range("B")
+    if name not in {"C", "D"}:
+        return Fraction(0)
+    if wanted is None or not wanted.fixed or problem.inflexion is not None:
+        return Fraction(4) if name == "C" else Fraction(9, 4)
+    B = Fraction(wanted.high)
+    return _acceleration(B, monotone=problem.monotone) if name == "C" else _power(B, monotone=problem.monotone)
+
+
+def _acceleration(B: Fraction, *, monotone: bool) -> Fraction:
+    if B <= 2:
+        return B * B / (B - 1)
+    if monotone:
+        return B * B
+    with ctx.workprec(_BITS):
+        back = ball(B - 2)
+        return lower(2 * (back + (back * back + ball(B * B)).sqrt()))
+
+
+def _power(B: Fraction, *, monotone: bool) -> Fraction:
+    if 2 * B <= 3:
+        return B**3 / (3 * (B - 1))
+    if monotone:
+        return 2 * B**3 / 3
+    u = max(Fraction(back_velocity(float(B))) * _SLIGHTLY_LESS, Fraction(0))
+    # 2u³ + 3u² rises with u: this u is not above the root
+    below = 2 * u**3 + 3 * u**2 <= B * B * (B - Fraction(3, 2))
+    return B * B + (2 * u * u if below else 0)

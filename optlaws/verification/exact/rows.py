@@ -1,0 +1,266 @@
+"""What every law of a problem obeys, by the names that certificates use, in exact or ball arithmetic."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from contextlib import suppress
+from dataclasses import dataclass, field
+from fractions import Fraction
+from functools import partial
+from math import isfinite
+from operator import mul
+
+from flint import arb
+
+from optlaws.errors import InputError
+from optlaws.synthesis.problem.constants import B, Functional, Peak, RootMeanSquare
+from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
+from optlaws.synthesis.problem.ranges import Range
+from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate, Contact
+from optlaws.verification.exact.balls import ball
+from optlaws.verification.exact.known_constants import known
+from optlaws.verification.exact.of_basis import exact_space
+
+ROOT = "root of D"
+_NEAR = Fraction(1, 10**9)
+
+Names = Mapping[str, float | arb]
+
+
+@dataclass(frozen=True, eq=False)
+class Row:
+    """functions . (z, 1) + sum of constants + right; at most 0, or 0 for an equation, in every law of the problem."""
+
+    functions: list[arb]
+    constants: Names = field(default_factory=dict)
+    right: arb | float = 0.0
+
+    def vector(self, names: list[str]) -> list[arb]:
+        """Coefficients of z and of the named constants, then what is constant."""
+        *free, base = self.functions
+        return [*free, *(arb(self.constants.get(name, 0.0)) for name in names), base + self.right]
+
+
+Maker = Callable[[Contact, Fraction], Row]
+Place = Callable[[Fraction], list[arb]]
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """A window on k <= 1/2 (or anywhere for unsymmetric laws) in exact numbers."""
+
+    order: int
+    low: Fraction | None
+    high: Fraction | None
+    start: Fraction
+    stop: Fraction
+
+
+class ExactRows:
+    """The rows that a certificate may use. The constants are variables that every law meets with its own values.
+
+    Parameters
+    ----------
+    certificate
+        Which problem, and which program: with D relaxed, or for a proof that no law exists.
+
+    Raises
+    ------
+    InputError
+        If the laws are of an unknown kind, or a constant that is minimised or bounded is no peak, power or RMS.
+    """
+
+    def __init__(self, certificate: Certificate) -> None:
+        self.problem = problem = certificate.problem
+        self.space = exact_space(problem)
+        self.tangent = ball(certificate.tangent)
+        self.relaxed = certificate.program == RELAXED
+        self.names: list[str] = []
+        self.cost: dict[str, float] = {}
+        self._makers: dict[tuple[str, float], list[Maker]] = {}
+        self.equations: list[Row] = []
+        if certificate.program != VIOLATION:
+            self._objective(problem.objective)
+        if problem.peak_is_variable:
+            self.names.append("B")
+        if self.relaxed:
+            self.names.append(ROOT)
+        self.names = list(dict.fromkeys(self.names))
+        self._constraints()
+
+    def row(self, contact: Contact, k: Fraction | None = None) -> Row | None:
+        """The row of a contact, or of one like it at another k; None if the problem asks for nothing of the kind."""
+        place = Fraction(contact.k) if k is None else k
+        for make in self._makers.get((contact.constraint, contact.sign), ()):
+            with suppress(LookupError):
+                return make(contact, place)
+        return None
+
+    def _add(self, name: str, maker: Maker, signs: tuple[float, ...] = (1.0,)) -> None:
+        for sign in signs:
+            self._makers.setdefault((name, sign), []).append(maker)
+
+    def _objective(self, expression: Expression) -> None:
+        self.cost = expression.weights()
+        found = list(dict.fromkeys(leaf for _, leaf in leaves(expression)))
+        maxima = list(dict.fromkeys(_maxima(expression)))
+        self.names += [repr(one) for one in (*found, *maxima)]
+        for leaf in found:
+            if not isinstance(leaf, Functional) or [repr(one) for one in found].count(repr(leaf)) > 1:
+                raise InputError(f"there are no exact rows for {leaf!r}: it is no constant, or shares its name")
+            self._bounded(leaf, {leaf.name: -1.0}, 0.0)
+        for term in maxima:
+            for i, part in enumerate(term.parts, 1):
+                self._single(f"part {i} of {term!r}", {**part.weights(), repr(term): -1.0}, 0.0)
+
+    def _bounded(self, leaf: Functional, slack: Names, high: float) -> None:
+        """Rows of `leaf <= -slack + high`."""
+        one = known(leaf)
+        if isinstance(one, RootMeanSquare):
+            self._add(one.name, lambda contact, _: self._norm(one.nu, contact, slack, high))
+        elif isinstance(one, Peak):
+            # one sign of a derivative that is odd about 1/2 is, over the whole interval, both signs over the half
+            signs = (1.0, -1.0) if self.problem.symmetric and one.nu % 2 == 0 else one.signs
+            self._everywhere(one.name, partial(self.space.values, one.nu), signs, slack, high)
+        elif self.relaxed:
+            self._power(slack, high)
+
+    def _everywhere(self, name: str, values: Place, signs: tuple[float, ...], slack: Names, high: float = 0.0) -> None:
+        def make(contact: Contact, k: Fraction) -> Row:
+            return Row([one * contact.sign for one in values(k)], slack, -ball(high))
+
+        self._add(name, make, signs)
+
+    def _single(self, name: str, constants: Names, high: float | arb) -> None:
+        nothing = [arb(0)] * (self.space.terms + 1)
+        self._add(name, lambda _, __: Row(nothing, constants, -arb(high)))
+
+    def _power(self, slack: Names, high: float) -> None:
+        """b² <= 2 D k wherever b(0) = 0, b² <= 2 D (1-k) wherever b(1) = 0; 2 t r - t² <= D for r the root of D."""
+        start, change, _ = self.space.bounds
+
+        def from_end(contact: Contact, k: Fraction, way: Fraction) -> Row:
+            found = self.space.values(1, k)
+            left = ball(2 * way).sqrt()
+            return Row([one * contact.sign / left if way else arb(0) for one in found], {ROOT: -1.0})
+
+        if start is not None and change is not None and start == 0:
+            self._add("b / sqrt(2k)", lambda one, k: from_end(one, k, k), (1.0, -1.0))
+        if start is not None and change is not None and start + change == 0:
+            self._add("b / sqrt(2 - 2k)", lambda one, k: from_end(one, k, 1 - k), (1.0, -1.0))
+        self._single("tangent", {ROOT: 2 * self.tangent, **slack}, ball(high) + self.tangent**2)
+
+    def _norm(self, nu: int, contact: Contact, slack: Names, high: float) -> Row:
+        """A direction times the values at Gauss points, each by the root of its weight: at most the norm (Cauchy)."""
+        direction = [ball(value) for value in contact.direction]
+        rule = self.space.gauss(nu, len(direction))
+        length = sum((one * one for one in direction), arb(0)).sqrt()
+        weights = [one * weight.sqrt() / length for one, (_, weight) in zip(direction, rule, strict=True)]
+        columns = zip(*(column for column, _ in rule), strict=True)
+        return Row([sum(map(mul, weights, column), arb(0)) for column in columns], slack, -ball(high))
+
+    def _constraints(self) -> None:
+        problem = self.problem
+        self._peak()
+        self._velocity()
+        if problem.monotone:
+            self._everywhere("forward", partial(self.space.values, 1), (-1.0,), {})
+            if self.space.divided:
+                self._everywhere("ratio", self.space.ratio, (1.0,), {})
+        for constant, wanted in problem.bounded:
+            self._range(constant, wanted)
+        for nu, k, value in self.space.conditions:
+            self.equations.append(Row(self.space.values(nu, k), {}, -ball(value)))
+        for i, window in enumerate(problem.windows, 1):
+            for part, side in zip(parts(window, symmetric=problem.symmetric), ("", " mirrored"), strict=False):
+                self._window(f"window {i}{side}", window, part)
+
+    def _range(self, constant: Functional, wanted: Range) -> None:
+        name = constant.name
+        if name in self.names and wanted.low > 0.0:
+            self._single(f"{name} at least", {name: -1.0}, -ball(wanted.low))
+        if not isfinite(wanted.high):
+            return
+        if name in self.names:
+            self._single(f"{name} at most", {name: 1.0}, ball(wanted.high))
+        else:
+            self._bounded(constant, {}, wanted.high)
+
+    def _peak(self) -> None:
+        """What makes b greatest at one k, and B its value there."""
+        problem, space, wanted = self.problem, self.space, self.problem.range("B")
+        fixed = wanted.high if wanted is not None and wanted.fixed else None
+        if fixed is not None and not problem.symmetric:
+            self.equations.append(Row([arb(0)] * (space.terms + 1), {"B": 1.0}, -ball(fixed)))
+        if problem.peak_at is None:
+            return
+        peak = Fraction(problem.peak_at)
+        self._everywhere("chord", partial(space.chord, peak), (1.0,), {})
+        if fixed is not None and problem.symmetric:
+            self.equations.append(Row(space.values(1, peak), {}, -ball(fixed)))
+        elif problem.peak_is_variable:
+            self.equations.append(Row(space.values(1, peak), {"B": -1.0}))
+        if not problem.symmetric:
+            self.equations.append(Row(space.values(2, peak)))
+
+    def _velocity(self) -> None:
+        """Rows |b| <= B and the bounds of B."""
+        problem, wanted = self.problem, self.problem.range("B")
+        if wanted is None:
+            return
+        if problem.peak_is_variable:
+            self._everywhere("b", partial(self.space.values, 1), (1.0, -1.0), {"B": -1.0})
+        elif wanted.fixed:
+            self._add("b", self._below_middle, (1.0, -1.0))
+        else:
+            self._range(B, wanted)
+            return
+        if not wanted.fixed:
+            if isfinite(wanted.high):
+                self._single("B at most", {"B": 1.0}, ball(wanted.high))
+            self._single("B at least", {"B": -1.0}, -ball(wanted.low))
+
+    def _below_middle(self, contact: Contact, k: Fraction) -> Row:
+        pairs = zip(self.space.values(1, k), self.space.values(1, Fraction(1, 2)), strict=True)
+        return Row([one * contact.sign - middle for one, middle in pairs])
+
+    def _window(self, name: str, window: Window, part: Part) -> None:
+        if window.value:
+            found = self.space.values(part.order, part.start)
+            self.equations.append(Row(found, {}, -ball(part.high or Fraction(0))))
+            return
+
+        def make(contact: Contact, k: Fraction) -> Row:
+            bound = part.high if contact.sign > 0.0 else part.low
+            if bound is None or not part.start - _NEAR <= k <= part.stop + _NEAR:
+                raise LookupError
+            found = self.space.values(part.order, min(max(k, part.start), part.stop))
+            return Row([one * contact.sign for one in found], {}, -contact.sign * ball(bound))
+
+        for side, sign in (("above", 1.0), ("below", -1.0)):
+            self._add(f"{name}, {side}", make, (sign,))
+
+
+def parts(window: Window, *, symmetric: bool) -> Iterator[Part]:
+    """What a window asks; of symmetric laws, for which a(k) + a(1-k) = 1, on the first half only."""
+    low, high = (Fraction(one) if isfinite(one) else None for one in (window.low, window.high))
+    start, stop = Fraction(window.start), Fraction(window.stop)
+    half = Fraction(1, 2)
+    if not symmetric or stop <= half:
+        yield Part(window.order, low, high, start, stop)
+        return
+    if start < half:
+        yield Part(window.order, low, high, start, half)
+    if window.order % 2 == 0:
+        whole = 1 - window.order // 2
+        low, high = (None if one is None else whole - one for one in (high, low))
+    yield Part(window.order, low, high, 1 - stop, 1 - max(start, half))
+
+
+def _maxima(expression: Expression) -> Iterator[Maximum]:
+    for _, term in expression.terms:
+        if isinstance(term, Maximum):
+            yield term
+            for part in term.parts:
+                yield from _maxima(part)

@@ -1,0 +1,199 @@
+"""The laws of a problem as a linear space of piecewise polynomials, in exact rational arithmetic."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from itertools import pairwise
+from typing import NamedTuple
+
+from flint import arb, fmpq, fmpq_poly
+
+from optlaws.kept import kept_property
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.verification.exact.balls import at, ball, rational
+
+Functions = list[fmpq_poly]
+
+
+class Bounds(NamedTuple):
+    """What the end conditions alone say of every law: b(0), b(1) - b(0) (None where they are free) and the stroke."""
+
+    start_velocity: fmpq | None
+    velocity_change: fmpq | None
+    stroke: fmpq
+
+
+class Condition(NamedTuple):
+    """The derivative of order nu has a value at k in every law: an end condition the functions do not keep."""
+
+    nu: int
+    k: Fraction
+    value: Fraction
+
+
+class ExactSpace:
+    """Laws base + sum of z_i f_i, all polynomials in x = 2k - 1 between breaks.
+
+    Parameters
+    ----------
+    problem
+        Whose laws.
+    breaks
+        From 0 to 1, or to 1/2 where the rest follows by symmetry.
+    functions
+        On each piece the free functions, then the base law.
+    continuity
+        Order up to which the derivatives are continuous at the breaks; None for polynomials.
+    conditions
+        What every law keeps beside, in the order of the certificate's equations.
+    divided
+        Whether rows b >= 0 are divided by what rest at the ends makes vanish there.
+    """
+
+    def __init__(
+        self,
+        problem: Problem,
+        breaks: Sequence[Fraction],
+        functions: Sequence[Functions],
+        *,
+        continuity: int | None = None,
+        conditions: Sequence[Condition] = (),
+        divided: bool = False,
+    ) -> None:
+        self.problem, self.breaks, self.continuity = problem, list(breaks), continuity
+        self.divided = divided
+        self.conditions = list(conditions)
+        self.terms = len(functions[0]) - 1
+        self._derivatives = [list(functions)]
+
+    def piece(self, k: Fraction) -> int:
+        """The piece that k belongs to, the later one at a break; LookupError beyond the breaks."""
+        if not self.breaks[0] <= k <= self.breaks[-1]:
+            raise LookupError
+        return max(i for i, start in enumerate(self.breaks[:-1]) if start <= k)
+
+    def derivative(self, nu: int) -> list[Functions]:
+        """Derivatives of order nu by k, on each piece."""
+        while len(self._derivatives) <= nu:
+            self._derivatives.append([[2 * one.derivative() for one in part] for part in self._derivatives[-1]])
+        return self._derivatives[nu]
+
+    def values(self, nu: int, k: Fraction) -> list[arb]:
+        """Values of the derivatives of order nu at k."""
+        return values(self.derivative(nu)[self.piece(k)], x_of(k))
+
+    def chord(self, peak: Fraction, k: Fraction) -> list[arb]:
+        """(b - b(peak)) / w of laws with c = 0 at the peak, w > 0: (x - x of the peak)² on the piece with the peak.
+
+        On other pieces w is the least value of this there. Where c may jump it is the distance and not its square.
+        """
+        piece = self.piece(k)
+        found = values(self._chords(peak)[piece], x_of(k))
+        low, high = self.breaks[piece : piece + 2]
+        falling = not self._smooth and low < peak <= high and (k < peak or high == peak)
+        return [-one for one in found] if falling else found
+
+    @property
+    def _smooth(self) -> bool:
+        return self.continuity is None or self.continuity > 1
+
+    def _chords(self, peak: Fraction) -> list[Functions]:
+        if peak not in self._kept_chords:
+            self._kept_chords[peak] = self._made_chords(peak)
+        return self._kept_chords[peak]
+
+    @kept_property
+    def _kept_chords(self) -> dict[Fraction, list[Functions]]:
+        return {}
+
+    def _made_chords(self, peak: Fraction) -> list[Functions]:
+        centre, power = rational(2 * peak - 1), 2 if self._smooth else 1
+        edges = [rational(2 * k - 1) for k in self.breaks]
+        touching = [i for i, (low, high) in enumerate(pairwise(self.breaks)) if low <= peak <= high]
+        if not touching:
+            raise LookupError
+        b, c = self.derivative(1), self.derivative(2)
+        heights = [one(centre) for one in b[touching[0]]]
+        found = []
+        for i, part in enumerate(b):
+            if i in touching:
+                # what c = 0 makes vanish is the rest of the division
+                way = fmpq_poly([-centre, 1]) ** power
+                found.append([divmod(one - height, way)[0] for one, height in zip(part, heights, strict=True)])
+                continue
+            before = i < touching[0]
+            inner, joint = (touching[0], edges[touching[0]]) if before else (touching[-1], edges[touching[-1] + 1])
+            slopes = [one(centre) / 2 * (joint - centre) if self._smooth else fmpq(0) for one in c[inner]]
+            scale = abs(edges[i + 1 if before else i] - centre) ** power
+            together = zip(part, heights, slopes, strict=True)
+            found.append([(one - height - slope) / scale for one, height, slope in together])
+        return found
+
+    def ratio(self, k: Fraction) -> list[arb]:
+        """-b / w at k of laws from rest to rest, w > 0: (k(1-k))^(l-1), in units of the base law's."""
+        return values(self._ratio[self.piece(k)], x_of(k))
+
+    @kept_property
+    def _ratio(self) -> list[Functions]:
+        weight, b = fmpq_poly([1, 0, -1]) ** (self.problem.order - 1), self.derivative(1)
+        middle = b[self.piece(Fraction(1, 2))][-1](fmpq(0))
+        return [[divmod(one, weight)[0] / -middle for one in part] for part in b]
+
+    @kept_property
+    def bounds(self) -> Bounds:
+        """What the end conditions say."""
+        start, end = ([rational(Fraction(v)) for v in part] for part in _ends(self.problem))
+        stroke = end[0] - start[0]
+        if len(start) == 1:
+            return Bounds(None, None, stroke)
+        return Bounds(start[1], end[1] - start[1], stroke)
+
+    def moments(self, nu: int) -> list[list[fmpq]]:
+        """Integrals over k of the derivatives of order nu times functions that are at most 1 in magnitude.
+
+        These are Legendre polynomials on one piece each; one list for each that sees a free function.
+        """
+        found = []
+        for part, (low, high) in zip(self.derivative(nu), pairwise(self.breaks), strict=True):
+            local = fmpq_poly([rational(low + high - 1), rational(high - low)])
+            functions = [one(local) for one in part]
+            degree = max((one.degree() for one in functions[:-1]), default=-1)
+            for m in range(degree + 1):
+                products = [(one * fmpq_poly.legendre_p(m)).integral() for one in functions]
+                row = [(p(fmpq(1)) - p(fmpq(-1))) / 2 * rational(high - low) for p in products]
+                if any(row[:-1]):
+                    found.append(row)
+        return found
+
+    def gauss(self, nu: int, count: int) -> list[tuple[list[arb], arb]]:
+        """Values of the derivatives of order nu at so many Gauss points, with weights that add up to 1.
+
+        LookupError unless the rule is exact for squares.
+        """
+        pieces, functions = len(self.breaks) - 1, self.derivative(nu)
+        each, rest = divmod(count, pieces)
+        if rest or each <= max(one.degree() for part in functions for one in part):
+            raise LookupError
+        # the solver's points ascend in 1 - 2k on each piece
+        rule = sorted((arb.legendre_p_root(each, i, weight=True) for i in range(each)), key=lambda one: -float(one[0]))
+        whole = self.breaks[-1] - self.breaks[0]
+        found = []
+        for part, (low, high) in zip(functions, pairwise(self.breaks), strict=True):
+            middle, half, share = ball(low + high - 1), ball(high - low), ball((high - low) / whole / 2)
+            found += [(values(part, middle + half * x), weight * share) for x, weight in rule]
+        return found
+
+
+def values(polynomials: Functions, x: arb) -> list[arb]:
+    """All the polynomials' values at one place."""
+    return [at(one, x) for one in polynomials]
+
+
+def x_of(k: Fraction) -> arb:
+    """2k - 1."""
+    return ball(2 * k - 1)
+
+
+def _ends(problem: Problem) -> tuple[tuple[float, ...], tuple[float, ...]]:
+    return problem.conditions.start, problem.conditions.end

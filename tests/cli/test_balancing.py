@@ -1,0 +1,79 @@
+"""The commands `optlaws loader` and `optlaws dwell`."""
+
+import json
+from math import radians
+from pathlib import Path
+
+import pytest
+
+from optlaws import MotionLaw, loader, smoothstep
+from optlaws.cli.commands import BAD_INPUT, exit_code
+
+DWELL = (
+    "--dwell 90 --rise 90 --swing 20 --clutch-angle 15 --radius-ratio 1.0026761 --inertia-ratio 0.1 --most-torque 0.5"
+)
+
+
+def test_a_loader_as_json(capsys: pytest.CaptureFixture[str]) -> None:
+    assert exit_code(["loader", "0050", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["Y"] == pytest.approx(0.6366197724)
+    assert found["constants"]["C"]["value"] is None
+    assert MotionLaw.from_dict(found["law"]).b(0.5) == 0.0
+
+
+def test_a_loader_of_a_file_and_its_mass(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file, out = tmp_path / "law.json", tmp_path / "loader.json"
+    machine = ["--executive-mass", "2.5", "--executive-stroke", "0.04"]
+    for text in (smoothstep(4).to_json(), json.dumps({"law": smoothstep(4).to_dict()})):
+        file.write_text(text, "utf-8")
+        assert exit_code(["loader", str(file), *machine, "--stroke", "0.03", "--output", str(out)]) == 0
+        shown = capsys.readouterr().out
+        assert f"{loader(smoothstep(4)).mass(executive_mass=2.5, executive_stroke=0.04, stroke=0.03):.8g}" in shown
+        assert MotionLaw.from_dict(json.loads(out.read_text("utf-8"))["law"]) == loader(smoothstep(4)).law
+    assert exit_code(["loader", str(file), *machine, "--mass", "3"]) == 0
+    assert "stroke of the loader" in capsys.readouterr().out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "text"),
+    [
+        (["loader", "nonsense law"], "no law is called"),
+        (["loader", "constant velocity"], "inside the motion"),
+        (["loader", "K", "--stroke", "2"], "go together"),
+        (["loader", "missing.json"], "No such file"),
+        (["loader", "K", "--executive-mass", "1", "--executive-stroke", "1", "--mass", "1", "--stroke", "1"], "either"),
+        (["dwell", "K", *DWELL.replace("--dwell 90", "--dwell -90").split()], "dwell must be positive"),
+        (["dwell", "K", *DWELL.replace("0.5", "0").split()], "most_torque must be positive"),
+    ],
+)
+def test_wrong_input(arguments: list[str], text: str, capsys: pytest.CaptureFixture[str]) -> None:
+    assert exit_code(arguments) == BAD_INPUT
+    assert text in capsys.readouterr().err
+
+
+def test_a_file_that_holds_no_law(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
+    file = tmp_path / "law.json"
+    for content, why in (("nothing", "must be JSON text"), ("[1]", "must be a dict"), ('{"format": 1}', "kind of law")):
+        file.write_text(content, "utf-8")
+        assert exit_code(["loader", str(file)]) == BAD_INPUT
+        assert why in capsys.readouterr().err
+
+
+def test_dwell_compares_and_chooses(capsys: pytest.CaptureFixture[str]) -> None:
+    assert exit_code(["dwell", "K", *DWELL.split()]) == 0
+    shown = capsys.readouterr().out
+    for part in ("take type III", "1.78435", "1.9827", "1.59434", "0.021140605"):
+        assert part in shown
+    assert exit_code(["dwell", "K", *DWELL.split(), "--law-2", "3-4-5 polynomial", "--json"]) == 0
+    found = json.loads(capsys.readouterr().out)
+    assert found["chosen"] == "III"
+    assert found["types"]["II"]["dwell"] == pytest.approx(radians(90))
+    assert all(one["p"] >= 1 for one in found["clutches"]["III"]["teeth"])
+
+
+def test_dwell_says_why_a_type_cannot_be_built(capsys: pytest.CaptureFixture[str]) -> None:
+    assert exit_code(["dwell", "K", *DWELL.split(), "--lower-dwell", "0"]) == 0
+    shown = " ".join(capsys.readouterr().out.split())
+    assert "cannot be built" in shown
+    assert "add up to 270 degrees" in shown

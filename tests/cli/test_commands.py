@@ -1,0 +1,397 @@
+"""The command: one JSON object or one clear text, and an exit code that says what happened."""
+
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tomllib
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+import optlaws
+from optlaws import BoundaryConditions, MotionLaw, Problem, Solution, SolverFailure, construct
+from optlaws.cli import commands
+from tests.documents import ROOT
+
+KEYS = ["status", "objective", "lower_bound", "gap", "limit", "constants", "z", "law", "iterations", "seconds"]
+SOLVE = ["solve", "--peak-velocity", "1.641", "--order", "4", "--degree", "3"]
+ROW_1_53 = "148.4156 -553.8533 771.0667 -514.0444"
+
+Capture = pytest.CaptureFixture[str]
+
+
+def called(capsys: Capture, *arguments: object) -> tuple[int, str, str]:
+    code = commands.exit_code([str(one) for one in arguments])
+    return code, *capsys.readouterr()
+
+
+def refused(capsys: Capture, *arguments: object, code: int = 2) -> str:
+    found, out, err = called(capsys, *arguments)
+    assert (found, out) == (code, "")
+    assert err.startswith("optlaws: ")
+    assert "Traceback" not in err
+    assert err.endswith("\n")
+    return err
+
+
+# --- solve ---
+
+
+@pytest.mark.parametrize("extra", [[], ["--basis", "chebyshev"], ["--monotone"], ["--minimise", "C"]])
+def test_solve_prints_one_json_object(capsys: Capture, extra: list[str]) -> None:
+    code, out, err = called(capsys, *SOLVE, *extra, "--json")
+    assert (code, err) == (0, "")
+    assert out.count("\n") == 1
+    found = json.loads(out)
+    assert list(found) == KEYS
+    assert {name: sorted(peak) for name, peak in found["constants"].items()} == {
+        name: ["k", "value"] for name in "BCDJ"
+    }
+    assert found["status"] == "optimal"
+    assert found["objective"] == pytest.approx(6.872529, abs=1e-6)
+    assert found["objective"] == found["constants"]["C"]["value"]
+    assert found["lower_bound"] <= found["objective"]
+    assert found["gap"] <= 1e-8
+    assert found["limit"] == pytest.approx(1.641**2 / 0.641)
+    assert isinstance(found["iterations"], int)
+    assert found["seconds"] > 0.0
+
+
+@pytest.mark.parametrize("basis", ["powers", "chebyshev"])
+def test_z_and_the_law_of_the_json_are_the_same_law(capsys: Capture, basis: str) -> None:
+    _, out, _ = called(capsys, *SOLVE, "--basis", basis, "--json")
+    found = json.loads(out)
+    law = MotionLaw.from_dict(found["law"])
+    assert law.peak(2).value == found["objective"]
+    again = construct(BoundaryConditions.rest(4), found["z"])
+    assert again.peak(2).value == pytest.approx(found["objective"], rel=1e-11)
+
+
+def test_solve_without_json_says_what_was_found(capsys: Capture) -> None:
+    code, out, err = called(capsys, *SOLVE)
+    assert (code, err) == (0, "")
+    for part in ("optimal", "6.87252932", "lower bound", "no law of any degree can beat", "Problem(B=1.641, order=4"):
+        assert part in out
+
+
+def test_solve_writes_the_whole_solution(capsys: Capture, tmp_path: Path) -> None:
+    target = tmp_path / "new folder" / "solution.json"
+    assert called(capsys, *SOLVE, "--json", "--output", target)[0] == 0
+    whole = json.loads(target.read_text("utf-8"))
+    assert {*KEYS, "problem", "certificate", "versions"} <= whole.keys()
+    assert Problem.from_dict(whole["problem"]) == Problem(B=1.641, order=4, basis=optlaws.Powers(3))
+    assert optlaws.Certificate.from_dict(whole["certificate"]).bound == whole["lower_bound"]
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["--peak-velocity", "1", "--order", "4", "--degree", "3"], "B must be a finite number above 1"),
+        (["--peak-velocity", "nan", "--order", "4", "--degree", "3"], "B must be"),
+        (["--peak-velocity", "inf", "--order", "4", "--degree", "3"], "B must be"),
+        (["--peak-velocity", "1.6", "--order", "0", "--degree", "3"], "order"),
+        (["--peak-velocity", "1.6", "--order", "4", "--degree", "0"], "degree 0 leaves no freedom"),
+        (["--peak-velocity", "1.6", "--order", "4", "--degree", "-2"], "degree"),
+        (["--peak-velocity", "1.6", "--order", "4"], "--degree"),
+        (["--peak-velocity", "fast", "--order", "4", "--degree", "3"], "--peak-velocity"),
+        (["--peak-velocity", "1.6", "--order", "2.5", "--degree", "3"], "--order"),
+        (["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "--minimise", "X"], "unknown constant 'X'"),
+        (
+            ["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "--minimise", "C/4 + Q/2"],
+            "  C/4 + Q/2\n        ^",
+        ),
+        (["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "--minimise", ""], "expected a number"),
+        (["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "--basis", "splines"], "--basis"),
+        (["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "--monoton"], "--monotone"),
+        (["--peak-velocity", "1.6", "--order", "4", "--degree", "3", "extra"], "extra"),
+    ],
+)
+def test_solve_refuses_bad_input_in_plain_words(capsys: Capture, arguments: list[str], says: str) -> None:
+    assert says in refused(capsys, "solve", *arguments, "--json")
+
+
+@pytest.mark.parametrize("json_", [[], ["--json"]])
+def test_an_infeasible_problem_ends_with_3(capsys: Capture, json_: list[str]) -> None:
+    text = refused(capsys, "solve", "--peak-velocity", 1.53, "--order", 4, "--degree", 1, *json_, code=3)
+    assert text.startswith("optlaws: infeasible: ")
+    assert "problem: Problem(B=1.53, order=4, basis=Powers(degree=1)" in text
+
+
+def test_a_solver_that_fails_ends_with_4(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    def fails(problem: Problem, **_: object) -> Solution:
+        raise SolverFailure("no law was found", problem=problem, tried="IPOPT said 'Restoration_Failed'")
+
+    monkeypatch.setattr(commands, "synthesize", fails)
+    text = refused(capsys, *SOLVE, "--json", code=4)
+    assert "Restoration_Failed" in text
+    assert "Problem(B=1.641" in text
+
+
+def test_an_interrupt_ends_with_130(capsys: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
+    def interrupted(*_: object, **__: object) -> Solution:
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(commands, "synthesize", interrupted)
+    assert refused(capsys, *SOLVE, code=130) == "optlaws: interrupted\n"
+
+
+def test_a_folder_in_the_place_of_the_output_is_bad_input(capsys: Capture, tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("", "utf-8")
+    refused(capsys, *SOLVE, "--output", tmp_path / "file" / "solution.json")
+
+
+@pytest.mark.parametrize("arguments", [["bogus"], ["solv"], ["--bogus"]])
+def test_an_unknown_command_is_refused(capsys: Capture, arguments: list[str]) -> None:
+    refused(capsys, *arguments)
+
+
+# --- constants ---
+
+
+def test_constants_of_a_printed_row(capsys: Capture) -> None:
+    code, out, err = called(capsys, "constants", "--z", ROW_1_53, "--order", 4, "--json")
+    assert (code, err) == (0, "")
+    found = json.loads(out)
+    assert list(found) == ["B", "C", "D", "J"]
+    assert [round(found[name]["value"], 4) for name in "BCD"] == [1.53, 7.3618, 6.0604]
+    assert round(found["J"]["value"], 3) == 85.783
+    assert found["C"]["k"] == pytest.approx(0.1398, abs=5e-5)
+
+
+@pytest.mark.parametrize("z", ["-3 6", "-3, 6", "-3,6", " -3   6 ", "-3\n6"])
+def test_constants_reads_blanks_and_commas(capsys: Capture, z: str) -> None:
+    code, out, _ = called(capsys, "constants", f"--z={z}", "--order", 2, "--json")
+    assert code == 0
+    assert json.loads(out)["B"] == {"value": 1.875, "k": 0.5}
+
+
+def test_constants_without_json_is_a_table(capsys: Capture) -> None:
+    code, out, _ = called(capsys, "constants", "--z", ROW_1_53, "--order", 4)
+    assert code == 0
+    assert "7.36175954" in out
+    assert "RMS" in out
+
+
+@pytest.mark.parametrize(
+    ("z", "order", "says"),
+    [("1 2 x", 4, "'x'"), ("nan", 4, "z[0]"), ("1 inf", 4, "z[1]"), ("1 2", 0, "order"), ("1 2", "two", "--order")],
+)
+def test_constants_refuses_bad_input(capsys: Capture, z: str, order: object, says: str) -> None:
+    assert says in refused(capsys, "constants", "--z", z, "--order", order, "--json")
+
+
+# --- run ---
+
+
+def workspace(folder: Path) -> Path:
+    """A copy of the problem that is solved quickly: two rows, two degrees."""
+    shutil.copytree(ROOT / "problems", folder / "problems")
+    file = folder / "problems" / "optimal_table.toml"
+    text = file.read_text("utf-8")
+    text = re.sub(r"^degrees = .*$", "degrees = [3, 5]", text, flags=re.MULTILINE)
+    text = re.sub(r"^points = .*$", "points = 5", text, flags=re.MULTILINE)
+    file.write_text(text, "utf-8")
+    return file
+
+
+def replaced(file: Path, old: str, new: str) -> Path:
+    text = file.read_text("utf-8")
+    assert old in text
+    file.write_text(text.replace(old, new, 1), "utf-8")
+    return file
+
+
+def test_run_writes_beside_the_problem_file_and_says_what(
+    capsys: Capture, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    file = workspace(tmp_path)
+    code, out, err = called(capsys, "run", file)
+    assert (code, err) == (0, "")
+    written = sorted(path.name for path in (tmp_path / "results" / "optimal_table").iterdir())
+    assert written == ["figure.png", "figure.svg", "laws.json", "table.csv", "table.md", "verdicts.csv"]
+    for name in written:
+        assert str(Path("results") / "optimal_table" / name) in out
+    assert "reproduced to its digits" in out
+
+
+def test_run_twice_gives_the_same_bytes(capsys: Capture, tmp_path: Path) -> None:
+    file = workspace(tmp_path)
+    for out in ("one", "two"):
+        assert called(capsys, "run", file, "--out", tmp_path / out)[0] == 0
+    for name in ("table.csv", "verdicts.csv", "table.md", "figure.svg", "figure.png", "laws.json"):
+        assert (tmp_path / "one" / name).read_bytes() == (tmp_path / "two" / name).read_bytes(), name
+
+
+def test_run_keeps_a_foreign_file_and_replaces_its_own(capsys: Capture, tmp_path: Path) -> None:
+    file = workspace(tmp_path)
+    out = tmp_path / "results"
+    out.mkdir()
+    (out / "table.csv").write_text("mine\n", "utf-8")
+    (out / "table.csv.orig").write_text("older\n", "utf-8")
+    for _ in range(2):
+        assert called(capsys, "run", file, "--out", out)[0] == 0
+    assert (out / "table.csv.orig").read_text("utf-8") == "older\n"
+    assert (out / "table.csv.orig1").read_text("utf-8") == "mine\n"
+    assert "made by optlaws" in (out / "table.csv").read_text("utf-8").splitlines()[0]
+    assert sorted(path.name for path in out.iterdir() if ".orig" in path.name) == ["table.csv.orig", "table.csv.orig1"]
+    assert not [path for path in out.iterdir() if path.name.startswith(".")]
+
+
+def test_run_of_a_missing_file(capsys: Capture, tmp_path: Path) -> None:
+    text = refused(capsys, "run", tmp_path / "none.toml")
+    assert "cannot read" in text
+    assert "none.toml" in text
+
+
+def test_run_of_nothing_and_of_too_much(capsys: Capture, tmp_path: Path) -> None:
+    assert "at least one problem file" in refused(capsys, "run")
+    file = workspace(tmp_path)
+    assert "--out" in refused(capsys, "run", file, file, "--out", tmp_path)
+
+
+@pytest.mark.parametrize("content", [b"job = ", b"= 3", b"[a\n", b"job = 'optimal table'\njob = 'twice'\n"])
+def test_run_of_what_is_not_toml(capsys: Capture, tmp_path: Path, content: bytes) -> None:
+    file = tmp_path / "bad.toml"
+    file.write_bytes(content)
+    assert "is not TOML" in refused(capsys, "run", file)
+
+
+def test_run_of_what_is_not_text(capsys: Capture, tmp_path: Path) -> None:
+    file = tmp_path / "bad.toml"
+    file.write_bytes(b"\xff\xfe\x00job")
+    assert "is not a text file" in refused(capsys, "run", file)
+    assert "cannot read" in refused(capsys, "run", tmp_path)
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ('job = "optimal table"', 'job = "optimal tabel"', "did you mean 'optimal table'"),
+        ('job = "optimal table"', "", "the entry job is missing"),
+        ('job = "optimal table"', "job = 3", "job"),
+        ("monotone =", "monoton =", "did you mean 'monotone'"),
+        ("[bases.S4]\norder = 4", "[bases.S4]\nordr = 4", "did you mean 'order'"),
+        ('row = "2.406"', 'rwo = "2.406"', "did you mean 'row'"),
+        ("points = 5", "point = 5", "did you mean 'points'"),
+        ("from = 1.45", "start = 1.45", "unknown key 'start'"),
+        ("order = 4\n", "", "order"),
+        ("order = 4", 'order = "four"', "order"),
+        ("order = 4", "order = 4.5", "order"),
+        ("order = 4", "order = 0", "order"),
+        ("monotone = false", "monotone = 1", "monotone"),
+        ("degrees = [3, 5]", "degrees = [3, 'five']", "degrees"),
+        ("degrees = [3, 5]", "degrees = []", "degrees"),
+        ("degrees = [3, 5]", "degrees = [0]", "degree"),
+        ("degrees = [3, 5]", "degrees = 3", "degrees"),
+        ("grid = 100", "grid = nan", "grid"),
+        ("grid = 100", "grid = 0", "grid"),
+        ("grid = 100", "grid = -5", "grid"),
+        ("z = [-4, 8]", "z = [-4, nan]", "z"),
+        ("z = [-4, 8]", "z = [-4, '8']", "z"),
+        ("from = 1.45", "from = nan", "from"),
+        ("from = 1.45", "from = 0.5", "from"),
+        ("points = 5", "points = 0", "points"),
+        ("means = -296.3323", "means = inf", "means"),
+        ("[bases.II]", "[bases.III]", "base 'II'"),
+        ("optimal_table_printed.csv", "missing.csv", "missing.csv"),
+        ("optimal_table_printed.csv", "..", "cannot read the printed data"),
+        ('row = "2.6"', 'row = "2.61"', "2.61"),
+        ('quantity = "C"', 'quantity = "Q"', "Q"),
+    ],
+)
+def test_run_names_the_wrong_entry(capsys: Capture, tmp_path: Path, old: str, new: str, says: str) -> None:
+    file = replaced(workspace(tmp_path), old, new)
+    text = refused(capsys, "run", file)
+    assert says in text
+    assert str(tmp_path) in text  # the file at fault is named
+    assert not (tmp_path / "results").exists()
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ("B,C,D,base,z,note", "B,C,base,z,note", "must have the columns"),
+        ("1.53,7.3617", "fast,7.3617", "'fast' is not a number"),
+        ("1.53,7.3617", "nan,7.3617", "'nan' is not a number"),
+        ("1.53,7.3617", "1.53,nan", "'nan' is not a number"),
+        ("1.53,7.3617", "1.53,", "not a number"),
+        ("1.53,7.3617", "0.9,7.3617", "B must be"),
+        ("148.4156", "148,4156", "optimal_table_printed.csv"),
+        ("-514.0444,decimal", "-514.0444 nan,decimal", "nan"),
+        ("148.4156", "14x", "14x"),
+        ("S4,148.4156 -553.8533 771.0667 -514.0444", "S4,", "optimal_table_printed.csv"),
+        ("S4,148.4156", "S9,148.4156", "base 'S9'"),
+    ],
+)
+def test_run_names_the_wrong_printed_number(capsys: Capture, tmp_path: Path, old: str, new: str, says: str) -> None:
+    file = workspace(tmp_path)
+    replaced(file.parent / "data" / "optimal_table_printed.csv", old, new)
+    text = refused(capsys, "run", file)
+    assert says in text
+    assert str(tmp_path) in text
+    assert not (tmp_path / "results").exists()
+
+
+# --- as a command ---
+
+
+def command(*arguments: str) -> Any:  # noqa: ANN401
+    return subprocess.run(
+        [sys.executable, "-m", "optlaws", *arguments], capture_output=True, text=True, check=False, timeout=60
+    )
+
+
+def test_as_a_command_it_prints_json_and_nothing_else() -> None:
+    done = command(*SOLVE, "--json")
+    assert (done.returncode, done.stderr) == (0, "")
+    assert list(json.loads(done.stdout)) == KEYS
+
+
+def test_as_a_command_it_ends_with_3_and_no_traceback() -> None:
+    done = command("solve", "--peak-velocity", "1.53", "--order", "4", "--degree", "1", "--json")
+    assert (done.returncode, done.stdout) == (3, "")
+    assert done.stderr.startswith("optlaws: infeasible: ")
+    assert "Traceback" not in done.stderr
+
+
+def test_version_and_help(capsys: Capture) -> None:
+    wanted = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["version"]
+    assert called(capsys, "--version") == (0, f"{wanted}\n", "")
+    code, out, _ = called(capsys, "--help")
+    assert code == 0
+    assert all(name in out for name in ("run", "solve", "constants"))
+
+
+def test_solve_takes_splines_bounds_and_an_inflexion(capsys: Capture) -> None:
+    shape = ["solve", "--order", "3", "--degree", "3"]
+    bounds = ["--inflexion", "0.4", "--most", "C_minus=6", "--most", "rms_c=4.2"]
+    code, out, _ = called(capsys, *shape, "--basis", "bsplines", "--breaks", "8", *bounds, "--json")
+    found = json.loads(out)
+    assert (code, found["status"], len(found["z"])) == (0, "optimal", 11)
+    law = MotionLaw.from_dict(found["law"])
+    assert law.c(0.4) == pytest.approx(0.0, abs=1e-9)
+    assert -law.extrema(2)[0].value <= 6.0 + 1e-8
+    assert law.rms(2) <= 4.2 + 1e-8
+    code, out, _ = called(capsys, *shape, "--basis", "pieces", "--breaks", "0 .1 .3 .5 .7 .9 1", "--continuity", "2")
+    assert code == 0
+    assert "Z(k)" not in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["--basis", "bsplines"], "need --breaks"),
+        (["--breaks", "8"], "need --breaks"),
+        (["--basis", "bsplines", "--breaks", "8 x"], "breaks are a number"),
+        (["--basis", "bsplines", "--breaks", "0 0.2 1"], "symmetric about 1/2"),
+        (["--most", "rms_c"], "such as rms_c=4"),
+        (["--most", "rmsc=4"], "did you mean"),
+        (["--inflexion", "2"], "between 0 and 1"),
+    ],
+)
+def test_solve_refuses_shapes_and_bounds_that_make_no_sense(capsys: Capture, arguments: list[str], says: str) -> None:
+    assert says in refused(capsys, "solve", "--order", "3", "--degree", "3", *arguments)

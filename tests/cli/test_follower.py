@@ -1,0 +1,127 @@
+"""The command `optlaws follower`."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from optlaws import Follower, MotionLaw, polydyne, savin, smoothstep
+from optlaws.cli import commands
+from optlaws.laws.catalogue.catalogue import catalogue
+
+Capture = pytest.CaptureFixture[str]
+KEYS = [
+    "nu",
+    "damping",
+    "dynamic_factor",
+    "peak_acceleration",
+    "dwell_acceleration",
+    "residual_displacement",
+    "residual_acceleration",
+    "off_design",
+    "cam",
+]
+
+
+def called(capsys: Capture, *arguments: object) -> tuple[int, str, str]:
+    code = commands.exit_code(["follower", *(str(one) for one in arguments)])
+    return code, *capsys.readouterr()
+
+
+def printed(capsys: Capture, *arguments: object) -> dict[str, Any]:
+    code, out, err = called(capsys, *arguments, "--json")
+    assert (code, err, out.count("\n")) == (0, "", 1)
+    found: dict[str, Any] = json.loads(out)
+    assert list(found) == KEYS
+    return found
+
+
+def test_a_polydyne_cam_off_its_design(capsys: Capture) -> None:
+    found = printed(capsys, "III", "--alpha", 7.2, "--nu", 19, "--damping", 0.05, "--design-nu", 20)
+    law = savin("III", 7.2)
+    cam = polydyne(law, 20, 0.05)
+    response = Follower(19, 0.05).response(cam)
+    assert MotionLaw.from_dict(found["cam"]["law"]) == cam
+    assert found["dynamic_factor"] == response.dynamic_factor(law)
+    assert found["residual_acceleration"] == response.residual_acceleration
+    assert [one["percent"] for one in found["off_design"]] == [-10, -5, 0, 5, 10]
+    assert found["off_design"][2]["dynamic_factor"] == found["dynamic_factor"]
+
+
+def test_a_design_without_damping_on_a_damped_follower(capsys: Capture) -> None:
+    options = ("--nu", 20, "--damping", 0.05, "--design-nu", 20, "--design-damping", 0)
+    found = printed(capsys, "IV", "--alpha", 11, *options)
+    assert found["dynamic_factor"] == pytest.approx(0.983268, abs=1e-6)
+
+
+def test_a_law_of_the_catalogue_at_a_speed(capsys: Capture) -> None:
+    found = printed(capsys, "BESTEHORN", "--speed-rpm", 105, "--rise-angle", 120, "--natural-period", 0.06)
+    response = Follower(found["nu"]).response(catalogue["cycloidal"].law)
+    assert found["nu"] == pytest.approx(60 * 2.0943951 / (105 * 0.06))
+    assert found["residual_displacement"] == response.residual_displacement
+
+
+def test_a_law_from_a_file(capsys: Capture, tmp_path: Path) -> None:
+    for content in (smoothstep(4).to_json(), json.dumps({"status": "optimal", "law": smoothstep(4).to_dict()})):
+        file = tmp_path / "law.json"
+        file.write_text(content, "utf-8")
+        found = printed(capsys, file, "--nu", 20)
+        assert MotionLaw.from_dict(found["cam"]["law"]) == smoothstep(4)
+
+
+def test_an_unbounded_jerk_is_null(capsys: Capture) -> None:
+    assert printed(capsys, "constant acceleration", "--nu", 20)["cam"]["constants"]["J"]["value"] is None
+    code, out, _ = called(capsys, "constant acceleration", "--nu", 20)
+    assert code == 0
+    assert "J inf" in out
+
+
+def test_what_a_person_reads(capsys: Capture) -> None:
+    code, out, err = called(capsys, "IV", "--alpha", 11, "--nu", 18, "--design-nu", 20)
+    assert (code, err) == (0, "")
+    for part in ("dynamic factor", "1.1855643", "residual acceleration", "2.8075126", "C 6.292874", "-10 %"):
+        assert part in out
+
+
+def test_the_spectrum_is_drawn(capsys: Capture, tmp_path: Path) -> None:
+    for kind in ("png", "svg"):
+        file = tmp_path / f"spectrum.{kind}"
+        assert called(capsys, "modified sine", "--nu", 20, "--spectrum", 5, 40, "--plot", file)[0] == 0
+        assert len(file.read_bytes()) > 5000
+
+
+@pytest.mark.parametrize(
+    ("arguments", "says"),
+    [
+        (["II", "--alpha", "7", "--nu", "20", "--design-nu", "20"], "jerk j(0) = 120, so the velocity of the cam"),
+        (["IV", "--nu", "20"], "need --alpha"),
+        (["cycloidal", "--alpha", "1", "--nu", "20"], "no other takes it"),
+        (["IV", "--alpha", "20", "--nu", "20"], "alpha"),
+        (["cycloidl", "--nu", "20"], "did you mean 'cycloidal'"),
+        (["cycloidal"], "either --nu or all of --speed-rpm, --rise-angle and --natural-period"),
+        (["cycloidal", "--nu", "20", "--speed-rpm", "100"], "either --nu or"),
+        (["cycloidal", "--nu", "-20"], "nu must be above 0"),
+        (["cycloidal", "--nu", "20", "--damping", "-1"], "damping must be at least 0"),
+        (["cycloidal", "--nu", "20", "--design-damping", "0.1"], "--design-damping needs --design-nu"),
+        (["cycloidal", "--nu", "20", "--plot", "x.pdf", "--spectrum", "1", "2"], "ends in .png or .svg"),
+        (["cycloidal", "--nu", "20", "--plot", "x.png"], "name both or neither"),
+        (["cycloidal", "--nu", "20", "--plot", "x.png", "--spectrum", "9", "2"], "two rising numbers above 0"),
+        (["missing.json", "--nu", "20"], "missing.json"),
+        (["cycloidal", "--nue", "20"], "--nu"),
+    ],
+)
+def test_nonsense_is_refused(capsys: Capture, arguments: list[str], says: str) -> None:
+    code, out, err = called(capsys, *arguments)
+    assert (code, out) == (2, "")
+    assert err.startswith("optlaws: ")
+    assert says in err
+
+
+def test_a_file_that_is_no_law_is_refused(capsys: Capture, tmp_path: Path) -> None:
+    file = tmp_path / "law.json"
+    for content, says in (("{", "is not JSON"), ("[]", "a law must be a dict"), ('{"law": {}}', "format of a law")):
+        file.write_text(content, "utf-8")
+        code, _, err = called(capsys, file, "--nu", 20)
+        assert code == 2
+        assert says in err

@@ -1,0 +1,49 @@
+"""A problem in a problem file: bases of pieces, bounds of any constant, an inflexion."""
+
+from pathlib import Path
+from typing import Any
+
+import msgspec
+import pytest
+
+from optlaws import BSplines, InputError, Pieces, Problem, at_most, between
+from optlaws.files.problem_file import convert
+from optlaws.files.problems import Asked, problem
+
+
+def asked(**entries: Any) -> Problem:  # noqa: ANN401
+    return problem("row 1", convert(entries, Asked, Path("some.toml")).given())
+
+
+def test_every_entry_is_read() -> None:
+    found = asked(
+        order=3,
+        basis="bsplines",
+        degree=3,
+        breaks=[0, 0.3, 0.7, 1],
+        continuity=2,
+        bounds={"rms_c": [0, 4], "jounce": 900.0},
+    )
+    assert found == Problem(
+        order=3, basis=BSplines((0, 0.3, 0.7, 1), 3, 2), bounds={"rms_c": at_most(4), "jounce": 900.0}
+    )
+    assert asked(order=3, basis="pieces", degree=4, breaks=8, bounds={"rms_c": [3.5, 4]}) == Problem(
+        order=3, basis=Pieces(8, 4), bounds={"rms_c": between(3.5, 4)}
+    )
+    assert asked(order=3, symmetric=False, inflexion=0.4).inflexion == 0.4
+    assert asked(order=3, bounds={"rms_c": "free"}) == Problem(order=3)
+
+
+@pytest.mark.parametrize(
+    ("entries", "text"),
+    [
+        ({"basis": "spline"}, "basis"),
+        ({"inflexion": 1.0}, "inflexion"),
+        ({"inflexion": 0.4}, "symmetric=False"),
+        ({"bounds": {"rmsc": 4}}, "did you mean 'rms_c'"),
+        ({"basis": "bsplines", "degree": 3}, "does not take these parameters"),
+    ],
+)
+def test_entries_that_make_no_sense_are_refused(entries: dict[str, Any], text: str) -> None:
+    with pytest.raises((InputError, msgspec.ValidationError), match=text):
+        asked(order=3, **entries)

@@ -1,0 +1,133 @@
+"""The job "follower": tables, figures, its errors, and what results/ holds."""
+
+from pathlib import Path
+
+import pytest
+
+from optlaws import InputError
+from optlaws.jobs import job
+from tests.documents import ROOT
+from tests.jobs.written import table
+from tests.mechanisms.savin_cases import rows
+
+RESULTS = ROOT / "results" / "savin_follower"
+FILES = {"coefficients.csv", "cams.csv", "off_design.csv", "follower.md"} | {
+    f"{name}.{kind}" for name in ("curves", "spectrum") for kind in ("svg", "png")
+}
+SMALL = """
+job = "follower"
+title = "Small"
+nu = 15
+deviations = [-5, 0]
+[[cam]]
+name = "first"
+law = "III"
+alpha = 7.2
+design_damping = 0.1
+[[cam]]
+name = "second"
+law = "cycloidal"
+[[off_design]]
+cam = "first"
+damping = 0.1
+[[off_design]]
+cam = "second"
+damping = 0.1
+change = "stiffness"
+[spectrum]
+cams = ["first", "second"]
+damping = 0.1
+from = 5
+to = 30
+points = 20
+[curves]
+cams = ["first"]
+damping = 0.1
+deviations = [-5]
+"""
+
+
+def run(folder: Path, text: str) -> Path:
+    file = folder / "small.toml"
+    file.write_text(text, "utf-8")
+    job.run(file, folder / "out")
+    return folder / "out"
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return run(tmp_path_factory.mktemp("follower"), SMALL)
+
+
+def test_every_file_is_written(made: Path) -> None:
+    assert {file.name for file in made.iterdir()} == FILES == {file.name for file in RESULTS.iterdir()}
+
+
+def test_the_rows_are_the_runs(made: Path) -> None:
+    lines = table(made / "off_design.csv")
+    assert [(one["cam"], one["change"], float(one["deviation of nu, %"])) for one in lines] == [
+        ("first", "speed", -5.0),
+        ("first", "speed", 0.0),
+        ("second", "stiffness", -5.0),
+        ("second", "stiffness", 0.0),
+    ]
+    assert float(lines[1]["dynamic factor"]) == 1.0
+    assert float(lines[1]["residual acceleration"]) == 0.0
+    assert float(lines[2]["n"]) == pytest.approx(1.5)
+    page = (made / "follower.md").read_text("utf-8")
+    assert "## Dynamic factor off design" in page
+    assert "curves.svg" in page
+
+
+def test_two_runs_give_the_same_bytes(made: Path, tmp_path: Path) -> None:
+    again = run(tmp_path, SMALL)
+    for file in made.iterdir():
+        assert (again / file.name).read_bytes() == file.read_bytes(), file.name
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "match"),
+    [
+        ("nu = 15", "nu = 0", "nu"),
+        ("nu = 15", "mu = 15", "mu.*nu"),
+        ('law = "III"', 'law = "II"', "cam first: the mass law has .*velocity of the cam"),
+        ("alpha = 7.2", "", "need an alpha"),
+        ('law = "cycloidal"', 'law = "cycloidl"', "cam second: no law is called 'cycloidl'; did you mean 'cycloidal'"),
+        ('name = "second"', 'name = "first"', "names must differ"),
+        ('cam = "second"', 'cam = "secnd"', "unknown cam 'secnd'; did you mean 'second'"),
+        ('change = "stiffness"', 'change = "mass"', "change"),
+        ("deviations = [-5, 0]", "deviations = [-100]", "deviations"),
+        ("from = 5", "from = 50", "spectrum"),
+        ("damping = 0.1\nfrom = 5", "damping = 1.0\nfrom = 5", "damping"),
+    ],
+)
+def test_errors_name_the_file_and_the_entry(tmp_path: Path, old: str, new: str, match: str) -> None:
+    assert old in SMALL
+    with pytest.raises(InputError, match=rf"(?s)small\.toml.*{match}"):
+        run(tmp_path, SMALL.replace(old, new, 1))
+
+
+def test_results_in_the_repository_are_the_digests_numbers() -> None:
+    names = {"III_rigid": "III direct", "IV_rigid": "IV direct", "K": "K direct"}
+    found = {
+        (one["cam"], one["change"] if float(one["damping"]) else "undamped", float(one["deviation of nu, %"])): one
+        for one in table(RESULTS / "off_design.csv")
+    }
+    compared = 0
+    for row in rows("off_design"):
+        cam = names.get(row["law"], f"{row['law']}, n = {row['n_design']}")
+        change = {"undamped": "undamped", "zeta_const": "speed", "n_const": "stiffness"}[row["variant"]]
+        line = found.get((cam, change, float(row["pct"])))
+        if line is not None:
+            assert float(line["dynamic factor"]) == pytest.approx(float(row["kd_rise"]), rel=1e-7)
+            assert float(line["residual acceleration"]) == pytest.approx(float(row["res_acc_amp"]), rel=1e-7, abs=1e-8)
+            compared += 1
+    assert compared == len(found) == 80
+
+
+def test_the_coefficients_in_the_repository_are_whole_fractions() -> None:
+    found = {(one["cam"], int(one["i"])): one for one in table(RESULTS / "coefficients.csv")}
+    for row in rows("cam_coeffs"):
+        line = found[f"{row['family']}, n = {row['n']}", int(row["i"])]
+        assert float(line["Q_i of the mass"]) == pytest.approx(float(row["Q"]), rel=1e-7)
+        assert float(line["q_i of the cam"]) == pytest.approx(float(row["q"]), rel=1e-7)

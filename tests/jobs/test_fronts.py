@@ -1,0 +1,135 @@
+"""The job "fronts": tables and figures of exchanges, its errors, and what results/ holds."""
+
+import json
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+from optlaws import InputError, Problem, drawing, synthesize
+from optlaws.jobs import job
+from optlaws.synthesis.pareto import pareto_front
+from tests.documents import ROOT
+from tests.jobs.written import table
+
+RESULTS = ROOT / "results" / "fronts"
+SMALL = """
+job = "fronts"
+title = "Small"
+points = 4
+[problem]
+order = 4
+degree = 3
+[[figure]]
+name = "one"
+title = "C at given B"
+over = ["B", "C"]
+between = [1.4, 1.9]
+catalogue = ["II", "smoothstep", "modified sine"]
+front = [{ label = "l = 4" }, { label = "l = 3", order = 3, points = 3 }]
+[[figure]]
+name = "two"
+title = "J at given C"
+over = ["C", "J"]
+front = [{ label = "B = 1.641", B = 1.641 }]
+"""
+
+
+def run(folder: Path, text: str) -> Path:
+    file = folder / "small.toml"
+    file.write_text(text, "utf-8")
+    job.run(file, folder / "out")
+    return folder / "out"
+
+
+@pytest.fixture(scope="module")
+def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return run(tmp_path_factory.mktemp("fronts"), SMALL)
+
+
+def test_every_point_is_tabled_with_its_bound(made: Path) -> None:
+    rows = table(made / "fronts.csv")
+    assert [(row["figure"], row["front"]) for row in rows] == (
+        [("one", "l = 4")] * 4 + [("one", "l = 3")] * 3 + [("two", "B = 1.641")] * 4
+    )
+    for row in rows[:7]:
+        assert float(row["lower bound"]) == pytest.approx(float(row["C"]), rel=1e-7)
+        assert float(row["limit"]) < float(row["C"])
+
+
+def test_points_can_be_solved_again(made: Path) -> None:
+    for front in json.loads((made / "fronts.json").read_text("utf-8"))["fronts"]:
+        for point in front["points"]:
+            solution = synthesize(Problem.from_dict(point["problem"]))
+            assert solution.objective == pytest.approx(point["values"][-1], rel=1e-8)
+
+
+def test_the_figures_are_pictures(made: Path) -> None:
+    for name, labels in (
+        ("one", ("C at given B", "Savin", "smoothsteps", "modified sine", "limit of all laws")),
+        ("two", ("J at given C", "limit of each constant alone")),
+    ):
+        assert (made / f"{name}.png").read_bytes().startswith(b"\x89PNG")
+        text = (made / f"{name}.svg").read_text("utf-8")
+        for label in labels:
+            assert label in text
+        assert f"{name}.svg" in (made / "fronts.md").read_text("utf-8")
+
+
+def test_two_runs_give_the_same_bytes(made: Path, tmp_path: Path) -> None:
+    again = run(tmp_path, SMALL)
+    for file in made.iterdir():
+        assert (again / file.name).read_bytes() == file.read_bytes(), file.name
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "match"),
+    [
+        ("order = 4", "ordre = 4", "ordre.*order"),
+        ('over = ["B", "C"]', 'over = ["B", "K"]', "over"),
+        ('over = ["B", "C"]', 'over = ["B"]', "over"),
+        ('over = ["B", "C"]', 'over = ["B", "B"]', "figure one, l = 4.*each once"),
+        ("between = [1.4, 1.9]", "between = [1.9, 1.4]", "figure one, l = 4.*between"),
+        ("between = [1.4, 1.9]", "between = [1.4]", "between"),
+        ('{ label = "l = 4" }', '{ lable = "l = 4" }', "lable.*label"),
+        ('{ label = "l = 4" }', '{ label = "l = 4", B = 1.6 }', "B is exchanged"),
+        ('name = "two"', 'name = "one"', "names must differ"),
+        ('name = "two"', 'name = "../two"', "name"),
+        ("points = 4", "points = 1", "points"),
+        ('["II", "smoothstep", ', '["V", ', "figure one, catalogue: no law is called 'V'"),
+    ],
+)
+def test_errors_name_the_file_and_the_entry(tmp_path: Path, old: str, new: str, match: str) -> None:
+    assert old in SMALL
+    with pytest.raises(InputError, match=rf"(?s)small\.toml.*{match}"):
+        run(tmp_path, SMALL.replace(old, new, 1))
+
+
+def test_a_front_can_be_drawn_alone() -> None:
+    front = pareto_front(Problem(order=3), ("B", "C"), points=3, between=(1.5, 1.8))
+    (line,) = drawing.draw_front(front)
+    assert line.axes is not None
+    assert line.axes.get_ylabel() == "peak acceleration C (dimensionless)"
+    surface = pareto_front(Problem(order=3), ("B", "C", "J"), points=4, between=(1.5, 1.8))
+    (points,) = drawing.draw_front(surface)
+    assert len(np.asarray(points.get_array())) == len(surface)  # type: ignore[attr-defined]
+
+
+def test_results_in_the_repository_fall_and_keep_above_the_limits() -> None:
+    rows = table(RESULTS / "fronts.csv")
+    figures = {(row["figure"], row["front"]) for row in rows}
+    assert len(figures) == 15
+    for figure, front in figures:
+        first, last = ("C", "D") if figure == "d-over-c" else ("B", figure[0].upper())
+        mine = [row for row in rows if (row["figure"], row["front"]) == (figure, front)]
+        values = np.array([[float(row[first]), float(row[last])] for row in mine])
+        assert (np.diff(values[:, 0]) > 0.0).all()
+        assert (np.diff(values[:, 1]) < 0.0).all()
+        assert all(float(row["limit"]) < float(row[last]) for row in mine)
+
+
+def test_more_conditions_cost_more() -> None:
+    rows = table(RESULTS / "fronts.csv")
+    for figure in ("c-over-b-by-order", "d-over-b-by-order"):
+        ends = {row["front"]: float(row[figure[0].upper()]) for row in rows if row["figure"] == figure}
+        assert [ends[f"l = {order}"] for order in (2, 3, 4, 5)] == sorted(ends.values())

@@ -1,0 +1,169 @@
+"""The jobs of the torsion lever: tables with verdicts, the parametric study, the nomogram, the drawing."""
+
+import csv
+from pathlib import Path
+
+import pytest
+
+from optlaws import InputError, TorsionLever, deg
+from optlaws.jobs import job
+from tests.documents import ROOT
+from tests.mechanisms.lever.cases import rows
+
+RESULTS = ROOT / "results"
+PRINTED = "coefficient,beta,lambda,printed\nQ,0.5,,0.375\nR,1,3,0.000\nR,1.5,10,0.172\nP,0.25,,0.234\n"
+TABLES = """
+job = "lever tables"
+title = "Few"
+printed = "few.csv"
+[[misprint]]
+coefficient = "P"
+beta = "0.25"
+reason = "the sign"
+"""
+STUDY = """
+job = "lever parametric"
+title = "Few"
+beta = [0.5, 1.0, 1.5]
+lambda = [1, 4]
+rho = [0.15]
+nu = [0.05, 0.15]
+swing = [30, 100]
+drawn = [0.5, 1.5]
+"""
+NOMOGRAM = """
+job = "lever nomogram"
+title = "Few"
+beta = [0.5, 1.5]
+lambda = 3
+rho = 0.15
+nu = 0.15
+tabled = [20, 60]
+points = 5
+"""
+DRAWING = """
+job = "lever drawing"
+title = "One"
+beta = 0.75
+lambda = 1
+rho = 0.15
+nu = 0.15
+swing = 60
+"""
+
+
+def read(file: Path) -> list[dict[str, str]]:
+    lines = file.read_text(encoding="utf-8").splitlines()
+    return list(csv.DictReader(line for line in lines if not line.startswith("#")))
+
+
+def done(folder: Path, text: str) -> Path:
+    (folder / "few.csv").write_text(PRINTED, encoding="utf-8")
+    (folder / "job.toml").write_text(text, encoding="utf-8")
+    job.run(folder / "job.toml", folder / "out")
+    return folder / "out"
+
+
+def test_every_printed_coefficient_has_its_verdict(tmp_path: Path) -> None:
+    found = read(done(tmp_path, TABLES) / "verdicts.csv")
+    assert [row["verdict"] for row in found] == [
+        "reproduced to its digits",
+        "reproduced to its digits",
+        "reproduced to 1.9 %",
+        "misprint",
+    ]
+
+
+def test_results_hold_all_printed_tables() -> None:
+    found = {(r["coefficient"], float(r["beta"]), r["lambda"]): r for r in read(RESULTS / "lever_tables/verdicts.csv")}
+    wanted = rows("lever_tables")
+    assert len(found) == len(wanted) == 140
+    for row in wanted:
+        line = found[row["coef"], float(row["beta"]), row["lambda"]]
+        assert float(line["exact"]) == pytest.approx(float(row["computed"]), abs=5.1e-7)
+        assert float(line["printed"]) == float(row["printed(OCR)"])
+    misprints = [key for key, line in found.items() if line["verdict"] == "misprint"]
+    assert misprints == [("P", 0.25, ""), ("P", 1.75, "")]
+
+
+def test_results_hold_the_parametric_study() -> None:
+    found = {(float(r["beta"]), float(r["swing, deg"])): r for r in read(RESULTS / "lever_parametric/parametric.csv")}
+    wanted = rows("lever_parametric")
+    assert len(found) == len(wanted)
+    for row in wanted:
+        line = found[float(row["beta"]), float(row["swing_deg"])]
+        assert int(line["levers"]) == int(row["n_cases"])
+        for name, of in (("B1", "B1"), ("B3", "B3"), ("C1", "C1"), ("|C3|", "C3abs"), ("T/T0", "T/T0")):
+            for end, kind in (("least", "min"), ("greatest", "max")):
+                assert float(line[f"{name} {end}"]) == pytest.approx(float(row[f"{of}_{kind}"]), abs=5.1e-6)
+        for name in ("B1", "B3", "C1"):
+            spread = float(row[f"spread_{name}_pct"])
+            assert float(line[f"spread of {name}, %"]) == pytest.approx(spread, abs=1.1e-3)
+
+
+def test_a_study_counts_the_levers_whose_exact_motion_is_within_the_limits(tmp_path: Path) -> None:
+    out = done(tmp_path, STUDY)
+    found = {(row["beta"], row["swing, deg"]): row for row in read(out / "parametric.csv")}
+    assert set(found) == {("0.5", "30"), ("0.5", "100"), ("1", "30"), ("1.5", "30")}
+    most = found["0.5", "100"]
+    assert (most["levers"], most["within the limits in the exact motion"]) == ("4", "2")
+    one = TorsionLever(0.5, 1, 0.15, 0.15, deg(30))
+    low, high = (float(found["0.5", "30"][f"B3 {end}, exact"]) for end in ("least", "greatest"))
+    assert low <= one.exact.B3 * (1 + 1e-7)
+    assert high >= one.exact.B3 * (1 - 1e-7)
+    assert {"constants.svg", "constants.png"} < {file.name for file in out.iterdir()}
+
+
+def test_the_nomogram_is_the_sizing(tmp_path: Path) -> None:
+    out = done(tmp_path, NOMOGRAM)
+    found = {(row["beta"], row["swing, deg"]): row for row in read(out / "nomogram.csv")}
+    assert set(found) == {("0.5", "20"), ("0.5", "60"), ("1.5", "20")}
+    one = TorsionLever(0.5, 3, 0.15, 0.15, deg(60))
+    line = found["0.5", "60"]
+    assert deg(float(line["gamma01, deg"])) == pytest.approx(one.gamma01, rel=1e-7)
+    assert float(line["xi"]) == pytest.approx(one.xi, rel=1e-7)
+    assert float(line["exact T"]) == pytest.approx(one.exact.period, rel=1e-7)
+    assert (out / "nomogram.svg").exists()
+
+
+def test_the_drawing_is_the_same_each_time(tmp_path: Path) -> None:
+    first = {file.name: file.read_bytes() for file in done(tmp_path, DRAWING).iterdir()}
+    assert set(first) == {"drawing.md", *(f"{n}.{k}" for n in ("mechanism", "motion") for k in ("svg", "png"))}
+    assert {file.name: file.read_bytes() for file in done(tmp_path, DRAWING).iterdir()} == first
+    assert "6.100747" in first["drawing.md"].decode()
+
+
+@pytest.mark.parametrize(
+    ("text", "said"),
+    [
+        (TABLES.replace('"0.25"', '"0.3"'), "misprint: not among the printed numbers .*: P 0.3"),
+        (TABLES.replace("misprint", "misprit"), "did you mean 'misprint'"),
+        (STUDY.replace("drawn = [0.5, 1.5]", "drawn = [0.7]"), "drawn: 0.7 not among beta"),
+        (STUDY.replace("[30, 100]", "[170]"), "no combination of beta, lambda, rho, nu and swing"),
+        (STUDY.replace("[30, 100]", "[200]"), "swing"),
+        (STUDY.replace("lambda", "lamda"), "did you mean 'lambda'"),
+        (NOMOGRAM.replace("[20, 60]", "[175]"), "no combination of beta and swing"),
+        (DRAWING.replace("0.75", "1.5"), r"job.toml: the angle between coupler and rocker"),
+    ],
+)
+def test_wrong_files_are_refused(tmp_path: Path, text: str, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        done(tmp_path, text)
+
+
+@pytest.mark.parametrize(
+    ("line", "said"),
+    [
+        ("R,0.5,,0.1", "R needs a lambda and the others have none"),
+        ("Q,0.5,1,0.1", "R needs a lambda and the others have none"),
+        ("U,0.5,,0.1", "coefficient must be Q, P, S or R, got 'U'"),
+        ("Q,-1,,0.1", "beta and lambda must be above 0, got -1"),
+        ("Q,0.5,,none", "'none' is not a number"),
+        ("Q,0.5,,0.000", "printed as 0, it is 0.375"),
+    ],
+)
+def test_wrong_printed_data_are_refused(tmp_path: Path, line: str, said: str) -> None:
+    (tmp_path / "few.csv").write_text(PRINTED + line + "\n", encoding="utf-8")
+    (tmp_path / "job.toml").write_text(TABLES, encoding="utf-8")
+    with pytest.raises(InputError, match=said):
+        job.run(tmp_path / "job.toml", tmp_path / "out")

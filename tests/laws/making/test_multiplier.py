@@ -1,0 +1,153 @@
+"""The multiplier method (1.6): against Savin's families, against quadrature, and what it refuses."""
+
+import itertools
+from fractions import Fraction
+from math import cos, exp, pi
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.making.multiplier import multiplied
+from optlaws.laws.making.transform import with_end_velocity
+from optlaws.laws.making.trapezoids import scca, trapezoid
+from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.savin.family import SavinFamily
+from optlaws.laws.savin.savin import savin
+from optlaws.laws.segments.segment import PowerSegment
+from tests.laws.examples import cut, random_law
+
+K = np.linspace(0.0, 1.0, 201)
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)
+QUARTIC = [2, -7, 11, -8, 4]  # 2 - 7 p + 4 p², p = k (1 - k)
+LAWS: dict[str, MotionLaw] = {
+    "S_3": smoothstep(3),
+    "S_4 in three pieces": cut(smoothstep(4), 0.2, 0.55),
+    "cycloid": catalogue["cycloidal"].law,
+    "modified sine": scca(0.25, 0.0, 0.75),
+    "sine, coast": scca(0.2, 0.1, 0.3),
+    "S-curve": trapezoid(0.1, 0.15, 0.2),
+    "fall like x^1.5": trapezoid(0.03, 0.17, exponent=1.5),
+    "moving at both ends": with_end_velocity(smoothstep(4), 0.3),
+}
+MULTIPLIERS: dict[str, Any] = {
+    "quadratic": ([Fraction(3, 2), -2, 2], lambda k: 1.5 - 2 * k + 2 * k * k),
+    "quartic": (QUARTIC, lambda k: 2 - 7 * k + 11 * k**2 - 8 * k**3 + 4 * k**4),
+    "exponential": (lambda k: exp(3 * (k - 0.5) ** 2), lambda k: np.exp(3 * (k - 0.5) ** 2)),
+    "cosine": (lambda k: 1 + 0.9 * cos(2 * pi * k), lambda k: 1 + 0.9 * np.cos(2 * np.pi * k)),
+}
+
+
+def stroke(law: MotionLaw, y: Any) -> float:  # noqa: ANN401
+    """The stroke of c y from rest, by quadrature piece by piece."""
+    breaks = law.breaks if isinstance(law, PiecewiseLaw) else (0.0, 1.0)
+    total = 0.0
+    for low, high in itertools.pairwise(breaks):
+        # k = low + (high - low) t² (3 - 2t): a power of time to either end is smooth in t
+        t = 0.5 * (NODES + 1.0)
+        k = low + (high - low) * t * t * (3.0 - 2.0 * t)
+        weights = 0.5 * WEIGHTS * (high - low) * 6.0 * t * (1.0 - t)
+        total += float(weights @ ((1.0 - k) * law.c(k) * y(k)))
+    return total
+
+
+@pytest.mark.parametrize("law", LAWS.values(), ids=LAWS.keys())
+@pytest.mark.parametrize(("y", "values"), MULTIPLIERS.values(), ids=MULTIPLIERS.keys())
+def test_acceleration_is_the_product_and_the_stroke_stays(law: MotionLaw, y: Any, values: Any) -> None:  # noqa: ANN401
+    found = multiplied(law, y)
+    scale = (1.0 - law.b(0.0)) / stroke(law, values)
+    assert found.c(K) == pytest.approx(scale * law.c(K) * values(K), abs=5e-13 * found.peak(2).value)
+    assert found.a([0.0, 1.0]) == pytest.approx([0.0, 1.0], abs=1e-13)
+    assert found.b([0.0, 1.0]) == pytest.approx(law.b([0.0, 1.0]), abs=1e-13)
+    assert isinstance(found, PiecewiseLaw) == isinstance(law, PiecewiseLaw)
+
+
+@settings(max_examples=30)
+@given(st.integers(0, 6), st.fractions(0, 1, max_denominator=1000))
+def test_quadratic_multipliers_give_savin_s_families(u: int, share: Fraction) -> None:
+    family = SavinFamily(u)
+    low, high = family.range
+    alpha = low + share * (high - low)
+    y = [1 + alpha * family.M, -alpha, alpha]
+    assert multiplied(smoothstep(u + 2), y) == savin(u, alpha)  # type: ignore[arg-type] # a Fraction is a number
+
+
+def test_only_the_shape_of_y_counts() -> None:
+    law = smoothstep(4)
+    assert multiplied(law, [3, -7, 7]) == multiplied(law, [6, -14, 14])
+    assert multiplied(law, [5]) == law
+    assert multiplied(law, lambda _: 0.1).a(K) == pytest.approx(law.a(K), abs=1e-15)
+
+
+def test_pieces_keep_their_kind() -> None:
+    y = [2, -7, 7]
+    for law, kinds in (
+        (trapezoid(0.03, 0.17, exponent=1.5), {"polynomial", "fractional"}),
+        (trapezoid(0.1, 0.2), {"polynomial"}),
+        (PiecewiseLaw([0, 0.5, 1], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)]), {"fractional"}),
+        (scca(0.25, 0.5, 0.25), {"polynomial"}),  # a sine times a polynomial is none
+    ):
+        found = multiplied(law, y)
+        assert isinstance(found, PiecewiseLaw)
+        assert {one.kind for one in found.segments} == kinds
+        assert MotionLaw.from_json(found.to_json()) == found
+
+
+def test_constant_power_times_y_keeps_a_finite_power() -> None:
+    law = PiecewiseLaw([0, 0.5, 1], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)])
+    found = multiplied(law, [1, -1, 1])
+    assert found.constants.C.value == np.inf
+    k = np.linspace(0.0, 0.499, 1000)
+    assert found.constants.D.value == pytest.approx(found.d(k).max(), rel=1e-6)
+    assert found.d(0.0) == pytest.approx(found.d(1e-9), rel=1e-6)
+
+
+def test_area_wanders_to_where_y_is_large() -> None:
+    law = smoothstep(3)
+    assert multiplied(law, [1, -3, 3]).peak(1).value < law.peak(1).value < multiplied(law, [1, 3, -3]).peak(1).value
+
+
+@pytest.mark.parametrize(
+    ("y", "message"),
+    [
+        ([1, 1], r"even about k = 1/2, but y\(k\) and y\(1 - k\) differ by up to 1; write it in powers of k \(1 - k\)"),
+        (lambda k: 1 + k, "even about k = 1/2"),
+        ([0.9, -4, 4], "nowhere negative, but is -0.1 at k = 0.5"),
+        (lambda k: cos(2 * pi * k), "nowhere negative"),
+        ([0], "zero everywhere"),
+        ([], "zero everywhere"),
+        (lambda k: abs(k - 0.5), "y must be smooth"),
+        (lambda k: 1 / k if k > 0.5 else 1 / (1 - k), "y must be smooth"),
+        (lambda k: float("nan") * k, "finite values"),
+        (["1"], "y"),
+        (3, "y must be a sequence"),
+    ],
+)
+def test_wrong_multipliers_are_refused(y: Any, message: str) -> None:  # noqa: ANN401
+    for law in (smoothstep(3), scca(0.25, 0.5, 0.25)):
+        with pytest.raises(InputError, match=message):
+            multiplied(law, y)
+
+
+@pytest.mark.parametrize("law", [random_law(3, 5), cut(random_law(3, 5), 0.4)])
+def test_laws_that_the_method_does_not_fit_are_refused(law: MotionLaw) -> None:
+    with pytest.raises(InputError, match=r"change the velocity by .* odd about k = 1/2"):
+        multiplied(law, [2, -1, 1])
+
+
+@pytest.mark.parametrize("law", [smoothstep(1), cut(smoothstep(1), 0.5)])
+def test_uniform_motion_has_no_acceleration_to_multiply(law: MotionLaw) -> None:
+    with pytest.raises(InputError, match="no stroke"):
+        multiplied(law, [2, -1, 1])
+
+
+def test_high_degrees_stay_exact() -> None:
+    law = smoothstep(25)
+    found = multiplied(law, [2, -1, 1])
+    assert isinstance(found, PolynomialLaw)
+    assert found.a([0.5, 1.0]) == pytest.approx([0.5, 1.0], abs=1e-14)

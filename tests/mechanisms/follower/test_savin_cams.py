@@ -1,0 +1,75 @@
+"""The experiment's two cams, at and off their design, against the digest's numbers."""
+
+from fractions import Fraction
+
+import pytest
+
+from optlaws import Follower, savin
+from optlaws.mechanisms.polydyne.polydyne import cam_powers
+from tests.mechanisms.savin_cases import cam, reference, rows
+
+COEFFICIENTS, PEAKS, OFF_DESIGN = rows("cam_coeffs"), rows("cam_peaks"), rows("off_design")
+
+
+def name(row: dict[str, str]) -> str:
+    return "-".join(row[key] for key in ("law", "family", "n_design", "n", "i", "variant", "pct") if row.get(key))
+
+
+def test_the_tables_are_whole() -> None:
+    assert (len(COEFFICIENTS), len(PEAKS), len(OFF_DESIGN)) == (44, 4, 85)
+
+
+@pytest.mark.parametrize("row", COEFFICIENTS, ids=name)
+def test_coefficients_of_mass_and_cam(row: dict[str, str]) -> None:
+    i = int(row["i"])
+    mass = savin(row["family"], float(row["alpha"])).to_powers()
+    found = cam(row["family"], row["n"]).to_powers()  # type: ignore[attr-defined]
+    assert mass[i] == pytest.approx(float(Fraction(row["Q_exact"])), rel=1e-12, abs=1e-12)
+    assert found[i] == pytest.approx(float(Fraction(row["q_exact"])), rel=1e-12, abs=1e-12)
+
+
+@pytest.mark.parametrize("n", ["0", "1"])
+@pytest.mark.parametrize("family", ["III", "IV"])
+def test_the_relation_is_exact_in_whole_numbers(family: str, n: str) -> None:
+    mine = [row for row in COEFFICIENTS if (row["family"], row["n"]) == (family, n)]
+    Q = tuple(Fraction(row["Q_exact"]) for row in mine)
+    # zeta = 1/20 is no binary number, so the frequency is taken 20 times, where n/nu = 1/20 needs none
+    found = cam_powers(Q, 20.0, 0.0)
+    if n == "0":
+        assert found == [Fraction(row["q_exact"]) for row in mine]
+    else:
+        damped = [2 * (i + 1) * Fraction(1, 400) * Q[i + 1] if i + 1 < len(Q) else Fraction(0) for i in range(len(Q))]
+        exact = [Fraction(row["q_exact"]) for row in mine]
+        assert [a + b for a, b in zip(found, damped, strict=True)] == exact
+
+
+@pytest.mark.parametrize("row", PEAKS, ids=name)
+def test_peaks_of_the_cams(row: dict[str, str]) -> None:
+    law = cam(row["family"], row["n"])
+    mass = reference(row["family"]).constants
+    assert law.constants.B.value == pytest.approx(float(row["B_cam"]), rel=1e-9)
+    assert law.constants.C.value == pytest.approx(float(row["C_cam"]), rel=1e-9)
+    assert law.constants.B.k == pytest.approx(float(row["kB_cam"]), abs=1e-9)
+    assert law.constants.C.k == pytest.approx(float(row["kC_cam"]), abs=1e-9)
+    assert law.c([0.0, 1.0]).tolist() == pytest.approx([float(row["c_cam_0"]), float(row["c_cam_1"])], abs=1e-9)
+    assert law.j(0.0) == pytest.approx(float(row["dc_cam_0"]), rel=1e-9)
+    assert (mass.B.value, mass.C.value) == pytest.approx((float(row["B_mass"]), float(row["C_mass"])), rel=1e-9)
+    assert law.extrema(1)[0].value == pytest.approx(0.0, abs=1e-12)  # monotone
+
+
+@pytest.mark.parametrize("row", OFF_DESIGN, ids=name)
+def test_off_design(row: dict[str, str]) -> None:
+    law, nu = reference(row["law"]), float(row["nu_actual"])
+    found = Follower(nu, float(row["n_actual"]) / nu).response(cam(row["law"], row["n_design"]))
+    peak = found.peak(2)
+    for key, value in {
+        "C_designed": law.constants.C.value,
+        "C_actual_rise": peak.value,
+        "kd_rise": found.dynamic_factor(law),
+        "C_actual_dwell": found.dwell_peak(2).value,
+        "kd_all": found.dynamic_factor(law, dwell=True),
+        "res_disp_amp": found.residual_displacement,
+        "res_acc_amp": found.residual_acceleration,
+    }.items():
+        assert value == pytest.approx(float(row[key]), rel=1e-9, abs=1e-11), key
+    assert peak.k == pytest.approx(float(row["k_peak"]), abs=6e-7)

@@ -1,0 +1,180 @@
+"""Runs and solver processes killed at random moments: the finished store is that of an undisturbed run."""
+
+import json
+import os
+import signal
+import subprocess
+import sys
+import time
+from collections.abc import Iterator, Sequence
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws import open_study
+from optlaws.studies.store.directory import StudyDirectory
+from optlaws.studies.study import Study
+from tests.documents import ROOT
+from tests.studies.sweeping import rows, serially
+
+pytestmark = pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="processes are found by Linux's /proc")
+
+SWEPT: dict[str, Any] = {
+    "problem": {"order": 4, "degree": 7},
+    "vary": {"minimise": ["C", "rms_c"], "B": {"from": 1.5, "to": 2.4, "steps": 250}},
+    "chunk": 10,
+}
+FILE = """
+chunk = 10
+[problem]
+order = 4
+degree = 7
+[vary]
+minimise = ["C", "rms_c"]
+B = { from = 1.5, to = 2.4, steps = 250 }
+"""
+
+
+@pytest.fixture(scope="module")
+def undisturbed(tmp_path_factory: pytest.TempPathFactory) -> Study:
+    return serially(SWEPT, tmp_path_factory.mktemp("studies") / "undisturbed")
+
+
+class Run:
+    """The command, in a process of its own."""
+
+    def __init__(self, file: Path, out: Path) -> None:
+        command = [sys.executable, "-m", "optlaws", "study", str(file), "--out", str(out), "--workers", "2"]
+        self.out = out
+        self.process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
+
+    def size(self) -> int:
+        journal = StudyDirectory(self.out).journal
+        return journal.stat().st_size if journal.exists() else 0
+
+    def wait_for_rows(self, more: int) -> bool:
+        """Whether the journal grew by so many bytes before the run ended."""
+        before = self.size()
+        while self.process.poll() is None:
+            if self.size() >= before + more:
+                return True
+            time.sleep(0.005)
+        return False
+
+    def solvers(self) -> list[int]:
+        lists = Path(f"/proc/{self.process.pid}/task").glob("*/children")
+        return [int(pid) for one in lists for pid in _text(one).split()]
+
+    def finish(self) -> tuple[int, str]:
+        """Exit status and what it said on stderr."""
+        assert self.process.stderr is not None
+        text = self.process.stderr.read().decode()
+        self.process.stderr.close()
+        return self.process.wait(), text
+
+
+def _text(file: Path) -> str:
+    try:
+        return file.read_text()
+    except OSError:
+        return ""  # the thread has ended
+
+
+def kill(pid: int) -> None:
+    # it may have been quicker
+    with suppress(ProcessLookupError):
+        os.kill(pid, signal.SIGKILL)
+
+
+def gone(pids: list[int]) -> bool:
+    until = time.monotonic() + 20.0
+    while time.monotonic() < until:
+        if not any(_alive(pid) for pid in pids):
+            return True
+        time.sleep(0.02)
+    return False
+
+
+def _alive(pid: int) -> bool:
+    return _text(Path(f"/proc/{pid}/stat")).rpartition(")")[2].split()[:1] not in ([], ["Z"])
+
+
+def study_file(folder: Path) -> Path:
+    file = folder / "swept.toml"
+    file.write_text(FILE)
+    return file
+
+
+def disturbed(folder: Path, seed: int, victims: Sequence[str]) -> Iterator[str]:
+    """Run to the end through kills of the run itself or of a solver process at random moments; who was killed."""
+    chance = np.random.default_rng(seed)
+    file, out = study_file(folder), folder / "out"
+    run = Run(file, out)
+    for victim in victims:
+        # the chunks are spread over the kills, and a kill falls anywhere within a chunk's work
+        if not run.wait_for_rows(int(chance.integers(1, 20_000))):
+            break
+        time.sleep(chance.random() * 0.05)
+        solvers = run.solvers()
+        if victim == "solver":
+            for pid in solvers[: chance.integers(1, 3)]:
+                kill(pid)
+        else:
+            kill(run.process.pid)
+            assert run.finish()[0] in {0, -signal.SIGKILL}
+            assert gone(solvers)
+            run = Run(file, out)
+        yield victim
+    status, text = run.finish()
+    assert status == 0, text
+
+
+def test_killed_twice_it_ends_as_if_nothing_had_been(undisturbed: Study, tmp_path: Path) -> None:
+    assert list(disturbed(tmp_path, 1, ["solver", "run"])) == ["solver", "run"]
+    assert rows(open_study(tmp_path / "out")) == rows(undisturbed)
+
+
+@pytest.mark.long
+def test_killed_twenty_times_it_ends_as_if_nothing_had_been(undisturbed: Study, tmp_path: Path) -> None:
+    victims = ["run", "solver"] * 10
+    for seed in range(100):
+        folder = tmp_path / str(seed)
+        folder.mkdir()
+        killed = list(disturbed(folder, seed, victims))
+        del victims[: len(killed)]
+        assert rows(open_study(folder / "out")) == rows(undisturbed)
+        if not victims:
+            return
+    pytest.fail(f"{len(victims)} of the 20 kills came too late")
+
+
+def test_ctrl_c_ends_with_130_and_the_command_goes_on(undisturbed: Study, tmp_path: Path) -> None:
+    file, out = study_file(tmp_path), tmp_path / "out"
+    run = Run(file, out)
+    assert run.wait_for_rows(2000)
+    solvers = run.solvers()
+    run.process.send_signal(signal.SIGINT)
+    status, text = run.finish()
+    assert status == 130
+    assert "optlaws: interrupted" in text
+    assert gone(solvers)
+    study = open_study(out)
+    done = sum(study.counts.values())
+    assert 0 < done < 500
+    assert not study.running
+    shown = subprocess.run(
+        [sys.executable, "-m", "optlaws", "study", "--status", str(out), "--json"],
+        cwd=ROOT,
+        check=True,
+        capture_output=True,
+    )
+    assert json.loads(shown.stdout)["done"] == done
+    again = Run(file, out)
+    status, text = again.finish()
+    assert status == 0
+    assert f"{done} of 500 points done before" in text
+    assert "500 of 500" in text
+    assert rows(open_study(out)) == rows(undisturbed)

@@ -1,0 +1,143 @@
+"""Study files: what varies, its points and their order."""
+
+from collections.abc import Mapping
+from itertools import pairwise
+from math import isclose, prod
+from typing import Any
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from optlaws import InputError, Problem
+from optlaws.studies.points.axes import axes
+from optlaws.studies.points.points import Points, key
+from optlaws.studies.points.study_file import entries, filled, read_study
+
+
+def points(**study: object) -> Points:
+    return Points.of(read_study({"problem": {"order": 4}, **study}))
+
+
+@given(st.lists(st.integers(1, 5), min_size=1, max_size=4), st.integers(1, 7))
+def test_every_point_is_solved_once_and_neighbours_differ_by_one_step(shape: list[int], chunk: int) -> None:
+    names = ["C", "D", "J", "B"]
+    found = points(vary={name: [2.0 + i for i in range(n)] for name, n in zip(names, shape, strict=False)}, chunk=chunk)
+    order = [index for number in range(found.chunks) for index in found.of_chunk(number)]
+    assert len(found) == prod(shape)
+    assert sorted(order) == list(range(prod(shape)))
+    for one, other in pairwise(order):
+        first, second = found.inputs(one), found.inputs(other)
+        assert sum(abs(first[name] - second[name]) for name in first) == 1.0
+    assert all(found.chunk_of(index) == n for n in range(found.chunks) for index in found.of_chunk(n))
+
+
+def test_the_index_counts_through_the_product_with_B_fastest() -> None:
+    found = points(vary={"B": [1.5, 1.6], "order": [3, 4, 5]})
+    assert [found.inputs(i) for i in (0, 1, 2)] == [
+        {"order": 3, "B": 1.5},
+        {"order": 3, "B": 1.6},
+        {"order": 4, "B": 1.5},
+    ]
+
+
+def test_ranges_have_their_ends_exactly_and_equal_steps_or_ratios() -> None:
+    linear, log = axes(
+        read_study(
+            {
+                "problem": {"order": 4},
+                "vary": {
+                    "J": {"from": 30, "to": 3000, "steps": 5, "scale": "log"},
+                    "B": {"from": 1.5, "to": 1.8, "steps": 4},
+                },
+            }
+        )
+    )[::-1]
+    assert list(linear.columns[0]) == [1.5, 1.6, 1.7, 1.8]
+    values = list(log.columns[0])
+    assert values[0] == 30.0
+    assert values[-1] == 3000.0
+    assert all(isclose(b / a, 10.0**0.5, rel_tol=1e-12) for a, b in pairwise(values))
+
+
+def test_ten_million_points_are_no_burden() -> None:
+    vary = {"B": {"from": 1.2, "to": 2.5, "steps": 10_000_000}, "order": [3, 4]}
+    found = points(vary=vary)
+    assert len(found) == 20_000_000
+    assert found.inputs(found.index(19_999_999)) == {"order": 4, "B": 1.2}
+
+
+@pytest.mark.parametrize("kind", ["sobol", "latin hypercube"])
+def test_samples_are_spread_evenly_and_repeat_with_their_seed(kind: str) -> None:
+    over = {
+        "B": {"from": 1.5, "to": 2.5},
+        "degree": {"from": 5, "to": 8},
+        "J": {"from": 50, "to": 5000, "scale": "log"},
+    }
+
+    def sample(seed: int) -> list[dict[str, Any]]:
+        found = points(sample=[{"kind": kind, "points": 64, "seed": seed, "over": over}])
+        return [found.inputs(index) for index in range(len(found))]
+
+    found = sample(1)
+    assert found == sample(1)
+    assert found != sample(2)
+    # one point in each 64th of the span, in every dimension: both kinds promise that
+    assert sorted(int(64 * (one["B"] - 1.5)) for one in found) == list(range(64))
+    assert [sum(one["degree"] == n for one in found) for n in (5, 6, 7, 8)] == [16] * 4
+    assert sum(one["J"] < 500.0 for one in found) == 32
+
+
+def test_lists_run_together_and_multiply_with_the_rest() -> None:
+    found = points(together=[{"B": [1.5, 1.8], "degree": [9, 5]}], vary={"minimise": ["C", "rms_c"]})
+    assert [tuple(found.inputs(i).values()) for i in range(4)] == [
+        ("C", 1.5, 9),
+        ("C", 1.8, 5),
+        ("rms_c", 1.5, 9),
+        ("rms_c", 1.8, 5),
+    ]
+
+
+def test_places_in_text_bounds_and_free_constants() -> None:
+    assert filled("{w}*C/4 + {1-w}*rms_c/3.5", {"w": 0.25}) == "0.25*C/4 + 0.75*rms_c/3.5"
+    base = {"order": 4, "minimise": "{w}*C/4 + {1-w}*rms_c/3.5", "B": 1.7, "bounds": {"jounce": [0, 900]}}
+    asked = entries(base, {"w": 0.25, "bounds.rms_c": 4.0, "B": "free", "bounds.jounce": "free"})
+    assert Problem.from_dict(asked) == Problem(order=4, minimise="0.25*C/4 + 0.75*rms_c/3.5", bounds={"rms_c": 4.0})
+
+
+def test_a_key_depends_on_the_problem_alone() -> None:
+    first = points(vary={"B": [1.5, 1.6], "degree": [5, 9]})
+    second = Points.of(read_study({"problem": {"degree": 9}, "vary": {"order": [4], "B": [1.6]}}))
+    given_first, given_second = first.study.problem.given(), second.study.problem.given()
+    assert key(entries(given_first, first.inputs(3))) == key(entries(given_second, second.inputs(0)))
+    assert len({key(entries(given_first, first.inputs(i))) for i in range(4)}) == 4
+
+
+@pytest.mark.parametrize(
+    ("study", "message"),
+    [
+        ({"vari": {"B": [1.5]}}, "unknown key 'vari'; did you mean 'vary'"),
+        ({"vary": {"degre": [5]}}, "unknown entry 'degre'; did you mean 'degree'"),
+        ({}, "nothing varies"),
+        ({"vary": {"B": {"from": 1.5, "to": 2.0, "step": 3}}}, "unknown key 'step'; did you mean 'steps'"),
+        ({"vary": {"B": {"from": 1.5, "to": 2.0}}}, "steps"),
+        ({"vary": {"B": []}}, "length"),
+        ({"vary": {"J": {"from": 0, "to": 9, "steps": 2, "scale": "log"}}}, "a log scale needs from and to above 0"),
+        (
+            {"vary": {"degree": {"from": 3, "to": 6, "steps": 3}}},
+            "degree must be a whole number at every point, got 4.5",
+        ),
+        ({"vary": {"minimise": {"from": 3, "to": 6, "steps": 3}}}, "minimise is no number"),
+        ({"vary": {"minimise": [3]}}, "minimise must be text"),
+        ({"vary": {"monotone": ["yes"]}}, "monotone must be true or false"),
+        ({"vary": {"B": [1.5]}, "together": [{"B": [1.5]}]}, "B varies twice"),
+        ({"together": [{"B": [1.5], "degree": [3, 4]}]}, "lists of one table must be of one length"),
+        ({"sample": [{"kind": "sobol", "points": 100, "seed": 1, "over": {"B": {"from": 1, "to": 2}}}]}, "64 or 128"),
+        ({"sample": [{"kind": "halton", "points": 64, "seed": 1, "over": {"B": {"from": 1, "to": 2}}}]}, "halton"),
+        ({"vary": {"minimise": ["{w}*C"]}}, "nothing fills the place {w}: vary w"),
+        ({"vary": {"B": [1.5]}, "time_limit": -1}, "time_limit"),
+    ],
+)
+def test_wrong_studies_are_refused(study: Mapping[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message.replace("{", r"\{").replace("}", r"\}")):
+        points(**study)

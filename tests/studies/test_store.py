@@ -1,0 +1,281 @@
+"""The journal: what is torn, damaged or cut short is solved again, and nothing else."""
+
+import os
+import resource
+import shutil
+import signal
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, example, given, settings
+from hypothesis import strategies as st
+
+from optlaws import InputError, open_study, run_study
+from optlaws.studies.store.directory import StudyDirectory
+from optlaws.studies.store.journal import Journal, StoreFailure
+from optlaws.studies.store.table import DamagedTable
+from optlaws.studies.study import Study
+from tests.documents import ROOT
+from tests.studies.sweeping import SMALL, rows, serially
+
+
+def written(file: Path, chunks: int = 4) -> Journal:
+    journal = Journal(file)
+    journal.open()
+    for number in range(chunks):
+        one = [b'{"index":%d,"status":"optimal","law":"%s"}' % (i, b"x" * i) for i in range(3 * number, 3 * number + 3)]
+        journal.append([(number, one)])
+    journal.close()
+    return journal
+
+
+def test_what_was_written_is_read(tmp_path: Path) -> None:
+    first = written(tmp_path / "journal")
+    second = Journal(tmp_path / "journal")
+    assert second.done == first.done
+    assert second.counts == {"optimal": 12}
+    assert [second.rows(number) for number in second.done] == [first.rows(number) for number in first.done]
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
+@given(share=st.floats(0.0, 1.0))
+def test_a_journal_cut_anywhere_keeps_its_whole_chunks(tmp_path: Path, share: float) -> None:
+    file = tmp_path / "journal"
+    file.unlink(missing_ok=True)
+    ends = [*[place for place, _ in written(file).done.values()][1:], file.stat().st_size]
+    cut = round(share * file.stat().st_size)
+    os.truncate(file, cut)
+    whole = sum(end <= cut for end in ends)
+    torn = Journal(file)
+    assert list(torn.done) == list(range(whole))
+    torn.open()
+    torn.append([(9, [b'{"index":99,"status":"local"}'])])
+    torn.close()
+    again = Journal(file)
+    assert list(again.done) == [*range(whole), 9]
+    assert again.rows(9) == [b'{"index":99,"status":"local"}']
+
+
+@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
+@example(share=0.47371880884884826, change=1)  # the end of a chunk's last line
+@given(share=st.floats(0.0, 1.0, exclude_max=True), change=st.integers(1, 255))
+def test_a_changed_byte_costs_its_chunk_alone(tmp_path: Path, share: float, change: int) -> None:
+    file = tmp_path / "journal"
+    file.unlink(missing_ok=True)
+    whole = written(file)
+    data = bytearray(file.read_bytes())
+    place = int(share * len(data))
+    data[place] ^= change
+    file.write_bytes(data)
+    hit = max(number for number, (begin, _) in whole.done.items() if begin <= place)
+    found = Journal(file)
+    assert set(found.done) == {0, 1, 2, 3} - {hit}
+    found.open()
+    found.append([(hit, [b'{"index":99,"status":"local"}'])])
+    found.close()
+    mended = Journal(file)
+    assert set(mended.done) == {0, 1, 2, 3}
+    assert mended.counts == {"optimal": 9, "local": 1}
+
+
+@pytest.fixture(scope="module")
+def small(tmp_path_factory: pytest.TempPathFactory) -> Study:
+    return serially(SMALL, tmp_path_factory.mktemp("studies") / "small")
+
+
+class Enough(Exception):  # noqa: N818 - it stops a run at a chosen place
+    pass
+
+
+class After:
+    """Watches a run and ends it after some chunks."""
+
+    def __init__(self, chunks: int) -> None:
+        self.chunks = chunks
+
+    def begin(self, total: int, counts: object) -> None:
+        assert total == 28
+        assert counts is not None
+
+    def advance(self, counts: object) -> None:
+        assert counts is not None
+        self.chunks -= 1
+        if self.chunks == 0:
+            raise Enough
+
+    def end(self, counts: object) -> None:
+        pass
+
+
+def interrupted(out: Path, chunks: int) -> None:
+    from optlaws.studies.solving.executors import Serial
+
+    with pytest.raises(Enough):
+        run_study(SMALL, out, executor=Serial(), watch=After(chunks))
+
+
+def test_a_torn_record_is_solved_again(small: Study, tmp_path: Path) -> None:
+    interrupted(tmp_path, 3)
+    assert sum(open_study(tmp_path).counts.values()) == 15
+    os.truncate(tmp_path / "journal", (tmp_path / "journal").stat().st_size - 7)
+    study = open_study(tmp_path)
+    assert sum(study.counts.values()) == 10
+    assert not study.finished
+    assert len(study.to_pandas()) == 10
+    with pytest.raises(InputError, match="is not solved yet"):
+        study[20]
+    assert rows(serially(SMALL, tmp_path)) == rows(small)
+    assert not (tmp_path / "journal").exists()
+
+
+def test_a_run_killed_between_table_and_journal_is_finished(small: Study, tmp_path: Path) -> None:
+    interrupted(tmp_path, 2)
+    kept = (tmp_path / "journal").read_bytes()
+    serially(SMALL, tmp_path)
+    (tmp_path / "journal").write_bytes(kept)
+    assert rows(serially(SMALL, tmp_path)) == rows(small)
+    assert not (tmp_path / "journal").exists()
+
+
+def test_without_pyarrow_the_journal_is_the_store(
+    small: Study, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(sys.modules, "pyarrow", None)
+    monkeypatch.setitem(sys.modules, "pyarrow.parquet", None)
+    study = serially(SMALL, tmp_path)
+    assert not (tmp_path / "rows.parquet").exists()
+    found = rows(study)
+    with pytest.raises(ImportError, match=r"pip install 'optlaws\[studies\]'"):
+        study.to_pandas()
+    monkeypatch.undo()
+    assert found == rows(small)
+    assert rows(serially(SMALL, tmp_path)) == rows(small)
+    assert (tmp_path / "rows.parquet").exists()
+
+
+def test_two_runs_in_one_directory_are_refused(tmp_path: Path) -> None:
+    with (
+        StudyDirectory(tmp_path).locked(),
+        pytest.raises(InputError, match=f"in use by another run, process {os.getpid()}"),
+    ):
+        serially(SMALL, tmp_path)
+
+
+def test_the_lock_of_a_killed_run_is_no_hindrance(tmp_path: Path) -> None:
+    script = (
+        "import sys, time\nfrom pathlib import Path\nfrom optlaws.studies.store.directory import StudyDirectory\n"
+        f"with StudyDirectory(Path({str(tmp_path)!r})).locked():\n    print('locked', flush=True)\n    time.sleep(60)"
+    )
+    with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, cwd=ROOT) as owner:
+        assert owner.stdout is not None
+        assert owner.stdout.readline() == b"locked\n"
+        assert StudyDirectory(tmp_path).in_use()
+        owner.send_signal(signal.SIGKILL)
+        owner.wait()
+    assert not StudyDirectory(tmp_path).in_use()
+    with StudyDirectory(tmp_path).locked():
+        assert (tmp_path / "lock").read_text() == str(os.getpid())
+
+
+@pytest.fixture
+def small_disk() -> Iterator[int]:
+    """No file may grow beyond 6000 bytes: a full disk, as far as a write can tell."""
+    before = resource.getrlimit(resource.RLIMIT_FSIZE)
+    handler = signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
+    resource.setrlimit(resource.RLIMIT_FSIZE, (6000, before[1]))
+    yield 6000
+    resource.setrlimit(resource.RLIMIT_FSIZE, before)
+    signal.signal(signal.SIGXFSZ, handler)
+
+
+def test_a_full_disk_is_said_and_nothing_is_lost(small: Study, tmp_path: Path, small_disk: int) -> None:
+    with pytest.raises(StoreFailure, match=r"File too large.*make room and run the same command again"):
+        serially(SMALL, tmp_path)
+    assert 0 < (tmp_path / "journal").stat().st_size <= small_disk
+    done = sum(open_study(tmp_path).counts.values())
+    assert 0 < done < 28
+    resource.setrlimit(resource.RLIMIT_FSIZE, resource.getrlimit(resource.RLIMIT_FSIZE)[1:] * 2)
+    assert rows(serially(SMALL, tmp_path)) == rows(small)
+
+
+def _emptied(data: bytes) -> bytes:
+    return data[:0]
+
+
+def _cut(data: bytes) -> bytes:
+    return data[: len(data) // 2]
+
+
+def _flipped(data: bytes) -> bytes:
+    # a bit of the first pages, behind the mark of the format
+    return data[:40] + bytes([data[40] ^ 4]) + data[41:]
+
+
+@pytest.mark.parametrize("damage", [_emptied, _cut, _flipped])
+@pytest.mark.parametrize("checksum", [True, False])
+def test_a_damaged_table_is_refused_by_name(
+    small: Study, tmp_path: Path, damage: Callable[[bytes], bytes], *, checksum: bool
+) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(small.path, out)
+    table = out / "rows.parquet"
+    table.write_bytes(damage(table.read_bytes()))
+    if not checksum:
+        (out / "rows.sha256").unlink()
+    for use in (lambda: serially(SMALL, out), lambda: open_study(out).counts, lambda: list(open_study(out))):
+        with pytest.raises(DamagedTable, match=r"rows\.parquet is damaged: .* run the same study again"):
+            use()
+    table.unlink()
+    (out / "rows.sha256").unlink(missing_ok=True)
+    assert rows(serially(SMALL, out)) == rows(small)
+
+
+def test_a_damaged_table_is_made_again_from_its_journal(small: Study, tmp_path: Path) -> None:
+    interrupted(tmp_path, 2)
+    kept = (tmp_path / "journal").read_bytes()
+    serially(SMALL, tmp_path)
+    (tmp_path / "journal").write_bytes(kept)
+    (tmp_path / "rows.parquet").write_bytes(b"PAR1")
+    assert rows(serially(SMALL, tmp_path)) == rows(small)
+
+
+@pytest.mark.parametrize(
+    "about", ["[]", "7", '{"format": 1}', "{", "[" * 100_000, '{"format": 1, "title": 3}', '{"format": 2}']
+)
+def test_what_is_no_study_is_said(small: Study, tmp_path: Path, about: str) -> None:
+    assert small.finished
+    (tmp_path / "study.json").write_text(about)
+    with pytest.raises(InputError, match=r"study\.json(: the format is 2| is damaged)"):
+        open_study(tmp_path)
+
+
+def test_whoever_may_only_read_sees_rows_and_status(small: Study, tmp_path: Path) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(small.path, out)
+    with reading_only(out):
+        study = open_study(out)
+        assert rows(study) == rows(small)
+        assert study.finished
+        assert not study.running
+        with pytest.raises(InputError, match=r"out cannot be written: .*; a study there can be read"):
+            serially(SMALL, out)
+
+
+@contextmanager
+def reading_only(folder: Path) -> Iterator[None]:
+    """Refuses to open files of the folder for writing: permissions do not bind every user."""
+
+    def opened(file: Path, mode: str = "r", **kwargs: Any) -> Any:  # noqa: ANN401 - as Path.open has it
+        if file.is_relative_to(folder) and set(mode) & set("wax+"):
+            raise PermissionError(13, "Permission denied", str(file))
+        return before(file, mode, **kwargs)
+
+    before = Path.open
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Path, "open", opened)
+        yield

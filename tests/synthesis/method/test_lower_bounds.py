@@ -1,0 +1,117 @@
+"""Peaks bounded from below: reached whatever else is asked, alone and together, and proven where they can be."""
+
+import json
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from optlaws import (
+    Bernstein,
+    Certificate,
+    Chebyshev,
+    InfeasibleProblem,
+    Pieces,
+    Problem,
+    SolverFailure,
+    at_least,
+    at_most,
+    between,
+    limit,
+    synthesize,
+)
+from optlaws.verification.exact.bound import prove
+from tests.synthesis.judge import Judged, judge
+
+pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
+
+
+@pytest.mark.parametrize("order", [2, 3, 4])
+@pytest.mark.parametrize("B", [None, 1.8, at_least(1.5)], ids=repr)
+def test_the_least_c_of_at_least_6_is_6(order: int, B: Any) -> None:  # noqa: ANN401
+    solution = synthesize(Problem(B=B, C=at_least(6), order=order))
+    judge(solution)
+    assert solution.status.value == "optimal"
+    assert solution.objective == pytest.approx(6.0, rel=1e-9)
+    # the bound is a row of the program, so the certificate alone proves it
+    again = Certificate.from_dict(json.loads(json.dumps(solution.certificate.to_dict())))
+    assert again.bound == pytest.approx(6.0, rel=1e-9)
+    value = prove(again).value
+    assert value is not None
+    assert float(value) == pytest.approx(6.0, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("given", "name"),
+    [
+        ({"minimise": "C", "C": 7.0}, "C"),
+        ({"minimise": "J", "J": at_least(100.0), "B": 1.7}, "J"),
+        ({"minimise": "J", "J": between(100.0, 120.0), "symmetric": False}, "J"),
+        ({"minimise": "max(C/4, J/32)", "J": at_least(160.0)}, "J"),
+        ({"minimise": "D", "D": at_least(6.0), "B": 1.6}, "D"),
+    ],
+    ids=str,
+)
+def test_a_constant_minimised_alone_meets_its_lower_bound(given: dict[str, Any], name: str) -> None:
+    one = Problem(**{"order": 4, "basis": Chebyshev(9), **given})
+    solution = synthesize(one)
+    judge(solution)
+    asked = one.range(name)
+    assert asked is not None
+    assert Judged(solution.law).constants[name] == pytest.approx(asked.low, rel=1e-8)
+
+
+def test_two_peaks_are_held_up_together() -> None:
+    one = Problem(B=1.7, order=4, minimise="rms_c", C=at_least(6.5), J=at_least(120.0))
+    solution = synthesize(one)
+    judge(solution)
+    constants = Judged(solution.law).constants
+    assert constants["C"] >= 6.5 * (1 - 1e-8)
+    assert constants["J"] >= 120.0 * (1 - 1e-8)
+    for single in (replace(one, C=None), replace(one, J=None)):
+        assert solution.objective >= synthesize(single).objective * (1 - 1e-9)
+
+
+@pytest.mark.parametrize("minimise", ["C", "rms_c", "J"])
+@pytest.mark.parametrize("value", [5.0, 7.0])
+def test_a_power_given_exactly_is_reached_by_unsymmetric_laws(minimise: str, value: float) -> None:
+    one = Problem(B=1.7, order=4, minimise=minimise, D=value, symmetric=False)
+    solution = synthesize(one)
+    judge(solution)
+    assert Judged(solution.law).constants["D"] == pytest.approx(value, rel=1e-8)
+
+
+@pytest.mark.parametrize("basis", [Bernstein(9), Pieces(8, 6, 4)], ids=repr)
+@pytest.mark.parametrize("name", ["C", "J"])
+def test_in_other_bases_too(basis: Any, name: str) -> None:  # noqa: ANN401
+    free = synthesize(Problem(B=1.7, order=3, minimise="rms_c", basis=basis))
+    own = Judged(free.law).constants[name]
+    solution = synthesize(replace(free.problem, bounds={name: at_least(1.1 * own)}))
+    judge(solution)
+    assert Judged(solution.law).constants[name] == pytest.approx(1.1 * own, rel=1e-8)
+    assert solution.objective > free.objective
+
+
+def test_a_lower_bound_costs_the_more_the_higher_it_is() -> None:
+    worths = [synthesize(Problem(B=1.7, order=4, minimise="rms_c", J=at_least(J))).objective for J in (90, 110, 140)]
+    assert worths == sorted(worths)
+
+
+def test_what_no_law_can_have_at_once_is_said() -> None:
+    with pytest.raises(SolverFailure, match="C at least 20"):
+        synthesize(Problem(B=1.7, order=4, basis=Chebyshev(5), minimise="rms_c", C=at_least(20.0), J=at_most(100.0)))
+
+
+@pytest.mark.parametrize("B", [1.3, 1.9, 2.5])
+@pytest.mark.parametrize("minimise", ["D", "C", "rms_c"])
+def test_a_power_below_its_limit_is_refused_with_the_limit(B: float, minimise: str) -> None:
+    least = limit("D", B)
+    with pytest.raises(InfeasibleProblem, match="its limit is"):
+        synthesize(Problem(B=B, order=3, minimise=minimise, D=at_most(0.97 * least)))
+
+
+def test_what_is_not_convex_does_not_hide_a_contradiction() -> None:
+    with pytest.raises(InfeasibleProblem, match=r"\|c\| <= C") as caught:
+        synthesize(Problem(B=1.7, order=4, C=at_most(4.8), D=at_most(9.0), minimise="J"))
+    assert isinstance(caught.value.proof, Certificate)
+    assert caught.value.proof.proves_infeasible

@@ -1,0 +1,331 @@
+"""What is refused, and how: the input is named, the whole problem is printed, and nothing is silent."""
+
+import pickle
+import re
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import FrozenInstanceError, replace
+from math import inf, nan
+from typing import Any
+
+import numpy as np
+import pytest
+
+import optlaws
+from optlaws import (
+    Bernstein,
+    BoundaryConditions,
+    C,
+    Certificate,
+    Chebyshev,
+    Contact,
+    D,
+    InfeasibleProblem,
+    InputError,
+    J,
+    OptlawsError,
+    Pieces,
+    Powers,
+    Problem,
+    SolverFailure,
+    Window,
+    acceleration_limit,
+    at_least,
+    at_most,
+    between,
+    construct,
+    maximum,
+    rms_c,
+    sweep,
+    synthesize,
+    via,
+)
+from optlaws.synthesis import basis, solve
+from optlaws.synthesis.families.family import Points, Program
+from optlaws.synthesis.method import exchange, ipopt
+from optlaws.synthesis.proof import make
+
+GOOD: dict[str, Any] = {"B": 1.859, "order": 4}
+
+
+def problem(**changes: Any) -> Problem:  # noqa: ANN401
+    return Problem(**{**GOOD, **changes})
+
+
+@pytest.mark.parametrize("B", [1.0, 1, 0.5, 0.0, -1.641, nan, inf, -inf, True, "1.6", 1.6j, {1.6}])
+def test_a_wrong_peak_velocity_is_named(B: object) -> None:
+    with pytest.raises(
+        InputError, match=re.escape(f"B must be a finite number above 1 (the mean velocity is 1), got {B!r}")
+    ):
+        problem(B=B)
+
+
+@pytest.mark.parametrize(
+    ("B", "message"),
+    [
+        ([1.6], "B must be a finite number, a range"),
+        ([1.6, 1.7, 1.8], "B must be a finite number, a range"),
+        ((1.8, 1.5), "the lower bound 1.8 must be finite and at most the upper one, 1.5"),
+        ((nan, 1.8), "bounds must be numbers of at least 0, got nan"),
+        ((1.5, nan), "bounds must be numbers of at least 0, got nan"),
+        ((1.5, "1.8"), "bounds must be numbers of at least 0, got '1.8'"),
+        ((inf, inf), "the lower bound inf must be finite"),
+        ((0.2, 1.0), "B must be able to exceed 1"),
+        ((0.0, 0.9), "B must be able to exceed 1"),
+        ((True, 1.8), "bounds must be numbers of at least 0, got True"),
+    ],
+)
+def test_a_wrong_range_of_the_peak_velocity_is_named(B: object, message: str) -> None:
+    with pytest.raises(InputError, match=re.escape(message)):
+        problem(B=B)
+
+
+@pytest.mark.parametrize("name", ["C", "D", "J"])
+@pytest.mark.parametrize("wrong", [nan, inf, -inf, True, "5", [5.0], 5j, {5.0}, -1.0, 0.0, (0.0, 0.0)])
+def test_a_wrong_constant_is_named(name: str, wrong: object) -> None:
+    with pytest.raises(InputError, match=rf"\b{name} must|bounds must be numbers of at least 0, got -1.0"):
+        problem(**{name: wrong})
+
+
+@pytest.mark.parametrize("order", [0, -1, True, 2.0, "4", None, nan])
+def test_a_wrong_order_is_named(order: object) -> None:
+    with pytest.raises(InputError, match=re.escape(f"must be an integer of at least 1, got {order!r}")):
+        problem(order=order)
+
+
+@pytest.mark.parametrize("kind", [Powers, Chebyshev])
+@pytest.mark.parametrize("degree", [-1, True, 3.0, "3", None, nan])
+def test_a_wrong_degree_is_named(kind: type, degree: object) -> None:
+    with pytest.raises(InputError, match=re.escape(f"degree of Z must be an integer of at least 0, got {degree!r}")):
+        kind(degree)
+
+
+@pytest.mark.parametrize("kind", [Powers, Chebyshev])
+def test_degree_0_leaves_nothing_to_choose(kind: type) -> None:
+    with pytest.raises(InputError, match="degree 0 leaves no freedom"):
+        problem(basis=kind(0))
+
+
+@pytest.mark.parametrize("wrong", [None, 9, "chebyshev", Powers])
+def test_a_wrong_basis_is_named(wrong: object) -> None:
+    with pytest.raises(InputError, match="basis must be a Basis"):
+        problem(basis=wrong)
+
+
+@pytest.mark.parametrize("wrong", [None, 2, 2.5, [], ["C"], {"C": 1.0}, max, b"C"])
+def test_a_wrong_objective_is_named(wrong: object) -> None:
+    with pytest.raises(
+        InputError, match=re.escape(f"minimise must be a constant such as 'C', a sum or an expression, got {wrong!r}")
+    ):
+        problem(minimise=wrong)
+
+
+@pytest.mark.parametrize("wrong", ["c", "Q", "CC", "rms_q", "peak"])
+def test_an_unknown_objective_is_named_with_the_known_ones(wrong: str) -> None:
+    with pytest.raises(InputError, match=re.escape(f"unknown constant {wrong!r}")):
+        problem(minimise=wrong)
+
+
+@pytest.mark.parametrize("name", ["monotone", "symmetric"])
+@pytest.mark.parametrize("wrong", [1, 0, "yes", None])
+def test_a_wrong_switch_is_named(name: str, wrong: object) -> None:
+    with pytest.raises(InputError, match=f"{name} must be True or False"):
+        problem(**{name: wrong})
+
+
+def test_an_unknown_basis_is_named_with_the_known_ones() -> None:
+    with pytest.raises(
+        InputError, match="'splines' is unknown; known are bernstein, bsplines, chebyshev, pieces, powers"
+    ):
+        basis("splines", 3)
+
+
+@pytest.mark.parametrize(
+    ("data", "message"),
+    [
+        ({"B": 1.859, "ordr": 4}, "did you mean 'order'"),
+        ({"B": 1.859, "order": 4, "monoton": True}, "did you mean 'monotone'"),
+        ({"B": 1.859}, "lacks order"),
+        ({}, "lacks order"),
+        ({"B": 1.859, "order": 4, "minimize": "D"}, "did you mean 'minimise'"),
+        ({"B": 1.859, "order": 4, "C": "5"}, "C must be"),
+        ({"B": 1.859, "order": 4, "start": [0, 0]}, "boundary conditions need as many"),
+        ({"B": 1.859, "order": 3, "start": [0, 0], "end": [1, 0]}, "order 3 does not fit 2 boundary conditions"),
+        ({"B": 1.859, "order": 4, "basis": ["chebyshev"]}, "basis"),
+        ({"B": 1.859, "order": 4, "windows": 3}, "windows"),
+        ({"B": 1.859, "order": 4, "start": 3, "end": 4}, "boundary conditions|start"),
+        ({"B": nan, "order": 4}, "B must be"),
+        ({"B": 1.859, "order": 4, "degree": 1.5}, "degree"),
+        ({"B": 1.859, "order": 4, "basis": "splines"}, "splines"),
+    ],
+)
+def test_a_problem_from_wrong_data_is_refused(data: dict[str, Any], message: str) -> None:
+    with pytest.raises(InputError, match=message):
+        Problem.from_dict(data)
+
+
+@pytest.mark.parametrize("wrong", [None, 1.641, {"B": 1.641, "order": 4}, "Problem(B=1.641, order=4)", Problem])
+def test_what_is_no_problem_is_refused(wrong: Any) -> None:  # noqa: ANN401
+    with pytest.raises(InputError, match="synthesize takes a Problem"):
+        synthesize(wrong)
+    with pytest.raises(InputError, match="synthesize takes a Problem"):
+        list(sweep([wrong]))
+
+
+@pytest.mark.parametrize("wrong", [1.641, {}, "a solution", problem()])
+def test_a_start_that_is_no_solution_is_refused(wrong: Any) -> None:  # noqa: ANN401
+    with pytest.raises(InputError, match="start"):
+        synthesize(problem(), start=wrong)
+
+
+@pytest.mark.parametrize(
+    "call",
+    [
+        lambda: Problem(B=1.5, ordr=4),  # type: ignore[call-arg]
+        lambda: Problem(1.5, 4),  # type: ignore[call-arg]
+        lambda: Powers(degre=3),  # type: ignore[call-arg]
+        lambda: Chebyshev(degre=3),  # type: ignore[call-arg]
+        lambda: BoundaryConditions(begin=(0,), end=(1,)),  # type: ignore[call-arg]
+        lambda: BoundaryConditions.rest(l=2),  # type: ignore[call-arg]
+        lambda: construct(BoundaryConditions.rest(2), zz=[1.0]),  # type: ignore[call-overload]
+        lambda: acceleration_limit(2.0, monoton=True),  # type: ignore[call-arg]
+        lambda: synthesize(Problem(B=1.5, order=2), strat=None),  # type: ignore[call-arg]
+        lambda: sweep(problem=[]),  # type: ignore[call-arg]
+        lambda: Contact("C", 1.0, 0.1, weight=1.0),  # type: ignore[call-arg]
+        lambda: Certificate(problem(), contact=(), equations=()),  # type: ignore[call-arg]
+        lambda: optlaws.savin("I", alfa=1.0),  # type: ignore[call-arg]
+        lambda: optlaws.smoothstep(ordr=1),  # type: ignore[call-arg]
+        lambda: InfeasibleProblem("", prof=1),  # type: ignore[call-arg]
+        lambda: SolverFailure("", problm=1),  # type: ignore[call-arg]
+    ],
+)
+def test_a_misspelt_keyword_is_refused(call: Callable[[], object]) -> None:
+    with pytest.raises(TypeError, match=r"unexpected keyword|positional argument"):
+        call()
+
+
+# --- a problem is a value that can be printed and run again ---
+
+PROBLEMS = [
+    problem(),
+    problem(B=2, basis=Powers(3)),
+    problem(B=2.123456789012345, order=2, basis=Chebyshev(41), monotone=True, symmetric=False),
+    problem(B=None),
+    problem(B=between(1.5, 1.8), C=at_most(60), J=at_least(40.5), D=3),
+    problem(B=at_least(1.5), minimise="0.6*C/4 + 0.4*D/2.25"),
+    problem(minimise=maximum(C / 4, D / 2.25 + J / 64) + 0.1 * rms_c),
+    problem(order=2, symmetric=False, boundary=BoundaryConditions((0, 0.5), (1, -0.25))),
+    problem(basis=Bernstein(7), windows=(via("a", 0.3, at=0.4), Window("b", high=1.2, start=0.2, stop=0.3))),
+    problem(basis=Pieces(4, 5, 3)),
+]
+
+
+@pytest.mark.parametrize("one", PROBLEMS)
+def test_the_repr_of_a_problem_makes_an_equal_one(one: Problem) -> None:
+    again = eval(repr(one), vars(optlaws))  # noqa: S307
+    assert again == one
+    assert hash(again) == hash(one)
+
+
+@pytest.mark.parametrize("one", PROBLEMS)
+def test_a_problem_survives_data_pickle_and_copies(one: Problem) -> None:
+    assert Problem.from_dict(one.to_dict()) == one
+    assert pickle.loads(pickle.dumps(one)) == one  # noqa: S301
+    assert replace(one, B=1.5) != one
+    with pytest.raises(FrozenInstanceError):
+        one.B = 2.0  # type: ignore[misc]
+
+
+def test_numpy_numbers_are_numbers() -> None:
+    assert problem(B=np.float64(1.859)) == problem()
+    assert problem(B=np.float64(1.859)).to_dict() == problem().to_dict()
+
+
+# --- infeasible and failed problems ---
+
+
+def test_one_coefficient_cannot_give_b_1_53_at_order_4_but_more_can() -> None:
+    one = problem(B=1.53, basis=Powers(1))
+    with pytest.raises(InfeasibleProblem) as caught:
+        synthesize(one)
+    error = caught.value
+    assert isinstance(error, OptlawsError)
+    assert isinstance(error.proof, Certificate)
+    assert error.proof.proves_infeasible
+    assert error.tried
+    message = str(error)
+    for part in ("order 4", "degree 1", "1.53", "b <= B", "higher degree", "lower order"):
+        assert part in message
+    assert eval(message.rpartition("problem: ")[2], vars(optlaws)) == one  # noqa: S307
+    again = pickle.loads(pickle.dumps(error))  # noqa: S301
+    assert str(again) == message
+    assert again.proof == error.proof
+    for degree in (3, 9):
+        assert synthesize(replace(one, basis=Powers(degree))).gap <= 1e-8
+    assert synthesize(replace(one, order=2)).gap <= 1e-8
+
+
+def test_the_law_that_one_coefficient_gives_does_break_b() -> None:
+    law = construct(BoundaryConditions.rest(4), [0.5 * 4**4 * (2.1875 - 1.53), -(4**4) * (2.1875 - 1.53)])
+    assert law.b(0.5) == pytest.approx(1.53, abs=1e-12)
+    assert law.peak(1).value > 1.53 + 1e-3
+
+
+def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) -> None:
+    def failed(program: Program, points: list[Points], *_: object, **__: object) -> ipopt.Answer:
+        weights = [np.zeros(len(mine.u)) for mine in points]
+        return ipopt.Answer(
+            np.full(program.size, nan), weights, success=False, status="Restoration_Failed", iterations=7
+        )
+
+    monkeypatch.setattr(exchange, "solve_on_points", failed)
+    one = problem(B=1.7001)
+    with pytest.raises(SolverFailure, match="no law was found") as caught:
+        synthesize(one)
+    assert caught.value.problem == one
+    assert "Restoration_Failed" in str(caught.value)
+    assert eval(str(caught.value).rpartition("problem: ")[2], vars(optlaws)) == one  # noqa: S307
+
+
+@pytest.mark.parametrize("shift", [1e-6, -1e-3, 1.0])
+def test_multipliers_that_are_wrong_give_no_false_claim(monkeypatch: pytest.MonkeyPatch, shift: float) -> None:
+    one = problem(B=1.7002)
+    true = synthesize(one).objective
+    honest = ipopt.solve_on_points
+
+    def lying(*args: Any, **kwargs: Any) -> ipopt.Answer:  # noqa: ANN401
+        answer = honest(*args, **kwargs)
+        wrong = [weights * (1.0 + shift) for weights in answer.multipliers]
+        return replace(answer, x=answer.x + shift, multipliers=wrong)
+
+    monkeypatch.setattr(exchange, "solve_on_points", lying)
+    try:
+        solution = synthesize(one)
+    except SolverFailure:
+        return
+    assert solution.objective == pytest.approx(true, rel=1e-10)
+    assert solution.lower_bound <= true * (1 + 1e-12)
+
+
+def test_a_law_without_a_meeting_bound_is_not_called_optimal(monkeypatch: pytest.MonkeyPatch) -> None:
+    honest = make.certify
+
+    def poor(*args: Any) -> Certificate:  # noqa: ANN401
+        found = honest(*args)
+        return replace(found, contacts=found.contacts[:-1])
+
+    monkeypatch.setattr(solve, "certify", poor)
+    solution = synthesize(problem())
+    assert solution.status.value == "inaccurate"
+    assert solution.gap > 1e-8
+    assert "bound does not meet it" in solution.status.advice
+
+
+@pytest.mark.parametrize(
+    "one",
+    [problem(B=1.7003), problem(B=1.53, basis=Powers(1)), problem(B=2.9, order=2, basis=Powers(3), monotone=True)],
+)
+def test_nothing_is_printed(one: Problem, capfd: pytest.CaptureFixture[str]) -> None:
+    with suppress(InfeasibleProblem):
+        synthesize(one)
+    assert capfd.readouterr() == ("", "")

@@ -1,0 +1,165 @@
+"""What a problem says of the peak velocity: bounds from above are of |b|, an inflexion is where b is greatest."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws import (
+    BoundaryConditions,
+    BSplines,
+    Chebyshev,
+    Pieces,
+    Problem,
+    at_least,
+    at_most,
+    between,
+    synthesize,
+)
+from optlaws.laws.polynomial import PolynomialLaw
+from optlaws.synthesis.program.evaluation import worth
+from optlaws.verification import verify
+
+K = np.linspace(0.0, 1.0, 4001)
+
+
+# --- an inflexion says where b is greatest, be it above 0 or not ---
+
+ENDS = [
+    ((0.0, -1.0), (0.0, 1.0)),
+    ((0.0, 1.0), (0.0, 0.0)),
+    ((0.0, 0.0), (-1.0, 0.0)),
+    ((0.0, 0.0, 0.0), (0.0, 0.5, 0.0)),
+    ((0.0, 0.0, 0.0), (0.0, 0.0, 0.0)),
+    ((0.0, -2.0, 0.0), (-2.0, -1.5, 0.0)),
+]
+
+
+@pytest.mark.parametrize("minimise", ["C", "rms_c", "J", "max(C_plus, C_minus/2)"])
+@pytest.mark.parametrize("ends", ENDS, ids=str)
+def test_b_is_greatest_at_the_inflexion_whatever_its_sign(ends: Any, minimise: str) -> None:  # noqa: ANN401
+    for inflexion in (0.36, 0.7):
+        problem = Problem(
+            boundary=BoundaryConditions(*ends),
+            symmetric=False,
+            inflexion=inflexion,
+            minimise=minimise,
+            basis=Chebyshev(7),
+        )
+        solution = synthesize(problem)
+        assert solution.status == "optimal"
+        assert solution.law.b(inflexion) >= solution.law.extrema(1)[1].value - 1e-9
+        assert abs(solution.law.c(inflexion)) < 1e-8
+        if solution.objective < 1e-12 or "plus" in minimise:
+            continue
+        proof = verify(solution.to_dict())
+        assert proof.proven, [str(claim) for claim in proof.claims if not claim.proven]
+
+
+def test_a_law_that_is_faster_elsewhere_breaks_an_inflexion_with_a_peak_below_zero() -> None:
+    ends = BoundaryConditions((0.0, -1.0), (-1.0, -1.0))
+    even = Problem(boundary=ends, symmetric=False, minimise="rms_c")
+    uniform = synthesize(even).law
+    assert worth(replace(even, inflexion=0.3), uniform).excess < 1e-9  # b is -1 everywhere
+    slower = synthesize(replace(even, inflexion=0.7, B=None, bounds={"J": between(50, 60)})).law
+    assert slower.b(0.7) < 0.0
+    assert worth(replace(even, inflexion=0.3), slower).excess > 1e-3
+
+
+def test_the_b_that_an_inflexion_has_is_asked_of_it() -> None:
+    ends = BoundaryConditions((0.0, -1.0), (0.0, 1.0))
+    for B in (1.5, between(1.3, 1.6), at_least(1.4)):
+        solution = synthesize(Problem(boundary=ends, symmetric=False, inflexion=0.4, B=B))
+        at_peak = float(solution.law.b(0.4))
+        assert solution.status == "optimal"
+        assert at_peak == pytest.approx(solution.constants.B.value, rel=1e-9)
+        assert at_peak > 1.3 - 1e-9
+
+
+def test_a_symmetric_law_may_be_asked_to_have_its_peak_in_the_middle() -> None:
+    free = synthesize(Problem(C=at_most(5.5), minimise="B", order=4))
+    middle = synthesize(replace(free.problem, inflexion=0.5))
+    assert free.constants.B.k < 0.45
+    assert middle.constants.B.k == pytest.approx(0.5)
+    assert middle.objective > free.objective
+    assert verify(middle.to_dict()).proven
+    assert Problem.from_dict(middle.problem.to_dict()) == middle.problem
+
+
+# --- an upper bound of B asks |b| <= B and nothing else ---
+
+KINDS: list[dict[str, Any]] = [
+    {"order": 4, "minimise": "B", "C": at_most(5.5)},
+    {"order": 4, "minimise": "C", "C": at_most(50.0)},
+    {"order": 3, "minimise": "J"},
+    {"order": 3, "minimise": "0.3*C + 0.02*J", "monotone": True},
+    {"order": 3, "minimise": "rms_c", "basis": Pieces(6)},
+    {"order": 3, "minimise": "C", "basis": BSplines(6, 3)},
+    {"order": 3, "minimise": "max(C_plus, C_minus/2)", "symmetric": False},
+    {"order": 2, "minimise": "C", "boundary": BoundaryConditions((0, 0), (1, 1)), "symmetric": False},
+    {"order": 3, "minimise": "J", "inflexion": 0.4, "symmetric": False},
+]
+
+
+@pytest.mark.parametrize("kind", KINDS, ids=str)
+def test_a_bound_of_b_that_does_not_bind_changes_nothing(kind: dict[str, Any]) -> None:
+    free = synthesize(Problem(**kind))
+    for vacuous in (at_most(10.0), between(0.5, 10.0), at_least(0.5)):
+        bounded = synthesize(Problem(**kind, B=vacuous))
+        assert bounded.objective == pytest.approx(free.objective, rel=1e-9)
+        assert bounded.lower_bound <= free.objective
+        assert bounded.status == free.status
+
+
+@pytest.mark.parametrize("kind", KINDS[1:], ids=str)
+def test_a_bound_of_b_that_binds_is_kept_by_its_whole_velocity(kind: dict[str, Any]) -> None:
+    free = synthesize(Problem(**kind))
+    most = 1.0 + 0.85 * (free.constants.B.value - 1.0)
+    solution = synthesize(Problem(**kind, B=at_most(most)))
+    assert solution.status == "optimal"
+    assert np.abs(solution.law.b(K)).max() <= most * (1.0 + 1e-9)
+    assert solution.objective >= free.objective * (1.0 - 1e-9)
+    assert verify(solution.to_dict()).proven
+
+
+def test_the_mean_of_an_unsymmetric_law_and_its_mirror_image_is_a_symmetric_one_that_is_no_better() -> None:
+    for B in (at_most(1.6), at_most(1.75), between(1.5, 1.6), 1.6):
+        for minimise in ("C", "J", "rms_c"):
+            problem = Problem(B=B, order=4, minimise=minimise)
+            solution, other = synthesize(problem), synthesize(replace(problem, symmetric=False))
+            assert solution.lower_bound <= other.objective
+            assert other.lower_bound <= solution.objective
+            assert other.objective == pytest.approx(solution.objective, rel=1e-9)
+            # and the mean keeps what is asked
+            speed = (other.law.b(K) + other.law.b(1.0 - K)) / 2.0
+            assert np.abs(speed).max() <= solution.constants.B.value * (1.0 + 1e-6)
+
+
+RANGES = [None, at_most(1.7), at_least(1.75), between(1.3, 1.8), 1.65]
+
+
+@pytest.mark.parametrize("B", RANGES, ids=repr)
+@pytest.mark.parametrize("given", [{}, {"monotone": True}, {"symmetric": False}], ids=str)
+def test_no_law_that_keeps_the_conditions_is_better_than_what_is_proven(B: Any, given: dict[str, Any]) -> None:  # noqa: ANN401
+    problem = Problem(**{"B": B, "order": 3, "basis": Chebyshev(7), **given})
+    best = synthesize(problem)
+    # optima of other objectives keep the conditions, and so do their means, for these are convex
+    others = [synthesize(replace(problem, minimise=one)).law for one in ("J", "rms_c", "rms_j", "C + 2*B")]
+    generator = np.random.default_rng(7)
+    wanted = problem.range("B")
+    for weights in generator.dirichlet(np.full(len(others) + 1, 0.4), 20):
+        law = _mean([best.law, *others], weights)
+        speed = np.abs(law.b(K)).max()
+        assert wanted is None or wanted.low * (1.0 - 1e-6) <= speed <= wanted.high * (1.0 + 1e-9)
+        assert law.peak(2).value >= best.lower_bound
+
+
+def _mean(laws: list[Any], weights: Any) -> PolynomialLaw:  # noqa: ANN401
+    """The law from rest whose c is the weighted mean."""
+    series = np.zeros(max(len(law.acceleration) for law in laws))
+    for law, weight in zip(laws, weights, strict=True):
+        series[: len(law.acceleration)] += weight * np.array(law.acceleration)
+    return PolynomialLaw(series)

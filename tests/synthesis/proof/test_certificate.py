@@ -1,0 +1,479 @@
+"""The lower bound: what it says is checked from eq. 8 in exact rational arithmetic, and nothing beats it."""
+
+import json
+import subprocess
+import sys
+from collections.abc import Callable
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from optlaws import (
+    BoundaryConditions,
+    Certificate,
+    Chebyshev,
+    Contact,
+    InfeasibleProblem,
+    InputError,
+    Problem,
+    Solution,
+    SolverFailure,
+    at_most,
+    between,
+    construct,
+    synthesize,
+)
+from tests.synthesis.duality import edge, weak_duality
+from tests.synthesis.independent import acceleration_of, extremes, polynomial, velocity_of, z_of
+
+PLAIN = [
+    Problem(B=1.641, order=4, basis=Chebyshev(3)),
+    Problem(B=1.859, order=4, basis=Chebyshev(9)),
+    Problem(B=2.5, order=3, basis=Chebyshev(9)),
+    Problem(B=2.5, order=4, basis=Chebyshev(9), monotone=True),
+    Problem(B=1.4, order=2, basis=Chebyshev(15)),
+    Problem(B=1.3, order=1, basis=Chebyshev(7)),
+    Problem(B=2.3, order=6, basis=Chebyshev(8), monotone=True),
+    Problem(B=1.53, order=5, basis=Chebyshev(13)),
+]
+GENERAL = [
+    Problem(B=1.7, order=4, basis=Chebyshev(7), minimise="J"),
+    Problem(B=1.859, order=5, basis=Chebyshev(7), minimise="jounce"),
+    Problem(B=1.7, order=3, basis=Chebyshev(9), minimise="C/8 + J/64"),
+    Problem(order=4, basis=Chebyshev(9), minimise="max(C/4, J/32)"),
+    Problem(B=between(1.5, 1.6), order=4, basis=Chebyshev(9)),
+    Problem(B=1.7, order=3, basis=Chebyshev(9), J=at_most(60.0)),
+    Problem(B=1.8, C=at_most(5.0), order=3, basis=Chebyshev(9), minimise="J"),
+    Problem(B=2.5, order=3, basis=Chebyshev(9), symmetric=False),
+    Problem(B=2.5, order=3, basis=Chebyshev(9), symmetric=False, monotone=True),
+    Problem(B=1.641, order=4, basis=Chebyshev(9), minimise="rms_c"),
+    Problem(B=1.7, order=4, basis=Chebyshev(7), minimise="rms_c + C/8", J=at_most(60.0)),
+    Problem(B=1.7, order=4, basis=Chebyshev(7), minimise="D"),
+    Problem(B=2.1, order=2, basis=Chebyshev(9), minimise="D", monotone=True),
+    Problem(B=1.7, order=4, basis=Chebyshev(7), D=at_most(4.0)),
+    Problem(B=2.1, order=2, basis=Chebyshev(7), minimise="C + D", symmetric=False),
+]
+PROBLEMS = [*PLAIN, *GENERAL]
+INFEASIBLE = [
+    Problem(B=1.53, order=4, basis=Chebyshev(1)),
+    Problem(B=1.12, order=4, basis=Chebyshev(3)),
+    Problem(B=2.9, order=2, basis=Chebyshev(3), monotone=True),
+    Problem(B=1.7, C=at_most(4.8), order=4, basis=Chebyshev(9)),
+    Problem(B=between(1.5, 1.6), J=at_most(40.0), order=4, basis=Chebyshev(9)),
+]
+
+
+def shape(problem: Problem) -> str:
+    kind = "".join(["-monotone" * problem.monotone, "-unsymmetric" * (not problem.symmetric)])
+    bounds = "".join(f"-{name}" for name in "CDJ" if getattr(problem, name) is not None)
+    return f"l{problem.order}-n{polynomial(problem).degree}-B{problem.B}-{problem.minimise}{bounds}{kind}"
+
+
+every_problem = pytest.mark.parametrize("problem", PROBLEMS, ids=shape)
+every_plain = pytest.mark.parametrize("problem", PLAIN, ids=shape)
+one_of = st.sampled_from(PROBLEMS)
+
+
+@cache
+def solution_of(problem: Problem) -> Solution:
+    return synthesize(problem)
+
+
+@cache
+def proof_of(problem: Problem) -> Certificate:
+    with pytest.raises(InfeasibleProblem) as caught:
+        synthesize(problem)
+    proof = caught.value.proof
+    assert isinstance(proof, Certificate)
+    return proof
+
+
+# --- what the certificate sums, from eq. 8 in rational numbers ---
+
+
+@every_problem
+def test_the_bound_is_the_weak_duality_sum_of_eq_8(problem: Problem) -> None:
+    solution = solution_of(problem)
+    certificate = solution.certificate
+    assert certificate.problem == problem
+    assert certificate.program == ("objective" if problem.convex else "relaxed")
+    found = weak_duality(certificate)
+    for left, size in found.laws:
+        assert abs(left) <= Fraction(1, 10**10) * size
+    size = sum((abs(m) for _, m in found.used), Fraction(1))
+    for name, left in found.variables.items():
+        assert abs(left) <= Fraction(1, 10**10) * size, name
+    assert certificate.bound == pytest.approx(float(found.constant), rel=1e-9)
+    assert certificate.bound <= float(found.constant) * (1 + 1e-12)
+    assert solution.lower_bound == max(certificate.bound, -np.inf if solution.limit is None else solution.limit)
+    if problem.convex:
+        assert solution.lower_bound == pytest.approx(solution.objective, rel=1e-8)
+        assert certificate.bound == pytest.approx(solution.objective, rel=1e-8)
+
+
+@pytest.mark.parametrize("problem", [p for p in PROBLEMS if p.symmetric and "rms" not in str(p.minimise)], ids=shape)
+def test_with_its_mirror_image_the_sum_speaks_of_unsymmetric_laws_too(problem: Problem) -> None:
+    certificate = solution_of(problem).certificate
+    found = weak_duality(certificate, mirrored=True)
+    assert len(found.laws) == polynomial(problem).degree + 1
+    for left, size in found.laws:
+        assert abs(left) <= Fraction(1, 10**10) * size
+    assert certificate.bound == pytest.approx(float(found.constant), rel=1e-9)
+
+
+@pytest.mark.parametrize("problem", INFEASIBLE, ids=shape)
+def test_a_proof_of_infeasibility_is_a_contradiction_in_eq_8(problem: Problem) -> None:
+    proof = proof_of(problem)
+    assert proof.proves_infeasible
+    assert proof.bound == -np.inf
+    found = weak_duality(proof)
+    assert found.constant > 0
+    for left, size in found.laws:
+        assert abs(left) <= Fraction(1, 10**10) * size
+    size = sum((abs(m) for _, m in found.used), Fraction(1))
+    assert all(abs(left) <= Fraction(1, 10**10) * size for left in found.variables.values())
+
+
+@every_problem
+def test_contacts_are_where_the_law_touches(problem: Problem) -> None:
+    solution = solution_of(problem)
+    law = solution.law
+    if solution.certificate.program != "objective":
+        return  # its contacts are those of a program that is not as tight
+    greatest = {name: getattr(law.constants, name).value for name in "CDJ"} | {"b": law.peak(1).value}
+    greatest |= {"jounce": law.peak(4).value, "C_plus": law.extrema(2)[1].value, "C_minus": -law.extrema(2)[0].value}
+    for contact in solution.certificate.contacts:
+        name, k, m = contact.constraint, contact.k, contact.multiplier
+        nu = {"b": 1, "C": 2, "C_plus": 2, "C_minus": 2, "J": 3, "jounce": 4}.get(name)
+        assert m >= -1e-12
+        if m < 1e-9:
+            continue
+        if nu is not None:
+            assert contact.sign * law(k, nu) == pytest.approx(greatest[name], rel=1e-9)
+        elif name == "chord":
+            assert law.b(k) == pytest.approx(law.b(0.5), rel=1e-9)
+        elif name in {"ratio", "forward"}:
+            assert law.b(k) == pytest.approx(0.0, abs=1e-9 * law.b(0.5))
+
+
+# --- it stands by itself ---
+
+READER = """
+import json, sys
+sys.modules.update(dict.fromkeys(("casadi", "scipy", "mpmath", "matplotlib", "flint")))
+from optlaws.synthesis.proof.certificate import Certificate
+for line in sys.stdin:
+    found = Certificate.from_dict(json.loads(line))
+    print(repr(float(found.bound)), found.proves_infeasible)
+"""
+
+
+def test_it_is_recomputed_from_json_by_numpy_alone() -> None:
+    certificates = [solution_of(problem).certificate for problem in PROBLEMS]
+    proofs = [proof_of(problem) for problem in INFEASIBLE]
+    text = "".join(json.dumps(one.to_dict(), allow_nan=False) + "\n" for one in [*certificates, *proofs])
+    done = subprocess.run([sys.executable, "-c", READER], input=text, capture_output=True, text=True, check=True)
+    wanted = [f"{float(one.bound)!r} False" for one in certificates] + ["-inf True"] * len(proofs)
+    assert done.stdout.splitlines() == wanted
+    assert done.stderr == ""
+
+
+@every_problem
+def test_json_gives_an_equal_certificate_whatever_bound_is_written(problem: Problem) -> None:
+    certificate = solution_of(problem).certificate
+    data = json.loads(json.dumps(certificate.to_dict()))
+    assert data["bound"] == certificate.bound
+    data["bound"] = 1e9
+    again = Certificate.from_dict(data)
+    assert again == certificate
+    assert again.bound == certificate.bound
+
+
+# --- tampering ---
+
+
+# what rounding may leave: a bound that meets the objective may stand a little above it
+ROUNDING = 1 + 1e-13
+
+
+def altered(certificate: Certificate, index: int, change: Callable[[Contact], Contact]) -> Certificate:
+    contacts = list(certificate.contacts)
+    contacts[index] = change(contacts[index])
+    return replace(certificate, contacts=tuple(contacts))
+
+
+@given(problem=one_of, which=st.integers(0, 30), factor=st.floats(-3.0, 3.0))
+def test_a_multiplier_that_is_scaled_proves_nothing_false(problem: Problem, which: int, factor: float) -> None:
+    solution = solution_of(problem)
+    index = which % len(solution.certificate.contacts)
+    forged = altered(solution.certificate, index, lambda c: replace(c, multiplier=c.multiplier * factor))
+    assert forged.bound <= solution.objective * ROUNDING
+    assert not forged.proves_infeasible
+
+
+@given(problem=one_of, which=st.integers(0, 30), k=st.floats(0.0, 1.0))
+def test_a_contact_that_is_moved_proves_nothing_false(problem: Problem, which: int, k: float) -> None:
+    solution = solution_of(problem)
+    index = which % len(solution.certificate.contacts)
+    forged = altered(solution.certificate, index, lambda c: replace(c, k=k))
+    assert forged.bound <= solution.objective * ROUNDING
+    assert not forged.proves_infeasible
+
+
+@given(problem=one_of, which=st.integers(0, 30), step=st.floats(-1e-3, 1e-3))
+def test_a_contact_that_is_moved_a_little_proves_nothing_false(problem: Problem, which: int, step: float) -> None:
+    solution = solution_of(problem)
+    index = which % len(solution.certificate.contacts)
+    forged = altered(solution.certificate, index, lambda c: replace(c, k=min(max(c.k + step, 0.0), 1.0)))
+    assert forged.bound <= solution.objective * ROUNDING
+
+
+@every_problem
+def test_without_one_contact_it_proves_nothing_false(problem: Problem) -> None:
+    solution = solution_of(problem)
+    contacts = solution.certificate.contacts
+    for i in range(len(contacts)):
+        forged = replace(solution.certificate, contacts=contacts[:i] + contacts[i + 1 :])
+        assert forged.bound <= solution.objective * ROUNDING
+        assert not forged.proves_infeasible
+    for nothing in (
+        replace(solution.certificate, contacts=()),
+        replace(solution.certificate, contacts=(), equations=()),
+    ):
+        assert nothing.bound <= solution.objective / 2
+        assert not nothing.proves_infeasible
+
+
+@given(problem=one_of, which=st.integers(0, 30), factor=st.floats(-3.0, 3.0), shift=st.floats(-3.0, 3.0))
+def test_an_equation_that_is_weighed_otherwise_proves_nothing_false(
+    problem: Problem, which: int, factor: float, shift: float
+) -> None:
+    solution = solution_of(problem)
+    weights = list(solution.certificate.equations)
+    if weights:
+        i = which % len(weights)
+        weights[i] = weights[i] * factor + shift
+    forged = replace(solution.certificate, equations=tuple(weights))
+    assert forged.bound <= solution.objective * ROUNDING
+    assert replace(solution.certificate, equations=()).bound <= solution.objective * ROUNDING
+    assert replace(solution.certificate, equations=(*weights, 3.0)).bound <= solution.objective * ROUNDING
+
+
+@given(problem=one_of, which=st.integers(0, 30), other=st.integers(0, 30))
+def test_a_contact_of_another_name_or_sign_proves_nothing_false(problem: Problem, which: int, other: int) -> None:
+    solution = solution_of(problem)
+    contacts = solution.certificate.contacts
+    index, name = which % len(contacts), NAMES[other % len(NAMES)]
+    for change in (lambda c: replace(c, constraint=name), lambda c: replace(c, sign=-c.sign)):
+        forged = altered(solution.certificate, index, change)
+        assert forged.bound <= solution.objective * ROUNDING
+        assert not forged.proves_infeasible
+
+
+@given(problem=st.sampled_from([p for p in PROBLEMS if not p.convex]), tangent=st.floats(-10.0, 10.0))
+def test_another_tangent_proves_nothing_false(problem: Problem, tangent: float) -> None:
+    solution = solution_of(problem)
+    assert replace(solution.certificate, tangent=tangent).bound <= solution.objective * ROUNDING
+
+
+@given(seed=st.integers(0, 2**32 - 1), size=st.floats(0.0, 3.0))
+def test_another_direction_of_an_rms_proves_nothing_false(seed: int, size: float) -> None:
+    solution = solution_of(Problem(B=1.641, order=4, basis=Chebyshev(9), minimise="rms_c"))
+    (index,) = (i for i, c in enumerate(solution.certificate.contacts) if c.constraint == "rms_c")
+    step = np.random.default_rng(seed).normal(size=len(solution.certificate.contacts[index].direction))
+
+    def turned(contact: Contact) -> Contact:
+        return replace(contact, direction=tuple((np.array(contact.direction) + size * step).tolist()))
+
+    assert altered(solution.certificate, index, turned).bound <= solution.objective * ROUNDING
+
+
+@pytest.mark.parametrize("program", ["objective", "relaxed", "violation", "wishful"])
+@every_problem
+def test_as_a_proof_of_another_kind_it_proves_nothing_false(problem: Problem, program: str) -> None:
+    solution = solution_of(problem)
+    try:
+        forged = replace(solution.certificate, program=program)
+        assert forged.bound <= solution.objective * ROUNDING
+        assert not forged.proves_infeasible
+    except InputError:
+        assert program == "wishful"
+
+
+@pytest.mark.parametrize("problem", INFEASIBLE, ids=shape)
+def test_a_proof_of_infeasibility_says_nothing_of_a_feasible_problem(problem: Problem) -> None:
+    feasible = replace(problem, B=1.859, C=None, J=None, basis=Chebyshev(9), order=3)
+    assert solution_of(feasible).objective > 0.0
+    assert not replace(proof_of(problem), problem=feasible).proves_infeasible
+
+
+@pytest.mark.parametrize("problem", [p for p in PROBLEMS if isinstance(p.B, float)], ids=shape)
+@pytest.mark.parametrize("B", [1.2, 1.5, 1.8, 2.1, 2.4, 2.8])
+def test_with_another_b_it_speaks_of_another_problem_truly(problem: Problem, B: float) -> None:
+    forged = replace(solution_of(problem).certificate, problem=replace(problem, B=B))
+    try:
+        true = solution_of(replace(problem, B=B)).objective
+    except (InfeasibleProblem, SolverFailure):
+        return
+    assert forged.bound <= true * (1 + 1e-12)
+
+
+NAMES = ["C", "C_plus", "C_minus", "J", "jounce", "D", "b", "chord", "ratio", "forward", "rms_c", "B at most"]
+NAMES += ["B at least", "J at most", "tangent", "b / sqrt(2k)", "root of D", "part 1 of max(0.25*C, 0.03125*J)", ""]
+
+
+@given(
+    problem=one_of,
+    names=st.lists(st.sampled_from(NAMES), min_size=1, max_size=6),
+    weights=st.lists(st.floats(-10.0, 10.0), max_size=2),
+    data=st.data(),
+)
+def test_invented_contacts_prove_nothing_false(
+    problem: Problem, names: list[str], weights: list[float], data: st.DataObject
+) -> None:
+    contacts = tuple(
+        Contact(
+            name,
+            data.draw(st.sampled_from([1.0, -1.0])),
+            data.draw(st.floats(0.0, 1.0)),
+            data.draw(st.floats(-10.0, 10.0, allow_subnormal=False)),
+        )
+        for name in names
+        if name != "rms_c"
+    )
+    forged = replace(solution_of(problem).certificate, contacts=contacts, equations=tuple(weights))
+    assert forged.bound <= solution_of(problem).objective * ROUNDING
+    assert not forged.proves_infeasible
+
+
+def test_forward_contacts_count_only_where_b_at_least_0_is_asked() -> None:
+    problem = Problem(B=2.5, order=4, basis=Chebyshev(9), monotone=True)
+    asked = solution_of(problem)
+    free = solution_of(replace(problem, monotone=False))
+    assert any(c.constraint == "ratio" for c in asked.certificate.contacts)
+    assert replace(asked.certificate, problem=free.problem).bound <= free.objective < asked.objective
+    # the other way round the bound holds for fewer laws, and stays
+    assert replace(free.certificate, problem=problem).bound == pytest.approx(free.certificate.bound, rel=1e-13)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        lambda: Contact("C", 1.0, -0.1, 1.0),
+        lambda: Contact("C", 1.0, 1.1, 1.0),
+        lambda: Contact("C", 1.0, float("nan"), 1.0),
+        lambda: Contact("C", 1.0, 0.1, float("inf")),
+        lambda: Contact("C", 1.0, 0.1, float("nan")),
+        lambda: Contact("C", 0.0, 0.1, 1.0),
+        lambda: Contact("C", 2.0, 0.1, 1.0),
+        lambda: Contact("C", float("nan"), 0.1, 1.0),
+    ],
+)
+def test_a_contact_that_makes_no_sense_is_refused(wrong: Callable[[], Contact]) -> None:
+    with pytest.raises(InputError):
+        wrong()
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda d: d.pop("contacts"),
+        lambda d: d.pop("problem"),
+        lambda d: d.pop("equations"),
+        lambda d: d.update(equations=["much"]),
+        lambda d: d.update(equations=[float("nan")]),
+        lambda d: d.update(tangent=float("inf")),
+        lambda d: d.update(tangent="steep"),
+        lambda d: d.update(program="wishful"),
+        lambda d: d.update(contacts=[{}]),
+        lambda d: d.update(contacts=[{"constraint": "C"}]),
+        lambda d: d.update(problem={"ordr": 3}),
+        lambda d: d["contacts"][0].update(direction=None),
+        lambda d: d["contacts"][0].update(k="here"),
+        lambda d: d["contacts"][0].update(weight=1.0),
+    ],
+)
+def test_data_that_is_no_certificate_is_refused(change: Callable[[dict[str, Any]], object]) -> None:
+    data = json.loads(json.dumps(solution_of(PLAIN[0]).certificate.to_dict()))
+    change(data)
+    with pytest.raises(InputError):
+        Certificate.from_dict(data)
+
+
+@pytest.mark.parametrize("data", [None, 3, "certificate", [], {}])
+def test_what_is_no_table_is_no_certificate(data: Any) -> None:  # noqa: ANN401
+    with pytest.raises(InputError, match="not a certificate"):
+        Certificate.from_dict(data)
+
+
+# --- no law beats the bound ---
+
+
+@cache
+def inner(problem: Problem) -> np.ndarray:
+    """Z of a law well inside the constraints: the mean of optima of poorer shapes and other norms."""
+    parts = []
+    for degree in range(polynomial(problem).degree, 0, -2):
+        try:
+            found = solution_of(replace(problem, basis=Chebyshev(degree)))
+        except InfeasibleProblem:
+            break
+        parts.append(np.pad(np.asarray(z_of(found)), (0, polynomial(problem).degree - degree)))
+    return np.asarray(np.mean(parts, axis=0))
+
+
+@settings(max_examples=60)
+@given(
+    problem=st.sampled_from(PLAIN),
+    seed=st.integers(0, 2**32 - 1),
+    symmetric=st.booleans(),
+    size=st.floats(1e-3, 30.0),
+)
+def test_no_feasible_law_beats_the_bound(problem: Problem, seed: int, symmetric: bool, size: float) -> None:  # noqa: FBT001
+    solution = solution_of(problem)
+    order, basis = problem.order, polynomial(problem)
+    step = np.random.default_rng(seed).normal(size=basis.size) * 4.0**order * size
+    if symmetric:
+        step[::2] = 0.0
+    step = tangent(order, step, symmetric=symmetric)
+    start = inner(problem)
+    scale = 1.0
+    for _ in range(60):
+        law = construct(BoundaryConditions.rest(order), start + scale * step, basis)
+        b = acceleration_of(law).integ(lbnd=0.0) + law.to_dict()["b0"]
+        lowest, highest = extremes(b)
+        if highest <= velocity_of(problem) * (1 + 1e-12) and (not problem.monotone or lowest >= -1e-12):
+            break
+        scale /= 2.0
+    assert law.b(0.5) == pytest.approx(problem.B, rel=1e-11)
+    assert law.peak(2).value >= solution.lower_bound * (1 - 1e-9)
+
+
+def tangent(order: int, step: np.ndarray, *, symmetric: bool) -> np.ndarray:
+    """The step without what it changes in b(1/2) and, through Z_0, in c(1/2)."""
+    k, y = Fraction(1, 2), np.polynomial.chebyshev.Chebyshev
+    weight = float(edge(order)(k))
+    z = y(step, domain=(0.0, 1.0))
+    step = step.copy()
+    step[1] -= z.deriv()(0.5) / 2.0  # b(1/2) = k^l (k-1)^l Z'(1/2)
+    if not symmetric:
+        z = y(step, domain=(0.0, 1.0))
+        bend = edge(order).derivative().derivative()
+        step[0] -= (float(bend(k)) * z(0.5) + weight * z.deriv(2)(0.5)) / float(bend(k))
+    return step
+
+
+def test_the_mean_of_a_law_and_its_mirror_image_is_no_worse() -> None:
+    problem = Problem(B=1.859, order=4, basis=Chebyshev(9))
+    step = tangent(4, np.random.default_rng(1).normal(size=10) * 20.0, symmetric=False)
+    z = np.asarray(z_of(solution_of(problem))) + step
+    mirrored = -z * (-1.0) ** np.arange(10)
+    one, mean = (construct(BoundaryConditions.rest(4), part, Chebyshev(9)) for part in (z, (z + mirrored) / 2))
+    assert mean.peak(2).value <= one.peak(2).value
+    assert mean.b(0.5) == pytest.approx(one.b(0.5), rel=1e-13)

@@ -1,0 +1,175 @@
+"""Problems without a law: which conditions contradict each other, and a proof that can be checked again."""
+
+import pickle
+import subprocess
+import sys
+
+import numpy as np
+import pytest
+
+from optlaws import (
+    BoundaryConditions,
+    Chebyshev,
+    InfeasibleProblem,
+    Pieces,
+    Problem,
+    Window,
+    synthesize,
+    via,
+)
+from optlaws.synthesis.method.equations import contradiction, independent
+from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.proof.farkas import surplus
+from optlaws.verification.exact.bound import prove
+
+CONTRADICTIONS = [
+    (Problem(order=3, windows=(via("a", 0.3, at=0.3), via("a", 0.4, at=0.3))), ["via('a', 0.3", "via('a', 0.4"]),
+    (Problem(order=3, windows=(via("a", 0.5, at=0.0),)), ["via('a', 0.5, at=0.0)", "end conditions"]),
+    (Problem(order=3, B=1.8, windows=(via("b", 2.0, at=0.5),)), ["b(1/2) = B = 1.8", "via('b', 2.0"]),
+    (Problem(order=3, windows=(via("c", 1.0, at=0.5),)), ["via('c', 1.0, at=0.5)"]),
+    (Problem(order=3, windows=(via("a", 0.3, at=0.25), via("a", 0.3, at=0.75))), ["via('a', 0.3, at=0.25)"]),
+    (
+        Problem(order=3, symmetric=False, inflexion=0.4, windows=(Window("c", low=0.5, start=0.1, stop=0.4),)),
+        ["c(0.4) = 0", "Window('c', low=0.5, start=0.1, stop=0.4)"],
+    ),
+    (Problem(order=4, basis=Pieces(2, 4, 3)), ["c(0.5) = 0", "j(0) = 0", "lower continuity"]),
+    (
+        Problem(order=5, basis=Pieces(2, 4, 2), symmetric=False, minimise="rms_c"),
+        ["a(1) = 1", "a^(4)(1) = 0", "More pieces"],
+    ),
+    (
+        Problem(
+            order=3,
+            symmetric=False,
+            windows=(Window("a", low=0.6, start=0.2, stop=0.4), Window("a", high=0.5, start=0.3, stop=0.5)),
+        ),
+        ["Window('a', low=0.6", "Window('a', high=0.5"],
+    ),
+    (
+        Problem(
+            order=3,
+            monotone=True,
+            symmetric=False,
+            windows=(Window("a", low=0.3, start=0.2, stop=0.2), Window("a", high=0.2, start=0.3, stop=0.5)),
+        ),
+        ["b >= 0", "Window('a', high=0.2, start=0.3, stop=0.5)"],
+    ),
+    (
+        Problem(
+            order=3,
+            symmetric=False,
+            basis=Chebyshev(2),
+            windows=tuple(via("a", value, at=k) for value, k in ((0.1, 0.1), (0.2, 0.3), (0.3, 0.4), (0.3, 0.5))),
+        ),
+        ["via('a', 0.1", "via('a', 0.3, at=0.5)", "A higher degree of Z may help"],
+    ),
+    (Problem(order=3, symmetric=False, windows=(Window("b", high=0.9),)), ["Window('b', high=0.9)"]),
+    (
+        Problem(boundary=BoundaryConditions((0, 0.5), (1, 0.5)), symmetric=False, windows=(via("b", 0.0, at=1.0),)),
+        ["via('b', 0.0, at=1.0)"],
+    ),
+]
+
+
+@pytest.mark.parametrize(("problem", "named"), CONTRADICTIONS, ids=range(len(CONTRADICTIONS)))
+def test_contradictory_conditions_are_named_and_proven(problem: Problem, named: list[str]) -> None:
+    with pytest.raises(InfeasibleProblem) as caught:
+        synthesize(problem)
+    message = str(caught.value).partition("\ntried: ")[0]
+    assert [text for text in named if text not in message] == []
+    proof = caught.value.proof
+    assert isinstance(proof, Certificate)
+    assert Certificate.from_dict(proof.to_dict()).proves_infeasible
+    value = prove(proof).value
+    assert value is not None
+    assert value > 0
+    assert pickle.loads(pickle.dumps(caught.value)).proof == proof  # noqa: S301
+
+
+def test_the_proof_is_of_the_right_sides_asked() -> None:
+    proof = CONTRADICTIONS[0][0], synthesize_fails(CONTRADICTIONS[0][0])
+    agreeing = Problem(order=3, windows=(via("a", 0.3, at=0.3), via("a", 0.3, at=0.3)))
+    moved = Certificate(agreeing, proof[1].contacts, proof[1].equations, "violation")
+    assert proof[1].proves_infeasible
+    assert not moved.proves_infeasible
+    assert (prove(moved).value or 0) <= 0
+    assert synthesize(agreeing).status == "optimal"
+
+
+def synthesize_fails(problem: Problem) -> Certificate:
+    with pytest.raises(InfeasibleProblem) as caught:
+        synthesize(problem)
+    assert isinstance(caught.value.proof, Certificate)
+    return caught.value.proof
+
+
+@pytest.mark.parametrize(
+    "windows",
+    [
+        (via("a", 0.0, at=0.0), via("b", 0.0, at=1.0)),
+        (via("a", 0.5, at=0.5), via("c", 0.0, at=0.5)),
+        (via("a", 0.25, at=0.25), via("a", 0.75, at=0.75), via("a", 0.25, at=0.25)),
+    ],
+)
+def test_conditions_said_twice_change_nothing(windows: tuple[Window, ...]) -> None:
+    once = Problem(B=1.9, order=3, windows=windows[-1:])
+    twice = Problem(B=1.9, order=3, windows=windows)
+    found = synthesize(twice)
+    assert found.status == "optimal"
+    assert found.objective == pytest.approx(synthesize(once).objective, rel=1e-10)
+
+
+def test_multipliers_of_equations_that_contradict_each_other() -> None:
+    numbers = np.random.default_rng(3)
+    for count in (3, 5, 8):
+        rows = numbers.normal(size=(count, 3)) * 10.0 ** numbers.uniform(-2, 2, size=(count, 1))
+        x = numbers.normal(size=3)
+        assert contradiction(rows, rows @ x) is None
+        if count > 3:
+            wrong = rows @ x + np.eye(count)[1]
+            found = contradiction(rows, wrong)
+            assert found is not None
+            assert np.abs(found @ rows).max() < 1e-12 * np.abs(rows).max()
+            assert found @ wrong < 0.0
+    assert independent(np.vstack([rows, rows])).sum() == 3
+    assert independent(np.zeros((2, 3))).sum() == 0
+
+
+def test_rows_contradict_each_other_only_by_what_their_multipliers_show() -> None:
+    rows = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, -1.0]])
+    # x <= 0, y <= 0, x + y >= s
+    for least in (1.0, 1e-6):
+        right = np.array([0.0, 0.0, -least])
+        assert surplus(rows, right, np.ones(3), 3) == pytest.approx(least)
+        assert surplus(rows, right, np.array([1.0, 1.0 + 1e-9, 1.0]), 3) == pytest.approx(least)
+        assert surplus(rows, right, np.array([1.0, 0.5, 1.0]), 3) <= least * (1.0 + 1e-12)
+    assert surplus(rows, np.array([0.0, 0.0, 1.0]), np.ones(3), 3) < 0.0
+    # without the second row there is a law, and no multipliers say otherwise
+    assert surplus(rows[[0, 2]], np.array([0.0, -1.0]), np.ones(2), 2) < 0.0
+    assert surplus(rows[:0], np.empty(0), np.empty(0), 0) == 0.0
+
+
+def test_nothing_is_printed_by_the_solver_whatever_comes_of_it() -> None:
+    code = """
+from optlaws import *
+from optlaws.synthesis.method.exchange import solve
+from optlaws.synthesis.program.writer import model
+import numpy as np
+problems = [
+    Problem(order=5, basis=Pieces(2, 4, 2), symmetric=False, minimise="rms_c"),
+    Problem(order=3, windows=(via("a", 0.3, at=0.3), via("a", 0.4, at=0.3))),
+    Problem(B=1.53, order=4, basis=Powers(1)),
+    Problem(B=1.7, order=3, minimise="D", D=at_most(1.0)),
+    Problem(B=1.7, order=3, minimise="rms_j"),
+]
+for problem in problems:
+    try:
+        synthesize(problem)
+    except OptlawsError as error:
+        assert "iterations" not in error.tried or "after -" not in error.tried
+found = model(Problem(B=1.7, order=3, minimise="D"))
+outcome = solve(found.program, start=np.full(found.program.size, np.nan))
+assert outcome.optimum is None and outcome.iterations == 0, outcome
+"""
+    ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=100)
+    assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")

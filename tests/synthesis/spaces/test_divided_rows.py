@@ -1,0 +1,101 @@
+"""Rows divided by what they vanish like: equal to their definition, and sharper than the plain ones."""
+
+import numpy as np
+import pytest
+from scipy.optimize import linprog
+
+from optlaws import BoundaryConditions, Chebyshev, Pieces, Problem, synthesize
+from optlaws.synthesis.spaces.pieces.free import PieceSpace, piece_space
+from optlaws.synthesis.spaces.polynomials.space import polynomial_space
+from optlaws.verification.exact.bound import prove
+from tests.synthesis.judge import judge
+
+
+@pytest.mark.parametrize("order", [1, 2, 4])
+@pytest.mark.parametrize("degree", [2, 3, 8, 15])
+def test_the_chord_of_unsymmetric_laws_is_what_it_says(order: int, degree: int) -> None:
+    space = polynomial_space(BoundaryConditions.rest(order), degree, symmetric=False)
+    bend = space.row(2, 0.5)
+    x = np.random.default_rng(degree).normal(size=space.terms)
+    # the nearest law with c(1/2) = 0
+    x -= bend[:-1] * (bend @ np.append(x, 1.0)) / (bend[:-1] @ bend[:-1])
+    law = space.law(x)
+    k = np.array([0.0, 0.1, 0.3, 0.45, 0.6, 0.9, 1.0])
+    wanted = -(law.b(0.5) - law.b(k)) / (1 - 2 * k) ** 2
+    family = space.below(np.zeros(space.terms))
+    assert family.value(x, 1 - 2 * k) == pytest.approx(wanted, rel=1e-9, abs=1e-9)
+    # at the middle b'' / 8 is left
+    assert family.value(x, np.zeros(1))[0] == pytest.approx(law.j(0.5) / 8, rel=1e-9)
+
+
+@pytest.mark.parametrize("order", [2, 3, 4])
+@pytest.mark.parametrize("symmetric", [True, False], ids=["symmetric", "unsymmetric"])
+def test_the_forward_rows_of_pieces_are_what_they_say(order: int, symmetric: bool) -> None:  # noqa: FBT001
+    solution = synthesize(
+        Problem(B=2.1, order=order, basis=Pieces(6, 6, 4), minimise="J", monotone=True, symmetric=symmetric)
+    )
+    judge(solution)
+    space = piece_space(BoundaryConditions.rest(order), tuple(i / 6 for i in range(7)), 6, 4, symmetric=symmetric)
+    assert solution.active_set is not None
+    x = solution.active_set.x[: space.terms]
+    k = np.array([1e-3, 0.05, 0.15, 0.2, 0.4, 0.5] if symmetric else [1e-3, 0.1, 0.2, 0.5, 0.8, 0.9, 0.999])
+    share = np.minimum(1.0, 6 * np.minimum(k, 1 - k)) ** (order - 1)
+    value = space.forward(np.zeros(space.terms)).value(x, 1 - 2 * k)
+    assert value == pytest.approx(-solution.law.b(k) / share, rel=1e-8, abs=1e-9)
+    assert isinstance(space, PieceSpace)
+
+
+@pytest.mark.parametrize("minimise", ["C", "J"])
+@pytest.mark.parametrize("B", [2.1548, 2.6])
+def test_pieces_that_never_move_back_agree_with_highs(minimise: str, B: float) -> None:
+    # rows on many points, each by itself divided by what it vanishes like
+    problem = Problem(B=B, order=3, basis=Pieces(6, 6, 4), minimise=minimise, monotone=True)
+    solution = synthesize(problem)
+    judge(solution)
+    value = prove(solution.certificate).value
+    assert value is not None
+    assert float(value) == pytest.approx(solution.objective, rel=1e-9)
+    assert solution.objective == pytest.approx(_by_highs(B, 2 if minimise == "C" else 3), rel=3e-5)
+
+
+def _by_highs(B: float, nu: int, count: int = 1201) -> float:
+    space = piece_space(BoundaryConditions.rest(3), tuple(i / 6 for i in range(7)), 6, 4, symmetric=True)
+    k = np.linspace(0.0, 0.5, count)
+    peak, b = (np.vstack([space.row(order, one) for one in k.tolist()]) for order in (nu, 1))
+    ones, nothing = np.ones((count, 1)), np.zeros((count - 1, 1))
+    rise, fall = b[1:] / k[1:, None] ** 2, b[:-1] / (1 - 2 * k[:-1, None]) ** 2
+    rows = np.vstack(
+        [
+            np.hstack([peak[:, :-1], -ones]),
+            np.hstack([-peak[:, :-1], -ones]),
+            np.hstack([fall[:, :-1], nothing]),
+            np.hstack([-rise[:, :-1], nothing]),
+        ]
+    )
+    right = np.concatenate([-peak[:, -1], peak[:, -1], B / (1 - 2 * k[:-1]) ** 2 - fall[:, -1], rise[:, -1]])
+    # what is left of them at k = 0 and k = 1/2
+    ends = np.vstack([-space.row(3, 0.0), space.row(3, 0.5)])
+    rows = np.vstack([rows, np.hstack([ends[:, :-1], np.zeros((2, 1))])])
+    right = np.concatenate([right, -ends[:, -1]])
+    middle = space.row(1, 0.5)
+    equations = [(middle[:-1], B - middle[-1]), *((one.row, one.right) for one in space.equations())]
+    found = linprog(
+        np.append(np.zeros(space.terms), 1.0),
+        A_ub=rows,
+        b_ub=right,
+        A_eq=np.array([np.append(row, 0.0) for row, _ in equations]),
+        b_eq=np.array([value for _, value in equations]),
+        bounds=(None, None),
+        options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
+    )
+    assert found.fun is not None
+    return float(found.fun)
+
+
+def test_the_proof_of_a_one_sided_peak_holds_in_exact_arithmetic() -> None:
+    for B in (1.7, 2.1, 2.5):
+        solution = synthesize(Problem(B=B, order=3, basis=Chebyshev(9), minimise="C_plus", symmetric=False))
+        proof = prove(solution.certificate)
+        assert proof.unknown == 0
+        assert proof.value is not None
+        assert float(proof.value) == pytest.approx(solution.objective, rel=1e-10)

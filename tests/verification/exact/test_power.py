@@ -1,0 +1,50 @@
+"""Power certificates with every rounding enclosed."""
+
+import json
+from dataclasses import replace
+from fractions import Fraction
+
+import pytest
+
+from optlaws import BoundaryConditions, Chebyshev, Problem, synthesize
+from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate
+from optlaws.verification.exact.power import prove_power
+
+FIRST = Problem(B=1.641, order=4, basis=Chebyshev(5), minimise="D")
+PROBLEMS = [
+    replace(FIRST, basis=Chebyshev(9)),
+    replace(FIRST, B=2.5, monotone=True),
+    replace(FIRST, B=None, minimise="0.6*C/4 + 0.4*D/2.25"),
+    replace(FIRST, minimise="max(C/4, D/2.25)"),
+    replace(FIRST, minimise="rms_c + D"),
+    replace(FIRST, B=None, minimise="C", D=4.0),
+    Problem(order=3, symmetric=False, minimise="D", boundary=BoundaryConditions((0, 0.5, 0), (1, 0.2, 0))),
+]
+
+
+def proof(problem: Problem) -> PowerCertificate:
+    found = synthesize(problem, bound="tight").power_certificate
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize("problem", PROBLEMS, ids=str)
+def test_what_doubles_prove_is_proven_in_balls(problem: Problem) -> None:
+    solution = synthesize(problem, bound="tight")
+    assert solution.status.value == "optimal"
+    data = json.loads(json.dumps(solution.to_dict()["power_certificate"]))
+    assert prove_power(PowerCertificate.from_dict(data)) == Fraction(solution.lower_bound)
+
+
+def test_what_is_false_or_unfinished_is_not_proven() -> None:
+    right = proof(FIRST)
+    objective = synthesize(FIRST).objective
+    assert prove_power(right) is not None
+    assert prove_power(replace(right, claim=objective * (1 + 1e-7))) is None
+    assert prove_power(replace(right, steps=right.steps[:-1])) is None
+    assert prove_power(replace(right, steps=(*right.steps, right.steps[-1]))) is None
+    assert prove_power(replace(right, steps=(Cut(-1, 1.0), *right.steps))) is None
+    assert prove_power(replace(right, points=right.points[:-1])) is None
+    assert prove_power(replace(right, points=(right.points[1], *right.points[1:]))) is None
+    assert prove_power(replace(right, problem=replace(FIRST, B=1.6))) is None
+    assert prove_power(replace(right, problem=replace(FIRST, minimise="C"))) is None
