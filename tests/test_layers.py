@@ -9,24 +9,26 @@ import pytest
 from tests.documents import ROOT
 from tests.imports import Import, cycles, imports
 
-BASE = {"errors", "kept", "locks", "suggest"}
+BASE = {"echo", "errors", "files", "kept", "locks", "numbers", "suggest"}
 KNOWN = BASE | {"series"}
 CORE = KNOWN | {"laws", "synthesis", "mechanisms", "verification"}
 MAY_IMPORT = {
-    "suggest": set[str](),
-    "errors": {"suggest"},
+    "echo": set[str](),
+    "errors": {"echo"},
+    "files": {"echo", "errors", "suggest"},
     "kept": set[str](),
     "locks": set[str](),
+    "numbers": {"echo", "errors"},
+    "suggest": {"echo"},
     "series": BASE,
     "laws": KNOWN,
     "synthesis": KNOWN | {"laws"},
     "mechanisms": KNOWN | {"laws", "synthesis"},
     "verification": KNOWN | {"laws", "synthesis"},
-    "files": CORE,
-    "drawing": CORE | {"files"},
-    "studies": CORE | {"files", "drawing"},
-    "jobs": CORE | {"files", "drawing", "studies"},
-    "cli": CORE | {"files", "drawing", "studies", "jobs", "optlaws"},
+    "drawing": CORE,
+    "studies": CORE | {"drawing"},
+    "jobs": CORE | {"drawing", "studies"},
+    "cli": CORE | {"drawing", "studies", "jobs", "optlaws"},
     "__main__": {"cli"},
 }
 

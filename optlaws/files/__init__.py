@@ -1,1 +1,1 @@
-"""Files that come in: read whole, bounded and checked before anything is made of them."""
+"""Files in and out: what comes in is read whole and checked, what goes out is written whole or not at all."""

@@ -12,13 +12,13 @@ import msgspec
 from optlaws.errors import InputError
 from optlaws.files import writing
 from optlaws.files.problem_file import convert
-from optlaws.files.problems import Positive, Text
 from optlaws.jobs.follower import figure, tables
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.savin.family import FAMILIES
 from optlaws.laws.savin.savin import savin
 from optlaws.mechanisms.polydyne.polydyne import polydyne
+from optlaws.studies.points.problem_entries import Positive, Text
 from optlaws.suggest import unknown_key
 
 Ratio = Annotated[float, msgspec.Meta(ge=0.0, le=10.0)]

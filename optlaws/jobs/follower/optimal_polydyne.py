@@ -11,9 +11,9 @@ import msgspec
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.files.problems import Text, gap
 from optlaws.jobs.follower.figure_polydyne import draw
 from optlaws.jobs.follower.polydyne_laws import Compared, Design, compared
+from optlaws.studies.points.problem_entries import Text, gap
 from optlaws.synthesis import Status
 
 Positive = Annotated[float, msgspec.Meta(gt=0.0, le=1e3)]

@@ -12,9 +12,9 @@ import msgspec
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.files.problems import Asked, Text, gap, problem
 from optlaws.jobs.laws.beside_fronts import check_beside
 from optlaws.jobs.laws.figure_fronts import draw
+from optlaws.studies.points.problem_entries import Asked, Text, gap, problem
 from optlaws.synthesis.front import HEADINGS, Front
 from optlaws.synthesis.pareto import pareto_front
 

@@ -11,9 +11,9 @@ import msgspec
 
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.files.problems import Text
 from optlaws.jobs.laws.figure_savin import draw
 from optlaws.laws.savin.family import SavinFamily
+from optlaws.studies.points.problem_entries import Text
 
 HEADINGS = ("family", "alpha", "delta", "order of a⁽ⁿ⁾(0)", "a⁽ⁿ⁾(0)", "B", "C", "k of C", "D", "k of D")
 BEST = (

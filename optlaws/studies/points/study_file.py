@@ -12,8 +12,8 @@ import msgspec
 from optlaws.errors import InputError
 from optlaws.files import reading
 from optlaws.files.problem_file import convert
-from optlaws.files.problems import Asked, Text
 from optlaws.numbers import finite
+from optlaws.studies.points.problem_entries import Asked, Text
 from optlaws.suggest import unknown_key
 
 Positive = Annotated[float, msgspec.Meta(gt=0.0, le=1e7)]

@@ -8,7 +8,7 @@ import pytest
 
 from optlaws import BSplines, InputError, Pieces, Problem, at_most, between
 from optlaws.files.problem_file import convert
-from optlaws.files.problems import Asked, problem
+from optlaws.studies.points.problem_entries import Asked, problem
 
 
 def asked(**entries: Any) -> Problem:  # noqa: ANN401
