@@ -14,6 +14,7 @@ from optlaws.laws import MotionLaw
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.power.certificate import PowerCertificate
+from optlaws.synthesis.solution import NOTHING
 from optlaws.verification.conditions import excesses
 from optlaws.verification.exact.balls import down, enclosed, up
 from optlaws.verification.exact.bound import Proof, never_negative, prove
@@ -124,7 +125,7 @@ def _solution(data: Mapping[str, Any]) -> Verification:
     bound, source = _best(proof.value if same else None, power, exact_limit(problem))
     gap = None
     if bound is not None and objective[1] < inf:
-        gap = up((Fraction(objective[1]) - bound) / Fraction(objective[1])) if objective[1] else 0.0
+        gap = up((Fraction(objective[1]) - bound) / (Fraction(objective[1]) if objective[1] > NOTHING else 1))
     constants = enclosures(law.law)
     found = excesses(problem, law)
     claims = [

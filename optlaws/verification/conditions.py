@@ -80,12 +80,19 @@ def _shape(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
         return
     if len(shape.breaks) == 2:
         return
-    apart = max(abs(one - other) for one, other in zip(shape.breaks, law.breaks, strict=True))
+    breaks = _folded(shape.breaks) if problem.symmetric else shape.breaks
+    apart = max(abs(one - other) for one, other in zip(breaks, law.breaks, strict=True))
     yield _of("breaks", ball(apart), 1.0, _APART)
     for nu in range(1, shape.continuity + 1):
         sides = ((left.exact(nu, left.stop), right.exact(nu, right.start)) for left, right in pairwise(law.polynomials))
         jump = max(abs(after - before) for before, after in sides)
         yield _of(f"continuity of derivative {nu}", arb(jump), _size(law, nu), _ROUNDING)
+
+
+def _folded(breaks: list[Fraction]) -> list[Fraction]:
+    """Breaks of symmetric laws: those beyond 1/2, given as rounded numbers, are mirror images of the others."""
+    half = [k for k in breaks if 2 * k <= 1]
+    return [*half, *(1 - k for k in reversed(half) if 2 * k < 1)]
 
 
 def _facing(pieces: list[PolynomialPiece]) -> Iterator[tuple[PolynomialPiece, PolynomialPiece, Fraction, Fraction]]:

@@ -43,7 +43,8 @@ class Verification:
     objective, constants
         Floats below and above the law's objective, B, C, D, J and rms_c; None and empty without a law.
     gap
-        (objective - bound) / objective, at most. Below 0 by rounding where the law breaks a constraint by rounding.
+        (objective - bound) / objective, at most; the difference itself where the objective is 0 but for rounding, or
+        negative. Below 0 by rounding where the law breaks a constraint by rounding.
     excesses
         By how much the law breaks each condition at most; 0 or less where it keeps it.
     charge

@@ -9,7 +9,7 @@ coincide) moments of a derivative join in, which the claim itself bounds: they a
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import inf, isfinite
@@ -88,8 +88,9 @@ def prove(certificate: Certificate) -> Proof:
             break
         bits *= 2
     assert best is not None  # noqa: S101 - there is at least one try
-    if certificate.program != VIOLATION and never_negative(certificate.problem) and (best.value or 0) <= 0:
-        return replace(best, value=Fraction(0))
+    least = least_objective(certificate.problem, ExactRows(certificate))
+    if certificate.program != VIOLATION and least is not None and (best.value is None or best.value <= least):
+        return replace(best, value=least)
     return best
 
 
@@ -189,12 +190,13 @@ class _System:
     def _helpers(self, claim: float) -> Iterator[list[_Helper]]:
         """Constants, and moments of one derivative whose mean magnitude is bounded."""
         rows, greatest = self.rows, greatest_values(self.certificate, self.rows, claim)
+        least = least_values(self.certificate.problem, rows)
         constants = []
         for i, name in enumerate(rows.names):
-            if isfinite(greatest.get(name, inf)) and never_negative(self.certificate.problem):
+            if isfinite(greatest.get(name, inf)) and isfinite(least.get(name, 0)):
                 unit = [arb(0)] * (self.size + 1)
                 unit[rows.space.terms + i] = arb(1)
-                constants.append(_Helper(unit, arb(0), ball(greatest[name])))
+                constants.append(_Helper(unit, ball(least.get(name, 0)), ball(greatest[name])))
         for nu, mean in means(self.certificate.problem, rows, greatest).items():
             moments = []
             for row in rows.space.moments(nu):
@@ -226,12 +228,45 @@ def never_negative(problem: Problem) -> bool:
     return not one_sided or (problem.boundary is None and problem.order > 1)
 
 
+def least_values(problem: Problem, rows: ExactRows) -> dict[str, Fraction | float]:
+    """What constants of the objective cannot be below, where that is not 0: minus infinity where nothing is known.
+
+    The greatest c is at least its mean, the change of velocity, and so is the greatest -c.
+    """
+    change = rows.space.bounds.velocity_change
+    found: dict[str, Fraction | float] = {}
+    if never_negative(problem):
+        return found
+    mean = None if change is None else Fraction(int(change.p), int(change.q))
+    for _, leaf in leaves(problem.objective):
+        if isinstance(leaf, Peak) and len(leaf.signs) == 1:
+            found[repr(leaf)] = -inf if mean is None or leaf.nu != 2 else mean * Fraction(leaf.signs[0])
+    _least_sum(problem.objective, found)
+    return found
+
+
+def least_objective(problem: Problem, rows: ExactRows) -> Fraction | None:
+    """What the objective cannot be below by what its constants are alone; None where nothing is known."""
+    value = _least_sum(problem.objective, least_values(problem, rows))
+    return None if isinstance(value, float) else value
+
+
+def _least_sum(expression: Expression, least: dict[str, Fraction | float]) -> Fraction | float:
+    """What an expression cannot be below; notes the same of its maxima."""
+    total: Fraction | float = Fraction(0)
+    for weight, term in expression.terms:
+        if isinstance(term, Maximum):
+            least[repr(term)] = max(_least_sum(part, least) for part in term.parts)
+        total += Fraction(weight) * least.get(repr(term), Fraction(0))
+    return total
+
+
 def greatest_values(certificate: Certificate, rows: ExactRows, claim: float) -> dict[str, float]:
     """Greatest values of the named constants in a law whose objective is below the claim."""
     found: dict[str, float] = {}
     problem = certificate.problem
-    if certificate.program != VIOLATION and never_negative(problem):
-        _spread(problem.objective, Fraction(max(claim, 0.0)), found)
+    if certificate.program != VIOLATION:
+        _spread(problem.objective, Fraction(claim), least_values(problem, rows), found)
     for name in ("B", *(one.name for one, _ in problem.bounded)):
         asked = problem.range(name)
         if asked is not None:
@@ -254,7 +289,8 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
 
     def known(nu: int, name: str, factor: int = 1, extra: arb | None = None) -> None:
         if isfinite(greatest.get(name, inf)):
-            found.setdefault(nu, []).append(factor * ball(greatest[name]) + (arb(0) if extra is None else extra))
+            size = factor * ball(max(greatest[name], 0.0))
+            found.setdefault(nu, []).append(size + (arb(0) if extra is None else extra))
 
     for nu, name in ((2, "C"), (2, "rms_c"), (3, "J"), (3, "rms_j"), (4, "jounce")):
         known(nu, name)
@@ -271,13 +307,20 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
     return {nu: ball(min(map(upper, several))) for nu, several in found.items()}
 
 
-def _spread(expression: Expression, claim: Fraction, found: dict[str, float]) -> None:
-    for weight, term in expression.terms:
-        value = up(claim / Fraction(weight))
-        found[repr(term)] = min(found.get(repr(term), inf), value)
+def _spread(
+    expression: Expression, claim: Fraction, least: Mapping[str, Fraction | float], found: dict[str, float]
+) -> None:
+    """What each term is at most where the sum is below the claim and the other terms are no less than they can be."""
+    lowest = [Fraction(weight) * least.get(repr(term), Fraction(0)) for weight, term in expression.terms]
+    for i, (weight, term) in enumerate(expression.terms):
+        others = sum([*lowest[:i], *lowest[i + 1 :]], Fraction(0))
+        if isinstance(others, float):
+            continue
+        value = up((claim - others) / Fraction(weight))
+        found[repr(term)] = max(min(found.get(repr(term), inf), value), float(least.get(repr(term), 0)))
         if isinstance(term, Maximum):
             for part in term.parts:
-                _spread(part, Fraction(value), found)
+                _spread(part, Fraction(value), least, found)
 
 
 def exact_bound(certificate: Certificate) -> Fraction | None:

@@ -13,8 +13,9 @@ from operator import mul
 from flint import arb
 
 from optlaws.errors import InputError
-from optlaws.synthesis.problem.constants import B, Functional, Peak, RootMeanSquare
+from optlaws.synthesis.problem.constants import B, Functional, Peak, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
+from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate, Contact
@@ -84,7 +85,7 @@ class ExactRows:
             self._objective(problem.objective)
         if problem.peak_is_variable:
             self.names.append("B")
-        if self.relaxed:
+        if self.relaxed and _bounds_power(problem):
             self.names.append(ROOT)
         self.names = list(dict.fromkeys(self.names))
         self._constraints()
@@ -256,6 +257,12 @@ def parts(window: Window, *, symmetric: bool) -> Iterator[Part]:
         whole = 1 - window.order // 2
         low, high = (None if one is None else whole - one for one in (high, low))
     yield Part(window.order, low, high, 1 - stop, 1 - max(start, half))
+
+
+def _bounds_power(problem: Problem) -> bool:
+    """Whether D is bounded from above, by the objective or by a number: only then do rows have its root."""
+    high = (one for one, wanted in problem.bounded if isfinite(wanted.high))
+    return any(isinstance(one, Power) for one in (*(leaf for _, leaf in leaves(problem.objective)), *high))
 
 
 def _maxima(expression: Expression) -> Iterator[Maximum]:

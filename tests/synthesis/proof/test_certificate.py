@@ -1,9 +1,10 @@
 """The lower bound: what it says is checked from eq. 8 in exact rational arithmetic, and nothing beats it."""
 
+import copy
 import json
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import replace
 from fractions import Fraction
 from functools import cache
@@ -21,6 +22,7 @@ from optlaws import (
     Contact,
     InfeasibleProblem,
     InputError,
+    PowerCertificate,
     Problem,
     Solution,
     SolverFailure,
@@ -477,3 +479,53 @@ def test_the_mean_of_a_law_and_its_mirror_image_is_no_worse() -> None:
     one, mean = (construct(BoundaryConditions.rest(4), part, Chebyshev(9)) for part in (z, (z + mirrored) / 2))
     assert mean.peak(2).value <= one.peak(2).value
     assert mean.b(0.5) == pytest.approx(one.b(0.5), rel=1e-13)
+
+
+HUGE = 10**400
+JUNK = [HUGE, -HUGE, "a", None, [], {}, [[1.0]], {"k": 1.0}, float("nan"), float("inf"), True]
+
+
+def _places(data: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[Any, ...]]:  # noqa: ANN401 - JSON
+    for key, value in data.items() if isinstance(data, dict) else enumerate(data) if isinstance(data, list) else ():
+        yield (*path, key)
+        yield from _places(value, (*path, key))
+
+
+@pytest.mark.parametrize("kind", ["certificate", "power_certificate"])
+def test_junk_anywhere_in_a_certificate_is_an_input_error_or_proves_no_more(kind: str) -> None:
+    solution = synthesize(Problem(B=1.6, order=2, basis=Chebyshev(3), minimise="D"), bound="tight")
+    true = json.loads(json.dumps(solution.to_dict()[kind]))
+    steps = true.get("steps")
+    if steps:
+        # the first ones have all that the others have
+        true["steps"] = [*{tuple(sorted(one)): one for one in steps}.values()]
+    for path in _places(true):
+        if path[0] in {"problem", "bound"}:
+            continue
+        for junk in JUNK:
+            data = copy.deepcopy(true)
+            place = data
+            for key in path[:-1]:
+                place = place[key]
+            place[path[-1]] = junk
+            try:
+                made = (Certificate if kind == "certificate" else PowerCertificate).from_dict(data)
+            except InputError:
+                continue
+            assert made.bound <= solution.objective, (path, junk)
+
+
+@pytest.mark.parametrize("junk", [HUGE, -HUGE, "a", float("nan")])
+@pytest.mark.parametrize("name", ["B", "inflexion", "degree"])
+def test_a_certificate_of_no_problem_is_an_input_error(name: str, junk: object) -> None:
+    data = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(5))).certificate.to_dict()
+    with pytest.raises(InputError):
+        Certificate.from_dict({**data, "problem": {**data["problem"], name: junk}})
+
+
+@pytest.mark.parametrize("multiplier", [1e300, 1e308])
+def test_sums_beyond_double_precision_prove_nothing(multiplier: float) -> None:
+    solution = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(5)))
+    data = solution.certificate.to_dict()
+    data["contacts"][0]["multiplier"] = multiplier
+    assert Certificate.from_dict(data).bound <= solution.objective
