@@ -13,8 +13,12 @@ from typing import Any
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
+from optlaws.locks import process_lock
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.verification.result import Claim, Verification
+
+# python-flint has one precision for the process: what one thread asks for would be another's
+_precision = process_lock()
 
 __all__ = ["Claim", "Verification", "enclosures", "exact_bound", "verify", "verify_all"]
 
@@ -44,7 +48,8 @@ def verify(source: Mapping[str, Any] | Path | str) -> Verification:
     _need_flint()
     from optlaws.verification import claims
 
-    return claims.verify(source)
+    with _precision:
+        return claims.verify(source)
 
 
 def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification]:
@@ -68,7 +73,8 @@ def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification
     _need_flint()
     from optlaws.verification import claims as checks
 
-    return checks.verify_all(source)
+    with _precision:
+        return checks.verify_all(source)
 
 
 def exact_bound(certificate: Certificate) -> Fraction | None:
@@ -91,7 +97,8 @@ def exact_bound(certificate: Certificate) -> Fraction | None:
     _need_flint()
     from optlaws.verification.exact import bound
 
-    return bound.prove(certificate).value
+    with _precision:
+        return bound.prove(certificate).value
 
 
 def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
@@ -113,7 +120,8 @@ def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
     _need_flint()
     from optlaws.verification.exact import law as exact_law
 
-    return exact_law.enclosures(law)
+    with _precision:
+        return exact_law.enclosures(law)
 
 
 def _need_flint() -> None:

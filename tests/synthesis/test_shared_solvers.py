@@ -1,22 +1,16 @@
-"""One solver is used by one thread at a time, and its cache is small."""
+"""Many threads at once, and forks among them: answers are those of one thread, to the last bit."""
 
 import subprocess
 import sys
 
+import pytest
+
 from tests.documents import ROOT
 
-SCRIPT = """
-from concurrent.futures import ThreadPoolExecutor
-from optlaws import Problem, synthesize
-problems = [Problem(order=4, B=1.859), Problem(B=1.7, order=3, minimise="rms_c")]
-serial = [synthesize(problem).law.to_dict() for problem in problems]
-with ThreadPoolExecutor(8) as threads:
-    found = list(threads.map(lambda i: synthesize(problems[i % 2]).law.to_dict(), range(64)))
-assert found == serial * 32
-"""
 
-
-def test_threads_may_solve_problems_of_one_shape() -> None:
-    command = [sys.executable, "-X", "faulthandler", "-c", SCRIPT]
-    answer = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=120)
+@pytest.mark.parametrize("rounds", [2, pytest.param(60, marks=pytest.mark.long)])
+def test_threads_and_children_answer_as_one_thread_does(rounds: int) -> None:
+    command = [sys.executable, "-X", "faulthandler", "-m", "tests.synthesis.concurrent_work", "8", str(rounds)]
+    answer = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=60 * rounds)
     assert answer.returncode == 0, answer.stderr
+    assert f"and {rounds} children" in answer.stdout

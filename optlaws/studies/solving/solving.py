@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import warnings
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from math import isfinite
@@ -13,10 +12,11 @@ from typing import Any
 import msgspec
 
 from optlaws.echo import cut
-from optlaws.errors import InfeasibleProblem, InputError, NotNormalised, SolverFailure
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.studies.points.points import key
 from optlaws.studies.points.study_file import entries
 from optlaws.synthesis import Problem, Solution, synthesize
+from optlaws.synthesis.problem.mixtures import meant
 
 INFEASIBLE, WRONG_INPUT, NOT_FOUND = "infeasible", "wrong input", "not found"
 TIME_LIMIT, DIED, ERROR = "time limit", "worker died", "error"
@@ -87,9 +87,7 @@ def solve(task: Task, inputs: Mapping[str, Any], previous: Solution | None) -> S
         problem = Problem.from_dict(entries(task.problem, inputs))
         # continued where problems are not convex, the law of a branch that has become the worse one would stay
         start = previous if problem.convex else None
-        with warnings.catch_warnings():
-            # weights that vary are meant
-            warnings.simplefilter("ignore", NotNormalised)
+        with meant():
             solution = synthesize(problem, start=start, bound=task.bound)
         row = _row(solution)
     except InfeasibleProblem as error:

@@ -14,6 +14,7 @@ from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, 
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
 Array = NDArray[np.float64]
+_KEPT = 32
 
 
 @dataclass(frozen=True, eq=False)
@@ -60,10 +61,15 @@ class LawSpace(ABC):
         self._kept: dict[Hashable, Array] = {}
 
     def cached(self, key: Hashable, make: Callable[[], Array]) -> Array:
-        """What `make` gives, made once for each key."""
-        if key not in self._kept:
-            self._kept[key] = make()
-        return self._kept[key]
+        """What `make` gives, kept for the keys that came last."""
+        kept = self._kept.get(key)
+        if kept is None:
+            kept = make()
+            if len(self._kept) >= _KEPT:
+                # a copy of the keys, for another thread may be changing them
+                self._kept.pop(next(iter(self._kept.copy())), None)
+            self._kept[key] = kept
+        return kept
 
     @abstractmethod
     def law(self, coordinates: Array) -> MotionLaw:
