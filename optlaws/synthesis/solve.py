@@ -155,7 +155,9 @@ def _attempt(problem: Problem, found: Model, warm: ActiveSet | None, point: Arra
         law = found.space.law(x[: found.space.terms])
         measured = worth(problem, law)
         attempt.law, attempt.objective, attempt.excess = law, measured.objective, measured.excess
-        return measured.excess <= _ROUNDING and measured.objective <= float(claim @ x) * (1.0 + _ROUNDING)
+        kept = measured.excess <= _ROUNDING and measured.objective <= float(claim @ x) * (1.0 + _ROUNDING)
+        # a constant that is minimised is a variable, which may have to be above the law's own
+        return kept and not shortfalls(problem, law)
 
     attempt.outcome = solve(found.program, warm, start=point, holds=holds)
     optimum = attempt.outcome.optimum

@@ -13,9 +13,10 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.synthesis.families.family import Family, NormFamily
+from optlaws.synthesis.method.aligned import aligned
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.newton import ActiveSet
-from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.problem.constants import B, Functional, RootMeanSquare
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model
 
@@ -52,30 +53,44 @@ def places(problem: Problem, family: Family) -> Array:
 
 def between(problem: Problem, found: Model, plain: ActiveSet, constant: Functional, low: float) -> Iterator[ActiveSet]:
     """Laws between the optimum without the lower bound and smooth laws beyond it that have the constant at `low`."""
-    smooth = _without(problem, constant)
-    other = model(smooth)
+    other = model(_without(problem, constant))
     family = family_of(other, constant)
-    if isinstance(family, NormFamily):
-        return
     terms = found.space.terms
 
     def value(coordinates: Array) -> float:
         return constant.value(found.space.law(coordinates))
 
+    laws: Iterator[ActiveSet]
+    if isinstance(family, NormFamily):
+        begin = solve(other.program).optimum
+        laws = iter(()) if begin is None else (state for _, state in aligned(other.program, family, begin, low))
+    else:
+        laws = _at_places(problem, other, family, low)
+    for beyond in laws:
+        if value(beyond.x[:terms]) >= low:
+            x = plain.x.copy()
+            x[:terms] = _met(value, low, x[:terms], beyond.x[:terms])
+            yield replace(plain, x=x)
+
+
+def _at_places(problem: Problem, other: Model, family: Family, low: float) -> Iterator[ActiveSet]:
+    """Smooth laws with the peak at one place after the other."""
     for u in places(problem, family).tolist():
         for s in family.signs:
             row = replace(family, signs=(-s,), bound=-low, domain=(u, u))
             beyond = solve(replace(other.program, families=(*other.program.families, row)), rounds=_ROUNDS).optimum
-            if beyond is not None and value(beyond.x[:terms]) >= low:
-                x = plain.x.copy()
-                x[:terms] = _met(value, low, x[:terms], beyond.x[:terms])
-                yield replace(plain, x=x)
+            if beyond is not None:
+                yield beyond
 
 
 def _without(problem: Problem, constant: Functional) -> Problem:
     """The same laws with nothing asked of the constant; what is minimised makes them smooth."""
     bounds = {one: asked for one, asked in problem.bounded if one != constant}
-    return replace(problem, minimise=_SMOOTH.get(constant.name, "rms_c"), C=None, D=None, J=None, bounds=bounds)
+    # a norm is held up by linear rows: what is minimised beside it had better be linear too
+    minimise = "C" if isinstance(constant, RootMeanSquare) else _SMOOTH.get(constant.name, "rms_c")
+    smooth = replace(problem, minimise=minimise, C=None, D=None, J=None, bounds=bounds)
+    # where B is held up at a place, |b| <= B would hold it there from both sides
+    return replace(smooth, B=None) if constant == B else smooth
 
 
 def _met(value: Callable[[Array], float], low: float, short: Array, beyond: Array) -> Array:

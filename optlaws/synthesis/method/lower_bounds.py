@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.family import Family, NormFamily, Program
+from optlaws.synthesis.method.aligned import aligned
 from optlaws.synthesis.method.between_laws import between, family_of, places
 from optlaws.synthesis.method.exchange import polished, solve
 from optlaws.synthesis.method.newton import ActiveSet
@@ -71,7 +72,9 @@ def _held_up(
         start = plain.joined(len(found.program.families), float(extrema[j]), float(signs[j]), free=free)
         led.append(_continued(found.program, held, start, (float(height[j]), low)))
     ways = [_rested(found.program, family, one, low) for one in led if one is not None]
-    if not ways and not isinstance(family, NormFamily):
+    if not ways and isinstance(family, NormFamily):
+        ways = aligned(found.program, family, plain, low)
+    elif not ways:
         ways = _asked(found.program, family, plain, (constant.name, low), places(problem, family))
     return [(replace(found, program=program), state) for program, state in ways]
 

@@ -1,0 +1,89 @@
+"""Lower bounds of an RMS: the norm is at least what any direction shows of it, and that is linear.
+
+With the row d . M x >= low for a unit vector d every law has |M x| >= low, and the program stays convex. From the best
+law of it d is turned to where M x now points, which leaves that law in and can only make the objective less, until it
+stays: a law whose neighbours are no better.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import replace
+from itertools import islice
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
+from optlaws.synthesis.method.exchange import solve
+from optlaws.synthesis.method.newton import ActiveSet
+
+Array = NDArray[np.float64]
+
+_DIRECTIONS = 12
+_BEGUN = 8
+_FOLLOWED = 2
+_TURNS = 20
+_ROUNDS = 4
+_SETTLED = 1e-10
+_FLAT = 1e-9
+
+
+def aligned(program: Program, family: NormFamily, plain: ActiveSet, low: float) -> list[tuple[Program, ActiveSet]]:
+    """Optima with the norm at `low` or above along a direction, the best first, with the programs that ask it there.
+
+    Parameters
+    ----------
+    program, plain
+        The program without the lower bound, and its optimum.
+    family
+        The norm's row.
+    low
+        Its lower bound.
+    """
+    tried = (_along(program, family, plain, direction, low) for direction in _directions(family, plain))
+    begun = list(islice((way for way in tried if way is not None), _BEGUN))
+    begun.sort(key=lambda way: way[0].worth(way[1].x))
+    ways = [_turned(program, family, way, low) for way in begun[:_FOLLOWED]]
+    return sorted(ways, key=lambda way: way[0].worth(way[1].x))
+
+
+def _directions(family: NormFamily, plain: ActiveSet) -> Iterator[Array]:
+    """Where the norm points without the bound, and where it grows soonest with the coordinates, either way."""
+    image = _image(family, plain.x)
+    if np.linalg.norm(image) > _FLAT:
+        yield image / np.linalg.norm(image)
+    axes, sizes, _ = np.linalg.svd(family.matrix[:, :-1], full_matrices=False)
+    for axis in axes.T[: min(_DIRECTIONS, int((sizes > _FLAT * sizes[0]).sum()))]:
+        yield axis
+        yield -axis
+
+
+def _turned(
+    program: Program, family: NormFamily, way: tuple[Program, ActiveSet], low: float
+) -> tuple[Program, ActiveSet]:
+    for _ in range(_TURNS):
+        before = way[0].worth(way[1].x)
+        image = _image(family, way[1].x)
+        better = _along(program, family, way[1], image / np.linalg.norm(image), low)
+        if better is None or better[0].worth(better[1].x) > before:
+            break
+        way = better
+        if before - way[0].worth(way[1].x) < _SETTLED * abs(before):
+            break
+    return way
+
+
+def _along(
+    program: Program, family: NormFamily, near: ActiveSet, direction: Array, low: float
+) -> tuple[Program, ActiveSet] | None:
+    row = LinearFamily(
+        family.name, np.zeros(program.size), -low, (1.0,), (1.0, 1.0), series=-(direction @ family.matrix)[None]
+    )
+    asked = replace(program, families=(*program.families, row))
+    state = solve(asked, start=near.x if program.curved else None, rounds=_ROUNDS).optimum
+    return None if state is None else (asked, state)
+
+
+def _image(family: NormFamily, x: Array) -> Array:
+    return np.asarray(family.matrix @ np.append(x, 1.0))
