@@ -26,7 +26,8 @@ MOST_VELOCITY = 1e50
 MOST_TERMS = 400
 MOST_EXPONENT = 50
 MOST_VALUES = 1_000_000
-MOST_DERIVATIVE = 1000
+MOST_DERIVATIVE = 50
+MOST_FREQUENCY = 1e4
 MOST_WHOLE = 2**63 - 1
 
 _DENOMINATOR_BITS = 100_000
@@ -111,6 +112,43 @@ def positive(value: Any, name: str) -> float:  # noqa: ANN401
     if number <= 0.0:
         raise InputError(f"{name} must be above 0, got {shortened(value)}")
     return number
+
+
+def frequency(value: Any, name: str = "nu") -> float:  # noqa: ANN401
+    """Radians of a free vibration in the rise, as a float above 0 and at most 10 000.
+
+    Raises
+    ------
+    InputError
+        If it is not one: beyond, a follower is as good as rigid, and its peaks are too many to be looked at.
+
+    Examples
+    --------
+    >>> frequency(20)
+    20.0
+    """
+    number = positive(value, name)
+    if number > MOST_FREQUENCY:
+        raise InputError(
+            f"{name} must not exceed {MOST_FREQUENCY:g}, where a follower is as good as rigid, got {number!r}"
+        )
+    return number
+
+
+def derivative(value: Any, name: str = "nu") -> int:  # noqa: ANN401
+    """The order of a derivative as an int, at most 50.
+
+    Raises
+    ------
+    InputError
+        If it is not one.
+
+    Examples
+    --------
+    >>> derivative(3)
+    3
+    """
+    return whole(value, name, most=MOST_DERIVATIVE)
 
 
 def not_negative(value: Any, name: str) -> float:  # noqa: ANN401

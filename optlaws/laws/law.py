@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.laws.html import page
 from optlaws.laws.storage import Stored
-from optlaws.numbers import times, whole
+from optlaws.numbers import derivative, times
 from optlaws.series import peaks
 from optlaws.series.peaks import Constants, Peak
 
@@ -68,7 +68,7 @@ class MotionLaw(Stored):
         >>> smoothstep(3)([0.0, 0.5, 1.0], nu=1).tolist()
         [0.0, 1.875, 0.0]
         """
-        return _plain(self._derivative(times(k), whole(nu, "nu")))
+        return _plain(self._derivative(times(k), derivative(nu)))
 
     @overload
     def a(self, k: float) -> float: ...
@@ -126,7 +126,7 @@ class MotionLaw(Stored):
         ((0.0, 0.0, 6.0), (1.0, 0.0, -6.0))
         """
         ends = np.array([0.0, 1.0])
-        pairs = [self._derivative(ends, nu).tolist() for nu in range(whole(count, "count"))]
+        pairs = [self._derivative(ends, nu).tolist() for nu in range(derivative(count, "count"))]
         return tuple(pair[0] for pair in pairs), tuple(pair[1] for pair in pairs)
 
     def peak(self, nu: int) -> Peak:
@@ -169,7 +169,7 @@ class MotionLaw(Stored):
         if within == (0.0, 1.0):
             return peaks.extremes(*self._candidate_values(nu))
         ends = times(within)
-        k = self._candidates(whole(nu, "nu"))
+        k = self._candidates(derivative(nu))
         k = np.concatenate([ends, k[(k > ends[0]) & (k < ends[1])]])
         return peaks.extremes(k, self._derivative(k, nu))
 
@@ -199,7 +199,7 @@ class MotionLaw(Stored):
         >>> round(smoothstep(2).rms(2) ** 2, 12)
         12.0
         """
-        return float(np.sqrt(self._mean_square(whole(nu, "nu"))))
+        return float(np.sqrt(self._mean_square(derivative(nu))))
 
     @kept_property
     def constants(self) -> Constants:
@@ -230,7 +230,7 @@ class MotionLaw(Stored):
         return page(f"{type(self).__name__}, {self._summary()}", self.constants, curves)
 
     def _candidate_values(self, nu: int) -> tuple[Array, Array]:
-        order = whole(nu, "nu")
+        order = derivative(nu)
         k = self._candidates(order)
         return k, self._derivative(k, order)
 

@@ -11,6 +11,7 @@ from typing import Any, Self, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws.html import page
@@ -18,7 +19,7 @@ from optlaws.laws.law import MotionLaw
 from optlaws.laws.segments.fractional import FractionalSegment  # noqa: F401  # declares its kind
 from optlaws.laws.segments.segment import Segment
 from optlaws.laws.segments.sine import SineSegment  # noqa: F401  # declares its kinds
-from optlaws.numbers import finite, numbers, times, whole
+from optlaws.numbers import derivative, finite, numbers, times
 from optlaws.series import peaks
 from optlaws.series.peaks import Peak
 
@@ -75,7 +76,9 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
             raise InputError(f"breaks must increase from 0 to 1, got {places}")
         kept = tuple(_listed(segments))
         if len(kept) != len(places) - 1 or not all(isinstance(one, Segment) for one in kept):
-            raise InputError(f"segments must be {len(places) - 1} segments, one between breaks, got {segments!r}")
+            raise InputError(
+                f"segments must be {len(places) - 1} segments, one between breaks, got {shortened(segments)}"
+            )
         object.__setattr__(self, "breaks", places)
         object.__setattr__(self, "segments", kept)
         object.__setattr__(self, "a0", finite(a0, "a0"))
@@ -110,7 +113,7 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
         >>> PiecewiseLaw([0, 0.5, 1], [PolynomialSegment([], b0=b) for b in (0.5, 1.5)]).jumps(1)
         ((0.5, 1.0),)
         """
-        order = whole(nu, "nu")
+        order = derivative(nu)
         if order == 0 or len(self.segments) == 1:
             return ()
         ends = np.array([0.0, 1.0])
@@ -141,11 +144,11 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
         return HIGHEST
 
     def peak(self, nu: int) -> Peak:  # noqa: D102
-        k, values = self._sides(whole(nu, "nu"))
+        k, values = self._sides(derivative(nu))
         return _top(k, np.abs(values))
 
     def extrema(self, nu: int, within: tuple[float, float] = (0.0, 1.0)) -> tuple[Peak, Peak]:  # noqa: D102
-        k, values = self._sides(whole(nu, "nu"))
+        k, values = self._sides(derivative(nu))
         if within != (0.0, 1.0):
             ends = times(within)
             inside = (k >= ends[0]) & (k <= ends[1])

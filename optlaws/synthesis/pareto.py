@@ -9,6 +9,7 @@ from typing import Any
 
 import numpy as np
 
+from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.numbers import real, whole
 from optlaws.suggest import unknown_key
@@ -86,7 +87,7 @@ class _Curve:
         pays = value_of(best, over[0])
         if low >= pays * (1.0 - _SAME):
             raise InputError(
-                f"{over[1]} is least at {over[0]} = {pays:.7g}: nothing is exchanged above, got {between!r}"
+                f"{over[1]} is least at {over[0]} = {pays:.7g}: nothing is exchanged above, got {shortened(between)}"
             )
         self.found = [self._first(low), self._last(best, pays, high)]
 
@@ -213,7 +214,7 @@ def _checked(problem: object, over: Sequence[str], between: tuple[float, float] 
         raise InputError(f"pareto_front takes a Problem, got {type(problem).__name__}")
     names = tuple(over) if not isinstance(over, str) else tuple(name.strip() for name in over.split(","))
     if len(names) not in (2, 3) or len(set(names)) != len(names):
-        raise InputError(f"over must name two or three constants, each once, such as ('B', 'C'); got {over!r}")
+        raise InputError(f"over must name two or three constants, each once, such as ('B', 'C'); got {shortened(over)}")
     for name, known in zip(names, [CONSTANTS] * (len(names) - 1) + [tuple(FUNCTIONALS)], strict=True):
         if name not in known:
             raise InputError(unknown_key(name, known, "constant"))
@@ -222,7 +223,7 @@ def _checked(problem: object, over: Sequence[str], between: tuple[float, float] 
     if between is not None:
         pair = tuple(between)
         if len(pair) != 2 or not all(_positive(value) for value in pair) or pair[0] >= pair[1]:
-            raise InputError(f"between must be two numbers above 0 in ascending order, got {between!r}")
+            raise InputError(f"between must be two numbers above 0 in ascending order, got {shortened(between)}")
     return names
 
 

@@ -5,6 +5,7 @@ from pathlib import Path
 
 import pytest
 
+from optlaws.errors import InputError
 from optlaws.files import tables, writing
 
 MINE = f"# {writing.MARK}\n"
@@ -45,6 +46,28 @@ def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(
         writing.write(target, MINE + "new")
     assert [path.name for path in tmp_path.iterdir()] == ["b.csv"]
     assert target.read_text("utf-8") == MINE
+
+
+@pytest.mark.skipif(os.name == "nt", reason="there is no umask")
+def test_the_umask_and_the_rights_of_a_replaced_file_hold(tmp_path: Path) -> None:
+    target = tmp_path / "b.csv"
+    before = os.umask(0o077)
+    try:
+        writing.write(target, MINE)
+        assert target.stat().st_mode & 0o777 == 0o600
+        target.chmod(0o664)
+        writing.write(target, MINE + "again\n")
+        assert target.stat().st_mode & 0o777 == 0o664
+    finally:
+        os.umask(before)
+
+
+def test_names_that_are_none_are_refused(tmp_path: Path) -> None:
+    for name in ("con", "NUL.csv", "com1.tar.gz", "-rf", "a\0b", "a\ud800", "a\n", "b.", "b "):
+        with pytest.raises(InputError, match="cannot be the name of a file"):
+            writing.write(tmp_path / name, MINE)
+    assert list(tmp_path.iterdir()) == []
+    assert writing.write(tmp_path / "constants.csv", MINE).exists()
 
 
 def test_csv_carries_its_source_and_eight_digits() -> None:

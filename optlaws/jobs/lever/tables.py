@@ -9,6 +9,7 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
@@ -65,7 +66,7 @@ def _verdicts(spec: Tables, lines: Sequence[Mapping[str, str]], where: str) -> l
     for line in lines:
         name, beta, lam = (line[column] for column in COLUMNS[:3])
         if name not in ("Q", "P", "S", "R"):
-            raise InputError(f"{where}: coefficient must be Q, P, S or R, got {name!r}")
+            raise InputError(f"{where}: coefficient must be Q, P, S or R, got {shortened(name)}")
         if (name == "R") != bool(lam):
             raise InputError(f"{where}: R needs a lambda and the others have none, got {name} with lambda {lam!r}")
         linkage = FourBar(_above_zero(beta, where), _above_zero(lam or "1", where))

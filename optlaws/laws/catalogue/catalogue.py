@@ -6,6 +6,7 @@ import re
 from collections.abc import Iterator, Mapping
 from typing import TYPE_CHECKING
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 
@@ -13,6 +14,8 @@ if TYPE_CHECKING:
     from optlaws.laws.catalogue.entry import Entry
 
 ALIKE = 0.6  # a likeness of names below it is chance
+
+_LONGEST = 200
 
 
 class UnknownLaw(InputError, KeyError):  # noqa: N818 - named like the other errors of optlaws
@@ -66,7 +69,9 @@ class Catalogue(Mapping[str, "Entry"]):
         from optlaws.laws.catalogue.tyr_codes import canonical
 
         if not isinstance(name, str):
-            raise UnknownLaw(f"the name of a law is text, got {name!r}")
+            raise UnknownLaw(f"the name of a law is text, got {shortened(name)}")
+        if len(name) > _LONGEST:
+            raise UnknownLaw(f"no law is called {shortened(name)}; `optlaws catalogue` lists them")
         code = canonical(name)
         found = self._by_alias.get(code or plain(name))
         if found is not None:

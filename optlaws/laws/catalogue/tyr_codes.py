@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from math import pi
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.making.half_cycle import from_half
 from optlaws.laws.making.trapezoids import trapezoid
@@ -63,7 +64,7 @@ def coded(code: str) -> PiecewiseLaw:
     if found := _COSINE.fullmatch(plain):
         _check_room(code, int(found[1]))
         return _cosine(int(found[1]) / 100)
-    raise InputError(f"a law code is mmnn, mmnn(p) or KCmm, for example 0317(1,5) or KC05; got {code!r}")
+    raise InputError(f"a law code is mmnn, mmnn(p) or KCmm, for example 0317(1,5) or KC05; got {shortened(code)}")
 
 
 def _check_room(code: str, hundredths: int) -> None:

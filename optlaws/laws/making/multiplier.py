@@ -11,6 +11,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.making.transform import as_polynomial
@@ -152,7 +153,7 @@ def _check_still(change: float, law: MotionLaw) -> None:
     if abs(change) > STILL * law.peak(2).value:
         raise InputError(
             f"c y would change the velocity by {change:.6g} in all; the method needs a law whose acceleration is odd "
-            f"about k = 1/2, got {law!r}"
+            f"about k = 1/2, got {shortened(law)}"
         )
 
 

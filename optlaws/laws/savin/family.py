@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import comb, factorial
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.savin.members import alphas
@@ -110,7 +111,7 @@ class SavinFamily:
         if self.range[0] < exact < self.range[1]:
             return exact
         low, high = map(float, self.range)
-        raise InputError(f"alpha of {self} must be between {low:.9g} and {high:.9g} (y >= 0), got {alpha!r}")
+        raise InputError(f"alpha of {self} must be between {low:.9g} and {high:.9g} (y >= 0), got {shortened(alpha)}")
 
     def law(self, alpha: float) -> PolynomialLaw:
         """The member `alpha`, of degree 2u + 5, by exact arithmetic.

@@ -6,6 +6,7 @@ from collections.abc import Callable
 from fractions import Fraction
 from typing import TYPE_CHECKING
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import finite
 
@@ -55,7 +56,7 @@ def _alpha_of_velocity(family: SavinFamily, B: float) -> float:
 
 def _check_reachable(family: SavinFamily, name: str, value: float, least: float, most: float) -> None:
     if not least <= value <= most:
-        raise InputError(f"{name} of {family} reaches from {least:.9g} to {most:.9g}, got {value!r}")
+        raise InputError(f"{name} of {family} reaches from {least:.9g} to {most:.9g}, got {shortened(value)}")
 
 
 def _root(excess: Callable[[float], float], inner: float, outer: float) -> float:

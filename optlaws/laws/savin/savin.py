@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.savin.family import SavinFamily
@@ -56,7 +57,7 @@ def savin(
             raise InputError("branch tells two members of one C or D apart; alpha alone names a member")
         return found.law(alpha)
     if branch not in (None, "lower", "upper"):
-        raise InputError(f"branch must be 'lower' or 'upper', got {branch!r}")
+        raise InputError(f"branch must be 'lower' or 'upper', got {shortened(branch)}")
     members = found.alphas(B=B, C=C, D=D)
     if len(members) == 1:
         return found.law(members[0])

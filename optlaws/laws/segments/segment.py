@@ -12,6 +12,7 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.numbers import finite, numbers
@@ -78,11 +79,13 @@ class Segment(ABC):
             If the kind or a key is unknown, a key is missing, or a number is not finite.
         """
         if not isinstance(data, Mapping):
-            raise InputError(f"a segment must be a dict, got {data!r}")
+            raise InputError(f"a segment must be a dict, got {shortened(data)}")
         contents = dict(data)
         kind = contents.pop("kind", None)
         if not isinstance(kind, str) or kind not in Segment.kinds:
-            raise InputError(f"kind of segment {kind!r} is unknown; known are {', '.join(sorted(Segment.kinds))}")
+            raise InputError(
+                f"kind of segment {shortened(kind)} is unknown; known are {', '.join(sorted(Segment.kinds))}"
+            )
         made = Segment.kinds[kind]
         expected = [one.name for one in fields(made)]  # type: ignore[arg-type]
         if problems := [f"{key!r} is unknown" for key in contents if key not in expected] + [

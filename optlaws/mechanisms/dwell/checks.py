@@ -5,6 +5,7 @@ from __future__ import annotations
 from math import degrees, inf
 from typing import TYPE_CHECKING
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.dwell.section_laws import REST, check_law, loader_of
 
@@ -26,14 +27,14 @@ def check(one: DwellMechanism) -> None:
         Naming the first quantity that does not fit, and the remedy.
     """
     if one.kind not in KINDS:
-        raise InputError(f"kind must be one of {', '.join(KINDS)}, got {one.kind!r}")
+        raise InputError(f"kind must be one of {', '.join(KINDS)}, got {shortened(one.kind)}")
     for name in (*POSITIVE, *NOT_NEGATIVE):
         value = getattr(one, name)
         if not (0.0 < value < inf or (name in NOT_NEGATIVE and value == 0.0)):
             least = "at least 0" if name in NOT_NEGATIVE else "positive"
-            raise InputError(f"{name} must be {least} and finite, got {value!r}")
+            raise InputError(f"{name} must be {least} and finite, got {shortened(value)}")
     if not 0.0 < one.reverse_share < 1.0:
-        raise InputError(f"reverse_share must be between 0 and 1, got {one.reverse_share!r}")
+        raise InputError(f"reverse_share must be between 0 and 1, got {shortened(one.reverse_share)}")
     for name in LAWS:
         check_law(name, getattr(one, name))
     _speeds(one)

@@ -6,6 +6,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from math import degrees, inf, isfinite, pi
 
+from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.dwell.checks import KINDS
@@ -92,7 +93,7 @@ def compare_dwell_mechanisms(
     """
     for name, limit in (("most_torque", most_torque), ("most_size", most_size)):
         if not limit > 0.0:
-            raise InputError(f"{name} must be positive, got {limit!r}")
+            raise InputError(f"{name} must be positive, got {shortened(limit)}")
     mechanisms: dict[str, DwellMechanism] = {}
     reasons: dict[str, str] = {}
     for kind in KINDS:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 from typing import Any
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.loader.loader import Loader
@@ -75,7 +76,7 @@ def check_law(name: str, law: Any) -> None:  # noqa: ANN401 - whatever the calle
         Naming the law.
     """
     if not isinstance(law, MotionLaw):
-        raise InputError(f"{name} must be a MotionLaw, got {law!r}")
+        raise InputError(f"{name} must be a MotionLaw, got {shortened(law)}")
     a0, b0, a1, b1 = _ends(law)
     if max(abs(b0), abs(b1)) > REST * peak_velocity(law) or abs(a1 - a0 - 1.0) > REST:
         raise InputError(

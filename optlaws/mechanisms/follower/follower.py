@@ -9,7 +9,7 @@ from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law, state
 from optlaws.mechanisms.follower.cycle import CycleResponse
 from optlaws.mechanisms.follower.response import Response
-from optlaws.numbers import not_negative, positive
+from optlaws.numbers import frequency, not_negative, positive
 
 
 @dataclass(frozen=True)
@@ -45,7 +45,7 @@ class Follower:
     damping: float = 0.0
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "nu", positive(self.nu, "nu"))
+        object.__setattr__(self, "nu", frequency(self.nu))
         object.__setattr__(self, "damping", not_negative(self.damping, "damping"))
 
     @property

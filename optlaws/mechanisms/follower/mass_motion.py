@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import Peak
-from optlaws.numbers import real_times, whole
+from optlaws.numbers import derivative, real_times
 from optlaws.series import peaks
 
 Array = NDArray[np.float64]
@@ -39,7 +39,7 @@ class MassMotion(ABC):
         InputError
             If `k` is not finite or lies before the motion, or `nu` is not an integer of at least 0.
         """
-        return self._at(k, whole(nu, "nu"))
+        return self._at(k, derivative(nu))
 
     @overload
     def a(self, k: float) -> float: ...
@@ -81,7 +81,7 @@ class MassMotion(ABC):
         InputError
             If `nu` is not an integer of at least 0.
         """
-        return peaks.peak(*self._candidates(whole(nu, "nu")))
+        return peaks.peak(*self._candidates(derivative(nu)))
 
     def extrema(self, nu: int) -> tuple[Peak, Peak]:
         """Minimum and maximum, signed, of the derivative of order `nu`.
@@ -91,7 +91,7 @@ class MassMotion(ABC):
         InputError
             If `nu` is not an integer of at least 0.
         """
-        return peaks.extremes(*self._candidates(whole(nu, "nu")))
+        return peaks.extremes(*self._candidates(derivative(nu)))
 
     def _at(self, k: float | Many, order: int) -> float | Array:
         found = self._derivative(real_times(k), order)

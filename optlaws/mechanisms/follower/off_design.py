@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import Literal
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, Peak
 from optlaws.mechanisms.checks import motion_law
@@ -98,7 +99,7 @@ def off_design(
     if min(percents, default=0.0) <= -100.0:
         raise InputError(f"deviations are changes of nu in percent and must be above -100, got {min(percents):g}")
     if change not in ("speed", "stiffness"):
-        raise InputError(f'change must be "speed" or "stiffness", got {change!r}')
+        raise InputError(f'change must be "speed" or "stiffness", got {shortened(change)}')
     found = []
     for percent in percents:
         factor = 1.0 + percent / 100.0

@@ -8,6 +8,7 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
@@ -16,7 +17,7 @@ from optlaws.mechanisms.follower.chain import Motion
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.follower.mass_motion import MassMotion
 from optlaws.mechanisms.follower.vibration import Oscillator
-from optlaws.numbers import whole
+from optlaws.numbers import derivative
 
 Array = NDArray[np.float64]
 
@@ -76,7 +77,9 @@ class Response(MassMotion):
         law = self.law if reference is None else motion_law(reference, "reference")
         C = law.constants.C.value
         if not 0.0 < C < inf:
-            raise InputError(f"reference must have a finite C above 0 to compare with, got {law!r}; name another law")
+            raise InputError(
+                f"reference must have a finite C above 0 to compare with, got {shortened(law)}; name another law"
+            )
         highest = self.peak(2).value
         return (max(highest, self.dwell_peak(2).value) if dwell else highest) / C
 
@@ -113,7 +116,7 @@ class Response(MassMotion):
         >>> Follower(nu=20, damping=0.05).response(smoothstep(4)).dwell_peak(2)
         Peak(value=1.620669, k=1.016776)
         """
-        found = self._oscillator.peak(*self._off, whole(nu, "nu"))
+        found = self._oscillator.peak(*self._off, derivative(nu))
         return Peak(found.value, 1.0 + found.k)
 
     def __repr__(self) -> str:

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Mapping
 from functools import partial
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.lever.lever import TorsionLever
 from optlaws.mechanisms.lever.limits import LEAST_TRANSMISSION, MOST_ROCKER_SWING
@@ -93,5 +94,7 @@ def find_torsion_levers(
 
 def _span(name: str, span: tuple[float, ...]) -> tuple[float, float]:
     if len(span) != 2 or not 0.0 < finite(span[0], name) < finite(span[1], name):
-        raise InputError(f"{name} must be a number above 0 or a range (least, greatest) of such numbers, got {span!r}")
+        raise InputError(
+            f"{name} must be a number above 0 or a range (least, greatest) of such numbers, got {shortened(span)}"
+        )
     return float(span[0]), float(span[1])

@@ -10,12 +10,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.numbers import finite, numbers, positive, whole
+from optlaws.numbers import derivative, finite, numbers, positive
 from optlaws.series import chebyshev
 
 Array = NDArray[np.float64]
@@ -57,7 +58,7 @@ class LeverMotion:
         object.__setattr__(self, "amplitudes", numbers(self.amplitudes, "amplitudes"))
         object.__setattr__(self, "period", finite(self.period, "period"))
         if self.period <= 0.0 or len(self.amplitudes) < 2:
-            raise InputError(f"a motion needs period > 0 and at least two amplitudes, got {self!r}")
+            raise InputError(f"a motion needs period > 0 and at least two amplitudes, got {shortened(self)}")
         rate = chebyshev.value(chebyshev.derivative(self._series), np.linspace(-1.0, 1.0, _SAMPLES))
         if rate.min() <= 0.0 or self.chi01 <= 0.0 or self.chi02 >= 0.0:
             raise InputError(
@@ -113,7 +114,7 @@ class LeverMotion:
             Order of the derivative, at least 0.
         """
         turn = 2.0 * pi / self.period
-        return turn**nu * self._turned(np.asarray(t, dtype=np.float64) * turn, whole(nu, "nu"))
+        return turn**nu * self._turned(np.asarray(t, dtype=np.float64) * turn, derivative(nu))
 
     @property
     def B1(self) -> float:

@@ -6,6 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, NoReturn
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.loader.loader import loader
@@ -68,10 +69,10 @@ def objective(minimise: str | Term | Expression) -> Expression:
     elif isinstance(minimise, Term | Expression):
         found = minimise.expression()
     else:
-        raise InputError(f"minimise must be a sum of {', '.join(NAMES)}, got {minimise!r}")
+        raise InputError(f"minimise must be a sum of {', '.join(NAMES)}, got {shortened(minimise)}")
     for _, term in found.terms:
         if term not in NAMES.values():
-            raise InputError(f"a balanced law minimises a sum of {', '.join(NAMES)}, got {term!r} in it")
+            raise InputError(f"a balanced law minimises a sum of {', '.join(NAMES)}, got {shortened(term)} in it")
     if [term for _, term in found.terms] == [C]:
         raise InputError("C alone has no loader in it: minimise it with synthesize, or add C_loader or B_loader")
     return found

@@ -9,6 +9,7 @@ from typing import Any, Self, overload
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
@@ -54,7 +55,7 @@ class LoaderLaw(MotionLaw, kind="loader"):
 
     def __post_init__(self) -> None:
         if not isinstance(self.executive, MotionLaw):
-            raise InputError(f"the executive law must be a MotionLaw, got {self.executive!r}")
+            raise InputError(f"the executive law must be a MotionLaw, got {shortened(self.executive)}")
         tops(self.executive)
 
     @kept_property

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from math import asin, cos, pi, sin, sqrt
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import positive
 
@@ -77,5 +78,7 @@ def _two_slopes(B: float, angle: float) -> float:
 def _velocity(B: float) -> float:
     found = positive(B, "B")
     if found <= 1.0:
-        raise InputError(f"B must be above 1, for the stroke is 1 and the law starts and ends at rest; got {B!r}")
+        raise InputError(
+            f"B must be above 1, for the stroke is 1 and the law starts and ends at rest; got {shortened(B)}"
+        )
     return found

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import inf, isfinite, sqrt
 from typing import Any
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
@@ -48,7 +49,7 @@ class Loader:
 
     def __post_init__(self) -> None:
         if not isinstance(self.executive, MotionLaw):
-            raise InputError(f"law must be a MotionLaw, for example smoothstep(3), got {self.executive!r}")
+            raise InputError(f"law must be a MotionLaw, for example smoothstep(3), got {shortened(self.executive)}")
         tops(self.executive)
 
     @kept_property

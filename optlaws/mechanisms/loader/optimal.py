@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError, SolverFailure
 from optlaws.laws import PolynomialLaw
 from optlaws.mechanisms.loader.bound import tangent_bound
@@ -159,7 +160,7 @@ def balanced_law(
 
 def _degree(basis: Basis) -> int:
     if not isinstance(basis, PolynomialBasis):
-        raise InputError(f"basis must be one of polynomials such as Chebyshev(9), got {basis!r}")
+        raise InputError(f"basis must be one of polynomials such as Chebyshev(9), got {shortened(basis)}")
     if basis.degree < _LEAST_DEGREE:
         raise InputError(f"degree of Z must be at least {_LEAST_DEGREE}, or B leaves no freedom; got {basis.degree}")
     return basis.degree

@@ -5,6 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass
 from math import asin, isfinite, sqrt
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
@@ -74,7 +75,7 @@ class TrapeziumSubstitute:
 
     def __post_init__(self) -> None:
         if not (isfinite(self.e13) and isfinite(self.gamma_w) and 0.25 <= self.gamma_w <= 0.5):
-            raise InputError(f"gamma_w of a trapezium must be from 0.25 to 0.5, got {self.gamma_w!r}")
+            raise InputError(f"gamma_w of a trapezium must be from 0.25 to 0.5, got {shortened(self.gamma_w)}")
         least, most = _bounds(self.gamma_w)
         if not least - ROUNDING <= self.e13 <= most + ROUNDING:
             raise InputError(

@@ -12,6 +12,7 @@ from typing import Any
 
 import numpy as np
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.mechanisms.polydyne.polydyne import cam_factors, polydyne
@@ -159,7 +160,7 @@ def check_order(name: str, space: LawSpace, order: int) -> None:
     if any(boundary.start[1:order]) or any(boundary.end[1:order]):
         raise InputError(
             f"{name} needs mass laws from rest to rest, derivatives 1 to {order - 1} zero at both ends, "
-            f"got {boundary!r}"
+            f"got {shortened(boundary)}"
         )
     continuity = getattr(space, "continuity", order)
     if continuity < order - 1:

@@ -8,6 +8,7 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.piecewise import PiecewiseLaw
@@ -101,7 +102,9 @@ def mass_law(cam: MotionLaw, nu: float, damping: float = 0.0) -> PolynomialLaw:
     [0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0]
     """
     if not isinstance(cam, PolynomialLaw):
-        raise InputError(f"cam must be a PolynomialLaw; Follower(nu, damping).response(cam) takes any law, got {cam!r}")
+        raise InputError(
+            f"cam must be a PolynomialLaw; Follower(nu, damping).response(cam) takes any law, got {shortened(cam)}"
+        )
     frequency, ratio = positive(nu, "nu"), not_negative(damping, "damping")
     return PolynomialLaw.from_powers(mass_powers(cam.exact_powers(), frequency, ratio))
 

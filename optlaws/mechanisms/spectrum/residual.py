@@ -7,11 +7,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.spectrum.bessel import legendre_from_chebyshev, moments
 from optlaws.mechanisms.spectrum.laplace import velocity_transform
-from optlaws.numbers import not_negative, numbers, whole
+from optlaws.numbers import frequency, not_negative, numbers, whole
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -111,9 +112,11 @@ def roots(nu: Any, damping: float) -> tuple[Array, Complex, Array]:  # noqa: ANN
     ratio = not_negative(damping, "damping")
     if not (frequencies > 0.0).all():
         raise InputError(f"nu must be above 0, got {float(frequencies.min())!r}")
+    if frequencies.size:
+        frequency(frequencies.max())
     if ratio >= 1.0:
         raise InputError(
-            f"damping must be below 1, got {damping!r}: from the critical damping on nothing vibrates; "
+            f"damping must be below 1, got {shortened(damping)}: from the critical damping on nothing vibrates; "
             "Follower.response tells how the mass comes to rest"
         )
     damped = frequencies * np.sqrt((1.0 - ratio) * (1.0 + ratio))

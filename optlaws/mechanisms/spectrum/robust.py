@@ -13,6 +13,7 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.polydyne.cam_constants import check_order
@@ -171,10 +172,10 @@ def residual(
     """
     pair = tuple(nu) if isinstance(nu, list | tuple) else (nu, nu)
     if len(pair) != 2:
-        raise InputError(f"nu must be a frequency or two, (low, high), got {nu!r}")
+        raise InputError(f"nu must be a frequency or two, (low, high), got {shortened(nu)}")
     low, high = (positive(one, "nu") for one in pair)
     if low > high or high - low > _WIDEST:
-        raise InputError(f"nu must be an interval (low, high) no longer than {_WIDEST:g}, got {nu!r}")
+        raise InputError(f"nu must be an interval (low, high) no longer than {_WIDEST:g}, got {shortened(nu)}")
     ratio = not_negative(damping, "damping")
     roots(low, ratio)
     if design is None and design_damping is not None:

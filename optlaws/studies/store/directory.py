@@ -113,6 +113,7 @@ class StudyDirectory:
             yield
 
     def _lock_file(self) -> IO[bytes]:
+        writing.check_name(self.path)
         try:
             self.path.mkdir(parents=True, exist_ok=True)
             if not self.about.exists() and any(not self._own(file.name) for file in self.path.iterdir()):

@@ -281,4 +281,4 @@ def peak_velocity(B: Any) -> None:  # noqa: ANN401
     if number is None or not 1.0 < number < inf:
         raise InputError(f"B must be a finite number above 1 (the mean velocity is 1), got {shortened(B)}")
     if number > MOST_VELOCITY:
-        raise InputError(f"B must not exceed {MOST_VELOCITY:g}, got {number!r}")
+        raise InputError(f"B must not exceed {MOST_VELOCITY:g}, got {shortened(number)}")

@@ -147,7 +147,7 @@ class Bounds(Mapping[Functional, Range]):
         for key, value in dict(asked).items():
             constant = _constant(key)
             if constant.name in {one.name for one in self._ranges}:
-                raise InputError(f"bounds name {constant.name!r} twice")
+                raise InputError(f"bounds name {shortened(constant.name)} twice")
             found = as_range(value, constant.name)
             if found is not None and found.high <= 0.0:
                 raise InputError(f"{constant.name} must be able to exceed 0, got {shortened(value)}")

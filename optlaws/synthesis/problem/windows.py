@@ -58,9 +58,11 @@ class Window:
             or self.high == -inf
             or not (isfinite(self.low) or isfinite(self.high))
         ):
-            raise InputError(f"a window needs low <= high and one of them finite, got {self.low!r} and {self.high!r}")
+            raise InputError(
+                f"a window needs low <= high and one of them finite, got {shortened(self.low)} and {self.high!r}"
+            )
         if not 0.0 <= self.start <= self.stop <= 1.0:
-            raise InputError(f"a window needs 0 <= start <= stop <= 1, got {self.start!r} and {self.stop!r}")
+            raise InputError(f"a window needs 0 <= start <= stop <= 1, got {shortened(self.start)} and {self.stop!r}")
 
     def __repr__(self) -> str:
         if self.value:

@@ -17,6 +17,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.synthesis.families.cone import ConeFamily
@@ -58,7 +59,7 @@ class Contact:
         finite = all(map(isfinite, (self.multiplier, *self.direction)))
         if not 0.0 <= self.k <= 1.0 or not finite or abs(self.sign) != 1.0:
             raise InputError(
-                f"a contact needs k in [0, 1], a sign 1 or -1, a finite multiplier and direction, got {self!r}"
+                f"a contact needs k in [0, 1], a sign 1 or -1, a finite multiplier and direction, got {shortened(self)}"
             )
 
 
@@ -105,7 +106,9 @@ class Certificate:
 
     def __post_init__(self) -> None:
         if self.program not in {OBJECTIVE, RELAXED, VIOLATION}:
-            raise InputError(f"program of a certificate must be objective, relaxed or violation, got {self.program!r}")
+            raise InputError(
+                f"program of a certificate must be objective, relaxed or violation, got {shortened(self.program)}"
+            )
         if not all(map(isfinite, (*self.equations, self.tangent))):
             raise InputError("the equations' multipliers and the tangent of a certificate must be finite numbers")
 

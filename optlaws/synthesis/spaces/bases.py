@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.numbers import MOST_DEGREE, MOST_PIECE_DEGREE, fractions, whole
+from optlaws.numbers import MOST_DEGREE, MOST_PIECE_DEGREE, MOST_PIECES, fractions, numbers, positive, whole
 from optlaws.series.exact import (
     chebyshev_from_powers,
     exact_powers,
@@ -227,9 +227,10 @@ class Pieces(Basis):
         >>> Pieces.around((0.0, 0.5, 1.0), 0.02).breaks
         (0.0, 0.02, 0.49, 0.5, 0.51, 0.98, 1.0)
         """
+        width = positive(width, "width")
         half = width / 2.0
         found = {0.0, 0.5, 1.0}
-        for k in switches:
+        for k in numbers(switches, "switches", MOST_PIECES):
             found |= {width} if k == 0.0 else {1.0 - width} if k == 1.0 else {k - half, k + half}
         return cls(sorted({round(k, 15) for k in found}), degree, continuity)
 
@@ -242,7 +243,7 @@ class Pieces(Basis):
         """Refuse breaks that are not symmetric where the law is to be."""
         if symmetric and not self.mirrored:
             raise InputError(
-                f"a symmetric law needs breaks symmetric about 1/2 and 1/2 among them, got {self.breaks!r}"
+                f"a symmetric law needs breaks symmetric about 1/2 and 1/2 among them, got {shortened(self.breaks)}"
             )
 
     def to_dict(self) -> dict[str, Any]:

@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_PIECE_DEGREE, fractions, whole
@@ -70,7 +71,7 @@ class PiecewiseBasis(Basis):
         if self.size < (2 if symmetric else 1):
             raise InputError(f"{self!r} leaves no freedom: ask more pieces or a higher degree")
         if symmetric and not mirrored(self.breaks):
-            raise InputError(f"a symmetric law needs breaks symmetric about 1/2, got {self.breaks!r}")
+            raise InputError(f"a symmetric law needs breaks symmetric about 1/2, got {shortened(self.breaks)}")
 
     def to_dict(self) -> dict[str, Any]:
         """Name, breaks, degree and continuity."""

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.synthesis.problem.problem import Problem
@@ -54,7 +55,7 @@ class Step:
 
     def __post_init__(self) -> None:
         if self.side not in {1, -1} or not all(map(isfinite, (*self.equations, self.claim))):
-            raise InputError(f"a step needs a side 1 or -1 and finite multipliers, got {self!r}")
+            raise InputError(f"a step needs a side 1 or -1 and finite multipliers, got {shortened(self)}")
 
 
 @dataclass(frozen=True)
@@ -66,7 +67,7 @@ class Cut:
 
     def __post_init__(self) -> None:
         if not isfinite(self.at):
-            raise InputError(f"a cut needs a finite value, got {self.at!r}")
+            raise InputError(f"a cut needs a finite value, got {shortened(self.at)}")
 
 
 @dataclass(frozen=True)
@@ -101,7 +102,9 @@ class PowerCertificate:
 
     def __post_init__(self) -> None:
         if not isfinite(self.claim) or self.claim <= 0.0 or not all(0.0 <= k <= 1.0 for k in self.points):
-            raise InputError(f"a power certificate needs a finite claim above 0 and points in [0, 1], got {self!r}")
+            raise InputError(
+                f"a power certificate needs a finite claim above 0 and points in [0, 1], got {shortened(self)}"
+            )
 
     @kept_property
     def bound(self) -> float:

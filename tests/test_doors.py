@@ -1,0 +1,223 @@
+"""Whatever comes through a public door is taken or refused by an error of optlaws, at once."""
+
+import json
+import re
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from pathlib import Path
+from time import perf_counter
+from typing import Any
+
+import pytest
+from hypothesis import HealthCheck, example, given, seed, settings
+from hypothesis import strategies as st
+
+import optlaws
+from optlaws.cli.commands import exit_code
+from optlaws.errors import OptlawsError
+from optlaws.files import reading
+from optlaws.jobs import job
+from optlaws.studies.points.points import Points
+from optlaws.studies.points.study_file import read_study
+from optlaws.studies.run import check
+from tests.documents import ROOT
+
+DEEP: Any = 1
+for _ in range(3000):
+    DEEP = [DEEP]
+
+NUMBERS = st.sampled_from(
+    [0, 1, -1, 2, 0.5, 1.8, 1e-300, 1e308, -1e308, 10**400, -(10**400), 10**9, 2**63, float("nan"), float("inf"), True]
+)
+TEXTS = st.sampled_from(
+    ["", "C", "a\0b", "a\ud800", "9" * 5000, "x" * 100_000, "(" * 5000, "C" + "+C" * 4000, "1e999*C"]
+)
+SMALL = st.integers(0, 12) | st.floats(0.0, 2.0)
+ANY = st.one_of(NUMBERS, TEXTS, SMALL, st.none(), st.just(DEEP), st.just({}), st.lists(NUMBERS | SMALL, max_size=4))
+
+QUICK = settings(max_examples=60, deadline=None, database=None, suppress_health_check=list(HealthCheck))
+
+
+@contextmanager
+def a_door() -> Iterator[None]:
+    """Nothing but an error of optlaws leaves, its text is short and can be printed, and it does not take long."""
+    began = perf_counter()
+    try:
+        yield
+    except OptlawsError as error:
+        text = str(error)
+        assert len(text) < 5000
+        text.encode()
+    # a second on a machine that does nothing else
+    assert perf_counter() - began < 5.0
+
+
+CONSTRUCTORS: dict[str, Callable[..., Any]] = {
+    "Window": lambda *a: optlaws.Window("b", *a[:4]),
+    "Window of": lambda a, *_: optlaws.Window(a, 1.0),
+    "Range": lambda a, b, *_: optlaws.between(a, b),
+    "BoundaryConditions": lambda a, b, *_: optlaws.BoundaryConditions(a, b),
+    "rest": lambda a, *_: optlaws.BoundaryConditions.rest(a),
+    "Chebyshev": lambda a, *_: optlaws.Chebyshev(a),
+    "Pieces": lambda a, b, c, *_: optlaws.Pieces(a, b, c),
+    "BSplines": lambda a, b, c, *_: optlaws.BSplines(a, b, c),
+    "savin": lambda a, b, *_: optlaws.savin(a, b),
+    "smoothstep": lambda a, *_: optlaws.smoothstep(a),
+    "PolynomialLaw": lambda a, b, c, *_: optlaws.PolynomialLaw(a, b, c),
+    "a law at k": lambda a, b, *_: optlaws.smoothstep(4)(a, nu=b),
+    "catalogue": lambda a, *_: optlaws.catalogue[a],
+    "limit": lambda a, b, *_: optlaws.limit("D", a, order=b),
+    "jerk limit": lambda a, b, c, *_: optlaws.limit("C", a, order=b, J=c),
+    "weight": lambda a, *_: a * optlaws.C if isinstance(a, int | float) and a is not True else None,
+    "from_json": lambda a, *_: optlaws.MotionLaw.from_json(a),
+    "Follower": lambda a, b, *_: optlaws.Follower(a, b),
+}
+
+
+@pytest.mark.parametrize("name", CONSTRUCTORS)
+@seed(15)
+@QUICK
+@given(a=ANY, b=ANY, c=ANY, d=ANY)
+def test_constructors(name: str, a: object, b: object, c: object, d: object) -> None:
+    with a_door():
+        CONSTRUCTORS[name](a, b, c, d)
+
+
+ENTRIES = (
+    *("B", "C", "D", "J", "order", "minimise", "inflexion", "bounds", "monotone", "symmetric"),
+    *("basis", "degree", "breaks", "continuity", "start", "end", "windows"),
+)
+
+
+@seed(15)
+@settings(QUICK, max_examples=400)
+@given(name=st.sampled_from(ENTRIES), value=ANY, basis=st.sampled_from(["chebyshev", "bsplines", "pieces"]))
+@example(name="order", value=10**30, basis="chebyshev")
+@example(name="breaks", value=10**9, basis="pieces")
+def test_entries_of_a_problem_and_of_a_study(name: str, value: object, basis: str) -> None:
+    entries = {"order": 4, "B": 1.8, "basis": basis, "degree": 9} | ({} if basis == "chebyshev" else {"breaks": 4})
+    with a_door():
+        optlaws.Problem.from_dict({**entries, name: value})
+    with a_door():
+        study = read_study(
+            {"problem": entries | {"minimise": "{w}*C + {1-w}*D"}, "vary": {"w": [value], name: [value]}}
+        )
+        check(study, Points.of(study))
+    with a_door():
+        study = read_study({"problem": {k: v for k, v in entries.items() if k != name}, "vary": {name: [value, 1]}})
+        check(study, Points.of(study))
+
+
+PATHS = st.lists(st.integers(0, 30), min_size=1, max_size=4)
+
+
+def damaged(data: Any, path: list[int], value: object) -> Any:  # noqa: ANN401 - plain data
+    """A copy in which the value stands at a place."""
+    if not path or not isinstance(data, dict | list) or not data:
+        return value
+    if isinstance(data, list):
+        place = path[0] % len(data)
+        return [damaged(one, path[1:], value) if i == place else one for i, one in enumerate(data)]
+    key = list(data)[path[0] % len(data)]
+    return {**data, key: damaged(data[key], path[1:], value)}
+
+
+SOLUTION = optlaws.synthesize(optlaws.Problem(B=1.8, order=3, basis=optlaws.Chebyshev(5)))
+STORED: dict[str, tuple[Callable[[Any], object], Any]] = {
+    "polynomial": (optlaws.MotionLaw.from_dict, SOLUTION.law.to_dict()),
+    "piecewise": (optlaws.MotionLaw.from_dict, optlaws.catalogue["modified sine"].law.to_dict()),
+    "problem": (optlaws.Problem.from_dict, SOLUTION.problem.to_dict()),
+    "certificate": (optlaws.Certificate.from_dict, SOLUTION.certificate.to_dict()),
+}
+
+
+@pytest.mark.parametrize("kind", STORED)
+@seed(15)
+@settings(QUICK, max_examples=200)
+@given(path=PATHS, value=ANY)
+def test_stored_values(kind: str, path: list[int], value: object) -> None:
+    read, data = STORED[kind]
+    with a_door():
+        read(damaged(data, path, value))
+
+
+@seed(15)
+@settings(QUICK, max_examples=300)
+@given(text=st.text(st.sampled_from(list("CDJB()+-*/=,.0129emax_ \t\n\0é")), max_size=40) | TEXTS)
+def test_objectives_as_text(text: str) -> None:
+    with a_door():
+        optlaws.Problem(order=4, minimise=text)
+
+
+def test_a_long_objective_is_read_in_linear_time() -> None:
+    with a_door():
+        optlaws.Problem(order=4, minimise="C" + " " * 9000 + "+D")
+
+
+FILES = sorted((ROOT / "problems").glob("*.toml"))
+
+
+@pytest.mark.parametrize("file", FILES, ids=lambda file: file.stem)
+def test_problem_files_of_each_job(tmp_path: Path, file: Path) -> None:
+    lines = file.read_text("utf-8").splitlines()
+    places = [
+        i for i, line in enumerate(lines) if re.match(r"\w+ *= *[\"\w.-]+ *$", line) and not line.startswith("job")
+    ]
+    copy = tmp_path / "problem.toml"
+    for i in places[:8]:
+        for value in ("9" * 400, '"\\ud800"', "[" * 200 + "]" * 200, "[[1], {}]"):
+            damaged_line = f"{lines[i].partition('=')[0]}= {value}"
+            copy.write_text("\n".join([*lines[:i], damaged_line, *lines[i + 1 :]]), "utf-8")
+            with a_door(), pytest.raises(OptlawsError):
+                job.run(copy, tmp_path / "out")
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        b"job = " + b"9" * 5000,
+        b"job = " + b"[" * 100_000,
+        b"job = " + b"[" * 1000 + b"]" * 1000,
+        b"\0",
+        b'"\\ud800" = 1',
+        b"\xff",
+    ],
+    ids=["digits", "open", "deep", "nul", "surrogate", "no text"],
+)
+def test_files_that_are_none(tmp_path: Path, content: bytes) -> None:
+    file = tmp_path / "problem.toml"
+    file.write_bytes(content)
+    for door in (job.run, read_study, reading.json_file):
+        with a_door(), pytest.raises(OptlawsError):
+            door(file)
+
+
+def test_paths_that_are_no_files(tmp_path: Path) -> None:
+    for path in (Path("a\0b"), Path("a\ud800"), Path("/dev/zero"), tmp_path, tmp_path / ("x" * 300)):
+        with a_door(), pytest.raises(OptlawsError):
+            job.run(path)
+
+
+def test_a_byte_order_mark_is_read(tmp_path: Path) -> None:
+    file = tmp_path / "law.json"
+    file.write_bytes(b"\xef\xbb\xbf" + json.dumps(optlaws.smoothstep(3).to_dict()).encode())
+    assert optlaws.MotionLaw.from_dict(reading.json_file(file)) == optlaws.smoothstep(3)
+
+
+@pytest.mark.parametrize(
+    "value", ["nan", "inf", "1e308", "-1e308", "1" + "0" * 400, "9" * 5000, "x", "", "2.5", "100000"]
+)
+def test_values_of_the_command(capsys: pytest.CaptureFixture[str], value: str) -> None:
+    solve = ["solve", "--order", "3", "--degree", "5", "--peak-velocity", "1.8"]
+    for line in (
+        ["constants", "--order", value, "--z", "1"],
+        [*solve, "--degree", value] if value != "100000" else ["solve", "--order", "3", "--degree", value],
+        ["solve", "--order", value, "--degree", "5"],
+        [*solve, "--basis", "pieces", "--breaks", value, "--most", "J=-1"],
+        ["solve", "--order", "3", "--degree", "5", "--peak-velocity", value, "--most-jerk", "0"],
+        ["follower", "cycloidal", "--nu", value, "--damping", "-1"],
+        ["catalogue", value or "x"],
+    ):
+        with a_door():
+            assert exit_code(line) in {0, 2, 3}
+        assert len(capsys.readouterr().err) < 5000
