@@ -2,16 +2,19 @@
 
 Each is the infimum over all laws from rest to rest with stroke 1, b(1/2) = B and b <= B, dimensionless; smooth laws
 come as near as one likes. For D the bound holds for unsymmetric laws too, for the others they can do no better.
+Doubles are rounded down: none is above the exact value at the given double B.
 """
 
 from __future__ import annotations
 
-from math import hypot, inf, sqrt
+from fractions import Fraction
+from math import inf
 from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import MOST_ORDER, MOST_VELOCITY, real, whole
+from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down
 from optlaws.synthesis.limits.times import back_time, back_velocity, run_in, trapezoid
 
 CONSTANTS = ("C", "D", "J", "RMS")
@@ -45,11 +48,12 @@ def acceleration_limit(B: float, *, monotone: bool = False, order: int = 2) -> f
     9.0
     """
     peak_velocity(B)
+    b = Fraction(B)
     if whole(order, "order", least=1, most=MOST_ORDER) == 1:
-        return B * B if monotone and B > 2.0 else 4.0 * (B - 1.0)
+        return rounded_down(b * b if monotone and B > 2.0 else 4 * (b - 1))
     if B <= 2.0:
-        return B * B / (B - 1.0)
-    return B * B if monotone else 2.0 * (B - 2.0 + hypot(B - 2.0, B))
+        return rounded_down(b * b / (b - 1))
+    return rounded_down(b * b) if monotone else root_rounded_down(2 * (b - 2), Fraction(2), (b - 2) ** 2 + b * b)
 
 
 def power_limit(B: float, *, monotone: bool = False) -> float:
@@ -77,9 +81,17 @@ def power_limit(B: float, *, monotone: bool = False) -> float:
     13.5
     """
     peak_velocity(B)
-    if B <= 1.5:
-        return B**3 / (3.0 * (B - 1.0))
-    return 2.0 * B**3 / 3.0 if monotone else B * B + 2.0 * back_velocity(B) ** 2
+    b = Fraction(B)
+    if B <= 1.5 or monotone:
+        return rounded_down(b**3 / (3 * (b - 1)) if B <= 1.5 else 2 * b**3 / 3)
+
+    def below(D: Fraction) -> bool:
+        # with v = u², 2u³ + 3u² rises: 2 sqrt(v³) <= B²(B - 3/2) - 3v if and only if u is not above its root
+        v = (D - b * b) / 2
+        rest = b * b * (b - Fraction(3, 2)) - 3 * v
+        return v <= 0 or (rest >= 0 and 4 * v**3 <= rest**2)
+
+    return not_above(float(B) ** 2 + 2.0 * back_velocity(float(B)) ** 2, below)
 
 
 def rms_limit(B: float, *, monotone: bool = False) -> float:
@@ -107,11 +119,12 @@ def rms_limit(B: float, *, monotone: bool = False) -> float:
     True
     """
     peak_velocity(B)
+    b, nothing = Fraction(B), Fraction(0)
     if B <= 1.5:
-        return 4.0 * B / 3.0 * sqrt(B / (B - 1.0))
+        return root_rounded_down(nothing, 4 * b / 3, b / (b - 1))
     if monotone and B >= 3.0:
-        return 4.0 / 3.0 * sqrt(B) * B
-    return 4.0 * sqrt((B - 1.5) ** 2 + 0.75)
+        return root_rounded_down(nothing, 4 * b / 3, b)
+    return root_rounded_down(nothing, Fraction(4), b * b - 3 * b + 3)
 
 
 def jerk_limit(B: float, *, monotone: bool = False, order: int = 3) -> float:
@@ -144,11 +157,26 @@ def jerk_limit(B: float, *, monotone: bool = False, order: int = 3) -> float:
     """
     peak_velocity(B)
     free = whole(order, "order", least=2, most=MOST_ORDER) == 2
+    b = Fraction(B)
     if monotone and B >= 2.0:
-        return 4.0 * B**3
+        return rounded_down(4 * b**3)
     if free:
-        return 8.0 * B**3 / (9.0 * (B - 1.0) ** 2) if B <= 1.5 else 8.0 * B / (1.0 - 2.0 * run_in(B) ** 2)
-    return 4.0 * B**3 / (B - 1.0) ** 2 if B <= 2.0 else 16.0 * (2.0 * (B - 2.0) + hypot(2.0 * (B - 2.0), B))
+        return rounded_down(8 * b**3 / (9 * (b - 1) ** 2)) if B <= 1.5 else _jerk_of_free_ends(float(B))
+    if B <= 2.0:
+        return rounded_down(4 * b**3 / (b - 1) ** 2)
+    return root_rounded_down(32 * (b - 2), Fraction(16), 4 * (b - 2) ** 2 + b * b)
+
+
+def _jerk_of_free_ends(B: float) -> float:
+    b = Fraction(B)
+
+    def below(J: Fraction) -> bool:
+        # with q = r² from J = 8B/(1 - 2r²): the cubic falls with r, and is at least 0 up to its root
+        q = (1 - 8 * b / J) / 2
+        rest = 6 * (b - 1) * q - (2 * b - 3)
+        return q <= 0 or rest <= 0 or 4 * b * b * q**3 >= rest**2
+
+    return not_above(8.0 * B / (1.0 - 2.0 * run_in(B) ** 2), below)
 
 
 def acceleration_limit_at_jerk(B: float, J: float, *, monotone: bool = False) -> float:
@@ -186,12 +214,24 @@ def acceleration_limit_at_jerk(B: float, J: float, *, monotone: bool = False) ->
         raise InputError(
             f"J must be a finite number of at least {least!r} (no law has less at B = {B!r}), got {shortened(J)}"
         )
+    b, j = Fraction(B), Fraction(number)
     if B <= 2.0 or monotone:
-        return trapezoid(B, (B - 1.0) / B if B <= 2.0 else 1.0 / B, J)
-    back = back_time(B, J)
-    C = trapezoid(B + 0.25 * J * back * back, 0.5 - back, J)
-    if 0.5 * J * back <= C:
+        return _trapezoid_rounded_down(b, (b - 1) / b if B <= 2.0 else 1 / b, j)
+    # a longer way back costs more: a shorter one bounds C from below
+    back = Fraction(not_above(back_time(B, J), lambda t: (j * t / 4 + b) ** 2 <= b * b + j * (b - 2) / 4))
+    C = _trapezoid_rounded_down(b + j * back * back / 4, Fraction(1, 2) - back, j)
+    if j * back <= 2 * C:
         return C
+    return not_above(_three_parts(float(B), float(J)), lambda x: x * x - 4 * (b - 2) * x - 4 * b * b <= 4 * x**3 / j)
+
+
+def _trapezoid_rounded_down(rise: Fraction, time: Fraction, J: Fraction) -> float:
+    """The smaller root of C²/J - time C + rise, not above it."""
+    value = trapezoid(float(rise), float(time), float(J))
+    return not_above(value, lambda C: J * time >= 2 * C and C * C / J - time * C + rise >= 0)
+
+
+def _three_parts(B: float, J: float) -> float:
     # in 1/C the cubic is convex and rises at its largest root: Newton's method comes down to it from the limit's 1/C
     inverse = 1.0 / acceleration_limit(B)
     while True:

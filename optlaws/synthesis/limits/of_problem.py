@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from fractions import Fraction
 from math import isfinite
 
 from optlaws.errors import InputError
 from optlaws.synthesis.limits.closed_forms import best_velocity, limit, power_limit
+from optlaws.synthesis.limits.rounding import rounded_down
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import C_minus, C_plus, Functional
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
@@ -13,13 +15,13 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 
 _NAMES = {"C": "C", "D": "D", "J": "J", "rms_c": "RMS"}
-_NEVER_BELOW_1 = 1.0 + 1e-12
+_MEAN_VELOCITY = 1.0
 
 
 def known_limit(problem: Problem) -> float | None:
     """A value that no law with the problem's constants can beat, whatever its degree; None where none is known.
 
-    For a sum it is the sum of the parts' limits, which no one law need reach together.
+    For a sum it is the sum of the parts' limits, which no one law need reach together. It is rounded down.
 
     Examples
     --------
@@ -28,20 +30,21 @@ def known_limit(problem: Problem) -> float | None:
     """
     if problem.boundary is not None:
         return None
-    return _of_sum(problem, problem.objective)
+    total = _of_sum(problem, problem.objective)
+    return None if total is None else rounded_down(total)
 
 
-def _of_sum(problem: Problem, expression: Expression) -> float | None:
-    total = 0.0
+def _of_sum(problem: Problem, expression: Expression) -> Fraction | None:
+    total = Fraction(0)
     for weight, term in expression.terms:
         part = _of_term(problem, term)
         if part is None:
             return None
-        total += weight * part
+        total += Fraction(weight) * part
     return total
 
 
-def _of_term(problem: Problem, term: Term) -> float | None:
+def _of_term(problem: Problem, term: Term) -> Fraction | None:
     if isinstance(term, Maximum):
         parts = [_of_sum(problem, part) for part in term.parts]
         known = [part for part in parts if part is not None]
@@ -51,44 +54,50 @@ def _of_term(problem: Problem, term: Term) -> float | None:
     if term in (C_plus, C_minus) and problem.symmetric:
         return _of_constant(problem, "C")
     if isinstance(term, CombinedPeak | CombinedPower):
-        return term.least(problem.order)
+        return Fraction(term.least(problem.order))
     return _of_constant(problem, _NAMES[term.name]) if term.name in _NAMES else None
 
 
-def _of_constant(problem: Problem, constant: str) -> float | None:
+def _of_constant(problem: Problem, constant: str) -> Fraction | None:
     if problem.inflexion not in {None, 0.5}:
         return _uneven(problem, constant)
     B = _best(problem.range("B"), constant, problem.order)
+    if problem.order == 1 and B is None:
+        return None  # uniform motion has C = 0
     jerk = problem.range("J")
     try:
         if constant == "C" and jerk is not None and problem.order > 2 and isfinite(jerk.high) and B is not None:
-            return limit("C", B, order=problem.order, monotone=problem.monotone, J=jerk.high)
+            return Fraction(limit("C", B, order=problem.order, monotone=problem.monotone, J=jerk.high))
     except InputError:
         pass  # at this B no law has so small a jerk: the limit without it still holds
     try:
-        return limit(constant, B, order=problem.order, monotone=problem.monotone)
+        return Fraction(limit(constant, B, order=problem.order, monotone=problem.monotone))
     except InputError:
         return None
 
 
-def _uneven(problem: Problem, constant: str) -> float | None:
+def _uneven(problem: Problem, constant: str) -> Fraction | None:
     """Of laws whose peak velocity is not in the middle: the least at any B, and what B and the place ask of C and D."""
     if problem.order == 1:
         return None
-    least = limit(constant, None, order=problem.order)
-    k, asked = problem.inflexion, problem.range("B")
-    if constant not in {"C", "D"} or k is None or asked is None:
+    least = Fraction(limit(constant, None, order=problem.order))
+    if constant not in {"C", "D"} or problem.inflexion is None:
         return least
+    k, asked = Fraction(problem.inflexion), problem.range("B") or Range()
+    # the greatest b is at least the mean velocity
+    peak = Fraction(max(asked.low, _MEAN_VELOCITY))
     if constant == "D":
         # b²/2 rises from 0 to B²/2 in the time k, and falls back in 1 - k
-        rise = max(asked.low, 1.0) ** 2 / (2.0 * min(k, 1.0 - k))
-        B = min(max(asked.low, 1.5), asked.high)
-        return max(least, rise, power_limit(B, monotone=True) if problem.monotone else B**3 / (3.0 * (B - 1.0)))
+        rise = peak**2 / (2 * min(k, 1 - k))
+        best = min(max(asked.low, 1.5), asked.high)
+        forth = Fraction(power_limit(best, monotone=True)) if problem.monotone else Fraction(0)
+        B = Fraction(best)
+        return max(least, rise, forth, B**3 / (3 * (B - 1)))
     # c takes b from 0 to B in the time k, and back in 1 - k
-    slopes = max(asked.low, 1.0) / min(k, 1.0 - k)
+    slopes = peak / min(k, 1 - k)
     # with no more time at B than there is, a <= B - B² / C
-    B = min(max(asked.low, 2.0), asked.high)
-    return max(least, slopes, B * B / (B - 1.0))
+    B = Fraction(min(max(asked.low, 2.0), asked.high))
+    return max(least, slopes, B * B / (B - 1))
 
 
 def _best(asked: Range | None, constant: str, order: int) -> float | None:
@@ -96,5 +105,5 @@ def _best(asked: Range | None, constant: str, order: int) -> float | None:
     if asked is None:
         return None
     if order == 1:
-        return max(asked.low, _NEVER_BELOW_1)
-    return min(max(asked.low, best_velocity(constant, order), _NEVER_BELOW_1), asked.high)
+        return asked.low if asked.low > _MEAN_VELOCITY else None
+    return min(max(asked.low, best_velocity(constant, order)), asked.high)

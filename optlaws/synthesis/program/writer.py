@@ -58,7 +58,7 @@ _SIDES = {1.0: "above", -1.0: "below"}
 def _model(problem: Problem) -> Model:
     space = _space(problem)
     names = [repr(leaf) for _, leaf in leaves(problem.objective)]
-    names += [repr(term) for term in _maxima(problem.objective)]
+    names += [repr(term) for term in maxima(problem.objective)]
     writer = _Writer(space, names, problem)
     writer.objective(problem.objective)
     writer.constraints(problem)
@@ -77,7 +77,7 @@ def relaxed(problem: Problem, tangent: float) -> Model:
 @lru_cache(maxsize=16)
 def _relaxed(problem: Problem, tangent: float) -> Model:
     names = [repr(leaf) for _, leaf in leaves(problem.objective)]
-    names += [repr(term) for term in _maxima(problem.objective)]
+    names += [repr(term) for term in maxima(problem.objective)]
     writer = _Writer(_space(problem), names, problem, extra=ROOT)
     writer.tangent = tangent
     writer.objective(problem.objective)
@@ -120,13 +120,14 @@ def _space(problem: Problem) -> LawSpace:
     return space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
 
 
-def _maxima(expression: Expression) -> list[Maximum]:
+def maxima(expression: Expression) -> list[Maximum]:
+    """The maxima of an expression, those within parts of others too."""
     found = []
     for _, term in expression.terms:
         if isinstance(term, Maximum):
             found.append(term)
             for part in term.parts:
-                found += _maxima(part)
+                found += maxima(part)
     return found
 
 
@@ -168,7 +169,7 @@ class _Writer:
                 self._power(leaf, self.unit(leaf.name), 0.0)
             elif isinstance(leaf, Functional):
                 self.families += leaf.families(self.space, self.unit(repr(leaf)), 0.0)
-        for term in dict.fromkeys(_maxima(expression)):
+        for term in dict.fromkeys(maxima(expression)):
             for i, part in enumerate(term.parts, 1):
                 self.row(f"part {i} of {term!r}", self.sum(part) - self.unit(repr(term)), 0.0)
 

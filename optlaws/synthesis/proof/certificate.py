@@ -11,7 +11,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
-from math import inf, isfinite
+from fractions import Fraction
+from math import inf, isfinite, nan
 from typing import Any
 
 import numpy as np
@@ -22,10 +23,11 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
-from optlaws.synthesis.problem.constants import Power
-from optlaws.synthesis.problem.expression import Expression, Maximum
+from optlaws.synthesis.limits.rounding import rounded_down
+from optlaws.synthesis.problem.constants import Peak, Power
+from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.writer import ROOT, Model, least_violation, model, relaxed, relaxed_power
+from optlaws.synthesis.program.writer import ROOT, Model, least_violation, maxima, model, relaxed, relaxed_power
 from optlaws.synthesis.proof.data import StatedCertificate, StatedContact, problem_of, stated
 from optlaws.synthesis.proof.farkas import surplus
 from optlaws.synthesis.spaces.space import LawSpace
@@ -35,6 +37,10 @@ Array = NDArray[np.float64]
 OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
 #: how far from a contact its neighbours are, and how much of its multiplier each takes
 _NEAR, _SHARE = 2.0**-12, 2.0**-14
+_ACCELERATION = 2
+_FACING = {"C_plus": "C_minus", "C_minus": "C_plus"}
+#: roundings in a row before it is weighted
+_OPERATIONS = 8
 
 
 @dataclass(frozen=True)
@@ -161,20 +167,48 @@ def excess(certificate: Certificate) -> float:
 def _excess(certificate: Certificate) -> float:
     found = _model(certificate)
     program = found.program
-    slope = program.objective.copy()
-    value = 0.0
-    for contact in certificate.contacts:
-        row, right = row_of(program, contact)
-        weight = max(contact.multiplier, 0.0)
-        slope += weight * row
-        value -= weight * right
-    for row, right, weight in zip(program.equalities, program.right, certificate.equations, strict=False):
-        slope += weight * row
-        value -= weight * float(right)
-    plain = float(found.unit * (value - _charge(found, certificate, slope, found.unit * value)))
+    lines = [(max(one.multiplier, 0.0), *row_of(program, one)) for one in certificate.contacts]
+    equations = zip(certificate.equations, program.equalities, program.right.tolist(), strict=False)
+    total = _summed(found, [one for one in (*lines, *equations) if one[0] != 0.0])
+    plain = float(found.unit * (total.value - _charge(found, certificate, total, found.unit * total.value)))
     if certificate.program != VIOLATION or plain > 0.0:
         return plain
     return max(plain, _surplus(certificate, program))
+
+
+@dataclass(frozen=True, eq=False)
+class _Sum:
+    """The sum of weighted rows: its slope, exact in the variables beyond the coordinates, and what rounding hides.
+
+    `value` is rounded down, the slope by a coordinate is off by `blur` at most.
+    """
+
+    slope: Array
+    value: float
+    blur: float
+
+
+def _summed(found: Model, lines: list[tuple[float, Array, float]]) -> _Sum:
+    terms, unit = found.space.terms, (len(lines) + _OPERATIONS) * 2.0**-53
+    slope = found.program.objective.copy()
+    weights, rights = np.array([one[0] for one in lines]), np.array([one[2] for one in lines])
+    if lines:
+        rows = np.vstack([one[1] for one in lines])
+        slope += weights @ rows
+        for place in found.places.values():
+            slope[place] = _exact_sum(float(found.program.objective[place]), weights, rows[:, place])
+    blur = unit * sum(abs(weight) * float(np.abs(row[:terms]).max(initial=0.0)) for weight, row, _ in lines)
+    value = -float(weights @ rights) - unit * float(np.abs(weights) @ np.abs(rights))
+    return _Sum(slope, value, blur if terms else 0.0)
+
+
+def _exact_sum(start: float, weights: Array, column: Array) -> float:
+    """Start + weights . column, rounded down."""
+    if not (np.isfinite(weights).all() and np.isfinite(column).all()):
+        return nan
+    acting = np.flatnonzero(column)
+    total = sum((Fraction(weights[i]) * Fraction(column[i]) for i in acting), Fraction(start))
+    return rounded_down(total)
 
 
 def _surplus(certificate: Certificate, program: Program) -> float:
@@ -237,22 +271,32 @@ def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
     return np.zeros(program.size), 0.0
 
 
-def _charge(found: Model, certificate: Certificate, slope: Array, claim: float) -> float:
+def _charge(found: Model, certificate: Certificate, total: _Sum, claim: float) -> float:
     """Most that rounding in the slope can be worth, over all laws that contradict the claim."""
-    terms = found.space.terms
+    terms, slope = found.space.terms, total.slope
     greatest = _greatest(certificate, found, max(claim, 0.0))
+    least = least_values(certificate.problem, found.space)
     beyond = 0.0
     for name, place in found.places.items():
-        # constants are at least 0, so a positive slope can only help
+        # a positive slope can only help where the constant is at least 0
         if slope[place] < 0.0:
             beyond += -slope[place] * greatest.get(name, inf)
+        elif slope[place] > 0.0:
+            # of the two one-sided peaks one is at least the other's opposite
+            facing = greatest.get(_FACING.get(name, ""), inf)
+            beyond += slope[place] * max(min(-least.get(name, 0.0), facing), 0.0)
     return beyond + min(
         (
-            mean * np.abs(_extension(found.space, nu) @ slope[:terms]).sum()
+            mean * _reach(_extension(found.space, nu), slope[:terms], total.blur)
             for nu, mean in _means(certificate, found.space, greatest)
         ),
-        default=0.0 if not slope[:terms].any() else inf,
+        default=0.0 if not slope[:terms].any() and not total.blur else inf,
     )
+
+
+def _reach(extension: Array, slope: Array, blur: float) -> float:
+    """The sum of the magnitudes of the slope's moments, wherever it is within its blur."""
+    return float(np.abs(extension @ slope).sum() + blur * np.abs(extension).sum())
 
 
 def _greatest(certificate: Certificate, found: Model, claim: float) -> dict[str, float]:
@@ -261,7 +305,7 @@ def _greatest(certificate: Certificate, found: Model, claim: float) -> dict[str,
     if certificate.program == VIOLATION:
         bounds["t"] = 0.0
     else:
-        spread(certificate.problem.objective, claim, bounds)
+        spread(certificate.problem.objective, claim, bounds, least_values(certificate.problem, found.space))
     problem = certificate.problem
     for name in ("B", *(one.name for one, _ in problem.bounded)):
         asked = problem.range(name)
@@ -280,19 +324,44 @@ def _greatest(certificate: Certificate, found: Model, claim: float) -> dict[str,
 def _from_one_sign(problem: Problem, space: LawSpace, greatest: dict[str, float]) -> tuple[float, float]:
     """Bounds of the integral of |c| from the peaks of one sign: what is above 0 less what is below is b(1) - b(0)."""
     if problem.conditions.order == 1:
-        return inf, inf
+        return (max(greatest.get("C_plus", inf), greatest.get("C_minus", inf)),) * 2
     drop = abs(space.velocity_change)
     return 2.0 * greatest.get("C_plus", inf) + drop, 2.0 * greatest.get("C_minus", inf) + drop
 
 
-def spread(expression: Expression, claim: float, bounds: dict[str, float]) -> None:
+def spread(expression: Expression, claim: float, bounds: dict[str, float], least: Mapping[str, float]) -> None:
     """Note in `bounds` what the constants of an expression are at most, where its value is below the claim."""
     for weight, term in expression.terms:
         name = repr(term)
-        bounds[name] = min(bounds.get(name, inf), claim / weight)
+        others = sum(one * least[repr(other)] for one, other in expression.terms if other is not term)
+        most = (claim - others) / weight
+        bounds[name] = min(bounds.get(name, inf), most)
         if isinstance(term, Maximum):
             for part in term.parts:
-                spread(part, claim / weight, bounds)
+                spread(part, most, bounds, least)
+
+
+def least_values(problem: Problem, space: LawSpace) -> dict[str, float]:
+    """What the constants and maxima of the objective are at least: 0, but for peaks of one sign.
+
+    The mean of c is the change of the velocity, which c exceeds somewhere, and is below somewhere; where the order
+    leaves it free, what is positive at a change of either sign is at least 0.
+    """
+    terms = [*(leaf for _, leaf in leaves(problem.objective)), *maxima(problem.objective)]
+    if problem.symmetric or problem.order > 1:
+        change = 0.0 if problem.symmetric else space.velocity_change
+        return {repr(term): _at_least(term, change) for term in terms}
+    lows = {repr(term): min(_at_least(term, 1.0), _at_least(term, -1.0)) for term in terms}
+    return {name: 0.0 if low >= 0.0 else -inf for name, low in lows.items()}
+
+
+def _at_least(term: Term, change: float) -> float:
+    """What a term is at least where the velocity changes by `change`."""
+    if isinstance(term, Maximum):
+        return max(sum(weight * _at_least(one, change) for weight, one in part.terms) for part in term.parts)
+    if not isinstance(term, Peak) or len(term.signs) != 1:
+        return 0.0
+    return term.signs[0] * change if term.nu == _ACCELERATION else -inf
 
 
 def _means(certificate: Certificate, space: LawSpace, greatest: dict[str, float]) -> list[tuple[int, float]]:

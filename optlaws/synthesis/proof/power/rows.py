@@ -18,7 +18,7 @@ from optlaws.synthesis.problem.constants import Peak
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model
-from optlaws.synthesis.proof.certificate import Contact, row_of, spread
+from optlaws.synthesis.proof.certificate import Contact, least_values, row_of, spread
 from optlaws.synthesis.proof.power.brackets import Anchors, velocity_brackets
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 
@@ -65,7 +65,7 @@ def applies(problem: Problem) -> bool:
 def greatest(problem: Problem, found: Model, claim: float) -> dict[str, float]:
     """Greatest values of the constants in a law whose objective is below the claim."""
     bounds: dict[str, float] = {}
-    spread(problem.objective, claim, bounds)
+    spread(problem.objective, claim, bounds, least_values(problem, found.space))
     for name in ("B", *(one.name for one, _ in problem.bounded)):
         asked = problem.range(name)
         if asked is not None:
