@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from typing import Self
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -27,6 +28,11 @@ class ConeFamily(Family):
     """
 
     series: Complex
+
+    def in_units(self, units: Array, unit: float) -> Self:
+        """The series' columns and the right side in other units."""
+        series = self.series * np.append(units, 1.0) / unit
+        return replace(self, series=series, slack=self.slack * units / unit, bound=self.bound / unit)
 
     def k(self, u: Array) -> Array:
         """The place as a number from 0 at u = -1 to 1 at u = 1."""

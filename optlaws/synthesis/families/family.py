@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from typing import Self
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -71,6 +72,10 @@ class Family(ABC):
     @abstractmethod
     def stationary(self, x: Array) -> Array:
         """Points of [-1, 1] among which every stationary point of f is."""
+
+    @abstractmethod
+    def in_units(self, units: Array, unit: float) -> Self:
+        """The same rows for variables x / units, divided by `unit`, which is what coordinates are divided by."""
 
     def nodes(self) -> Array | None:
         """Where to hold the family first; None leaves the choice to the exchange."""
@@ -145,6 +150,11 @@ class LinearFamily(Family):
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002
         """None: f is affine."""
         return None
+
+    def in_units(self, units: Array, unit: float) -> Self:
+        """The series' columns and the right side in other units."""
+        series = self.series * np.append(units, 1.0) / unit
+        return replace(self, series=series, slack=self.slack * units / unit, bound=self.bound / unit)
 
     def value(self, x: Array, u: Array) -> Array:
         """f at the points u."""
@@ -221,6 +231,11 @@ class RatioFamily(EvenFamily):
     index: float = 0.5
     scale: Array = field(default_factory=lambda: np.ones(1))
 
+    def in_units(self, units: Array, unit: float) -> Self:
+        """The base's column in other units; those of the coordinates stay."""
+        own = np.append(units[: len(self.scale) - 1] / unit, 1.0 / unit)
+        return replace(super().in_units(units, unit), scale=self.scale * own)
+
     def columns(self, u: Array) -> Array:
         """f's columns with two derivatives by u, by recurrence."""
         polynomials = even_gegenbauer_jet(self.index, len(self.scale) - 1, u)
@@ -241,6 +256,12 @@ class ProductFamily(Family):
 
     first: LinearFamily
     second: LinearFamily
+
+    def in_units(self, units: Array, unit: float) -> Self:
+        """Both factors in other units, and so the right side by the square."""
+        first, second = (factor.in_units(units, unit) for factor in (self.first, self.second))
+        square = unit * unit
+        return replace(self, first=first, second=second, slack=self.slack * units / square, bound=self.bound / square)
 
     def jet(self, x: Array, u: Array, s: Array) -> Jet:
         """Residuals with their derivatives, by the product rule."""
@@ -285,6 +306,11 @@ class NormFamily(Family):
 
     matrix: Array
     domain: tuple[float, float] = (1.0, 1.0)
+
+    def in_units(self, units: Array, unit: float) -> Self:
+        """The map's columns and the right side in other units."""
+        matrix = self.matrix * np.append(units, 1.0) / unit
+        return replace(self, matrix=matrix, slack=self.slack * units / unit, bound=self.bound / unit)
 
     def jet(self, x: Array, u: Array, s: Array) -> Jet:
         """The residual with its gradient."""

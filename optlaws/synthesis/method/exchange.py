@@ -20,6 +20,7 @@ from optlaws.synthesis.method.flat import sharpened
 from optlaws.synthesis.method.grids import exchanged, first_points
 from optlaws.synthesis.method.ipopt import Answer, solve_on_points
 from optlaws.synthesis.method.newton import ActiveSet, newton
+from optlaws.synthesis.method.units import units_of
 from optlaws.synthesis.method.vertices import by_vertices, many_pieces
 
 Array = NDArray[np.float64]
@@ -55,6 +56,27 @@ def solve(
 
     `holds` may tell from x alone, and more quickly than the families do, whether every constraint holds.
     """
+    units = units_of(program)
+    if units is None:
+        return _in_own_units(program, warm, start, holds, rounds)
+    outcome = _in_own_units(
+        units.program,
+        None if warm is None else units.inward(warm),
+        None if start is None else start / units.variables,
+        None if holds is None else lambda x: holds(x * units.variables),
+        rounds,
+    )
+    return outcome if outcome.optimum is None else replace(outcome, optimum=units.outward(outcome.optimum))
+
+
+def _in_own_units(
+    program: Program,
+    warm: ActiveSet | None,
+    start: Array | None,
+    holds: Callable[[Array], bool] | None,
+    rounds: int,
+) -> Outcome:
+    """The same for a program whose numbers are near 1."""
     if warm is not None:
         optimum = polished(program, warm, holds)
         if optimum is not None:

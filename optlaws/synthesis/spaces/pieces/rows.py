@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import pairwise
+from typing import Self
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -63,6 +64,11 @@ class PieceFamily(LinearFamily):
 
     pieces: PieceSeries
     jumps: bool = False
+
+    def in_units(self, units: Array, unit: float) -> Self:
+        """The columns on every piece and the right side in other units."""
+        pieces = PieceSeries(self.pieces.breaks, self.pieces.series * np.append(units, 1.0) / unit)
+        return replace(self, pieces=pieces, slack=self.slack * units / unit, bound=self.bound / unit)
 
     @kept_property
     def corners(self) -> Array:

@@ -1,0 +1,87 @@
+"""Programs of great laws in units of their size: tolerances are made for numbers near 1.
+
+A law with B = 1e6 has coordinates and peaks of that size, and a power of its square. Divided by these the program is
+that of a law of stroke 1e-6 with B = 1, and its multipliers are the same but for what the rows were divided by.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.family import ProductFamily, Program
+from optlaws.synthesis.method.newton import ActiveSet
+
+Array = NDArray[np.float64]
+
+#: smaller laws are solved as they are
+_GREAT = 100.0
+
+
+@dataclass(frozen=True, eq=False)
+class Units:
+    """A program in other units, and the way there and back.
+
+    Attributes
+    ----------
+    program
+        The program in these units.
+    variables, rows
+        What its variables are divided by, and the rows of each family.
+    equations, objective
+        What its equations and its objective are divided by.
+    """
+
+    program: Program
+    variables: Array
+    rows: Array
+    equations: float
+    objective: float
+
+    def inward(self, state: ActiveSet) -> ActiveSet:
+        """A state of the program itself in these units."""
+        rows = np.append(self.rows, 1.0)[np.minimum(state.family, len(self.rows))]
+        return replace(
+            state,
+            x=state.x / self.variables,
+            multipliers=state.multipliers * rows / self.objective,
+            equality_multipliers=state.equality_multipliers * (self.equations / self.objective),
+        )
+
+    def outward(self, state: ActiveSet) -> ActiveSet:
+        """A state in these units as one of the program itself."""
+        rows = np.append(self.rows, 1.0)[np.minimum(state.family, len(self.rows))]
+        return replace(
+            state,
+            x=state.x * self.variables,
+            multipliers=state.multipliers * self.objective / rows,
+            equality_multipliers=state.equality_multipliers * (self.objective / self.equations),
+        )
+
+
+def units_of(program: Program) -> Units | None:
+    """The units that a program's numbers ask for; None where they are near 1.
+
+    Its equations and the constants that it bounds from below tell how great its laws are.
+    """
+    asked = [-family.bound for family in program.families if family.domain[0] == family.domain[1]]
+    size = max([float(np.abs(program.right).max(initial=0.0)), *asked])
+    if size <= _GREAT:
+        return None
+    powers = np.zeros(program.size, dtype=np.bool_)
+    for family in program.families:
+        if isinstance(family, ProductFamily):
+            powers |= family.slack != 0.0
+    variables = np.where(powers, size * size, size)
+    rows = np.array([size**2 if isinstance(one, ProductFamily) else size for one in program.families])
+    cost = program.objective * variables
+    objective = float(np.abs(cost).max()) or 1.0
+    scaled = Program(
+        tuple(family.in_units(variables, size) for family in program.families),
+        program.equalities * variables / size,
+        program.right / size,
+        cost / objective,
+    )
+    return Units(scaled, variables, rows, size, objective)
