@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Points, ProductFamily, Program
+from optlaws.synthesis.method.conic import conic
 from optlaws.synthesis.method.contacts import completed, settled
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.flat import sharpened
@@ -116,7 +117,7 @@ def _finished(
 ) -> ActiveSet | None:
     """The optimum of a linear program from an answer near to it; None where the contacts are not plain yet."""
     optimum = polished(program, _identified(program, points, answer), holds)
-    sharp = sharpened(program, points, answer) if optimum is None else None
+    sharp = _sharpened(program, points, answer) if optimum is None else None
     return sharp if sharp is not None and completed(program, sharp) is sharp else optimum
 
 
@@ -124,25 +125,29 @@ def _exchange(
     program: Program, points: list[Points], start: Array | None, holds: Callable[[Array], bool] | None, rounds: int
 ) -> Outcome:
     iterations = 0
+    finished = partial(_finished, program, holds)
+    exact = not program.curved or conic(program)
     rounds = rounds if program.curved else min(rounds, _LINEAR_ROUNDS)
     for attempt in range(1, rounds + 1):
         answer, spent = _answer(program, points, start, attempt)
         iterations += spent
-        lost = not np.isfinite(answer.x).all() or np.abs(answer.x).max() > _LOST
-        if not answer.usable or lost:
-            return Outcome(None, iterations, attempt, answer.status)
-        optimum = polished(program, _identified(program, points, answer), holds)
-        sharp = _sharpened(program, points, answer) if optimum is None else None
-        if sharp is not None and completed(program, sharp) is sharp:
-            optimum = sharp
+        optimum = None if _lost(answer) else finished(points, answer)
         if optimum is not None:
             return Outcome(optimum, iterations, attempt, answer.status)
-        asked, x = points, answer.x if sharp is None else sharp.x
+        if exact and (_lost(answer) or attempt == rounds):
+            optimum, count = by_vertices(program, points, finished)
+            if optimum is not None:
+                return Outcome(optimum, iterations, attempt + count, "vertices")
+        if _lost(answer):
+            return Outcome(None, iterations, attempt, answer.status)
+        asked, x = points, answer.x
         points = [exchanged(family, mine, x) for family, mine in zip(program.families, points, strict=True)]
-    optimum = None if program.curved else by_vertices(program, points, partial(_finished, program, holds))[0]
-    if optimum is None and (not program.curved or _only_cones(program)):
-        optimum = as_answered(asked, answer)
+    optimum = as_answered(asked, answer) if not program.curved or _only_cones(program) else None
     return Outcome(optimum, iterations, rounds, answer.status)
+
+
+def _lost(answer: Answer) -> bool:
+    return not answer.usable or not np.isfinite(answer.x).all() or float(np.abs(answer.x).max()) > _LOST
 
 
 def _answer(program: Program, points: list[Points], start: Array | None, attempt: int) -> tuple[Answer, int]:
@@ -160,7 +165,7 @@ def _ways(program: Program, attempt: int) -> list[dict[str, bool]]:
     """How to ask IPOPT, until an answer is usable."""
     if program.curved:
         return [{"fine": True}, {}] if attempt > 1 and _only_cones(program) else [{}]
-    return [*([{"fine": True}] if attempt > 1 else []), {}, {"careful": True}]
+    return [{"fine": True}, {}] if attempt > 1 else [{}]
 
 
 def polished(program: Program, start: ActiveSet, holds: Callable[[Array], bool] | None) -> ActiveSet | None:

@@ -9,6 +9,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 from itertools import islice
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +18,8 @@ from optlaws.synthesis.families.family import Family, NormFamily, Program
 from optlaws.synthesis.method.aligned import aligned
 from optlaws.synthesis.method.between_laws import between, family_of, places
 from optlaws.synthesis.method.exchange import polished, solve
+from optlaws.synthesis.method.grids import first_points
+from optlaws.synthesis.method.highs import vertex_on_points
 from optlaws.synthesis.method.newton import ActiveSet
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
@@ -30,7 +33,7 @@ _FIRST_STEP = 0.25
 _LEAST_STEP = 1e-3
 _WORTHY = 0.2
 _FOLLOWED = 4
-_ROUNDS = 4
+_ROUNDS = 2
 _ROOM = 1e3
 _SHORT = 1e-9
 
@@ -103,15 +106,38 @@ def _asked(
     name, low = asked
     # held at the bound from both sides, c would have no slope at the place: the upper side waits until it may move
     loose = [replace(one, bound=one.bound + _ROOM) if one.name == name else one for one in program.families]
-    ways = []
+    ways, stuck = [], []
     for u in where.tolist():
         for s in family.signs:
-            at_u = _with(replace(program, families=tuple(loose)), _row(family, u, s, low))
+            row = _row(family, u, s, low)
+            at_u = _with(replace(program, families=tuple(loose)), row)
+            # where no law has the peak IPOPT would look long for one
+            if not at_u.curved and vertex_on_points(at_u, first_points(at_u)) is None:
+                continue
             state = solve(at_u, start=plain.x if at_u.curved else None, rounds=_ROUNDS).optimum
             way = None if state is None else _let_go(program, family, state, low)
             if way is not None:
                 ways.append(way)
-    return ways
+            elif state is not None:
+                stuck.append((at_u.worth(state.x), row))
+    return ways if program.curved else ways + _stayed(program, ways, stuck)
+
+
+def _stayed(
+    program: Program, ways: list[tuple[Program, ActiveSet]], stuck: list[tuple[float, Family]]
+) -> list[tuple[Program, ActiveSet]]:
+    """Optima with the peak where it was asked, of a linear program, as long as they may be better than the ways."""
+    best = min((program.worth(state.x) for _, state in ways), default=inf)
+    found = []
+    for worth, row in sorted(stuck, key=lambda one: one[0]):
+        if worth >= best:
+            break
+        there = _with(program, row)
+        state = solve(there, rounds=1).optimum
+        if state is not None:
+            found.append((there, state))
+            best = min(best, there.worth(state.x))
+    return found
 
 
 def _let_go(program: Program, family: Family, state: ActiveSet, low: float) -> tuple[Program, ActiveSet] | None:

@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.family import Points, Program
+from optlaws.synthesis.method.conic import conic, optimum_on_points
 from optlaws.synthesis.method.contacts import VIOLATION
 from optlaws.synthesis.method.flat import Table
 from optlaws.synthesis.method.grids import exchanged
@@ -27,14 +28,16 @@ Array = NDArray[np.float64]
 _ROUNDS = 40
 _PIECES = 12
 _NEAR = 1e-3
+_CLOSER, _SMALL = 30.0, 60
 _FINE = 1e-6
+_NOTHING = 1e-13
 _SLACK = 10.0  # what a vertex is allowed that does not get better any more
 
 
 def many_pieces(program: Program) -> bool:
-    """Whether a program is linear and has so many pieces that its optimum is flat."""
+    """Whether a program is linear or conic and has so many pieces that its optimum is flat."""
     counts = [len(family.pieces.breaks) - 1 for family in program.families if isinstance(family, PieceFamily)]
-    return not program.curved and max(counts, default=0) >= _PIECES
+    return (not program.curved or conic(program)) and max(counts, default=0) >= _PIECES
 
 
 def by_vertices(
@@ -52,13 +55,13 @@ def by_vertices(
         May tell the optimum from a vertex that is near it.
     """
     exchange = _Exchange(program, points)
-    tried = False
+    near = _NEAR
     for count in range(1, _ROUNDS + 1):
         answer = exchange.vertex()
         if answer is None:
             return None, count
-        if not tried and exchange.excess <= _NEAR:
-            tried = True
+        if exchange.excess <= near:
+            near = exchange.excess / _CLOSER if program.size <= _SMALL else 0.0
             optimum = finished(exchange.points, answer)
             if optimum is not None:
                 return optimum, count
@@ -79,10 +82,13 @@ class _Exchange:
 
     def vertex(self) -> Answer | None:
         """The vertex on the points, exact where it is near the optimum."""
-        answer = vertex_on_points(self.program, self.points, self.near)
+        if self.program.curved:
+            answer = optimum_on_points(self.program, self.points)
+        else:
+            answer = vertex_on_points(self.program, self.points, self.near)
         if answer is not None:
             self.excess = _excess(self.program, answer.x)
-            if self.excess <= _FINE:
+            if self.excess <= _FINE and not self.program.curved:
                 answer, self.excess = _exact(self.program, self.points, answer, self.excess)
         return answer
 
@@ -91,7 +97,7 @@ class _Exchange:
         families = zip(self.program.families, self.points, strict=True)
         points = [exchanged(family, mine, answer.x) for family, mine in families]
         known = all(len(new.u) == len(old.u) for new, old in zip(points, self.points, strict=True))
-        last = known and self.near is not None
+        last = known and (self.near is not None or self.program.curved)
         if self.excess <= VIOLATION or last or self.least <= self.excess <= _SLACK * VIOLATION:
             return True
         self.points, self.least = points, min(self.least, self.excess)
@@ -133,7 +139,7 @@ def _split(weights: Array, points: list[Points]) -> list[Array]:
 
 
 def _binding(program: Program, points: list[Points], answer: Answer) -> ActiveSet:
-    kept = [np.flatnonzero(weights > 0.0) for weights in answer.multipliers[:-1]]
+    kept = [np.flatnonzero(weights > _NOTHING * weights.max(initial=0.0)) for weights in answer.multipliers[:-1]]
     return ActiveSet(
         x=answer.x,
         family=np.repeat(np.arange(len(program.families)), [len(mine) for mine in kept]),

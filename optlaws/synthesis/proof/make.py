@@ -14,6 +14,7 @@ from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import ROOT, Model, relaxed
 from optlaws.synthesis.proof.certificate import OBJECTIVE, RELAXED, VIOLATION, Certificate, Contact
+from optlaws.synthesis.proof.directions import turned
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 
 _TANGENTS = 4
@@ -100,7 +101,7 @@ def certificate(problem: Problem, found: Model, optimum: ActiveSet, program: str
             place = float(min(max(k, 0.0), 1.0))
             contacts.append(Contact(family.name, float(optimum.s[j]), place, multiplier, direction))
     equations = tuple(optimum.equality_multipliers.tolist())
-    return Certificate(problem, tuple(contacts), equations, program, tangent)
+    return turned(found, Certificate(problem, tuple(contacts), equations, program, tangent))
 
 
 def violation_certificate(problem: Problem, found: Model, optimum: ActiveSet) -> Certificate:

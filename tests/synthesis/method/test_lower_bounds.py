@@ -8,6 +8,7 @@ import pytest
 
 from optlaws import (
     Bernstein,
+    BoundaryConditions,
     Certificate,
     Chebyshev,
     InfeasibleProblem,
@@ -115,3 +116,13 @@ def test_what_is_not_convex_does_not_hide_a_contradiction() -> None:
         synthesize(Problem(B=1.7, order=4, C=at_most(4.8), D=at_most(9.0), minimise="J"))
     assert isinstance(caught.value.proof, Certificate)
     assert caught.value.proof.proves_infeasible
+
+
+def test_a_peak_velocity_between_end_velocities_is_reached_where_it_costs_least() -> None:
+    ends = BoundaryConditions((0, 0, 0), (1, 2.327, 0))
+    solution = synthesize(
+        Problem(boundary=ends, symmetric=False, B=2.434537605559302, monotone=True, basis=Chebyshev(17))
+    )
+    judge(solution)
+    # letting the peak go from where it was asked led to 4.36222 only
+    assert solution.objective < 4.36219

@@ -157,3 +157,13 @@ def test_many_pieces_are_proven(B: float, count: int) -> None:
 def test_sixty_pieces_are_proven_for_every_linear_objective(order: int, minimise: str) -> None:
     solution = synthesize(Problem(B=1.8, order=order, minimise=minimise, basis=Pieces(60, 7, 5)))
     assert solution.status == "optimal"
+
+
+@pytest.mark.parametrize("B", [None, 1.8])
+@pytest.mark.parametrize("order", [3, 5])
+def test_an_rms_beside_a_peak_is_proven_with_many_pieces(B: float | None, order: int) -> None:
+    problem = Problem(B=B, order=order, minimise="0.3*rms_c/3.5 + 0.7*C/4", basis=Pieces(40, 6, 4))
+    solution = synthesize(problem)
+    assert solution.status == "optimal"
+    constants = solution.law.constants
+    assert solution.objective == pytest.approx(0.3 * constants.rms_c / 3.5 + 0.7 * constants.C.value / 4.0, rel=1e-12)
