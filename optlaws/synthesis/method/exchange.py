@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Points, ProductFamily, Program
 from optlaws.synthesis.method.conic import conic
-from optlaws.synthesis.method.contacts import completed, settled
+from optlaws.synthesis.method.contacts import VIOLATION, completed, settled
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.flat import sharpened
 from optlaws.synthesis.method.grids import exchanged, first_points
@@ -33,6 +33,7 @@ _WEIGHTLESS = 1e-7
 _LOST = 1e7
 _SAME = 1e-6
 _AMPLE = 1.2
+_VANISHED = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
@@ -100,6 +101,9 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
     """The same for a program whose equations are independent."""
     points = first_points(program)
     if start is None and program.curved:
+        vanishing = _vanishing(program)
+        if vanishing is not None:
+            return Outcome(vanishing, 0, 0, "nothing left")
         start = _lifted(program, points)
         guess = _norms_only(program, start)
         optimum = polished(program, guess, holds) if guess is not None else None
@@ -196,6 +200,27 @@ def _norms_only(program: Program, x: Array) -> ActiveSet | None:
     x = x + _least_squares(program, [one for one in program.families if isinstance(one, NormFamily)])
     free = np.zeros(len(family), dtype=np.bool_)
     return ActiveSet(x, family, ones, ones, free, ones, np.zeros(len(program.right)))
+
+
+def _vanishing(program: Program) -> ActiveSet | None:
+    """A law in which all amplitudes that are minimised vanish: many may have none, and then no contact shows one."""
+    weighed = [one for one in program.families if (program.objective * one.slack).any()]
+    cones = [one for one in weighed if isinstance(one, ConeFamily) and one.domain[0] == one.domain[1]]
+    costs = np.flatnonzero(program.objective)
+    if not cones or len(cones) < len(weighed) or any(not sum(one.slack[i] for one in cones) for i in costs):
+        return None
+    columns = [one.columns(np.array(one.domain[:1]))[0, 0] for one in cones]
+    rows = np.vstack([np.array([one.real, one.imag]) for one in columns])
+    held = np.concatenate([rows[:, :-1], program.equalities])
+    right = np.concatenate([-rows[:, -1], program.right])
+    # what is minimised is to be nothing
+    held[:, costs] = 0.0
+    x = np.linalg.lstsq(held, right, rcond=None)[0]
+    if np.abs(held @ x - right).max() > _VANISHED or program.violation(x) > VIOLATION:
+        return None
+    nothing, equations = np.empty(0), np.zeros(len(program.right))
+    places = np.empty(0, dtype=np.intp)
+    return ActiveSet(x, places, nothing, nothing, places.astype(np.bool_), nothing, equations)
 
 
 def _least_squares(program: Program, norms: list[NormFamily]) -> Array:

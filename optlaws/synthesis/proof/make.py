@@ -115,4 +115,4 @@ def violation_certificate(problem: Problem, found: Model, optimum: ActiveSet) ->
 
 def lower_bound(proof: Certificate, limit: float | None) -> float:
     """The better of the certificate's bound and the limit."""
-    return max(proof.bound, -np.inf if limit is None else limit)
+    return max(proof.bound, -np.inf if limit is None else limit) + 0.0

@@ -5,7 +5,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from optlaws import Chebyshev, Problem, at_most, synthesize
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
+from tests.synthesis.judge import judge
 
 GRID = np.linspace(-1.0, 1.0, 2001)
 
@@ -64,3 +66,19 @@ def test_the_amplitude_is_nowhere_below_its_tangents(seed: int, place: float, an
 
 def test_an_amplitude_that_is_zero_has_no_stationary_places() -> None:
     assert len(stationary_places(np.zeros(3, dtype=np.complex128))) == 0
+
+
+@pytest.mark.parametrize(
+    "problem",
+    [
+        Problem(order=4, basis=Chebyshev(5), minimise="residual(nu=31.59)", symmetric=False),
+        Problem(order=4, basis=Chebyshev(5), minimise="residual(nu=23.92, damping=0.1)", B=2.2803558066964698),
+        Problem(order=3, basis=Chebyshev(11), minimise="residual(nu=23.92)", B=1.9, C=at_most(8.0)),
+    ],
+)
+def test_a_vibration_that_can_vanish_does(problem: Problem) -> None:
+    solution = synthesize(problem)
+    assert solution.status == "optimal"
+    assert solution.objective < 1e-11
+    assert solution.lower_bound == 0.0
+    judge(solution)
