@@ -1,6 +1,8 @@
 """Makes the documents' code blocks tests (see tests/documents.py), wherever pytest starts from."""
 
 import os
+from importlib import import_module
+from pathlib import Path
 
 # Before anything imports matplotlib: tests, doctests and documents draw without a display.
 os.environ["MPLBACKEND"] = "Agg"
@@ -11,7 +13,20 @@ from xdist.scheduler import LoadScopeScheduling
 
 from tests.documents import documents
 
-pytest_collect_file = documents.pytest()
+_PACKAGE = Path(__file__).parent / "optlaws"
+_collect_document = documents.pytest()
+
+
+def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Collector | None:
+    """Collect a document; import a module of the package as Python does before its doctests are looked for.
+
+    Pytest's own import runs a module again whose package has imported it, and values of the two are never equal.
+    """
+    if file_path.suffix == ".py" and _PACKAGE in file_path.parents and file_path.name != "__main__.py":
+        place = file_path.relative_to(_PACKAGE.parent).with_suffix("")
+        import_module(".".join(place.parts if place.name != "__init__" else place.parts[:-1]))
+    found: pytest.Collector | None = _collect_document(file_path, parent)
+    return found
 
 
 class DocumentScheduling(LoadScopeScheduling):  # type: ignore[misc]  # xdist is untyped

@@ -23,7 +23,7 @@ _SAME = 1e-9
 _SHOWN = 12
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Front:
     """Laws of which none is better in every constant: each the best of its own problem.
 

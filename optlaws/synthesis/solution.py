@@ -47,9 +47,11 @@ class Status(StrEnum):
         }[self]
 
 
-@dataclass(frozen=True, eq=False)
+@dataclass(frozen=True)
 class Solution:
     """An optimal law with its proof. Every number is recomputed from the law on the whole interval.
+
+    Solutions are equal where problem, law, proof and numbers are, however long they took.
 
     Attributes
     ----------
@@ -95,10 +97,10 @@ class Solution:
     limit: float | None
     status: Status
     iterations: int
-    seconds: float
+    seconds: float = field(compare=False)
     starts: tuple[float, ...] = ()
     power_certificate: PowerCertificate | None = field(default=None, repr=False)
-    active_set: ActiveSet = field(repr=False, kw_only=True)
+    active_set: ActiveSet = field(repr=False, kw_only=True, compare=False)
 
     @property
     def constants(self) -> Constants:

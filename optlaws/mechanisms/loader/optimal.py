@@ -33,7 +33,7 @@ _PROVEN, _KEPT = 1e-8, 1e-7  # relative gap of a proof; what a constraint may be
 _LEAST_DEGREE, _AT_REST = 3, 2
 
 
-@dataclass(frozen=True, eq=False, repr=False)
+@dataclass(frozen=True, repr=False)
 class BalancedLaw:
     """An executive law with its loader, and what is proven of it; all numbers are recomputed from the law.
 

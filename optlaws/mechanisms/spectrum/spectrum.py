@@ -45,6 +45,15 @@ class ResponseSpectrum:
     nu: Array
     phasor: NDArray[np.complex128]
 
+    def __eq__(self, other: object) -> bool:
+        return self._contents() == other._contents() if isinstance(other, ResponseSpectrum) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(self._contents())
+
+    def _contents(self) -> tuple[MotionLaw, float, tuple[float, ...], tuple[complex, ...]]:
+        return self.law, self.damping, tuple(self.nu.tolist()), tuple(self.phasor.tolist())
+
     @property
     def residual_displacement(self) -> Array:
         """Amplitudes of the free vibrations at k = 1, the envelope's if damped; shape (m,)."""
