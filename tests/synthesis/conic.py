@@ -20,7 +20,7 @@ from optlaws import Functional, Problem
 from optlaws.mechanisms.polydyne.cam_constants import CamPeak
 from optlaws.mechanisms.spectrum.robust import Residual
 from optlaws.synthesis import Maximum, Term
-from tests.synthesis.judge import as_range
+from tests.synthesis.judge import as_range, peak_in_the_middle
 from tests.synthesis.numpy_laws import Laws, Undecided, grid, laws_of
 
 Array = NDArray[np.float64]
@@ -140,12 +140,13 @@ class Program:
     def velocity(self) -> None:
         problem, b = self.problem, self.laws.derivative(1)
         wanted, place = as_range(problem.B), problem.inflexion
-        if wanted is not None and wanted.fixed and place is None and problem.boundary is None:
+        if peak_in_the_middle(problem):
             place = 0.5
         if wanted is not None and isfinite(wanted.high) and not (place is not None and wanted.fixed):
             self.families.append(Rows(self.laws, b, (1.0, -1.0), None, wanted.high))
         if problem.monotone:
-            self.families.append(Rows(self.laws, b, (-1.0,), None, 0.0))
+            one = b if problem.boundary is not None else self.laws.ratio(problem.order)
+            self.families.append(Rows(self.laws, one, (-1.0,), None, 0.0))
         top = self.unit("peak velocity")
         if place is None:
             self.equations.append((top, 0.0))
@@ -164,7 +165,7 @@ class Program:
     def near(self, place: float) -> None:
         """Rows b(k) <= b(place) on points that crowd about the place."""
         height = self.laws.row(1, place)
-        for distance in np.geomspace(1e-3, 0.2, 40):
+        for distance in np.geomspace(1e-3, 0.3, 80):
             for k in (place - distance, place + distance):
                 if 0.0 < k < 1.0:
                     row = (self.laws.row(1, k) - height) / distance**2

@@ -241,17 +241,23 @@ def as_range(value: float | Range | None) -> Range | None:
     return value if value is None or isinstance(value, Range) else Range(float(value), float(value))
 
 
+def peak_in_the_middle(problem: Problem) -> bool:
+    """Whether what is asked of B places the peak velocity: every rise has a B above 1."""
+    wanted = as_range(problem.B)
+    return problem.inflexion is None and problem.boundary is None and wanted is not None and wanted.low > 1.0
+
+
 def velocity_broken(problem: Problem, one: Judged, allowed: float) -> list[str]:
     """What a law does that is not asked of its velocity.
 
-    A number places the peak at k = 1/2 between rests, an inflexion wherever it says; a range never does. Its upper
-    end holds for |b| everywhere, its lower one for the peak.
+    A number or a lower bound places the peak at k = 1/2 between rests, an inflexion wherever it says. An upper end
+    holds for |b| everywhere and places nothing.
     """
     wanted = as_range(problem.B)
     b, c = one.derivatives[1:3]
     lowest, highest = b.extremes()
     place = problem.inflexion
-    if place is None and problem.boundary is None and wanted is not None and wanted.fixed:
+    if place is None and peak_in_the_middle(problem):
         place = 0.5
     peak = max(highest, -lowest)
     found = []
@@ -319,6 +325,7 @@ def lower_bounded(problem: Problem) -> bool:
     """Whether a peak has a lower bound, which is not convex."""
     ranges: list[Range | None] = [asked for _, asked in problem.bounded]
     wanted = as_range(problem.B)
-    if wanted is not None and not (wanted.fixed and problem.boundary is None) and problem.inflexion is None:
-        ranges.append(wanted)
+    if wanted is not None and problem.inflexion is None and not peak_in_the_middle(problem):
+        # a rise is faster than 1 somewhere anyhow
+        ranges += [wanted] if problem.boundary is not None or wanted.low > 1.0 else []
     return any(one is not None and one.low > 0.0 for one in ranges)

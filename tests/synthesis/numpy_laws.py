@@ -50,6 +50,20 @@ class Laws:
                 total[: len(one)] += weight * one
         return found
 
+    def ratio(self, order: int) -> list[Array]:
+        """B divided by what vanishes at ends where laws rest: it has the sign of b, and is not tiny there."""
+        found = []
+        for low, high, one in zip(self.breaks, self.breaks[1:], self.derivative(1), strict=False):
+            # (x + 1)/2 is k at the start of its piece, (1 - x)/2 is 1 - k
+            divisor: Any = np.ones(1)
+            for _ in range(order - 1):
+                divisor = chebyshev.chebmul(divisor, [0.5, 0.5]) if low == 0.0 else divisor
+                divisor = chebyshev.chebmul(divisor, [0.5, -0.5]) if high == 1.0 else divisor
+            divided = [chebyshev.chebdiv(column, divisor)[0] for column in one.T]
+            size = max(2, *map(len, divided))
+            found.append(np.column_stack([np.pad(column, (0, size - len(column))) for column in divided]))
+        return found
+
     def row(self, nu: int, k: float) -> Array:
         piece = min(int(np.searchsorted(self.breaks, k, side="right")), len(self.columns)) - 1
         return np.asarray(self.rows(self.derivative(nu), piece, np.array([k]))[0])
