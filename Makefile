@@ -23,7 +23,7 @@ endif
 
 .DEFAULT_GOAL := help
 .DELETE_ON_ERROR:
-.PHONY: help table test test-long lint format docs bench results check-results constraints clean
+.PHONY: help table test test-long test-random mutants lint format docs bench results check-results constraints clean
 
 help: ## list the targets
 	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1|\2/p' Makefile | awk -F'|' '{ printf "%-22s %s\n", $$1, $$2 }'
@@ -36,6 +36,12 @@ test: $(DEV) ## run the tests, the doctests and the documents
 
 test-long: $(DEV) ## run the tests that take long
 	$(BIN)/python -m pytest -n 2 -m long || [ $$? -eq 5 ] # 5: there are none
+
+test-random: $(DEV) ## run the tests and the doctests in a random order (SEED=1)
+	$(BIN)/python -m pytest -n 2 -p randomly --randomly-seed=$(or $(SEED),1) tests optlaws
+
+mutants: $(DEV) ## change the core here and there and see whether the tests notice (some 15 minutes)
+	$(BIN)/python -m tests.mutants
 
 lint: $(DEV) ## check style, formatting and types
 	$(BIN)/ruff check

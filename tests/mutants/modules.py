@@ -1,0 +1,39 @@
+"""The modules whose mutants are tried, each with the tests that speak of it; its own doctests run too."""
+
+LAWS = ("tests/laws/test_contract.py", "tests/laws/test_exactness.py")
+SERIES = ("tests/series", *LAWS)
+
+TESTS: dict[str, tuple[str, ...]] = {
+    "optlaws.synthesis.program.evaluation": ("tests/synthesis/program/test_evaluation.py",),
+    "optlaws.series.peaks": ("tests/series/test_peaks.py", "tests/laws/test_exactness.py"),
+    "optlaws.synthesis.proof.certificate": (
+        "tests/synthesis/proof/test_certificate_by_hand.py",
+        "tests/synthesis/proof/test_certificate.py",
+    ),
+    "optlaws.synthesis.proof.power.certificate": ("tests/synthesis/proof/power/test_certificate.py",),
+    "optlaws.verification.exact.bound": (
+        "tests/verification/exact/test_bound_by_hand.py",
+        "tests/verification/test_verify.py",
+    ),
+    "optlaws.series.chebyshev": SERIES,
+    "optlaws.series.exact": ("tests/laws/test_polynomial.py", *LAWS),
+    "optlaws.series.interpolation": ("tests/laws/making/test_multiplier.py", *LAWS),
+    "optlaws.series.panels": SERIES,
+    "optlaws.laws.law": LAWS,
+    "optlaws.laws.polynomial": ("tests/laws/test_polynomial.py", *LAWS),
+    "optlaws.laws.piecewise": ("tests/laws/test_piecewise.py", *LAWS),
+    "optlaws.laws.segments.segment": ("tests/laws/test_piecewise.py", *LAWS),
+    "optlaws.laws.segments.sine": ("tests/laws/segments", "tests/laws/making/test_trapezoids.py", *LAWS),
+    "optlaws.laws.segments.fractional": ("tests/laws/segments", *LAWS),
+    "optlaws.laws.segments.transforms": ("tests/mechanisms/spectrum",),
+    "optlaws.laws.making.half_cycle": ("tests/laws/catalogue", *LAWS),
+    "optlaws.laws.making.multiplier": ("tests/laws/making/test_multiplier.py",),
+    "optlaws.laws.making.transform": ("tests/laws/making/test_transform.py",),
+    "optlaws.laws.making.trapezoids": ("tests/laws/making/test_trapezoids.py",),
+    "optlaws.laws.savin.family": ("tests/laws/savin",),
+    "optlaws.laws.savin.members": ("tests/laws/savin",),
+    "optlaws.laws.savin.peaks": ("tests/laws/savin",),
+    "optlaws.laws.savin.savin": ("tests/laws/savin",),
+    "optlaws.laws.catalogue.entry": ("tests/laws/catalogue",),
+    "optlaws.laws.catalogue.tyr_codes": ("tests/laws/catalogue",),
+}
