@@ -28,6 +28,7 @@ Array = NDArray[np.float64]
 
 _ROUNDS = 12
 _LINEAR_ROUNDS = 6
+_LARGE = 24
 _CORRECTIONS = 8
 _WEIGHTLESS = 1e-7
 _LOST = 1e7
@@ -138,7 +139,9 @@ def _exchange(
         optimum = None if _lost(answer) else finished(points, answer)
         if optimum is not None:
             return Outcome(optimum, iterations, attempt, answer.status)
-        if exact and (_lost(answer) or attempt == rounds):
+        # with many variables a round of IPOPT costs more than all vertices together
+        large = not program.curved and program.size > _LARGE
+        if exact and (large or _lost(answer) or attempt == rounds):
             optimum, count = by_vertices(program, points, finished)
             if optimum is not None:
                 return Outcome(optimum, iterations, attempt + count, "vertices")
