@@ -16,6 +16,7 @@ from tempfile import TemporaryDirectory
 from cosmic_ray import plugins
 from cosmic_ray.ast import ast_nodes, get_ast
 from cosmic_ray.mutating import mutate_and_test
+from cosmic_ray.testing import run_tests
 from cosmic_ray.util import read_python_source
 from cosmic_ray.work_item import MutationSpec, TestOutcome
 
@@ -112,13 +113,23 @@ def copied(place: Path) -> None:
         py_compile.compile(str(path), quiet=1)
 
 
+def command(module: str) -> str:
+    """What runs a module's tests."""
+    tests = " ".join([*TESTS[module], str(file_of(module).relative_to(ROOT))])
+    return f"{sys.executable} -m pytest -x -q -p no:cacheprovider {tests}"
+
+
+def passes(module: str) -> bool:
+    """Whether a module's tests pass as it is: else each mutant would count as killed."""
+    outcome, _ = run_tests(command(module), TIMEOUT)
+    return bool(outcome == TestOutcome.SURVIVED)
+
+
 def tried(mutant: Mutant) -> Tried:
     """Run the module's tests against the mutant in the tree at hand."""
     path = file_of(mutant.module).relative_to(ROOT)
-    tests = " ".join([*TESTS[mutant.module], str(path)])
-    command = f"{sys.executable} -m pytest -x -q -p no:cacheprovider -p no:randomly {tests}"
     change = MutationSpec(path, mutant.operator, mutant.occurrence, (mutant.line, mutant.column), mutant.end)
-    result = mutate_and_test([change], command, TIMEOUT)
+    result = mutate_and_test([change], command(mutant.module), TIMEOUT)
     return Tried(mutant, result.test_outcome != TestOutcome.SURVIVED, result.diff or result.output or "")
 
 
@@ -136,6 +147,10 @@ def run(chosen: Sequence[Mutant], processes: int) -> list[Tried]:
     with TemporaryDirectory() as top:
         spawn = get_context("spawn")
         with ProcessPoolExecutor(processes, spawn, partial(begin, top)) as pool:
+            modules = list(dict.fromkeys(one.module for one in chosen))
+            broken = [module for module, fine in zip(modules, pool.map(passes, modules), strict=True) if not fine]
+            if broken:
+                raise SystemExit(f"tests fail without any change: {', '.join(broken)}")
             return list(pool.map(tried, chosen))
 
 

@@ -1,0 +1,228 @@
+"""Certificates made by hand, whose bound and charge are known in closed form.
+
+Symmetric laws of order 2 with a Z of degree 1 are a base law with c = -6x and j = -12, x = 2k - 1, and a multiple of
+one with c = 2 P3(x) and j = 30x² - 6. A contact at a root of these speaks of the base law alone; elsewhere the claim
+must bound what the free function can do: its moment with P3 is 2/7.
+"""
+
+from dataclasses import replace
+from math import inf, sqrt
+from typing import Any
+
+import pytest
+
+from optlaws import BoundaryConditions, Certificate, Chebyshev, Contact, Problem, at_least, at_most
+from optlaws.synthesis.problem.named_constants import expression
+from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _greatest, _means, _model, spread
+
+pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
+#: roots of P3 and of P3'
+GAUSS, FLAT = sqrt(0.6), sqrt(0.2)
+C_BASE, J_BASE = 6.0 * GAUSS, 12.0
+
+
+def at(x: float) -> float:
+    return (1.0 + x) / 2.0
+
+
+def p3(x: float) -> float:
+    return (5.0 * x**3 - 3.0 * x) / 2.0
+
+
+def small(**asked: Any) -> Problem:  # noqa: ANN401
+    return Problem(order=2, basis=Chebyshev(1), **asked)
+
+
+def bound(problem: Problem, *contacts: Contact, equations: tuple[float, ...] = ()) -> float:
+    return Certificate(problem, contacts, equations).bound
+
+
+def c_at(x: float, multiplier: float) -> Contact:
+    return Contact("C", 1.0 if x < 0.0 else -1.0, at(x), multiplier)
+
+
+def j_at(x: float, multiplier: float) -> Contact:
+    return Contact("J", -1.0, at(x), multiplier)
+
+
+def test_one_contact_proves_what_its_base_law_has_there() -> None:
+    assert bound(small(), c_at(-GAUSS, 1.0)) == pytest.approx(C_BASE, rel=1e-12)
+    assert bound(small(minimise="0.5*C"), c_at(-GAUSS, 0.5)) == pytest.approx(C_BASE / 2.0, rel=1e-12)
+    assert bound(small(minimise="J"), j_at(-FLAT, 1.0)) == pytest.approx(J_BASE, rel=1e-12)
+    assert bound(small(minimise="0.25*C + 2*J"), c_at(-GAUSS, 0.25), j_at(-FLAT, 2.0)) == pytest.approx(
+        0.25 * C_BASE + 2.0 * J_BASE, rel=1e-12
+    )
+
+
+@pytest.mark.parametrize("x", [-0.8, -0.75, -0.776])
+@pytest.mark.parametrize("weight", [1.0, 0.5, 3.0])
+def test_elsewhere_the_claim_bounds_what_the_free_function_can_do(x: float, weight: float) -> None:
+    claim = -6.0 * x  # what C is below, in a law that contradicts the claim; the base law's RMS of c is the root of 12
+    charge = (claim + sqrt(12.0)) * abs(2.0 * p3(x)) * 3.5
+    found = bound(small(minimise=f"{weight}*C"), c_at(x, weight))
+    assert found == pytest.approx(weight * (claim - charge), rel=1e-9)
+
+
+def test_a_multiplier_above_the_weight_is_charged_by_what_the_constant_can_be() -> None:
+    # 1.1 of the contact leaves -0.1 C, and C is below the claim
+    assert bound(small(), c_at(-GAUSS, 1.1)) == pytest.approx(1.1 * C_BASE * (1.0 - 0.1), rel=1e-9)
+    assert bound(small(minimise="2*C"), c_at(-GAUSS, 2.5)) == pytest.approx(2.5 * C_BASE * (1.0 - 0.25), rel=1e-9)
+    # less than the weight proves the less
+    assert bound(small(), c_at(-GAUSS, 0.9)) == pytest.approx(0.9 * C_BASE, rel=1e-12)
+    # a bound of C is less than the claim, and charged
+    asked = small(minimise="J", C=at_most(5.0))
+    assert bound(asked, c_at(-GAUSS, 1.0)) == pytest.approx(C_BASE - 5.0, rel=1e-9)
+
+
+def test_the_parts_of_a_maximum_share_its_weight() -> None:
+    problem = small(minimise="C + max(C/2, J/24)")
+    name = "max(0.5*C, 0.041666666666666664*J)"
+    parts = (Contact(f"part 1 of {name}", 1.0, 0.5, 0.25), Contact(f"part 2 of {name}", 1.0, 0.5, 0.75))
+    exact = 1.125 * C_BASE + 0.75 / 24.0 * J_BASE
+    assert bound(problem, c_at(-GAUSS, 1.125), j_at(-FLAT, 0.75 / 24.0), *parts) == pytest.approx(exact, rel=1e-12)
+
+
+def test_an_equation_cancels_the_free_function() -> None:
+    # b(1/2) is 3/2 in the base law and 1/8 in the free one: B alone fixes the law, and what c is at any place
+    for B in (1.4, 1.6):
+        for x in (-0.9, -0.2):
+            free, half = 2.0 * p3(x), 1.0 / 8.0
+            exact = -6.0 * x + free * (B - 1.5) / half
+            assert bound(small(B=B), c_at(x, 1.0), equations=(-free / half,)) == pytest.approx(exact, rel=1e-9)
+            assert bound(small(B=B), c_at(x, 1.0), equations=(free / half,)) < exact - 0.1
+
+
+def test_contacts_that_do_not_count() -> None:
+    good = c_at(-GAUSS, 1.0)
+    exact = bound(small(), good)
+    for other in (
+        c_at(-0.3, -2.0),
+        Contact("J", 1.0, 0.2, 1.0),
+        Contact("nothing", 1.0, 0.2, 1.0),
+        Contact("ratio", 1.0, 0.2, 0.0),
+    ):
+        assert bound(small(), good, other) == pytest.approx(exact, rel=1e-15)
+    assert bound(small(), replace(good, multiplier=1e308), replace(good, multiplier=1e308)) == -inf
+
+
+def test_an_rms_in_a_direction() -> None:
+    # c of the base law lies along P1: no direction proves more than its length, and P1 proves it whole
+    problem = small(minimise="rms_c")
+    matrix = next(one for one in _model(Certificate(problem, (), ())).program.families if one.name == "rms_c").matrix  # type: ignore[attr-defined]
+    along = matrix[:, -1] / sqrt(float(matrix[:, -1] @ matrix[:, -1]))
+    for length, share in ((1.0, 1.0), (0.5, 0.5), (2.0, 1.0)):
+        contact = Contact("rms_c", 1.0, 0.5, 1.0, tuple(float(length * one) for one in along))
+        assert bound(problem, contact) == pytest.approx(share * sqrt(12.0), rel=1e-12)
+
+
+# --- what constants can be in a law that contradicts a claim ---
+
+
+@pytest.mark.parametrize(
+    ("minimise", "claim", "wanted"),
+    [
+        ("C", 6.0, {"C": 6.0}),
+        ("2*C", 6.0, {"C": 3.0}),
+        ("0.5*C + 3*J", 6.0, {"C": 12.0, "J": 2.0}),
+        ("max(C, 2*J)", 6.0, {"max(C, 2.0*J)": 6.0, "C": 6.0, "J": 3.0}),
+        ("2*C + 0.5*max(0.25*J, 4*C)", 6.0, {"C": 3.0, "J": 48.0, "max(0.25*J, 4.0*C)": 12.0}),
+        ("2*C + 0.5*max(0.25*J, 5*C)", 6.0, {"C": 2.4, "J": 48.0, "max(0.25*J, 5.0*C)": 12.0}),
+    ],
+)
+def test_each_term_is_at_most_the_claim_by_its_weight(minimise: str, claim: float, wanted: dict[str, float]) -> None:
+    found: dict[str, float] = {}
+    spread(expression(minimise), claim, found, dict.fromkeys(wanted, 0.0))
+    assert found == pytest.approx(wanted, rel=1e-15)
+    tight = dict.fromkeys(wanted, 0.5)
+    spread(expression(minimise), claim, tight, dict.fromkeys(wanted, 0.0))
+    assert tight == dict.fromkeys(wanted, 0.5)
+
+
+def test_what_other_terms_are_at_least_is_taken_off() -> None:
+    found: dict[str, float] = {}
+    spread(expression("2*C_plus + 3*C_minus"), 6.0, found, {"C_plus": 1.5, "C_minus": -1.0})
+    assert found == {"C_plus": 4.5, "C_minus": 1.0}
+
+
+ENDS = BoundaryConditions((0, 0.5), (1, -1.0))
+
+
+@pytest.mark.parametrize(
+    ("problem", "claim", "wanted"),
+    [
+        (small(), 5.0, {"C": 5.0}),
+        (small(), -5.0, {"C": 0.0}),
+        (small(J=at_most(50.0), B=at_most(1.8)), 5.0, {"C": 5.0, "J": 50.0, "B": 1.8}),
+        (small(C=at_most(4.0), minimise="C + J"), 5.0, {"C": 4.0, "J": 5.0}),
+        (small(bounds={"rms_c": at_most(4.0)}), 5.0, {"C": 5.0, "rms_c": 4.0}),
+        (small(symmetric=False, inflexion=0.4, B=at_least(1.2)), 5.0, {"C": 5.0, "B": 6.0}),
+        (
+            small(symmetric=False, inflexion=0.4, B=at_least(1.2), bounds={"rms_c": at_most(4.0)}),
+            5.0,
+            {"C": 5.0, "rms_c": 4.0, "B": 5.0},
+        ),
+        (small(symmetric=False, inflexion=0.4, B=at_least(1.2), minimise="C_plus"), 5.0, {"C_plus": 5.0, "B": 11.0}),
+        (
+            Problem(boundary=ENDS, symmetric=False, inflexion=0.4, B=at_least(1.2), minimise="C", basis=Chebyshev(3)),
+            5.0,
+            {"C": 5.0, "B": 6.0},
+        ),
+    ],
+    ids=repr,
+)
+def test_the_greatest_constants_of_laws_that_contradict_a_claim(
+    problem: Problem, claim: float, wanted: dict[str, float]
+) -> None:
+    certificate = Certificate(problem, (), ())
+    found = _greatest(certificate, _model(certificate), max(claim, 0.0))
+    assert {name: size for name, size in found.items() if size < inf} == pytest.approx(wanted, rel=1e-15)
+
+
+def test_the_greatest_constants_of_other_programs() -> None:
+    violated = Certificate(small(C=at_most(4.0)), (), (), VIOLATION)
+    assert _greatest(violated, _model(violated), 7.0) == {"t": 0.0, "C": 4.0}
+    power = Certificate(small(B=1.6, minimise="2*D"), (), (), RELAXED, 1.0)
+    assert _greatest(power, _model(power), 18.0) == pytest.approx({"D": 9.0, "root of D": 3.0, "B": 1.6}, rel=1e-15)
+
+
+#: RMS of b, c, j of the base law
+BASE = {1: sqrt(1.2), 2: sqrt(12.0), 3: 12.0, 4: 0.0}
+
+
+@pytest.mark.parametrize(
+    ("problem", "greatest", "wanted"),
+    [
+        (small(), {"C": 5.0}, {2: 5.0}),
+        (small(), {"C": 5.0, "rms_c": 4.0, "J": 50.0, "jounce": 60.0}, {2: 4.0, 3: 50.0, 4: 60.0}),
+        (small(), {"C_plus": 5.0, "rms_j": 40.0, "J": 50.0}, {2: 10.0, 3: 40.0}),
+        (small(), {"C_minus": 5.0, "C_plus": 4.0}, {2: 8.0}),
+        (small(), {"B": 1.8}, {1: 4.6}),
+        (small(), {"D": 9.0}, {1: 3.0}),
+        (small(), {"D": 9.0, "B": 0.9}, {1: 2.8}),
+        (small(monotone=True), {"B": 1.8}, {1: 1.0}),
+        (small(), {}, {}),
+    ],
+    ids=repr,
+)
+def test_the_mean_size_of_derivatives(problem: Problem, greatest: dict[str, float], wanted: dict[int, float]) -> None:
+    certificate = Certificate(problem, (), ())
+    found = _means(certificate, _model(certificate).space, greatest)
+    assert dict(found) == pytest.approx({nu: mean + BASE[nu] for nu, mean in wanted.items()}, rel=1e-12)
+
+
+def test_a_power_bounds_the_mean_velocity_only_from_rest() -> None:
+    moving = Problem(boundary=BoundaryConditions((0, 0.5), (1, 0)), symmetric=False, basis=Chebyshev(1))
+    free = Problem(order=1, basis=Chebyshev(1))
+    for problem in (moving, free):
+        certificate = Certificate(problem, (), ())
+        assert 1 not in dict(_means(certificate, _model(certificate).space, {"D": 9.0}))
+
+
+@pytest.mark.parametrize("x", [-GAUSS, -0.7, -0.9])
+def test_a_contradiction_is_worth_what_the_base_law_breaks(x: float) -> None:
+    # C <= 4 cannot be: c of every law is -6x at the root of P3, 4.65
+    problem = small(C=at_most(4.0))
+    proof = Certificate(problem, (Contact("C", 1.0, at(x), 1.0),), (), VIOLATION)
+    assert proof.proves_infeasible == (x == -GAUSS)
+    assert not Certificate(small(C=at_most(4.7)), proof.contacts, (), VIOLATION).proves_infeasible
+    assert not Certificate(small(C=at_least(4.0)), proof.contacts, (), VIOLATION).proves_infeasible

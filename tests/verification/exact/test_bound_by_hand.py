@@ -1,0 +1,210 @@
+"""Exact bounds of certificates made by hand, and what constants can be in laws that contradict a claim.
+
+The laws are those of tests/synthesis/proof/test_certificate_by_hand.py: a base law with c = -6x and a multiple of one
+with c = 2 P3(x), x = 2k - 1.
+"""
+
+from fractions import Fraction
+from math import inf, nextafter, sqrt
+from typing import Any
+
+import pytest
+
+from optlaws import BoundaryConditions, Certificate, Chebyshev, Contact, Problem, at_least, at_most
+from optlaws.synthesis.problem.named_constants import expression
+from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION
+from optlaws.verification.exact.bound import (
+    _spread,
+    exact_bound,
+    greatest_values,
+    least_objective,
+    least_values,
+    means,
+    never_negative,
+    prove,
+)
+from optlaws.verification.exact.rows import ExactRows
+
+pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
+GAUSS, FLAT = sqrt(0.6), sqrt(0.2)
+C_BASE, J_BASE = 6.0 * GAUSS, 12.0
+MOVING = {"boundary": BoundaryConditions((0, 0.5), (1, -1)), "symmetric": False}
+
+
+def small(**asked: Any) -> Problem:  # noqa: ANN401
+    return Problem(**{"order": 0 if "boundary" in asked else 2, "basis": Chebyshev(1), **asked})
+
+
+def c_at(x: float, multiplier: float) -> Contact:
+    return Contact("C", 1.0 if x < 0.0 else -1.0, (1.0 + x) / 2.0, multiplier)
+
+
+def j_at(x: float, multiplier: float) -> Contact:
+    return Contact("J", -1.0, (1.0 + x) / 2.0, multiplier)
+
+
+def proven(problem: Problem, *contacts: Contact, equations: tuple[float, ...] = ()) -> float:
+    value = exact_bound(Certificate(problem, contacts, equations))
+    assert value is not None
+    return float(value)
+
+
+def test_the_bound_of_one_contact_is_exact() -> None:
+    found = prove(Certificate(small(), (c_at(-GAUSS, 1.0),), ()))
+    assert float(found.value or 0) == pytest.approx(C_BASE, rel=1e-14)
+    assert (found.charge, found.negative, found.unknown) == (0.0, 0, 0)
+    # the place is moved in effect by a rounding of the root, and no multiplier by more
+    assert found.correction < 1e-6
+    assert proven(small(minimise="0.5*C"), c_at(-GAUSS, 0.5)) == pytest.approx(C_BASE / 2.0, rel=1e-14)
+    assert proven(small(minimise="0.25*C + 2*J"), c_at(-GAUSS, 0.25), j_at(-FLAT, 2.0)) == pytest.approx(
+        0.25 * C_BASE + 2.0 * J_BASE, rel=1e-14
+    )
+
+
+def test_multipliers_are_corrected_to_the_weights() -> None:
+    # twice the weight, and half of it: the corrected sum is that of the right one
+    for multiplier in (0.9, 1.1):
+        assert proven(small(), c_at(-GAUSS, multiplier)) == pytest.approx(C_BASE, rel=1e-3)
+    assert proven(small(), c_at(-GAUSS, 1.0), c_at(GAUSS, 0.5)) <= C_BASE * (1.0 + 1e-14)
+
+
+def test_the_parts_of_a_maximum_share_its_weight() -> None:
+    name = "max(0.5*C, 0.041666666666666664*J)"
+    parts = (Contact(f"part 1 of {name}", 1.0, 0.5, 0.25), Contact(f"part 2 of {name}", 1.0, 0.5, 0.75))
+    found = proven(small(minimise="C + max(C/2, J/24)"), c_at(-GAUSS, 1.125), j_at(-FLAT, 0.75 / 24.0), *parts)
+    assert found == pytest.approx(1.125 * C_BASE + 0.75 / 24.0 * J_BASE, rel=1e-12)
+
+
+def test_a_fixed_b_makes_every_place_a_contact() -> None:
+    for x in (-0.9, -0.2):
+        free = 5.0 * x**3 - 3.0 * x
+        found = proven(small(B=1.6), c_at(x, 1.0), equations=(-8.0 * free,))
+        assert found == pytest.approx(-6.0 * x + 0.8 * free, rel=1e-9)
+
+
+def test_contacts_that_do_not_count_are_counted() -> None:
+    others = (c_at(-0.3, -2.0), c_at(-0.2, -1.0), Contact("J", 1.0, 0.2, 1.0), Contact("nothing", 1.0, 0.2, 1.0))
+    found = prove(Certificate(small(), (c_at(-GAUSS, 1.0), *others), ()))
+    assert (found.negative, found.unknown) == (2, 2)
+    assert float(found.value or 0) == pytest.approx(C_BASE, rel=1e-14)
+
+
+def test_without_contacts_a_constant_is_at_least_0() -> None:
+    assert prove(Certificate(small(), (), ())).value == 0
+    assert prove(Certificate(small(C=at_most(4.0)), (), (), VIOLATION)).value in {None, 0}
+
+
+def test_a_contradiction_is_measured() -> None:
+    contact = c_at(-GAUSS, 1.0)
+    value = exact_bound(Certificate(small(C=at_most(4.0)), (contact,), (), VIOLATION))
+    assert value is not None
+    assert value > 0
+    feasible = exact_bound(Certificate(small(C=at_most(4.7)), (contact,), (), VIOLATION))
+    assert feasible is None or feasible <= 0
+
+
+# --- what constants can be ---
+
+
+def above(value: float) -> float:
+    """Rounded up by one unit at most."""
+    return nextafter(value, inf)
+
+
+@pytest.mark.parametrize(
+    ("minimise", "least", "wanted"),
+    [
+        ("C", {}, {"C": 6.0}),
+        ("2*C", {}, {"C": 3.0}),
+        ("0.5*C + 4*J", {}, {"C": 12.0, "J": 1.5}),
+        ("2*C + 0.5*max(0.25*J, 4*C)", {}, {"C": 3.0, "J": 48.0, "max(0.25*J, 4.0*C)": 12.0}),
+        ("2*C_plus + 4*C_minus", {"C_plus": 1.0, "C_minus": -1.0}, {"C_plus": 5.0, "C_minus": 1.0}),
+        ("2*C_plus + 4*C_minus", {"C_plus": Fraction(1), "C_minus": Fraction(4)}, {"C_plus": 1.0, "C_minus": 4.0}),
+    ],
+)
+def test_each_term_is_at_most_the_claim_by_its_weight(
+    minimise: str, least: dict[str, Any], wanted: dict[str, float]
+) -> None:
+    found: dict[str, float] = {}
+    exact = {name: value if isinstance(value, Fraction) else Fraction(value) for name, value in least.items()}
+    _spread(expression(minimise), Fraction(6), exact, found)
+    assert set(found) == set(wanted)
+    for name, value in wanted.items():
+        assert value <= found[name] <= above(value)
+    tight = dict.fromkeys(wanted, 0.5)
+    if not least:
+        _spread(expression(minimise), Fraction(6), {}, tight)
+        assert tight == dict.fromkeys(wanted, 0.5)
+
+
+def test_a_term_beside_one_that_may_be_anything_is_unknown() -> None:
+    found: dict[str, float] = {}
+    _spread(expression("C + C_plus"), Fraction(6), {"C_plus": -inf}, found)
+    assert set(found) == {"C_plus"}
+
+
+@pytest.mark.parametrize(
+    ("problem", "wanted"),
+    [
+        (small(), {"C": 5.0}),
+        (small(J=at_most(50.0), B=at_most(1.8)), {"C": 5.0, "J": 50.0, "B": 1.8}),
+        (small(C=at_most(4.0), minimise="C + J"), {"C": 4.0, "J": 5.0}),
+        (small(D=at_most(9.0)), {"C": 5.0, "D": 9.0, "root of D": 3.0}),
+        (small(symmetric=False, inflexion=0.4, B=at_least(1.2)), {"C": 5.0, "B": 5.0}),
+        (
+            small(symmetric=False, inflexion=0.4, B=at_least(1.2), bounds={"rms_c": at_most(4.0)}),
+            {"C": 5.0, "rms_c": 4.0, "B": 4.0},
+        ),
+        (small(**MOVING, inflexion=0.4, B=at_least(1.2)), {"C": 5.0, "B": 5.5}),
+    ],
+    ids=repr,
+)
+def test_the_greatest_constants_of_laws_that_contradict_a_claim(problem: Problem, wanted: dict[str, float]) -> None:
+    certificate = Certificate(problem, (), (), RELAXED if "D" in wanted else "objective")
+    found = greatest_values(certificate, ExactRows(certificate), 5.0)
+    finite = {name: value for name, value in found.items() if value < inf}
+    assert finite == pytest.approx(wanted, rel=1e-14)
+    assert all(value >= wanted[name] for name, value in finite.items())
+
+
+def test_a_contradiction_has_no_claim() -> None:
+    certificate = Certificate(small(C=at_most(4.0)), (), (), VIOLATION)
+    assert greatest_values(certificate, ExactRows(certificate), 7.0) == {"C": 4.0}
+
+
+@pytest.mark.parametrize(
+    ("problem", "greatest", "wanted"),
+    [
+        (small(), {"C": 5.0}, {2: 5.0}),
+        (small(), {"C": 5.0, "rms_c": 4.0, "J": 50.0, "jounce": 60.0}, {2: 4.0, 3: 50.0, 4: 60.0}),
+        (small(), {"C": 5.0, "rms_j": 40.0}, {2: 5.0, 3: 40.0}),
+        (small(), {"C_plus": 5.0}, {2: 10.0}),
+        (small(), {"C_minus": 4.0, "C_plus": 5.0}, {2: 8.0}),
+        (small(), {"C_plus": -5.0}, {2: 0.0}),
+        # what is above 0 less what is below is the change of velocity, -3/2
+        (small(**MOVING), {"C_plus": 5.0}, {2: 11.5}),
+        (small(**MOVING), {"C_minus": 5.0}, {2: 8.5}),
+        (small(), {"B": 1.8}, {1: 2.6}),
+        (small(monotone=True), {"B": 1.8}, {1: 1.0}),
+        (small(), {"root of D": 2.0}, {1: 2.0}),
+        (small(**MOVING), {"root of D": 2.0}, {}),
+        (small(), {}, {}),
+    ],
+    ids=repr,
+)
+def test_the_mean_size_of_derivatives(problem: Problem, greatest: dict[str, float], wanted: dict[int, float]) -> None:
+    found = means(problem, ExactRows(Certificate(problem, (), ())), greatest)
+    assert {nu: float(one) for nu, one in found.items()} == pytest.approx(wanted, rel=1e-14)
+
+
+def test_peaks_of_one_sign_may_be_negative_where_the_velocity_changes() -> None:
+    assert never_negative(small(minimise="C_plus"))
+    assert never_negative(small(**MOVING))
+    turned = small(**MOVING, minimise="2*C_plus + 3*max(C_minus, C_plus)")
+    assert not never_negative(turned)
+    rows = ExactRows(Certificate(turned, (), ()))
+    least = least_values(turned, rows)
+    assert (least["C_plus"], least["C_minus"], least["max(C_minus, C_plus)"]) == (-1.5, 1.5, 1.5)
+    assert least_objective(turned, rows) == Fraction(3, 2)
+    free = small(order=1, minimise="C_plus")
+    assert not never_negative(free)
