@@ -8,9 +8,9 @@ from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.multiplier import multiplied
 from optlaws.laws.making.transform import mirrored_law, reversed_law, with_end_velocity
 from optlaws.laws.making.trapezoids import scca, trapezoid
-from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.savin.family import SavinFamily
 from optlaws.laws.savin.savin import savin
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.angles import deg
 from optlaws.mechanisms.dwell.choice import compare_dwell_mechanisms
 from optlaws.mechanisms.dwell.clutch import Clutch

@@ -6,8 +6,8 @@ from pathlib import Path
 import pytest
 
 from optlaws import InputError
-from optlaws.jobs import printed
-from optlaws.jobs.printed import MISPRINT, ON_GRID, REPRODUCED, judge, number, rows
+from optlaws.jobs.pages import printed
+from optlaws.jobs.pages.printed import MISPRINT, ON_GRID, REPRODUCED, judge, number, rows
 
 
 @pytest.mark.parametrize(

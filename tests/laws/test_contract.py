@@ -13,7 +13,7 @@ import pytest
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from tests.laws.examples import EXAMPLES
 
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)

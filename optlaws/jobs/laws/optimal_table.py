@@ -15,8 +15,8 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.jobs import printed
 from optlaws.jobs.laws.figure_table import draw
+from optlaws.jobs.pages import printed
 from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
 from optlaws.suggest import unknown_key
 from optlaws.synthesis import (

@@ -14,7 +14,7 @@ import msgspec
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files import reading, tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.jobs import printed
+from optlaws.jobs.pages import printed
 from optlaws.studies.points.problem_entries import HEADINGS, Asked, Asking, Count, Text, gap, problem, record, shown
 from optlaws.suggest import unknown_key
 from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, synthesize

@@ -13,7 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.jobs import printed
+from optlaws.jobs.pages import printed
 from optlaws.mechanisms.lever.linkage import FourBar
 
 COLUMNS = ("coefficient", "beta", "lambda", "printed")

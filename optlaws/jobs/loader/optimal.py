@@ -15,9 +15,9 @@ import msgspec
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.jobs import printed
 from optlaws.jobs.loader import figure_optimal
 from optlaws.jobs.loader.table import COLUMNS
+from optlaws.jobs.pages import printed
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.mechanisms.loader.limits import loader_acceleration_limit
 from optlaws.mechanisms.loader.loader import Loader, loader

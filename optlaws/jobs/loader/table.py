@@ -14,7 +14,7 @@ import numpy as np
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.jobs import printed
+from optlaws.jobs.pages import printed
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.mechanisms.loader.loader import Loader, loader
 from optlaws.mechanisms.loader.trapezium import TrapeziumSubstitute, closed_form_Y

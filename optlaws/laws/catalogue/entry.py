@@ -14,8 +14,8 @@ from optlaws.kept import kept_property
 from optlaws.laws.catalogue.tyr_codes import coded
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.making.trapezoids import scca, trapezoid
-from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.polynomial import smoothstep
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
 from optlaws.series.peaks import Constants

@@ -9,7 +9,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.making.half_cycle import from_half
 from optlaws.laws.making.trapezoids import trapezoid
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.laws.segments.sine import SineSegment
 

@@ -8,7 +8,7 @@ from itertools import accumulate
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.transforms import backwards, scaled
 

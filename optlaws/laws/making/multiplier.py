@@ -15,10 +15,10 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.making.transform import as_polynomial
-from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.segments import transforms
 from optlaws.laws.segments.fractional import FractionalSegment
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import fractions
 from optlaws.series import chebyshev, exact, interpolation

@@ -8,9 +8,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws.law import MotionLaw
-from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.segments import transforms
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.numbers import finite
 from optlaws.series import interpolation
 

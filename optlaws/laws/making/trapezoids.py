@@ -6,8 +6,8 @@ from math import pi
 
 from optlaws.errors import InputError
 from optlaws.laws.making.half_cycle import SHORTEST, from_half
-from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.segments.fractional import FractionalSegment
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import SineSegment
 from optlaws.numbers import finite

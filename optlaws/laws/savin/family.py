@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from math import comb, factorial
@@ -9,13 +10,14 @@ from math import comb, factorial
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.polynomial import PolynomialLaw
-from optlaws.laws.savin.members import alphas
 from optlaws.laws.savin.peaks import acceleration_peak, least_power, power_peak
-from optlaws.numbers import MOST_EXPONENT, fractions, whole
+from optlaws.numbers import MOST_EXPONENT, finite, fractions, whole
 from optlaws.series.peaks import Peak
 from optlaws.suggest import unknown_key
 
 ROUNDING = Fraction(1, 2**51)  # an end of a range such as 44/3 is no float, but means itself
+
+_HALVINGS = 200
 
 FAMILIES = {"I": 0, "II": 1, "III": 2, "IV": 3}
 
@@ -214,4 +216,54 @@ class SavinFamily:
         >>> SavinFamily(2).alphas(C=7.0)
         (2.489092, 10.244387)
         """
-        return alphas(self, B=B, C=C, D=D)
+        return _alphas(self, B=B, C=C, D=D)
+
+
+def _alphas(
+    family: SavinFamily, *, B: float | None = None, C: float | None = None, D: float | None = None
+) -> tuple[float, ...]:
+    given = [(name, value) for name, value in (("B", B), ("C", C), ("D", D)) if value is not None]
+    if len(given) != 1:
+        raise InputError(f"give exactly one of B, C and D, got {' and '.join(name for name, _ in given) or 'none'}")
+    ((name, value),) = given
+    value = finite(value, name)
+    if name == "B":
+        return (_alpha_of_velocity(family, value),)
+    peak, (best, least) = (family.C, family.least_C) if name == "C" else (family.D, family.least_D)
+
+    def height(alpha: float) -> float:
+        return peak(alpha).value
+
+    low, high = map(float, family.range)
+    _check_reachable(family, name, value, least.value, max(height(low), height(high)))
+    if value == least.value:
+        return (best,)
+    return tuple(_root(lambda alpha: height(alpha) - value, best, end) for end in (low, high) if height(end) >= value)
+
+
+def _alpha_of_velocity(family: SavinFamily, B: float) -> float:
+    low, high = family.range
+    most, least = (Fraction(family.B(float(alpha)).value) for alpha in (low, high))
+    _check_reachable(family, "B", B, float(least), float(most))
+    alpha = float(low + (high - low) * (most - Fraction(B)) / (most - least))
+    return min(max(alpha, float(low)), float(high))
+
+
+def _check_reachable(family: SavinFamily, name: str, value: float, least: float, most: float) -> None:
+    if not least <= value <= most:
+        raise InputError(f"{name} of {family} reaches from {least:.9g} to {most:.9g}, got {shortened(value)}")
+
+
+def _root(excess: Callable[[float], float], inner: float, outer: float) -> float:
+    """The place between, to the last digit: excess is below zero at the inner end and not below at the outer one."""
+    if excess(outer) == 0.0:
+        return outer
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (inner + outer)
+        if middle in (inner, outer):
+            break
+        if excess(middle) < 0.0:
+            inner = middle
+        else:
+            outer = middle
+    return outer

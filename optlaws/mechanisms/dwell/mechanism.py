@@ -8,7 +8,7 @@ from typing import Any
 
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.dwell.checks import check
 from optlaws.mechanisms.dwell.section_laws import REST, loader_of, peak_power, peak_velocity, top
 from optlaws.mechanisms.dwell.sections import Section, composed, excursion

@@ -9,7 +9,7 @@ from itertools import accumulate, pairwise
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.mechanisms.dwell.parts import PartSegment
 from optlaws.mechanisms.loader.tops import breaks

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw, PolynomialLaw
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
 from optlaws.mechanisms.follower.cam_motion import Forcing, PolynomialForcing, SineForcing

@@ -14,7 +14,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.law import Many
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
 from optlaws.mechanisms.loader.segment import LoaderSegment
 from optlaws.mechanisms.loader.tops import breaks, tops

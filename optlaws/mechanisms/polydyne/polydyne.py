@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.polydyne.cam_segments import cam_segment
 from optlaws.mechanisms.polydyne.smoothness import check_mass_law

@@ -6,7 +6,7 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 
 SMOOTH = 1e-9  # a derivative at an end below this share of its peak is rounding
 

@@ -7,7 +7,7 @@ from itertools import pairwise
 from math import sqrt
 from typing import TypeVar
 
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
 from optlaws.synthesis.limits.closed_forms import best_velocity, limit
 from optlaws.synthesis.limits.times import back_time, back_velocity, run_in

@@ -10,7 +10,7 @@ from typing import Any, Self, overload
 
 from optlaws.errors import InputError
 from optlaws.laws import PolynomialLaw
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.numbers import MOST_ORDER, fractions, listed, whole
 from optlaws.series.exact import exact_powers
 from optlaws.series.exact_powers import Polynomial, edge, plus, shifted, times

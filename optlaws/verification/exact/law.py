@@ -10,7 +10,7 @@ from flint import arb, ctx, fmpq
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
 from optlaws.synthesis.problem.constants import Power, RootMeanSquare

@@ -16,9 +16,9 @@ from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.multiplier import multiplied
 from optlaws.laws.making.transform import with_end_velocity
 from optlaws.laws.making.trapezoids import scca, trapezoid
-from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.savin.family import SavinFamily
 from optlaws.laws.savin.savin import savin
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PowerSegment
 from tests.laws.examples import cut, random_law
 

@@ -11,7 +11,7 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
 from optlaws.laws.making.transform import as_polynomial, mirrored_law, reversed_law, with_end_velocity
 from optlaws.laws.making.trapezoids import scca, trapezoid
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
 from tests.laws.examples import EXAMPLES
 

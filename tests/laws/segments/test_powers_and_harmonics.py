@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.segments.fractional import FractionalSegment
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.laws.segments.sine import HarmonicSegment
 from optlaws.series import real_powers

@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.sine import SineSegment
 from optlaws.mechanisms.loader.law import LoaderLaw
 from tests.laws import test_contract

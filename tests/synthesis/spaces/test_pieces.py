@@ -7,7 +7,7 @@ import pytest
 from scipy.optimize import linprog
 
 from optlaws import BoundaryConditions, Chebyshev, InputError, Pieces, Problem, Status, limit, limit_law, synthesize
-from optlaws.laws.piecewise import PiecewiseLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 
 LIMIT_C = limit_law("C", 1.859).breaks
 

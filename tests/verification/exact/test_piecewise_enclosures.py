@@ -9,8 +9,8 @@ import pytest
 from mpmath import mp, mpf  # type: ignore[import-untyped]
 
 from optlaws import BSplines, InputError, Pieces, Problem, synthesize
-from optlaws.laws.piecewise import PiecewiseLaw
 from optlaws.laws.segments.fractional import FractionalSegment
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
 from optlaws.verification import enclosures

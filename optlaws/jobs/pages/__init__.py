@@ -1,0 +1,1 @@
+"""What pages of results have in common."""
