@@ -3,17 +3,107 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from itertools import product
 from math import degrees
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Annotated, Any
 
+import msgspec
+import numpy as np
+
+from optlaws import drawing
+from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.jobs.dwell import figure_map, figure_types
-from optlaws.jobs.dwell.cases import Case, Types
+from optlaws.jobs.dwell import figure_map
 from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.mechanisms.angles import deg
+from optlaws.mechanisms.dwell.checks import KINDS
 from optlaws.mechanisms.dwell.clutch import Clutch
+from optlaws.mechanisms.dwell.making import dwell_mechanism
+from optlaws.mechanisms.dwell.mechanism import DwellMechanism
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.lines import Line2D
+
+Text = Annotated[str, msgspec.Meta(min_length=1)]
+Positive = Annotated[float, msgspec.Meta(gt=0)]
+Degrees = Annotated[float, msgspec.Meta(gt=0, lt=360)]
+Some = msgspec.Meta(min_length=1)
+
+
+class Scenario(msgspec.Struct, forbid_unknown_fields=True):
+    """A name, and the angle of the rise in degrees; 180 less the dwell unless given."""
+
+    name: Text
+    rise: Degrees | None = None
+
+    def angle(self, dwell: float) -> float:
+        """The rise that goes with a dwell, in degrees."""
+        return 180.0 - dwell if self.rise is None else self.rise
+
+
+class Map(msgspec.Struct, forbid_unknown_fields=True):
+    """Limits of b over the inertia ratio, and the range of clutch angles in degrees."""
+
+    limits: Annotated[list[Positive], Some]
+    clutch_angles: Annotated[list[Degrees], msgspec.Meta(min_length=2, max_length=2)]
+
+
+class Types(msgspec.Struct, forbid_unknown_fields=True):
+    """The problem file; angles in degrees."""
+
+    job: str
+    title: Text
+    law: Text
+    radius_over_length: Positive
+    inertia_ratio: Positive
+    swings: Annotated[list[Degrees], Some]
+    clutch_angles: Annotated[list[Degrees], Some]
+    dwells: Annotated[list[Degrees], Some]
+    teeth: Annotated[int, msgspec.Meta(ge=1)]
+    map: Map
+    scenario: Annotated[list[Scenario], Some]
+
+    def types(self, scenario: Scenario, swing: float, clutch_angle: float, dwell: float) -> dict[str, DwellMechanism]:
+        """The types that these angles, in degrees, allow; type I is always among them."""
+        found = {}
+        for kind in KINDS:
+            try:
+                found[kind] = dwell_mechanism(
+                    kind,
+                    law=catalogue[self.law].law,
+                    dwell=deg(dwell),
+                    rise=deg(scenario.angle(dwell)),
+                    clutch_angle=deg(clutch_angle),
+                    swing=deg(swing),
+                    radius_ratio=self.radius_over_length / deg(swing),
+                    inertia_ratio=self.inertia_ratio,
+                )
+            except InputError:
+                if kind == "I":
+                    raise
+        return found
+
+
+@dataclass(frozen=True)
+class Case:
+    """One row: angles in degrees and the types that can be built."""
+
+    scenario: str
+    swing: float
+    clutch_angle: float
+    dwell: float
+    rise: float
+    types: Mapping[str, DwellMechanism]
+
+    @property
+    def given(self) -> list[tables.Cell]:
+        """The first cells of a row."""
+        return [self.scenario, self.swing, self.clutch_angle, self.dwell, self.rise]
+
 
 GIVEN = ("scenario", "swing", "clutch angle", "dwell", "rise")
 CRITERIA = ("a I", "a II", "a III", "b II", "b III", "S1 I", "S2 II", "S2 III")
@@ -28,8 +118,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     rows = [[*one.given, *_criteria(one)] for one in cases]
     teeth = [row for one in cases for row in _teeth(one, spec.teeth)]
     drawings = {
-        "size_of_type_I": figure_types.draw_first(spec),
-        "nomograms": figure_types.draw_all(spec),
+        "size_of_type_I": draw_first(spec),
+        "nomograms": draw_all(spec),
         "map": figure_map.draw(catalogue[spec.law].law, spec.map.limits, spec.map.clutch_angles),
     }
     return [
@@ -38,8 +128,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "dwell_types.md", _markdown(spec, rows, teeth)),
         *(
             writing.write(out / f"{name}.{kind}", content)
-            for name, drawing in drawings.items()
-            for kind, content in drawing.items()
+            for name, kinds in drawings.items()
+            for kind, content in kinds.items()
         ),
     ]
 
@@ -85,3 +175,67 @@ def _markdown(spec: Types, rows: Sequence[Sequence[tables.Cell]], teeth: Sequenc
         "",
     ]
     return "\n".join([*text, tables.to_markdown(TEETH, teeth, digits=6)])
+
+
+COLOURS = {"I": drawing.GREY, "II": drawing.BLUES[3], "III": drawing.GREEN}
+_POINTS = 49
+
+
+def draw_first(spec: Types) -> dict[str, bytes]:
+    """Criterion a of type I over the dwell, a curve for each swing and scenario, as svg and png."""
+    dwells = np.linspace(1.0, max(spec.dwells), _POINTS)
+    strokes = ("-", "--", "-.", ":")
+    with drawing.style():
+        figure = drawing.figure()
+        axes = figure.subplots()
+        for scenario, stroke in zip(spec.scenario, strokes, strict=False):
+            for swing, shade in zip(spec.swings, drawing.BLUES[-len(spec.swings) :], strict=False):
+                found = [spec.types(scenario, swing, 0.0, dwell)["I"].a for dwell in dwells.tolist()]
+                label = f"swing {swing:g}°, {scenario.name}"
+                axes.plot(dwells, found, color=shade, linestyle=stroke, label=label)
+        axes.set(xlabel="dwell (degrees)", ylabel="a: greatest radius over that of the executive cam")
+        axes.set(title=f"Cam of the loader of type I, law {spec.law}", ylim=(1.0, None))
+        axes.legend(loc="upper left")
+        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+
+
+def draw_all(spec: Types) -> dict[str, bytes]:
+    """Criteria a and b of the types in the first scenario, a panel for each swing and clutch angle, as svg and png."""
+    with drawing.style():
+        rows, columns = len(spec.swings), len(spec.clutch_angles)
+        figure = drawing.figure(3.5 * columns + 1.0, 2.7 * rows + 0.9)
+        panels = figure.subplots(rows, columns, squeeze=False, sharex=True)
+        handles: dict[str, Line2D] = {}
+        for i, swing in enumerate(spec.swings):
+            for j, clutch in enumerate(spec.clutch_angles):
+                axes = panels[i, j]
+                handles |= _panel(axes, spec, swing, clutch, last=j == columns - 1)
+                axes.set(title=f"swing {swing:g}°, clutch angle {clutch:g}°")
+                if j == 0:
+                    axes.set_ylabel("a: size of the cam")
+                if i == rows - 1:
+                    axes.set_xlabel("dwell (degrees)")
+        figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=5)
+        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+
+
+def _panel(axes: Axes, spec: Types, swing: float, clutch: float, *, last: bool) -> dict[str, Line2D]:
+    least, most = min(spec.dwells), max(spec.dwells)
+    dwells = np.linspace(max(least, 2.0 * clutch + 2.0), most, _POINTS)
+    cases = [spec.types(spec.scenario[0], swing, clutch, dwell) for dwell in dwells.tolist()]
+    handles: dict[str, Line2D] = {}
+    for kind in ("I", "II", "III"):
+        (handles[f"a, type {kind}"],) = axes.plot(dwells, [one[kind].a for one in cases], color=COLOURS[kind])
+    axes.set(xlim=(least, most), ylim=(0.9, 4.0))
+    torque = axes.twinx()
+    torque.spines["right"].set_visible(True)
+    torque.grid(visible=False)
+    for kind in ("II", "III"):
+        values = [one[kind].b for one in cases]
+        (handles[f"b, type {kind}"],) = torque.semilogy(dwells, values, color=COLOURS[kind], linestyle="--")
+    torque.set_ylim(0.02, 200.0)
+    if last:
+        torque.set_ylabel("b: residual torque")
+    else:
+        torque.set_yticklabels([])
+    return handles

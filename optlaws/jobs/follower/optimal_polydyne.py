@@ -2,19 +2,107 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import msgspec
+import numpy as np
 
+from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.jobs.follower.figure_polydyne import draw
-from optlaws.jobs.follower.polydyne_laws import Compared, Design, compared
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.savin.family import SavinFamily
+from optlaws.mechanisms.polydyne.cam_constants import cam_constant
+from optlaws.mechanisms.polydyne.polydyne import polydyne
+from optlaws.mechanisms.spectrum.residual import residual_phasor
+from optlaws.mechanisms.spectrum.robust import residual
 from optlaws.studies.points.problem_entries import Text, gap
-from optlaws.synthesis import Status
+from optlaws.synthesis import Chebyshev, Problem, Solution, Status, at_most, synthesize
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+
+
+@dataclass(frozen=True, eq=False)
+class Design:
+    """For what the cams are made: frequency, damping ratio, the interval and the most residual of robust laws."""
+
+    nu: float
+    damping: float
+    between: tuple[float, float]
+    residual: float
+    degree: int
+
+    def problem(self, order: int, minimise: Any, *, of_cam: bool = False, **asked: Any) -> Problem:  # noqa: ANN401 - a constant, and entries
+        """Symmetric laws where the cam is undamped: then no other law has a smaller C of the cam.
+
+        The cam of a mass law of order l has order l - 2 and the same degree, so that its Z has four degrees more.
+        """
+        basis = Chebyshev(self.degree + (4 if of_cam else 0))
+        return Problem(order=order, basis=basis, minimise=minimise, symmetric=self.damping == 0.0, **asked)
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """One law: of the mass if the cam is made from it, else of the cam itself; its solution if it is an optimum."""
+
+    name: str
+    kind: str
+    design: Design
+    law: MotionLaw
+    polydyne: bool = True
+    solution: Solution | None = None
+
+    @kept_property
+    def cam(self) -> MotionLaw:
+        """What is cut on the cam."""
+        return polydyne(self.law, self.design.nu, self.design.damping) if self.polydyne else self.law
+
+    @kept_property
+    def worst(self) -> float:
+        """The greatest residual acceleration over the interval."""
+        return residual(nu=self.design.between, damping=self.design.damping).value(self.cam)
+
+    @kept_property
+    def at_design(self) -> float:
+        """The residual acceleration at the design frequency."""
+        return residual(nu=self.design.nu, damping=self.design.damping).value(self.cam)
+
+
+def compared(design: Design, members: Sequence[tuple[str, float]], known: Sequence[str]) -> Iterator[Compared]:
+    """All laws of a design, in the order of the table."""
+    C_cam = cam_constant("C", nu=design.nu, damping=design.damping)
+    orders: dict[int, str] = {}
+    for family, alpha in members:
+        member = SavinFamily.of(family)
+        law = member.law(alpha)
+        B, order = law.constants.B.value, member.order
+        orders[order] = family
+        yield Compared(f"family {family}, alpha = {alpha:g}", "known", design, law)
+        solution = synthesize(design.problem(order, C_cam, B=B))
+        yield Compared(f"optimal, order {order}, same B", "optimal", design, solution.law, solution=solution)
+    for order in orders:
+        solution = synthesize(design.problem(order, C_cam))
+        yield Compared(f"optimal, order {order}, free B", "optimal", design, solution.law, solution=solution)
+    most = at_most(design.residual)
+    mine = residual(nu=design.between, damping=design.damping, design=design.nu)
+    for order in orders:
+        solution = synthesize(design.problem(order, C_cam, bounds={mine: most}))
+        yield Compared(f"robust polydyne, order {order}", "robust", design, solution.law, solution=solution)
+        cut = residual(nu=design.between, damping=design.damping)
+        solution = synthesize(design.problem(order - 2, "C", of_cam=True, bounds={cut: most}))
+        yield Compared(
+            f"robust on the cam, order {order - 2}", "robust", design, solution.law, polydyne=False, solution=solution
+        )
+    for standard in known:
+        yield Compared(f"{standard}, on the cam", "known", design, catalogue[standard].law, polydyne=False)
+
 
 Positive = Annotated[float, msgspec.Meta(gt=0.0, le=1e3)]
 Pair = Annotated[list[Positive], msgspec.Meta(min_length=2, max_length=2)]
@@ -64,8 +152,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "table.csv", tables.to_csv(HEADINGS, lines, about=about)),
         writing.write(out / "table.md", _markdown(spec, lines)),
     ]
-    drawing = draw(spec.title, found, (spec.figure[0], spec.figure[1]))
-    return written + [writing.write(out / f"figure.{kind}", content) for kind, content in drawing.items()]
+    kinds = draw(spec.title, found, (spec.figure[0], spec.figure[1]))
+    return written + [writing.write(out / f"figure.{kind}", content) for kind, content in kinds.items()]
 
 
 def _line(one: Compared) -> list[tables.Cell]:
@@ -87,3 +175,60 @@ def _markdown(spec: Study, lines: list[list[tables.Cell]]) -> str:
     table = tables.to_markdown(HEADINGS, lines, digits=6)
     heading = [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", ""]
     return "\n".join([*heading, *text, f"![{spec.title}](figure.svg)", "", interval, "", table])
+
+
+_POINTS = 601
+_LEAST = 2e-3
+
+
+def draw(title: str, found: Sequence[Sequence[Compared]], between: tuple[float, float]) -> dict[str, bytes]:
+    """The figure as svg and png."""
+    with drawing.style():
+        figure = drawing.figure(9.6, 3.9 * len(found) + 1.1)
+        panels = figure.subplots(len(found), 2, squeeze=False, width_ratios=(3, 2))
+        for (left, right), laws in zip(panels, found, strict=True):
+            _residuals(left, laws, between)
+            _accelerations(right, laws)
+        panels[-1, 0].set_xlabel("frequency nu of the follower")
+        panels[-1, 1].set_xlabel("k")
+        handles, labels = panels[0, 0].get_legend_handles_labels()
+        figure.suptitle(title, x=0.01, ha="left", fontsize=11.0)
+        figure.legend(handles, labels, loc="outside lower center", ncols=3)
+        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+
+
+def _residuals(axes: Axes, laws: Sequence[Compared], between: tuple[float, float]) -> None:
+    design = laws[0].design
+    nu = np.linspace(*between, _POINTS)
+    for one, style in zip(laws, _styles(laws), strict=True):
+        amplitudes = nu**2 * np.abs(residual_phasor(one.cam, nu, design.damping))
+        axes.semilogy(nu, np.maximum(amplitudes, _LEAST / 10), label=one.name, **style)
+    axes.axvspan(*design.between, color="#f2f2f2", zorder=0)
+    axes.plot(
+        design.between, [design.residual] * 2, color="black", linewidth=0.9, linestyle=":", label="most that is asked"
+    )
+    axes.set(xlim=between, ylim=(_LEAST, None), title=f"damping ratio {design.damping:g}")
+    axes.set_ylabel("residual acceleration")
+
+
+def _accelerations(axes: Axes, laws: Sequence[Compared]) -> None:
+    k = np.linspace(0.0, 1.0, _POINTS)
+    for one, style in zip(laws, _styles(laws), strict=True):
+        if one.polydyne:
+            axes.plot(k, one.cam.c(k), **style)
+    axes.set(xlim=(0.0, 1.0), title="acceleration of polydyne cams")
+
+
+def _styles(laws: Sequence[Compared]) -> list[dict[str, Any]]:
+    colours = {"optimal": iter(drawing.BLUES[1:]), "robust": iter((drawing.GREEN, "#66c2a5", "#a6761d", "#e6ab02"))}
+    warm = iter((drawing.WARM, "#fdae61"))
+    grey = iter(("#595959", "#8c8c8c", "#bfbfbf"))
+    found = []
+    for one in laws:
+        if one.kind == "known":
+            colour = next(warm if one.polydyne else grey, drawing.GREY)
+            found.append({"color": colour, "linestyle": "-" if one.polydyne else "--", "linewidth": 1.2})
+        else:
+            style = "-" if one.polydyne else "-."
+            found.append({"color": next(colours[one.kind], drawing.BLUES[-1]), "linestyle": style})
+    return found

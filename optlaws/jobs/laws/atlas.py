@@ -6,14 +6,19 @@ from collections.abc import Mapping, Sequence
 from itertools import pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
+from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
-from optlaws.jobs.laws.figure_atlas import draw
 from optlaws.studies.point import StudyPoint
 from optlaws.studies.points.study_file import read_study
 from optlaws.studies.run import run_study
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 AXES = ("minimise", "order", "degree", "B")
 CONSTANTS = ("B", "C", "D", "J", "rms_c")
@@ -33,8 +38,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "atlas.csv", tables.to_csv(COLUMNS, [_cells(point) for point in points], about=about)),
         writing.write(out / "atlas.md", _markdown(study.title, points)),
     ]
-    for name, drawing in draw(points).items():
-        written += [writing.write(out / f"{name}.{kind}", content) for kind, content in drawing.items()]
+    for name, kinds in draw(points).items():
+        written += [writing.write(out / f"{name}.{kind}", content) for kind, content in kinds.items()]
     return written
 
 
@@ -78,3 +83,41 @@ def _costs(points: Sequence[StudyPoint], constant: str) -> tuple[list[str], list
         ]
         rows.append([B, *values, *steps])
     return headings, rows
+
+
+_STROKES = ((0, (1, 1.5)), (0, (4, 1.5)), "-")
+_ROOM = 2.5
+
+
+def draw(points: Sequence[StudyPoint]) -> dict[str, dict[str, bytes]]:
+    """The figures as svg and png, by name."""
+    drawn = {}
+    for constant, word in (("C", "acceleration"), ("D", "power")):
+        some = [point for point in points if point.inputs["minimise"] == constant]
+        with drawing.style():
+            figure = drawing.figure(8.6, 5.0)
+            axes = figure.subplots()
+            _curves(axes, some)
+            axes.set(
+                title=f"Least {constant} by order l of the end conditions and degree of Z",
+                xlabel="peak velocity B (dimensionless)",
+                ylabel=f"peak {word} {constant} (dimensionless)",
+            )
+            figure.legend(loc="outside right upper")
+            drawn[f"least-{constant.lower()}"] = {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+    return drawn
+
+
+def _curves(axes: Axes, points: Sequence[StudyPoint]) -> None:
+    orders, degrees = (sorted({point.inputs[name] for point in points}) for name in ("order", "degree"))
+    for order, shade in zip(orders, drawing.BLUES[-len(orders) :], strict=False):
+        for degree, stroke in zip(degrees, _STROKES[-len(degrees) :], strict=False):
+            curve = [p for p in points if p.inputs["order"] == order and p.inputs["degree"] == degree]
+            B = [point.inputs["B"] for point in curve]
+            values = [np.nan if point.objective is None else point.objective for point in curve]
+            axes.plot(B, values, color=shade, linestyle=stroke, label=f"l = {order}, degree {degree}")
+    limits = {point.inputs["B"]: point.limit for point in points if point.limit is not None}
+    if limits:
+        axes.plot(list(limits), list(limits.values()), color=drawing.GREY, linewidth=1.2, label="limit of all laws")
+    found = [point.objective for point in points if point.objective is not None]
+    axes.set_ylim(0.95 * min([*limits.values(), *found]), min(1.03 * max(found), _ROOM * float(np.median(found))))

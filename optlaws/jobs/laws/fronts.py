@@ -3,20 +3,30 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import replace
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import msgspec
+import numpy as np
 
+from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.jobs.laws.beside_fronts import check_beside
-from optlaws.jobs.laws.figure_fronts import draw
+from optlaws.laws import MotionLaw, smoothstep
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.savin.family import FAMILIES
+from optlaws.laws.savin.savin import alpha_range, savin
 from optlaws.studies.points.problem_entries import Asked, Text, gap, problem
+from optlaws.synthesis import FUNCTIONALS, Problem
 from optlaws.synthesis.front import HEADINGS, Front
+from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.pareto import pareto_front
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 Points = Annotated[int, msgspec.Meta(ge=2, le=1000)]
 Positive = Annotated[float, msgspec.Meta(gt=0.0, le=1e100)]
@@ -85,8 +95,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "fronts.json", _json(about, found)),
     ]
     for picture, fronts in found:
-        drawing = draw(picture, fronts)
-        written += [writing.write(out / f"{picture.name}.{kind}", content) for kind, content in drawing.items()]
+        kinds = draw(picture, fronts)
+        written += [writing.write(out / f"{picture.name}.{kind}", content) for kind, content in kinds.items()]
     return written
 
 
@@ -141,3 +151,154 @@ def _json(about: str, found: Fronts) -> str:
             fronts.append(f'{head[:-1]}, "points": [\n{points}\n]}}')
     top = json.dumps({"about": f"{about}; {writing.MARK}"})[:-1]
     return f'{top}, "fronts": [\n' + ",\n".join(fronts) + "\n]}\n"
+
+
+Ends = tuple[float, float]
+
+SMOOTHSTEPS = "smoothstep"
+_STROKES: dict[str, Any] = {"I": ":", "II": "-.", "III": "--", "IV": (0, (5, 1))}
+_NEAR = 0.035  # of the axes: points nearer than this in both directions have their labels on different sides
+
+
+def check_beside(picture: Picture) -> None:
+    """Refuse names that are neither a family, nor "smoothstep", nor a law of the catalogue.
+
+    Raises
+    ------
+    InputError
+        If there is one.
+    """
+    for name in picture.catalogue:
+        if name not in FAMILIES and name != SMOOTHSTEPS:
+            try:
+                _ = catalogue[name]
+            except InputError as error:
+                raise InputError(f"figure {picture.name}, catalogue: {error}") from None
+
+
+def draw_beside(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
+    """Draw what the picture's entry `catalogue` names, as far as it lies in the window x, y."""
+    for family in (name for name in picture.catalogue if name in FAMILIES):
+        laws = [savin(family, float(alpha)) for alpha in np.linspace(*alpha_range(family), 61)]
+        points = np.array([_point(law, picture) for law in laws])
+        if not any(_inside(point, x, y) for point in points.tolist()):
+            continue
+        style: dict[str, Any] = {"color": drawing.GREEN, "linestyle": _STROKES[family], "linewidth": 1.2, "zorder": 3}
+        axes.plot(*points.T, label=f"Savin's family {family} (l = {FAMILIES[family] + 2})", **style)
+    if SMOOTHSTEPS in picture.catalogue:
+        _smoothsteps(axes, picture, x, y)
+    _laws(axes, picture, x, y)
+
+
+def _smoothsteps(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
+    label = "smoothsteps, by order l"
+    for order in (2, 3, 4, 5):
+        point = _point(smoothstep(order), picture)
+        if _inside(point, x, y):
+            ring: dict[str, Any] = {
+                "color": drawing.WARM,
+                "markerfacecolor": "white",
+                "markersize": 11.0,
+                "zorder": 5,
+            }
+            axes.plot(*point, "o", label=label, **ring)
+            centred: dict[str, Any] = {"ha": "center", "va": "center_baseline", "fontsize": 8.0, "zorder": 6}
+            axes.annotate(f"{order}", point, color=drawing.WARM, **centred)
+            label = "_nolegend_"
+
+
+def _laws(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
+    """Laws of the catalogue as numbered points, with their names in the legend."""
+    named = [name for name in picture.catalogue if name not in FAMILIES and name != SMOOTHSTEPS]
+    found = [(catalogue[name].name, _point(catalogue[name].law, picture)) for name in named]
+    shown = [(name, point) for name, point in found if _inside(point, x, y)]
+    from matplotlib.patheffects import withStroke
+
+    for number, (name, point) in enumerate(shown, 1):
+        diamond: dict[str, Any] = {"color": drawing.WARM, "markersize": 5.0, "zorder": 5}
+        axes.plot(*point, "D", label=f"{number}  {name}", **diamond)
+        before = [other for _, other in shown[: number - 1]]
+        crowded = any(_near(point, other, x, y) for other in before)
+        place: dict[str, Any] = {"xytext": (-6, -9) if crowded else (6, 4), "textcoords": "offset points"}
+        text: dict[str, Any] = {"fontsize": 8.0, "zorder": 6, "ha": "right" if crowded else "left"}
+        text["path_effects"] = [withStroke(linewidth=2.5, foreground="white")]
+        axes.annotate(f"{number}", point, color=drawing.WARM, **place, **text)
+
+
+def _near(first: Ends, second: Ends, x: Ends, y: Ends) -> bool:
+    return abs(first[0] - second[0]) < _NEAR * (x[1] - x[0]) and abs(first[1] - second[1]) < _NEAR * (y[1] - y[0])
+
+
+def _inside(point: Sequence[float], x: Ends, y: Ends) -> bool:
+    return x[0] <= point[0] <= x[1] and y[0] <= point[1] <= y[1]
+
+
+def _point(law: MotionLaw, picture: Picture) -> Ends:
+    x, y = (FUNCTIONALS[name].value(law) for name in picture.over)
+    return x, y
+
+
+_MARGIN = 0.06
+
+
+def draw(picture: Picture, fronts: Sequence[Front]) -> dict[str, bytes]:
+    """The figure as svg and png."""
+    x, y = (_window(picture, fronts, axis) for axis in (0, 1))
+    with drawing.style():
+        figure = drawing.figure(8.6, 5.0)
+        axes = figure.subplots()
+        shades = drawing.BLUES[-len(fronts) :]
+        for curve, front, shade in zip(picture.front, fronts, shades, strict=True):
+            drawing.draw_front(front, axes, color=shade, label=curve.label, marker="o", markersize=2.2, zorder=4)
+        draw_beside(axes, picture, x, y)
+        if picture.limits and picture.over[0] == "B":
+            _limit_curves(axes, picture, fronts, x)
+        elif picture.limits:
+            _corners(axes, picture, fronts, shades)
+        axes.set(xlim=x, ylim=y, title=picture.title)
+        figure.legend(loc="outside right upper")
+        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+
+
+def _window(picture: Picture, fronts: Sequence[Front], axis: int) -> Ends:
+    given = (picture.x, picture.y)[axis]
+    if given is not None:
+        return given[0], given[1]
+    values = np.concatenate([front.values[:, axis] for front in fronts])
+    low, high = float(values.min()), float(values.max())
+    return low - _MARGIN * (high - low), high + _MARGIN * (high - low)
+
+
+def _limit_curves(axes: Axes, picture: Picture, fronts: Sequence[Front], x: Ends) -> None:
+    """What no law can beat at each B; fronts of different orders mostly share it."""
+    values = np.linspace(max(x[0], 1.0 + 1e-3), x[1], 200)
+    drawn: list[list[float | None]] = []
+    for front in fronts:
+        asked = front[0].problem
+        found = [known_limit(replace(asked, B=float(B), minimise=picture.over[1])) for B in values]
+        if None in found or found in drawn:
+            continue
+        label = "limit of all laws" if not drawn else f"the same of order {asked.order}"
+        stroke = ("-", "-.")[min(len(drawn), 1)]
+        axes.plot(
+            values, np.array(found, dtype=float), label=label, color=drawing.GREY, linewidth=1.2, linestyle=stroke
+        )
+        drawn.append(found)
+
+
+def _corners(axes: Axes, picture: Picture, fronts: Sequence[Front], shades: Sequence[str]) -> None:
+    """What no law can beat in either constant, which no one law need reach in both."""
+    axes.plot([], [], color=drawing.GREY, linestyle=(0, (1, 2)), label="limit of each constant alone")
+    for front, shade in zip(fronts, shades, strict=True):
+        asked = _freed(front[0].problem, picture.over[0])
+        limits = [known_limit(replace(asked, minimise=name)) for name in picture.over]
+        for line, value in zip((axes.axvline, axes.axhline), limits, strict=True):
+            if value is not None:
+                style: dict[str, Any] = {"color": shade, "linewidth": 1.1, "linestyle": (0, (1, 2)), "zorder": 2}
+                draw_line: Callable[..., Any] = line
+                draw_line(value, **style)
+
+
+def _freed(problem: Problem, name: str) -> Problem:
+    changed: dict[str, Any] = {name: None}
+    return replace(problem, **changed)

@@ -2,20 +2,23 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from math import degrees
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import msgspec
 import numpy as np
 
+from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
 from optlaws.jobs.lever.cases import Length, Lengths, Swings, Text, Twist, levers
-from optlaws.jobs.lever.figure_nomogram import draw
 from optlaws.mechanisms.lever.lever import TorsionLever
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 HEADINGS = ("beta", "swing, deg", "chi01, deg", "chi02, deg", "gamma01, deg", "xi", "T", "exact T")
 
@@ -43,11 +46,11 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     swings = np.linspace(min(spec.tabled), max(spec.tabled), spec.points).tolist()
     curves = {beta: found for beta in spec.beta if (found := _levers(spec, beta, swings))}
     about = f"{spec.title}; from {file.name}"
-    drawing = draw(curves)
+    kinds = draw(curves)
     return [
         writing.write(out / "nomogram.csv", tables.to_csv(HEADINGS, rows, about=about)),
         writing.write(out / "nomogram.md", _markdown(spec, rows)),
-        *(writing.write(out / f"nomogram.{kind}", content) for kind, content in drawing.items()),
+        *(writing.write(out / f"nomogram.{kind}", content) for kind, content in kinds.items()),
     ]
 
 
@@ -72,3 +75,38 @@ def _markdown(spec: Nomogram, rows: Sequence[Sequence[tables.Cell]]) -> str:
     held = f"lambda = {spec.lam:g}, rho = {spec.rho:g}, nu = {spec.nu:g}"
     text += ["![gamma01 and xi over swing and beta](nomogram.svg)", "", f"{held}; T in units of sqrt(I / c1).", ""]
     return "\n".join([*text, tables.to_markdown(HEADINGS, rows)])
+
+
+def draw(curves: Mapping[float, Sequence[TorsionLever]]) -> dict[str, bytes]:
+    """The figure as svg and png: for each beta, from the swing up to gamma01 and from there to xi."""
+    from matplotlib.ticker import FormatStrFormatter, LogLocator, NullLocator
+
+    with drawing.style():
+        figure = drawing.figure(9.2, 4.6)
+        left, right = figure.subplots(1, 2)
+        for beta, levers in curves.items():
+            colour = drawing.GREY if beta == 1.0 else drawing.BLUES[3] if beta < 1.0 else drawing.WARM
+            _curve(left, beta, levers, lambda one: degrees(one.gamma01), colour)
+            _curve(right, beta, levers, lambda one: one.xi, colour)
+        left.set(ylabel="gamma01 (degrees)", title="Rocker at its extreme")
+        right.set(ylabel="xi = c2/c1 (dimensionless)", yscale="log", title="Ratio of the stiffnesses")
+        right.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        right.yaxis.set_major_formatter(FormatStrFormatter("%g"))
+        right.yaxis.set_minor_locator(NullLocator())
+        for axes in (left, right):
+            axes.set_xlabel("swing of the driven link (degrees)")
+            axes.margins(x=0.12, y=0.09)
+        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+
+
+def _curve(
+    axes: Axes,
+    beta: float,
+    levers: Sequence[TorsionLever],
+    value: Callable[[TorsionLever], float],
+    colour: str,
+) -> None:
+    swing, values = [degrees(one.swing) for one in levers], [value(one) for one in levers]
+    axes.plot(swing, values, color=colour)
+    style: dict[str, Any] = {"textcoords": "offset points", "va": "center", "ha": "right", "fontsize": 8.5}
+    axes.annotate(f"{beta:g}", (swing[0], values[0]), xytext=(-4, 0), color=colour, **style)

@@ -4,16 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import msgspec
+import numpy as np
+from numpy.typing import NDArray
 
+from optlaws import drawing
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.jobs.loader import figure_drawing
+from optlaws.jobs.loader.cams import cam, slide
+from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.mechanisms.angles import deg
-from optlaws.mechanisms.loader.loader import loader
+from optlaws.mechanisms.loader.loader import Loader, loader
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 HEADINGS = ("link", "B", "C", "D", "J")
 
@@ -36,8 +43,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     spec = convert(data, Drawing, file)
     one = loader(catalogue[spec.law].law)
     drawings = {
-        "mechanism": figure_drawing.draw_mechanism(one, deg(spec.shown), spec.radius_ratio),
-        "exchange": figure_drawing.draw_exchange(one, spec.title),
+        "mechanism": draw_mechanism(one, deg(spec.shown), spec.radius_ratio),
+        "exchange": draw_exchange(one, spec.title),
     }
     rows: list[list[tables.Cell]] = []
     for name, law in (("executive", one.executive), ("loader", one.law)):
@@ -60,7 +67,74 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "drawing.md", "\n".join(text)),
         *(
             writing.write(out / f"{name}.{kind}", content)
-            for name, drawing in drawings.items()
-            for kind, content in drawing.items()
+            for name, kinds in drawings.items()
+            for kind, content in kinds.items()
         ),
     ]
+
+
+Array = NDArray[np.float64]
+
+_APART = 6.4
+_SAMPLES = 721
+
+
+def draw_mechanism(one: Loader, shown: float, radius_ratio: float) -> dict[str, bytes]:
+    """Executive cam and balancing cam on one shaft, at the cam angle `shown`; strokes are equal."""
+    angles = np.linspace(0.0, 2.0 * np.pi, _SAMPLES)
+    executive = _cycle(one.executive, angles, 0.0)
+    balancing = _cycle(one.law, angles, 0.5)
+    with drawing.style():
+        figure = drawing.figure(8.4, 5.4)
+        axes = figure.subplots()
+        axes.set_axis_off()
+        axes.set_aspect("equal")
+        guide = radius_ratio + 2.2
+        for x, ways, colour, label in (
+            (0.0, executive, drawing.BLUES[3], "executive mass"),
+            (_APART, balancing, drawing.GREEN, "loader"),
+        ):
+            top = cam(axes, (x, 0.0), radius_ratio + ways, angles, shown=shown, colour=colour)
+            slide(axes, x, roller=top, guide=guide, label=label)
+        axes.plot([0.12, _APART - 0.12], [0.0, 0.0], color=drawing.GREY, linewidth=0.9, linestyle=(0, (8, 3, 2, 3)))
+        axes.annotate("one shaft", (0.5 * _APART, 0.0), xytext=(0, 5), textcoords="offset points", ha="center")
+        for x, name in ((0.0, "executive cam"), (_APART, "balancing cam")):
+            axes.text(x, -radius_ratio - 1.45, name, ha="center")
+        axes.set(xlim=(-3.0, _APART + 3.0), ylim=(-radius_ratio - 1.8, guide + 2.4))
+        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+
+
+def draw_exchange(one: Loader, title: str) -> dict[str, bytes]:
+    """Velocities, energies and powers over the motion."""
+    k = np.linspace(0.0, 1.0, 401)
+    B, Y = one.executive.peak(1).value, one.Y
+    b, b_l = one.executive.b(k), one.law.b(k)
+    panels: tuple[tuple[str, dict[str, Array], str], ...] = (
+        ("velocity", {"executive b": b, "loader b": b_l}, "velocity (dimensionless)"),
+        ("energy", {"executive": (b / B) ** 2, "loader": (b_l / (Y * B)) ** 2}, "share of the kinetic energy"),
+        ("power", {"executive Y² d": Y**2 * one.executive.d(k), "loader d": one.law.d(k)}, "power (dimensionless)"),
+    )
+    with drawing.style():
+        figure = drawing.figure(10.2, 3.5)
+        for axes, (name, curves, label) in zip(figure.subplots(1, 3).flat, panels, strict=True):
+            for (text, values), colour in zip(curves.items(), (drawing.BLUES[3], drawing.GREEN), strict=True):
+                axes.plot(k, values, color=colour, label=text)
+            total = sum(curves.values()) if name != "velocity" else None
+            if total is not None:
+                axes.plot(k, total, color=drawing.WARM, linewidth=1.2, linestyle="--", label="sum")
+            _below(axes, label)
+        figure.suptitle(f"{title}, Y = {Y:.6g}", x=0.01, ha="left", fontsize=11.0)
+        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+
+
+def _below(axes: Axes, label: str) -> None:
+    axes.set(xlabel="k (dimensionless time)", ylabel=label)
+    style: dict[str, Any] = {"loc": "upper center", "bbox_to_anchor": (0.5, -0.2), "ncols": 3}
+    axes.legend(**{**style, "columnspacing": 1.0, "handlelength": 1.4})
+
+
+def _cycle(law: MotionLaw, angles: Array, start: float) -> Array:
+    """Ways over a turn: half of it the law, half of it the same law back."""
+    k = np.clip(np.where(angles < np.pi, angles, angles - np.pi) / np.pi, 0.0, 1.0)
+    there = start + law.a(k)
+    return np.asarray(np.where(angles < np.pi, there, start + law.a(1.0) - law.a(k)))

@@ -7,11 +7,12 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import msgspec
+import numpy as np
 
+from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.jobs.loader import figure_nomogram
 from optlaws.mechanisms.loader.loader import loader
 from optlaws.mechanisms.loader.trapezium import TrapeziumSubstitute
 
@@ -50,11 +51,11 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     if not rows:
         raise InputError(f"{file}: no trapezium has these e13 and gamma_w; try e13 from 0.5 to 0.66, gamma_w from 0.25")
     about = f"{spec.title}; from {file.name}"
-    drawing = figure_nomogram.draw(spec.title, HEADINGS, rows)
+    kinds = draw(spec.title, HEADINGS, rows)
     return [
         writing.write(out / "nomogram.csv", tables.to_csv(HEADINGS, rows, about=about)),
         writing.write(out / "nomogram.md", _markdown(spec, rows)),
-        *(writing.write(out / f"nomogram.{kind}", content) for kind, content in drawing.items()),
+        *(writing.write(out / f"nomogram.{kind}", content) for kind, content in kinds.items()),
     ]
 
 
@@ -84,3 +85,32 @@ def _markdown(spec: Nomogram, rows: Sequence[Sequence[float]]) -> str:
             tables.to_markdown(HEADINGS, rows, digits=6),
         ]
     )
+
+
+_PANELS = (
+    ("Y", "energy parameter Y"),
+    ("B of loader", "peak velocity B of the loader"),
+    ("C of loader", "peak acceleration C of the loader"),
+    ("D of loader", "peak power D of the loader"),
+)
+
+
+def draw(title: str, headings: Sequence[str], rows: Sequence[Sequence[float]]) -> dict[str, bytes]:
+    """The figure as svg and png."""
+    values = np.array(rows)
+    column = {name: values[:, i] for i, name in enumerate(headings)}
+    from matplotlib import colormaps
+
+    shares = np.unique(column["gamma_w"])
+    shades = colormaps["viridis"](np.linspace(0.0, 0.85, len(shares)))
+    with drawing.style():
+        figure = drawing.figure(9.0, 6.6)
+        for axes, (name, label) in zip(figure.subplots(2, 2).flat, _PANELS, strict=True):
+            for gamma_w, shade in zip(shares, shades, strict=True):
+                here = column["gamma_w"] == gamma_w
+                axes.plot(column["e13"][here], column[name][here], color=shade, label=f"{gamma_w:g}")
+            axes.set(xlabel="e13 = 1/B of the executive law", ylabel=label)
+        handles, labels = axes.get_legend_handles_labels()
+        figure.legend(handles, labels, title="gamma_w = B/C", loc="outside right upper")
+        figure.suptitle(f"{title} (all dimensionless)", x=0.01, ha="left", fontsize=11.0)
+        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}

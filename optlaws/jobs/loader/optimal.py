@@ -8,14 +8,15 @@ from contextlib import suppress
 from dataclasses import dataclass
 from math import isfinite
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import msgspec
+import numpy as np
 
+from optlaws import drawing
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
-from optlaws.jobs.loader import figure_optimal
 from optlaws.jobs.loader.table import COLUMNS
 from optlaws.jobs.pages import printed
 from optlaws.laws.catalogue.catalogue import catalogue
@@ -24,6 +25,9 @@ from optlaws.mechanisms.loader.loader import Loader, loader
 from optlaws.mechanisms.loader.optimal import BalancedLaw, balanced_law
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.spaces.bases import Chebyshev
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
 
 MIXTURE = "0.5*C/4 + 0.5*C_loader/4"
 KINDS = ("least C_l", "C no greater", "mixture", "least B_l")
@@ -99,13 +103,13 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     kept = {
         row.code: {kind: None if one is None else one.to_dict() for kind, one in row.rivals.items()} for row in rows
     }
-    drawing = figure_optimal.draw(spec.title, rows, next(row for row in rows if row.code == spec.shown))
+    kinds = draw(spec.title, rows, next(row for row in rows if row.code == spec.shown))
     return [
         writing.write(out / "table.csv", tables.to_csv(headings, least, about=about)),
         writing.write(out / "rivals.csv", tables.to_csv(RIVALS, rivals, about=about)),
         writing.write(out / "laws.json", json.dumps({"about": writing.MARK, "laws": kept}, indent=1) + "\n"),
         writing.write(out / "table.md", _markdown(spec, (headings, least), rivals)),
-        *(writing.write(out / f"figure.{kind}", content) for kind, content in drawing.items()),
+        *(writing.write(out / f"figure.{kind}", content) for kind, content in kinds.items()),
     ]
 
 
@@ -196,3 +200,37 @@ def _markdown(
             tables.to_markdown(RIVALS, rivals, digits=6),
         ]
     )
+
+
+def draw(title: str, rows: Sequence[Row], shown: Row) -> dict[str, bytes]:
+    """The figure as svg and png."""
+    with drawing.style():
+        figure = drawing.figure(10.6, 4.8)
+        left, right = figure.subplots(1, 2)
+        _over_B(left, rows)
+        _pair(right, shown)
+        figure.suptitle(f"{title} (all dimensionless)", x=0.01, ha="left", fontsize=11.0)
+        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+
+
+def _over_B(axes: Axes, rows: Sequence[Row]) -> None:
+    B = np.linspace(min(row.B for row in rows) - 0.04, max(row.B for row in rows) + 0.04, 121)
+    axes.plot(B, [loader_acceleration_limit(one) for one in B], color=drawing.GREY, label="limit for b ≥ 0")
+    finite = [row for row in rows if isfinite(row.one.C)]
+    axes.plot([row.B for row in finite], [row.one.C for row in finite], "o", color=drawing.WARM, label="printed laws")
+    capped = [(row.B, one.loader.C) for row in rows if (one := row.rivals["C no greater"]) is not None]
+    axes.plot(*np.transpose(capped), "s", color=drawing.BLUES[2], label="least C of the loader, own C no greater")
+    best = [(row.B, row.best.loader.C) for row in rows]
+    axes.plot(*np.transpose(best), "v", color=drawing.GREEN, label="least C of the loader")
+    axes.set(xlabel="peak velocity B of the executive law", ylabel="peak acceleration C of the loader")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)
+
+
+def _pair(axes: Axes, row: Row) -> None:
+    k = np.linspace(0.0, 1.0, 801)
+    rival = row.rivals["C no greater"] or row.best
+    for one, colour, name in ((row.one, drawing.WARM, row.code), (rival.loader, drawing.BLUES[2], "rival")):
+        axes.plot(k, one.executive.c(k), color=colour, label=f"{name}: executive c")
+        axes.plot(k, one.law.c(k), color=colour, linestyle="--", label=f"{name}: loader c")
+    axes.set(xlabel="k (dimensionless time)", ylabel="acceleration")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)

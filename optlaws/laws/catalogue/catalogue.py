@@ -55,7 +55,7 @@ class Catalogue(Mapping[str, "Entry"]):
 
         from optlaws.laws.catalogue.entry import Entry
 
-        text = files("optlaws.laws.catalogue.catalogue").joinpath("catalogue.toml").read_text(encoding="utf-8")
+        text = files("optlaws.laws.catalogue").joinpath("catalogue.toml").read_text(encoding="utf-8")
         return {one["name"]: Entry.from_dict(one) for one in tomllib.loads(text)["law"]}
 
     @kept_property
