@@ -14,7 +14,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.angles import deg
 from optlaws.mechanisms.dwell.choice import compare_dwell_mechanisms
 from optlaws.mechanisms.dwell.clutch import Clutch
-from optlaws.mechanisms.dwell.making import dwell_mechanism
+from optlaws.mechanisms.dwell.mechanism import dwell_mechanism
 from optlaws.mechanisms.follower.cycle import CycleResponse
 from optlaws.mechanisms.follower.follower import Follower
 from optlaws.mechanisms.follower.off_design import Deviation, off_design

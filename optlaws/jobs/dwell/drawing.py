@@ -16,9 +16,7 @@ from optlaws.files.problem_file import convert
 from optlaws.jobs.loader.cams import cam
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.mechanisms.angles import deg
-from optlaws.mechanisms.dwell.checks import KINDS
-from optlaws.mechanisms.dwell.making import dwell_mechanism
-from optlaws.mechanisms.dwell.mechanism import DwellMechanism
+from optlaws.mechanisms.dwell.mechanism import KINDS, DwellMechanism, dwell_mechanism
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes

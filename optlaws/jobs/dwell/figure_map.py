@@ -12,7 +12,7 @@ from optlaws.errors import InfeasibleProblem
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.angles import deg
 from optlaws.mechanisms.dwell.choice import least_dwell
-from optlaws.mechanisms.dwell.making import dwell_mechanism
+from optlaws.mechanisms.dwell.mechanism import dwell_mechanism
 
 SHADES = {"I": "#eeeeee", "III": "#cfe5dc", "II": "#cfe0f0"}
 RULE = (45.0, 100.0)

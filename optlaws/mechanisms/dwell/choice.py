@@ -9,9 +9,7 @@ from math import degrees, inf, isfinite, pi
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.dwell.checks import KINDS
-from optlaws.mechanisms.dwell.making import dwell_mechanism
-from optlaws.mechanisms.dwell.mechanism import DwellMechanism
+from optlaws.mechanisms.dwell.mechanism import KINDS, DwellMechanism, dwell_mechanism
 
 SHORT, LONG = pi / 4.0, 5.0 * pi / 9.0
 

@@ -3,17 +3,22 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import degrees, tau
+from math import degrees, inf, tau
 from typing import Any
 
+from optlaws.echo import shortened
+from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.mechanisms.dwell.checks import check
-from optlaws.mechanisms.dwell.section_laws import REST, loader_of, peak_power, peak_velocity, top
+from optlaws.mechanisms.dwell.section_laws import REST, check_law, loader_of, peak_power, peak_velocity, top
 from optlaws.mechanisms.dwell.sections import Section, composed, excursion
 from optlaws.mechanisms.loader.loader import Loader
 
+KINDS = ("I", "II", "III")
+LAWS = ("law", "law_1", "law_2", "return_law")
+POSITIVE = ("dwell", "rise", "return_angle", "swing", "radius_ratio", "inertia_ratio")
+NOT_NEGATIVE = ("clutch_angle", "lower_dwell", "standstill")
 ANGLES = ("dwell", "rise", "return_angle", "lower_dwell", "clutch_angle", "standstill", "swing")
 RATIOS = ("radius_ratio", "inertia_ratio", "reverse_share")
 FOUND = ("speed", "phi1", "phi2", "S_sp", "S1", "S2", "a", "b")
@@ -59,7 +64,7 @@ class DwellMechanism:
     reverse_share: float
 
     def __post_init__(self) -> None:
-        check(self)
+        _check(self)
 
     @property
     def loader(self) -> Loader:
@@ -181,3 +186,159 @@ class DwellMechanism:
         run_out = Section.run("run-out", (1.0 - cut) * phi, law, way * stroke, (cut, 1.0))
         run_up = Section.run("run-up", cut * phi, law, way * stroke, (0.0, cut))
         return [*ends, run_out, *middle, run_up, *ends]
+
+
+def _check(one: DwellMechanism) -> None:
+    """Refuse what cannot be built.
+
+    Raises
+    ------
+    InputError
+        Naming the first quantity that does not fit, and the remedy.
+    """
+    if one.kind not in KINDS:
+        raise InputError(f"kind must be one of {', '.join(KINDS)}, got {shortened(one.kind)}")
+    for name in (*POSITIVE, *NOT_NEGATIVE):
+        value = getattr(one, name)
+        if not (0.0 < value < inf or (name in NOT_NEGATIVE and value == 0.0)):
+            least = "at least 0" if name in NOT_NEGATIVE else "positive"
+            raise InputError(f"{name} must be {least} and finite, got {shortened(value)}")
+    if not 0.0 < one.reverse_share < 1.0:
+        raise InputError(f"reverse_share must be between 0 and 1, got {shortened(one.reverse_share)}")
+    for name in LAWS:
+        check_law(name, getattr(one, name))
+    _speeds(one)
+    if one.kind == "I":
+        _equal_dwells(one)
+    else:
+        _room(one)
+
+
+def _speeds(one: DwellMechanism) -> None:
+    back = loader_of(one.return_law).B / one.return_angle
+    if abs(one.speed / back - 1.0) > REST:
+        raise InputError(
+            f"return_angle must suit the rise, for the loader keeps its speed in the dwell: it ends the rise with "
+            f"{one.speed:.6g} S per radian (B / rise), and the return begins with {back:.6g}; for the return's law it "
+            f"must be {degrees(loader_of(one.return_law).B / one.speed):.6g} degrees"
+        )
+
+
+def _equal_dwells(one: DwellMechanism) -> None:
+    if abs(one.lower_dwell - one.dwell) > REST:
+        raise InputError(
+            f"lower_dwell of type I must equal dwell, {degrees(one.dwell):.6g} degrees, or its rocker drifts; got "
+            f"{degrees(one.lower_dwell):.6g} degrees: take type II, or III if there are two dwells"
+        )
+
+
+def _room(one: DwellMechanism) -> None:
+    for name, dwell in (("dwell", one.dwell), ("lower_dwell", one.lower_dwell)):
+        if one.kind == "II" and dwell == 0.0:
+            continue
+        if one.free(dwell) <= REST or one.second(dwell) <= REST:
+            least = degrees(2.0 * one.clutch_angle + (one.standstill if one.kind == "III" else 0.0))
+            raise InputError(
+                f"{name} must exceed twice clutch_angle{' and the standstill' if one.kind == 'III' else ''}, "
+                f"{least:.6g} degrees, got {degrees(dwell):.6g} degrees"
+            )
+        if one.free(dwell) - one.second(dwell) < -REST:
+            raise InputError(
+                f"{name} of type III must leave room for the same way as the upper one: at least "
+                f"{degrees(one.dwell - one.standstill):.6g} degrees, got {degrees(dwell):.6g} degrees"
+            )
+
+
+def dwell_mechanism(
+    kind: str,
+    *,
+    law: MotionLaw,
+    dwell: float,
+    rise: float,
+    swing: float,
+    radius_ratio: float,
+    inertia_ratio: float,
+    clutch_angle: float = 0.0,
+    law_1: MotionLaw | None = None,
+    law_2: MotionLaw | None = None,
+    return_angle: float | None = None,
+    return_law: MotionLaw | None = None,
+    lower_dwell: float | None = None,
+    standstill: float = 0.0,
+    reverse_share: float = 0.5,
+) -> DwellMechanism:
+    """A balancing cam mechanism with an inertial loader, for an executive rocker that dwells.
+
+    While the executive link dwells, the loader keeps the kinetic energy. In type I its rocker runs on with it at
+    uniform speed. In types II and III a clutch lets the loader go: the rocker of type II runs out, comes back by the
+    reverse motion and runs up again, that of type III runs out, may stand still and runs up again.
+
+    Angles are in radians (`optlaws.deg` turns degrees into radians), ways in strokes S of the executive link.
+
+    Parameters
+    ----------
+    kind
+        "I", "II" or "III".
+    law
+        Executive law of the rise, from rest to rest; its loader is that of `optlaws.loader`.
+    dwell
+        Angle of the upper dwell.
+    rise
+        Angle of the rise.
+    clutch_angle
+        Angle in which the clutch acts at either end of the dwell, at uniform speed; not used by type I.
+    swing
+        Swing of the executive rocker; the rocker of the loader is as long.
+    radius_ratio
+        Least radius of either cam over S.
+    inertia_ratio
+        Moment of inertia of the loader's rocker alone over that of everything the executive rocker moves.
+    law_1
+        Law of run-out and run-up of type II; the executive law unless given.
+    law_2
+        Law of the reverse motion of type II, of run-out and run-up of type III; the executive law unless given.
+    return_angle
+        Angle of the return; that of the rise unless given.
+    return_law
+        Executive law of the return; that of the rise unless given.
+    lower_dwell
+        Angle of the lower dwell, 0 for none; that of the upper dwell unless given.
+    standstill
+        Angle in which the rocker of type III stands still in the upper dwell; in the lower one it stands still for as
+        much longer as that dwell is longer.
+    reverse_share
+        Share of the reverse motion in the angle of type II between the clutch angles.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range, a law is not from rest to rest, the angles leave no room for the motions, or the
+        rise, the return and the dwells do not fit each other.
+
+    Examples
+    --------
+    >>> from optlaws import catalogue, deg
+    >>> data = dict(law=catalogue["K"].law, dwell=deg(90), rise=deg(90), clutch_angle=deg(15), swing=deg(20))
+    >>> for kind in ("I", "II", "III"):
+    ...     print(dwell_mechanism(kind, radius_ratio=1.0026761, inertia_ratio=0.1, **data))
+    DwellMechanism(I, a=1.78435, b=0, S1=1.5708, S2=0)
+    DwellMechanism(II, a=1, b=1.9827, S1=0.333333, S2=0.856932)
+    DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667)
+    """
+    return DwellMechanism(
+        kind=kind,
+        law=law,
+        dwell=dwell,
+        rise=rise,
+        clutch_angle=clutch_angle,
+        swing=swing,
+        radius_ratio=radius_ratio,
+        inertia_ratio=inertia_ratio,
+        law_1=law if law_1 is None else law_1,
+        law_2=law if law_2 is None else law_2,
+        return_angle=rise if return_angle is None else return_angle,
+        return_law=law if return_law is None else return_law,
+        lower_dwell=dwell if lower_dwell is None else lower_dwell,
+        standstill=standstill,
+        reverse_share=reverse_share,
+    )
