@@ -46,7 +46,7 @@ nitpicky = True
 nitpick_ignore_regex = [("py:.*", r"(?!optlaws\.).*"), ("py:.*", r"optlaws\.(.*\.)?_.*")]
 # what a solution keeps for its neighbours, and the engine that constants are written over; not public
 nitpick_ignore = [
-    ("py:class", "optlaws.synthesis.method.newton.ActiveSet"),
+    ("py:class", "optlaws.synthesis.families.active_set.ActiveSet"),
     ("py:class", "optlaws.synthesis.families.cone.ConeFamily"),
     ("py:class", "optlaws.synthesis.proof.power.certificate.Cut"),
     ("py:class", "optlaws.synthesis.proof.power.certificate.Step"),

@@ -2,12 +2,13 @@
 
 import subprocess
 import sys
+from collections import Counter
 from pathlib import Path
 
 import pytest
 
 from tests.documents import ROOT
-from tests.imports import Import, cycles, imports
+from tests.imports import Import, cycles, imports, modules
 
 BASE = {"echo", "errors", "files", "kept", "locks", "numbers", "suggest"}
 KNOWN = BASE | {"series"}
@@ -32,8 +33,45 @@ MAY_IMPORT = {
     "__main__": {"cli"},
 }
 
-#: circles that only a type checker sees: fewer is better, none is the aim
-CIRCLES = 0
+MOST_MODULES = 12
+#: what several folders have one of their own of
+SEVERAL = {
+    "atlas",
+    "below_peak",
+    "certificate",
+    "checks",
+    "constants",
+    "drawing",
+    "family",
+    "follower",
+    "front",
+    "law",
+    "laws",
+    "lever",
+    "limits",
+    "nomogram",
+    "of_basis",
+    "optimal",
+    "peaks",
+    "reading",
+    "rows",
+    "search",
+    "segment",
+    "space",
+    "splines",
+    "study",
+    "table",
+    "tables",
+}
+#: what finds a law or a proof: no part of what checks a proof again
+FINDERS = ("optlaws.synthesis.method", "optlaws.synthesis.solve", "optlaws.synthesis.proof.make")
+CHECKERS = (
+    "optlaws.verification",
+    "optlaws.synthesis.proof.certificate",
+    "optlaws.synthesis.proof.data",
+    "optlaws.synthesis.proof.farkas",
+    "optlaws.synthesis.proof.power.certificate",
+)
 MUST_NOT_IMPORT = {
     "errors": {"casadi", "matplotlib", "scipy"},
     "series": {"casadi", "matplotlib", "scipy"},
@@ -61,8 +99,37 @@ def is_allowed(one: Import) -> bool:
     return layer(one.target) in MAY_IMPORT.get(source, set()) | {source}
 
 
-def ring(package: Path, *, typing: bool = False) -> list[list[str]]:
+def known(package: Path) -> list[Import]:
+    """Imports within the package; a package's face, which shows what lies in it, has none."""
+    faces = {name for name, path in modules(package).items() if path.name == "__init__.py"}
+    return [one for one in imports(package) if one.source not in faces and one.target != "optlaws"]
+
+
+def ring(package: Path, *, typing: bool = True) -> list[list[str]]:
     return cycles([one for one in imports(package) if "optlaws" not in (one.source, one.target)], typing=typing)
+
+
+def rooms(package: Path) -> list[Import]:
+    """Who knows whom among the folders below the layers; what lies in a layer itself is a room of its own."""
+    folders = {name for name, path in modules(package).items() if path.name == "__init__.py"}
+
+    def room(module: str) -> str:
+        names = module.split(".")
+        folder = len(names) > 3 or (len(names) == 3 and module in folders)
+        return ".".join(names[: 3 if folder else 2])
+
+    arrows = {(room(one.source), room(one.target)) for one in known(package) if one.target.startswith("optlaws.")}
+    return [Import(source, target, 0, typing=False) for source, target in sorted(arrows) if source != target]
+
+
+def reachable(package: Path, prefix: str) -> set[str]:
+    """All that modules of a prefix import, directly or not."""
+    found = known(package)
+    seen = {one.source for one in found if f"{one.source}.".startswith(f"{prefix}.")}
+    assert seen, f"there is no {prefix}"
+    while new := {one.target for one in found if one.source in seen} - seen:
+        seen |= new
+    return seen
 
 
 def test_every_module_has_a_layer() -> None:
@@ -78,8 +145,29 @@ def test_no_modules_import_each_other() -> None:
     assert ring(ROOT / "optlaws") == []
 
 
-def test_no_more_modules_know_each_other_by_their_types() -> None:
-    assert len(ring(ROOT / "optlaws", typing=True)) <= CIRCLES
+def test_no_rooms_know_each_other() -> None:
+    assert cycles(rooms(ROOT / "optlaws")) == []
+
+
+@pytest.mark.parametrize("checker", CHECKERS)
+def test_what_checks_a_proof_knows_nothing_that_finds_one(checker: str) -> None:
+    met = reachable(ROOT / "optlaws", checker)
+    assert sorted(name for name in met if f"{name}.".startswith(tuple(f"{finder}." for finder in FINDERS))) == []
+
+
+def test_a_folder_can_be_taken_in_at_a_glance() -> None:
+    folders = Counter(path.parent for path in (ROOT / "optlaws").rglob("*.py") if not path.name.startswith("__"))
+    assert {str(folder): count for folder, count in folders.items() if count > MOST_MODULES} == {}
+
+
+def test_a_name_means_one_module_unless_every_room_has_such_a_one() -> None:
+    names = Counter(path.stem for path in (ROOT / "optlaws").rglob("*.py") if not path.name.startswith("__"))
+    assert {name for name, count in names.items() if count > 1} <= SEVERAL
+
+
+def test_no_module_repeats_its_folder_in_its_name() -> None:
+    files = (path for path in (ROOT / "optlaws").rglob("*.py") if path.stem != path.parent.name)
+    assert [str(path) for path in files if path.stem.startswith(path.parent.name)] == []
 
 
 def test_importing_optlaws_is_light() -> None:
@@ -152,7 +240,7 @@ def test_a_cycle_is_seen_whether_direct_or_through_others(tmp_path: Path) -> Non
     assert ring(package) == [["optlaws.laws", "optlaws.laws.law", "optlaws.laws.peaks"]]
 
 
-def test_an_import_for_the_type_checker_closes_no_cycle(tmp_path: Path) -> None:
+def test_an_import_for_the_type_checker_closes_a_cycle_when_it_is_counted(tmp_path: Path) -> None:
     package = write(
         tmp_path,
         {
@@ -160,5 +248,19 @@ def test_an_import_for_the_type_checker_closes_no_cycle(tmp_path: Path) -> None:
             "laws/peaks.py": "import typing\nif typing.TYPE_CHECKING:\n    import optlaws.laws.law",
         },
     )
+    assert ring(package, typing=False) == []
+    assert ring(package) == [["optlaws.laws.law", "optlaws.laws.peaks"]]
+
+
+def test_rooms_that_know_each_other_are_seen(tmp_path: Path) -> None:
+    rooms_of = ("synthesis", "synthesis/method", "synthesis/proof")
+    faces = {f"{room}/__init__.py": "" for room in rooms_of}
+    one_way = {"synthesis/method/ipopt.py": "", "synthesis/proof/make.py": "from optlaws.synthesis.method import ipopt"}
+    package = write(tmp_path, faces | one_way)
+    assert cycles(rooms(package)) == []
+    assert "optlaws.synthesis.method.ipopt" in reachable(package, "optlaws.synthesis.proof")
+    write(
+        tmp_path, {"synthesis/proof/farkas.py": "", "synthesis/method/flat.py": "import optlaws.synthesis.proof.farkas"}
+    )
     assert ring(package) == []
-    assert ring(package, typing=True) == [["optlaws.laws.law", "optlaws.laws.peaks"]]
+    assert cycles(rooms(package)) == [["optlaws.synthesis.method", "optlaws.synthesis.proof"]]

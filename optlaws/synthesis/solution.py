@@ -13,7 +13,7 @@ import numpy as np
 
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
-from optlaws.synthesis.method.newton import ActiveSet
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.power.certificate import PowerCertificate

@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.laws import MotionLaw
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method import starts
 from optlaws.synthesis.method.contacts import VIOLATION
 from optlaws.synthesis.method.exchange import Outcome, solve
 from optlaws.synthesis.method.lower_bounds import raised
-from optlaws.synthesis.method.newton import ActiveSet
 from optlaws.synthesis.problem.mixtures import warn_of_mixture
 from optlaws.synthesis.problem.problem import CONSTANTS, Problem
 from optlaws.synthesis.program.evaluation import shortfalls, worth

@@ -10,7 +10,8 @@ import pytest
 
 from optlaws import Chebyshev, Problem, Solution, Status, smoothstep, synthesize
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
-from optlaws.synthesis.method import exchange, ipopt
+from optlaws.synthesis.method import exchange
+from optlaws.synthesis.method.on_points import ipopt
 from tests.synthesis.independent import acceleration_of, check_solution, extremes, velocity_of, z_of
 
 SHAPES = [

@@ -12,11 +12,10 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError, SolverFailure
 from optlaws.laws import PolynomialLaw
-from optlaws.mechanisms.loader.bound import tangent_bound
 from optlaws.mechanisms.loader.constants import objective
 from optlaws.mechanisms.loader.limits import loader_acceleration_limit, loader_velocity_limit
 from optlaws.mechanisms.loader.loader import Loader, loader
-from optlaws.mechanisms.loader.search import Task, search
+from optlaws.mechanisms.loader.search import Task, search, tangent_bound
 from optlaws.mechanisms.loader.space import LoaderSpace
 from optlaws.numbers import positive
 from optlaws.synthesis.problem.expression import Expression, Term

@@ -9,8 +9,7 @@ from typing import TypeVar
 
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
-from optlaws.synthesis.limits.closed_forms import best_velocity, limit
-from optlaws.synthesis.limits.times import back_time, back_velocity, run_in
+from optlaws.synthesis.limits.closed_forms import back_time, back_velocity, best_velocity, limit, run_in
 
 Pair = tuple[float, float]
 Piece = TypeVar("Piece")

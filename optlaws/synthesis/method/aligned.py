@@ -14,9 +14,9 @@ from itertools import islice
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.method.newton import ActiveSet
 
 Array = NDArray[np.float64]
 

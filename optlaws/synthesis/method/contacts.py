@@ -7,8 +7,8 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
-from optlaws.synthesis.method.newton import ActiveSet
 
 VIOLATION = 1e-10
 _PULL = 1e-10

@@ -12,15 +12,16 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Points, ProductFamily, Program
-from optlaws.synthesis.method.conic import conic
 from optlaws.synthesis.method.contacts import VIOLATION, completed, settled
 from optlaws.synthesis.method.equations import contradiction, independent
-from optlaws.synthesis.method.flat import sharpened
-from optlaws.synthesis.method.grids import exchanged, first_points
-from optlaws.synthesis.method.ipopt import Answer, solve_on_points
-from optlaws.synthesis.method.newton import ActiveSet, newton
+from optlaws.synthesis.method.newton import newton
+from optlaws.synthesis.method.on_points.conic import conic
+from optlaws.synthesis.method.on_points.flat import sharpened
+from optlaws.synthesis.method.on_points.grids import exchanged, first_points
+from optlaws.synthesis.method.on_points.ipopt import Answer, solve_on_points
 from optlaws.synthesis.method.units import units_of
 from optlaws.synthesis.method.vertices import by_vertices, many_pieces
 

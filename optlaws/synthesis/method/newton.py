@@ -8,11 +8,12 @@ is quadratic, and fewer contacts than variables are no difficulty (the curvature
 from __future__ import annotations
 
 from contextlib import suppress
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 
 Array = NDArray[np.float64]
@@ -25,36 +26,6 @@ _WILD = 1e6
 _RANK = 1e-11
 _FULFILLED = 1e-9
 _STILL = 1e-6
-
-
-@dataclass(frozen=True, eq=False)
-class ActiveSet:
-    """Variables, contacts (family, position u, sign, whether it may move) and multipliers, the equations' apart."""
-
-    x: Array
-    family: NDArray[np.intp]
-    u: Array
-    s: Array
-    free: NDArray[np.bool_]
-    multipliers: Array
-    equality_multipliers: Array
-
-    def moved(self, contact: int, u: float) -> ActiveSet:
-        """With one contact let go from its end to u."""
-        places, free = self.u.copy(), self.free.copy()
-        places[contact], free[contact] = u, True
-        return replace(self, u=places, free=free)
-
-    def joined(self, family: int, u: float, s: float, *, free: bool) -> ActiveSet:
-        """With one more contact, without weight yet."""
-        return replace(
-            self,
-            family=np.append(self.family, family),
-            u=np.append(self.u, u),
-            s=np.append(self.s, s),
-            free=np.append(self.free, free),
-            multipliers=np.append(self.multipliers, 0.0),
-        )
 
 
 def newton(program: Program, start: ActiveSet, *, deficient: bool = False) -> ActiveSet | None:

@@ -11,8 +11,8 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import ProductFamily, Program
-from optlaws.synthesis.method.newton import ActiveSet
 
 Array = NDArray[np.float64]
 

@@ -13,14 +13,14 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Points, Program
-from optlaws.synthesis.method.conic import conic, optimum_on_points
 from optlaws.synthesis.method.contacts import VIOLATION
-from optlaws.synthesis.method.flat import Table
-from optlaws.synthesis.method.grids import exchanged
-from optlaws.synthesis.method.highs import vertex_on_points
-from optlaws.synthesis.method.ipopt import Answer
-from optlaws.synthesis.method.newton import ActiveSet
+from optlaws.synthesis.method.on_points.conic import conic, optimum_on_points
+from optlaws.synthesis.method.on_points.flat import Table
+from optlaws.synthesis.method.on_points.grids import exchanged
+from optlaws.synthesis.method.on_points.highs import vertex_on_points
+from optlaws.synthesis.method.on_points.ipopt import Answer
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily
 
 Array = NDArray[np.float64]

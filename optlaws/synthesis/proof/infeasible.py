@@ -13,8 +13,8 @@ from optlaws.synthesis.families.family import Points
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method.equations import contradiction
 from optlaws.synthesis.method.exchange import Outcome, as_answered, solve
-from optlaws.synthesis.method.grids import exchanged, first_points
-from optlaws.synthesis.method.highs import vertex_on_points
+from optlaws.synthesis.method.on_points.grids import exchanged, first_points
+from optlaws.synthesis.method.on_points.highs import vertex_on_points
 from optlaws.synthesis.problem.constants import C
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model

@@ -6,10 +6,10 @@ from dataclasses import replace
 
 import numpy as np
 
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import NormFamily
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.method.newton import ActiveSet
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import ROOT, Model, relaxed

@@ -6,8 +6,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Family, Program
-from optlaws.synthesis.method.newton import ActiveSet
 from optlaws.synthesis.problem.constants import Peak
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model

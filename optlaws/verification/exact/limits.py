@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from flint import ctx
 
-from optlaws.synthesis.limits.times import back_velocity
+from optlaws.synthesis.limits.closed_forms import back_velocity
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.verification.exact.balls import ball, lower

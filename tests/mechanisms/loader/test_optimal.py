@@ -25,11 +25,10 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
-from optlaws.mechanisms.loader.bound import tangent_bound
 from optlaws.mechanisms.loader.constants import B_loader, C_loader
 from optlaws.mechanisms.loader.limits import loader_acceleration_limit, loader_velocity_limit
 from optlaws.mechanisms.loader.loader import loader
-from optlaws.mechanisms.loader.search import Task
+from optlaws.mechanisms.loader.search import Task, tangent_bound
 from optlaws.mechanisms.loader.space import LoaderSpace
 
 CODES = ("K", "Co", "3-4-5 polynomial", "0510", "0307(1,5)", "0317(1,5)", "KC00", "KC05", "0040", "0000")

@@ -5,13 +5,13 @@ from dataclasses import replace
 import pytest
 
 from optlaws import BoundaryConditions, Chebyshev, Problem, at_most, synthesize
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Points, Program
 from optlaws.synthesis.method import exchange
-from optlaws.synthesis.method.flat import sharpened
-from optlaws.synthesis.method.grids import first_points
-from optlaws.synthesis.method.highs import vertex_on_points
-from optlaws.synthesis.method.ipopt import Answer
-from optlaws.synthesis.method.newton import ActiveSet
+from optlaws.synthesis.method.on_points.flat import sharpened
+from optlaws.synthesis.method.on_points.grids import first_points
+from optlaws.synthesis.method.on_points.highs import vertex_on_points
+from optlaws.synthesis.method.on_points.ipopt import Answer
 from optlaws.synthesis.program.writer import model
 from optlaws.verification.exact.bound import prove
 from tests.synthesis.judge import judge

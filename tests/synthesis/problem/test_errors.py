@@ -42,7 +42,8 @@ from optlaws import (
 )
 from optlaws.synthesis import basis, solve
 from optlaws.synthesis.families.family import Points, Program
-from optlaws.synthesis.method import exchange, ipopt, vertices
+from optlaws.synthesis.method import exchange, vertices
+from optlaws.synthesis.method.on_points import ipopt
 from optlaws.synthesis.proof import make
 
 GOOD: dict[str, Any] = {"B": 1.859, "order": 4}

@@ -23,9 +23,8 @@ from optlaws import (
 )
 from optlaws.synthesis.program.writer import model
 from optlaws.synthesis.proof.certificate import Contact
-from optlaws.synthesis.proof.power.brackets import Anchors, velocity_brackets
 from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step
-from optlaws.synthesis.proof.power.rows import LEAST_POWER, POWER, Box, PowerRows
+from optlaws.synthesis.proof.power.rows import LEAST_POWER, POWER, Anchors, Box, PowerRows, velocity_brackets
 from optlaws.synthesis.proof.power.search import searched
 from tests.synthesis.power_proof import proven_exactly
 

@@ -12,8 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.family import Points, Program
-from optlaws.synthesis.method.flat import Table
-from optlaws.synthesis.method.ipopt import Answer
+from optlaws.synthesis.method.on_points.flat import Table
+from optlaws.synthesis.method.on_points.ipopt import Answer
 
 Array = NDArray[np.float64]
 

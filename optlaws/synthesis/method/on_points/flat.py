@@ -10,9 +10,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
-from optlaws.synthesis.method.ipopt import Answer
-from optlaws.synthesis.method.newton import ActiveSet
+from optlaws.synthesis.method.on_points.ipopt import Answer
 
 Array = NDArray[np.float64]
 

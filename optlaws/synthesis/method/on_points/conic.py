@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Points, Program
-from optlaws.synthesis.method.ipopt import Answer
+from optlaws.synthesis.method.on_points.ipopt import Answer
 
 Array = NDArray[np.float64]
 

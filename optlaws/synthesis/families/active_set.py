@@ -1,0 +1,40 @@
+"""Which constraints bind, where, and with what multipliers: an optimum, or a guess of one."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class ActiveSet:
+    """Variables, contacts (family, position u, sign, whether it may move) and multipliers, the equations' apart."""
+
+    x: Array
+    family: NDArray[np.intp]
+    u: Array
+    s: Array
+    free: NDArray[np.bool_]
+    multipliers: Array
+    equality_multipliers: Array
+
+    def moved(self, contact: int, u: float) -> ActiveSet:
+        """With one contact let go from its end to u."""
+        places, free = self.u.copy(), self.free.copy()
+        places[contact], free[contact] = u, True
+        return replace(self, u=places, free=free)
+
+    def joined(self, family: int, u: float, s: float, *, free: bool) -> ActiveSet:
+        """With one more contact, without weight yet."""
+        return replace(
+            self,
+            family=np.append(self.family, family),
+            u=np.append(self.u, u),
+            s=np.append(self.s, s),
+            free=np.append(self.free, free),
+            multipliers=np.append(self.multipliers, 0.0),
+        )

@@ -1,0 +1,1 @@
+"""A program on finitely many points, and its solvers."""
