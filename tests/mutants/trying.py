@@ -84,20 +84,22 @@ def wanted(operator: str) -> bool:
     return name.startswith(KINDS)
 
 
+def guard(mutant: Mutant) -> bool:
+    """Whether it is the `strict` of a zip over what has one length: a guard that cannot act."""
+    line = file_of(mutant.module).read_text().splitlines()[mutant.line - 1]
+    return line[: mutant.column].endswith("strict=")
+
+
 def mutants(module: str) -> list[Mutant]:
-    """All there are."""
-    path = file_of(module)
+    """All there are, but for guards."""
+    nodes = list(ast_nodes(get_ast(read_python_source(file_of(module)))))
     found = []
     for name in sorted(filter(wanted, plugins.operator_names())):
         operator = plugins.get_operator(name)()
-        places = (
-            place
-            for node in ast_nodes(get_ast(read_python_source(path)))
-            for place in operator.mutation_positions(node)
-        )
+        places = (place for node in nodes for place in operator.mutation_positions(node))
         ends = enumerate(place[:2] for place in places)
         found += [Mutant(module, name, i, start[0], start[1], end) for i, (start, end) in ends]
-    return found
+    return [one for one in found if not guard(one)]
 
 
 def copied(place: Path) -> None:
@@ -151,7 +153,13 @@ def run(chosen: Sequence[Mutant], processes: int) -> list[Tried]:
             broken = [module for module, fine in zip(modules, pool.map(passes, modules), strict=True) if not fine]
             if broken:
                 raise SystemExit(f"tests fail without any change: {', '.join(broken)}")
-            return list(pool.map(tried, chosen))
+            return [told(one) for one in pool.map(tried, chosen)]
+
+
+def told(one: Tried) -> Tried:
+    """Say what became of a mutant as soon as it is known."""
+    sys.stderr.write(f"{'killed' if one.killed else 'SURVIVED'} {one.mutant.name}\n")
+    return one
 
 
 def report(found: Sequence[Tried], equivalent: dict[str, str]) -> bool:
