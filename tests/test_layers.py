@@ -10,7 +10,7 @@ import pytest
 from tests.documents import ROOT
 from tests.imports import Import, cycles, imports, modules
 
-BASE = {"echo", "errors", "files", "kept", "locks", "numbers", "suggest"}
+BASE = {"echo", "errors", "files", "kept", "lazy", "locks", "numbers", "suggest"}
 KNOWN = BASE | {"series"}
 CORE = KNOWN | {"laws", "synthesis", "mechanisms", "verification"}
 MAY_IMPORT = {
@@ -18,6 +18,7 @@ MAY_IMPORT = {
     "errors": {"echo"},
     "files": {"echo", "errors", "suggest"},
     "kept": set[str](),
+    "lazy": set[str](),
     "locks": set[str](),
     "numbers": {"echo", "errors"},
     "suggest": {"echo"},

@@ -119,7 +119,7 @@ def test_everything_raised_on_purpose_is_one_tree() -> None:
 
 def test_an_unknown_attribute_is_refused() -> None:
     with pytest.raises(AttributeError, match="has no attribute 'sythesize'"):
-        _ = optlaws.sythesize
+        _ = optlaws.sythesize  # type: ignore[attr-defined]
 
 
 def test_star_import_gives_the_public_names_and_no_more() -> None:

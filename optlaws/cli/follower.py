@@ -16,10 +16,10 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.savin.family import FAMILIES
 from optlaws.laws.savin.savin import savin
+from optlaws.mechanisms.cam.polydyne import polydyne
 from optlaws.mechanisms.follower.follower import Follower
 from optlaws.mechanisms.follower.off_design import off_design
 from optlaws.mechanisms.follower.response import Response
-from optlaws.mechanisms.polydyne.polydyne import polydyne
 
 _PICTURES = (".png", ".svg")
 _POINTS = 2001

@@ -1,7 +1,12 @@
 """Motion laws: what they are, their values and their peaks. Imports no optimiser."""
 
-from optlaws.laws.law import MotionLaw
-from optlaws.laws.polynomial import PolynomialLaw, smoothstep
-from optlaws.series.peaks import Constants, Peak
+from optlaws.lazy import face
 
-__all__ = ["Constants", "MotionLaw", "Peak", "PolynomialLaw", "smoothstep"]
+__getattr__, __dir__, __all__ = face(
+    __name__,
+    {
+        "optlaws.laws.law": "MotionLaw",
+        "optlaws.laws.polynomial": "PolynomialLaw smoothstep",
+        "optlaws.series.peaks": "Constants Peak",
+    },
+)

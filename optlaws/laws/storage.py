@@ -10,6 +10,7 @@ from typing import Any, ClassVar, Self
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import json_text
+from optlaws.lazy import Registry
 
 FORMAT = 1
 
@@ -25,7 +26,7 @@ class Stored(ABC):
     """
 
     kind: ClassVar[str]
-    kinds: ClassVar[dict[str, type[Stored]]] = {}
+    kinds: ClassVar[Registry[type[Stored]]] = Registry("law")
 
     def __init_subclass__(cls, *, kind: str | None = None, **kwargs: object) -> None:
         super().__init_subclass__(**kwargs)
@@ -61,11 +62,11 @@ class Stored(ABC):
         """
         fields = _opened(data)
         kind = fields.pop("kind", None)
-        known = {name: law for name, law in cls.kinds.items() if issubclass(law, cls)}
-        if not isinstance(kind, str) or kind not in known:
-            msg = f"kind of law {shortened(kind)} is unknown; known are {', '.join(sorted(known))}"
-            raise InputError(msg)
-        return known[kind]._from_fields(fields)  # noqa: SLF001
+        law = cls.kinds[kind] if isinstance(kind, str) and kind in cls.kinds else None
+        if law is None or not issubclass(law, cls):
+            known = sorted(name for name, one in cls.kinds.items() if issubclass(one, cls))
+            raise InputError(f"kind of law {shortened(kind)} is unknown; known are {', '.join(known)}")
+        return law._from_fields(fields)  # noqa: SLF001
 
     def to_json(self) -> str:
         """`to_dict` as JSON text."""

@@ -1,78 +1,25 @@
 """How an optimal law is found: problems, their solution by CasADi and IPOPT, lower bounds and limits."""
 
-from optlaws.synthesis.front import Front
-from optlaws.synthesis.limits.closed_forms import acceleration_limit, limit
-from optlaws.synthesis.limits.laws import limit_law
-from optlaws.synthesis.pareto import pareto_front
-from optlaws.synthesis.problem.constants import (
-    FUNCTIONALS,
-    B,
-    C,
-    C_minus,
-    C_plus,
-    D,
-    Functional,
-    J,
-    jounce,
-    rms_c,
-    rms_j,
-)
-from optlaws.synthesis.problem.expression import Expression, Maximum, Term, maximum
-from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.problem.ranges import Range, at_least, at_most, between
-from optlaws.synthesis.problem.windows import Window, via
-from optlaws.synthesis.proof.certificate import Certificate, Contact
-from optlaws.synthesis.proof.power.certificate import PowerCertificate
-from optlaws.synthesis.solution import Solution, Status
-from optlaws.synthesis.solve import sweep, synthesize
-from optlaws.synthesis.spaces.bases import Basis, Bernstein, Chebyshev, Pieces, PolynomialBasis, Powers, basis
-from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, construct
-from optlaws.synthesis.spaces.splines import BSplines, PiecewiseBasis
+from optlaws.lazy import face
 
-__all__ = [
-    "FUNCTIONALS",
-    "B",
-    "BSplines",
-    "Basis",
-    "Bernstein",
-    "BoundaryConditions",
-    "C",
-    "C_minus",
-    "C_plus",
-    "Certificate",
-    "Chebyshev",
-    "Contact",
-    "D",
-    "Expression",
-    "Front",
-    "Functional",
-    "J",
-    "Maximum",
-    "Pieces",
-    "PiecewiseBasis",
-    "PolynomialBasis",
-    "PowerCertificate",
-    "Powers",
-    "Problem",
-    "Range",
-    "Solution",
-    "Status",
-    "Term",
-    "Window",
-    "acceleration_limit",
-    "at_least",
-    "at_most",
-    "basis",
-    "between",
-    "construct",
-    "jounce",
-    "limit",
-    "limit_law",
-    "maximum",
-    "pareto_front",
-    "rms_c",
-    "rms_j",
-    "sweep",
-    "synthesize",
-    "via",
-]
+__getattr__, __dir__, __all__ = face(
+    __name__,
+    {
+        "optlaws.synthesis.front": "Front",
+        "optlaws.synthesis.limits.closed_forms": "acceleration_limit limit",
+        "optlaws.synthesis.limits.laws": "limit_law",
+        "optlaws.synthesis.pareto": "pareto_front",
+        "optlaws.synthesis.problem.constants": "FUNCTIONALS B C C_minus C_plus D Functional J jounce rms_c rms_j",
+        "optlaws.synthesis.problem.expression": "Expression Maximum Term maximum",
+        "optlaws.synthesis.problem.problem": "Problem",
+        "optlaws.synthesis.problem.ranges": "Range at_least at_most between",
+        "optlaws.synthesis.problem.windows": "Window via",
+        "optlaws.synthesis.proof.certificate": "Certificate Contact",
+        "optlaws.synthesis.proof.power.certificate": "PowerCertificate",
+        "optlaws.synthesis.solution": "Solution Status",
+        "optlaws.synthesis.solve": "sweep synthesize",
+        "optlaws.synthesis.spaces.bases": "Basis Bernstein Chebyshev Pieces PolynomialBasis Powers basis",
+        "optlaws.synthesis.spaces.end_conditions": "BoundaryConditions construct",
+        "optlaws.synthesis.spaces.splines": "BSplines PiecewiseBasis",
+    },
+)

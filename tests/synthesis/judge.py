@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from optlaws import Expression, Functional, MotionLaw, Problem, Range, Solution, Window
-from optlaws.mechanisms.polydyne.cam_constants import CamPeak, CamPower
+from optlaws.mechanisms.cam.constants import CamPeak, CamPower
 from optlaws.mechanisms.spectrum.robust import Residual
 from optlaws.synthesis import Maximum
 from tests.synthesis.independent import DENSE

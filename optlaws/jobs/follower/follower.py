@@ -18,9 +18,9 @@ from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.savin.family import FAMILIES
 from optlaws.laws.savin.savin import savin
+from optlaws.mechanisms.cam.polydyne import polydyne
 from optlaws.mechanisms.follower.follower import Follower
 from optlaws.mechanisms.follower.off_design import Deviation, off_design
-from optlaws.mechanisms.polydyne.polydyne import polydyne
 from optlaws.mechanisms.spectrum.spectrum import response_spectrum
 from optlaws.studies.points.problem_entries import Positive, Text
 from optlaws.suggest import unknown_key

@@ -18,8 +18,8 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.savin.family import SavinFamily
-from optlaws.mechanisms.polydyne.cam_constants import cam_constant
-from optlaws.mechanisms.polydyne.polydyne import polydyne
+from optlaws.mechanisms.cam.constants import cam_constant
+from optlaws.mechanisms.cam.polydyne import polydyne
 from optlaws.mechanisms.spectrum.residual import residual_phasor
 from optlaws.mechanisms.spectrum.robust import residual
 from optlaws.studies.points.problem_entries import Text, gap

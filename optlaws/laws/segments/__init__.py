@@ -1,7 +1,12 @@
 """Segments of piecewise laws: each kind is one class, exact as it stands."""
 
-from optlaws.laws.segments.fractional import FractionalSegment
-from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
-from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
+from optlaws.lazy import face
 
-__all__ = ["FractionalSegment", "HarmonicSegment", "PolynomialSegment", "PowerSegment", "Segment", "SineSegment"]
+__getattr__, __dir__, __all__ = face(
+    __name__,
+    {
+        "optlaws.laws.segments.fractional": "FractionalSegment",
+        "optlaws.laws.segments.segment": "PolynomialSegment PowerSegment Segment",
+        "optlaws.laws.segments.sine": "HarmonicSegment SineSegment",
+    },
+)

@@ -16,9 +16,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws.html import page
 from optlaws.laws.law import MotionLaw
-from optlaws.laws.segments.fractional import FractionalSegment  # noqa: F401  # declares its kind
 from optlaws.laws.segments.segment import Segment
-from optlaws.laws.segments.sine import SineSegment  # noqa: F401  # declares its kinds
 from optlaws.numbers import derivative, finite, numbers, times
 from optlaws.series import peaks
 from optlaws.series.peaks import Peak

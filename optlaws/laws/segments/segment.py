@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.polynomial import PolynomialLaw
+from optlaws.lazy import Registry
 from optlaws.numbers import finite, numbers
 
 Array = NDArray[np.float64]
@@ -34,7 +35,7 @@ class Segment(ABC):
     """
 
     kind: ClassVar[str]
-    kinds: ClassVar[dict[str, type[Segment]]] = {}
+    kinds: ClassVar[Registry[type[Segment]]] = Registry("segment")
 
     def __init_subclass__(cls, *, kind: str, **kwargs: object) -> None:
         super().__init_subclass__(**kwargs)

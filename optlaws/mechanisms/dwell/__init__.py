@@ -1,5 +1,10 @@
 """Balancing cam mechanisms for motions with dwells, of types I, II and III."""
 
-from optlaws.mechanisms.dwell.choice import least_dwell
+from optlaws.lazy import face
 
-__all__ = ["least_dwell"]
+__getattr__, __dir__, __all__ = face(
+    __name__,
+    {
+        "optlaws.mechanisms.dwell.choice": "least_dwell",
+    },
+)

@@ -1,5 +1,10 @@
 """Inertial loaders: their laws, their limits, and executive laws made for their sake."""
 
-from optlaws.mechanisms.loader.limits import loader_acceleration_limit, loader_velocity_limit
+from optlaws.lazy import face
 
-__all__ = ["loader_acceleration_limit", "loader_velocity_limit"]
+__getattr__, __dir__, __all__ = face(
+    __name__,
+    {
+        "optlaws.mechanisms.loader.limits": "loader_acceleration_limit loader_velocity_limit",
+    },
+)

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.mechanisms.polydyne.cam_constants import check_order
+from optlaws.mechanisms.cam.constants import check_order
 from optlaws.mechanisms.spectrum.residual import residual_phasor, roots
 from optlaws.numbers import not_negative, positive
 from optlaws.series.gegenbauer import chebyshev_series

@@ -16,6 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
+from optlaws.lazy import Registry
 from optlaws.synthesis.families.family import Family
 from optlaws.synthesis.problem.expression import Term
 
@@ -187,4 +188,4 @@ rms_j = RootMeanSquare("rms_j", np.nan, convex=True, nu=3)
 FUNCTIONALS: dict[str, Functional] = {f.name: f for f in (B, C, C_plus, C_minus, D, J, jounce, rms_c, rms_j)}
 ALIASES: dict[str, Functional] = {"rms": rms_c}
 #: what makes a constant from arguments, by the name that text calls it by: `C_cam(nu=20)`
-MAKERS: dict[str, Callable[..., Functional]] = {}
+MAKERS: Registry[Callable[..., Functional]] = Registry("constant")

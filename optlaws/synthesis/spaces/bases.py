@@ -14,6 +14,7 @@ from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.lazy import Registry
 from optlaws.numbers import MOST_DEGREE, MOST_PIECE_DEGREE, MOST_PIECES, fractions, numbers, positive, whole
 from optlaws.series.exact import (
     chebyshev_from_powers,
@@ -36,7 +37,7 @@ class Basis(ABC):
     """
 
     name: ClassVar[str]
-    kinds: ClassVar[dict[str, type[Basis]]] = {}
+    kinds: ClassVar[Registry[type[Basis]]] = Registry("basis")
 
     def __init_subclass__(cls, **kwargs: Any) -> None:  # noqa: ANN401 - whatever a subclass declares
         super().__init_subclass__(**kwargs)

@@ -12,9 +12,9 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws.mechanisms.cam.segments import cam_segment
+from optlaws.mechanisms.cam.smoothness import check_mass_law
 from optlaws.mechanisms.checks import motion_law
-from optlaws.mechanisms.polydyne.cam_segments import cam_segment
-from optlaws.mechanisms.polydyne.smoothness import check_mass_law
 from optlaws.numbers import not_negative, positive
 from optlaws.series import interpolation
 

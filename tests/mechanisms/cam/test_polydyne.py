@@ -95,7 +95,7 @@ def test_an_integrator_agrees() -> None:
 
 
 def test_a_sine_with_powers_keeps_its_form() -> None:
-    from optlaws.mechanisms.polydyne.cam_segments import cam_segment
+    from optlaws.mechanisms.cam.segments import cam_segment
 
     (segment,) = sine_on_a_parabola().segments
     once, twice = 0.3, 0.07
@@ -108,7 +108,7 @@ def test_a_sine_with_powers_keeps_its_form() -> None:
 
 
 def test_a_kind_of_segment_that_is_unknown_becomes_a_polynomial() -> None:
-    from optlaws.mechanisms.polydyne.cam_segments import cam_segment
+    from optlaws.mechanisms.cam.segments import cam_segment
 
     segment = PowerSegment(1.0, 1.5)
     made = cam_segment(segment, 0.5, 0.3, 0.07)

@@ -1,0 +1,181 @@
+# made by tests/contracts/faces.py from the table in __init__.py
+from optlaws import laws as laws
+from optlaws import mechanisms as mechanisms
+from optlaws import synthesis as synthesis
+from optlaws.errors import InfeasibleProblem as InfeasibleProblem
+from optlaws.errors import InputError as InputError
+from optlaws.errors import NotNormalised as NotNormalised
+from optlaws.errors import OptlawsError as OptlawsError
+from optlaws.errors import SolverFailure as SolverFailure
+from optlaws.laws.catalogue.catalogue import catalogue as catalogue
+from optlaws.laws.law import MotionLaw as MotionLaw
+from optlaws.laws.making.multiplier import multiplied as multiplied
+from optlaws.laws.making.transform import mirrored_law as mirrored_law
+from optlaws.laws.making.transform import reversed_law as reversed_law
+from optlaws.laws.making.transform import with_end_velocity as with_end_velocity
+from optlaws.laws.making.trapezoids import scca as scca
+from optlaws.laws.making.trapezoids import trapezoid as trapezoid
+from optlaws.laws.polynomial import PolynomialLaw as PolynomialLaw
+from optlaws.laws.polynomial import smoothstep as smoothstep
+from optlaws.laws.savin.family import SavinFamily as SavinFamily
+from optlaws.laws.savin.savin import savin as savin
+from optlaws.laws.segments.piecewise import PiecewiseLaw as PiecewiseLaw
+from optlaws.mechanisms.angles import deg as deg
+from optlaws.mechanisms.cam.constants import cam_constant as cam_constant
+from optlaws.mechanisms.cam.polydyne import mass_law as mass_law
+from optlaws.mechanisms.cam.polydyne import polydyne as polydyne
+from optlaws.mechanisms.dwell.choice import compare_dwell_mechanisms as compare_dwell_mechanisms
+from optlaws.mechanisms.dwell.clutch import Clutch as Clutch
+from optlaws.mechanisms.dwell.mechanism import dwell_mechanism as dwell_mechanism
+from optlaws.mechanisms.follower.cycle import CycleResponse as CycleResponse
+from optlaws.mechanisms.follower.follower import Follower as Follower
+from optlaws.mechanisms.follower.off_design import Deviation as Deviation
+from optlaws.mechanisms.follower.off_design import off_design as off_design
+from optlaws.mechanisms.follower.response import Response as Response
+from optlaws.mechanisms.lever.design import find_torsion_levers as find_torsion_levers
+from optlaws.mechanisms.lever.lever import TorsionLever as TorsionLever
+from optlaws.mechanisms.loader.loader import Loader as Loader
+from optlaws.mechanisms.loader.loader import loader as loader
+from optlaws.mechanisms.loader.optimal import BalancedLaw as BalancedLaw
+from optlaws.mechanisms.loader.optimal import balanced_law as balanced_law
+from optlaws.mechanisms.loader.trapezium import TrapeziumSubstitute as TrapeziumSubstitute
+from optlaws.mechanisms.spectrum.residual import residual_functional as residual_functional
+from optlaws.mechanisms.spectrum.residual import residual_phasor as residual_phasor
+from optlaws.mechanisms.spectrum.robust import residual as residual
+from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum as ResponseSpectrum
+from optlaws.mechanisms.spectrum.spectrum import response_spectrum as response_spectrum
+from optlaws.series.peaks import Constants as Constants
+from optlaws.series.peaks import Peak as Peak
+from optlaws.studies.run import run_study as run_study
+from optlaws.studies.study import open_study as open_study
+from optlaws.synthesis.front import Front as Front
+from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
+from optlaws.synthesis.limits.closed_forms import limit as limit
+from optlaws.synthesis.limits.laws import limit_law as limit_law
+from optlaws.synthesis.pareto import pareto_front as pareto_front
+from optlaws.synthesis.problem.constants import FUNCTIONALS as FUNCTIONALS
+from optlaws.synthesis.problem.constants import B as B
+from optlaws.synthesis.problem.constants import C as C
+from optlaws.synthesis.problem.constants import C_minus as C_minus
+from optlaws.synthesis.problem.constants import C_plus as C_plus
+from optlaws.synthesis.problem.constants import D as D
+from optlaws.synthesis.problem.constants import Functional as Functional
+from optlaws.synthesis.problem.constants import J as J
+from optlaws.synthesis.problem.constants import jounce as jounce
+from optlaws.synthesis.problem.constants import rms_c as rms_c
+from optlaws.synthesis.problem.constants import rms_j as rms_j
+from optlaws.synthesis.problem.expression import Expression as Expression
+from optlaws.synthesis.problem.expression import maximum as maximum
+from optlaws.synthesis.problem.problem import Problem as Problem
+from optlaws.synthesis.problem.ranges import Range as Range
+from optlaws.synthesis.problem.ranges import at_least as at_least
+from optlaws.synthesis.problem.ranges import at_most as at_most
+from optlaws.synthesis.problem.ranges import between as between
+from optlaws.synthesis.problem.windows import Window as Window
+from optlaws.synthesis.problem.windows import via as via
+from optlaws.synthesis.proof.certificate import Certificate as Certificate
+from optlaws.synthesis.proof.certificate import Contact as Contact
+from optlaws.synthesis.proof.power.certificate import PowerCertificate as PowerCertificate
+from optlaws.synthesis.solution import Solution as Solution
+from optlaws.synthesis.solution import Status as Status
+from optlaws.synthesis.solve import sweep as sweep
+from optlaws.synthesis.solve import synthesize as synthesize
+from optlaws.synthesis.spaces.bases import Basis as Basis
+from optlaws.synthesis.spaces.bases import Bernstein as Bernstein
+from optlaws.synthesis.spaces.bases import Chebyshev as Chebyshev
+from optlaws.synthesis.spaces.bases import Pieces as Pieces
+from optlaws.synthesis.spaces.bases import Powers as Powers
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions as BoundaryConditions
+from optlaws.synthesis.spaces.end_conditions import construct as construct
+from optlaws.synthesis.spaces.splines import BSplines as BSplines
+
+__version__: str
+
+__all__ = [
+    "FUNCTIONALS",
+    "B",
+    "BSplines",
+    "BalancedLaw",
+    "Basis",
+    "Bernstein",
+    "BoundaryConditions",
+    "C",
+    "C_minus",
+    "C_plus",
+    "Certificate",
+    "Chebyshev",
+    "Clutch",
+    "Constants",
+    "Contact",
+    "CycleResponse",
+    "D",
+    "Deviation",
+    "Expression",
+    "Follower",
+    "Front",
+    "Functional",
+    "InfeasibleProblem",
+    "InputError",
+    "J",
+    "Loader",
+    "MotionLaw",
+    "NotNormalised",
+    "OptlawsError",
+    "Peak",
+    "Pieces",
+    "PiecewiseLaw",
+    "PolynomialLaw",
+    "PowerCertificate",
+    "Powers",
+    "Problem",
+    "Range",
+    "Response",
+    "ResponseSpectrum",
+    "SavinFamily",
+    "Solution",
+    "SolverFailure",
+    "Status",
+    "TorsionLever",
+    "TrapeziumSubstitute",
+    "Window",
+    "acceleration_limit",
+    "at_least",
+    "at_most",
+    "balanced_law",
+    "between",
+    "cam_constant",
+    "catalogue",
+    "compare_dwell_mechanisms",
+    "construct",
+    "deg",
+    "dwell_mechanism",
+    "find_torsion_levers",
+    "jounce",
+    "limit",
+    "limit_law",
+    "loader",
+    "mass_law",
+    "maximum",
+    "mirrored_law",
+    "multiplied",
+    "off_design",
+    "open_study",
+    "pareto_front",
+    "polydyne",
+    "residual",
+    "residual_functional",
+    "residual_phasor",
+    "response_spectrum",
+    "reversed_law",
+    "rms_c",
+    "rms_j",
+    "run_study",
+    "savin",
+    "scca",
+    "smoothstep",
+    "sweep",
+    "synthesize",
+    "trapezoid",
+    "via",
+    "with_end_velocity",
+]

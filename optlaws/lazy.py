@@ -1,0 +1,87 @@
+"""Names and kinds that are imported when they are first asked for, so that a package's face costs nothing."""
+
+from __future__ import annotations
+
+import sys
+from collections import defaultdict
+from collections.abc import Callable, Iterator, Mapping, MutableMapping
+from importlib import import_module
+from typing import Any, TypeVar
+
+T = TypeVar("T")
+
+_MODULES: defaultdict[str, dict[str, str]] = defaultdict(dict)
+
+
+def face(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
+    """`__getattr__`, `__dir__` and `__all__` of a package whose names live in modules (PEP 562).
+
+    Type checkers read the same names in the `__init__.pyi` beside it, which `python -m tests.contracts.faces` writes.
+
+    Parameters
+    ----------
+    package
+        Its dotted name.
+    modules
+        Names, separated by blanks, by the module that has them.
+
+    Examples
+    --------
+    >>> __getattr__, __dir__, names = face("optlaws", {"optlaws.mechanisms.angles": "deg", "math": "pi PI"})
+    >>> names
+    ['PI', 'deg', 'pi']
+    >>> __getattr__("deg")(180.0)
+    3.141592653589793
+    """
+    homes = {name: module for module, names in modules.items() for name in names.split()}
+
+    def load(name: str) -> Any:  # noqa: ANN401 - whatever the name stands for
+        if name not in homes:
+            raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package])
+        value = getattr(import_module(homes[name]), name)
+        setattr(sys.modules[package], name, value)
+        return value
+
+    # tables, whose names are in capitals, come first
+    names = sorted(homes, key=lambda name: (len(name) == 1 or not name.isupper(), name))
+    return load, lambda: sorted({*vars(sys.modules[package]), *names}), names
+
+
+def declare(subject: str, modules: Mapping[str, str]) -> None:
+    """Say which module registers which names of a subject, separated by blanks."""
+    _MODULES[subject].update({name: module for module, names in modules.items() for name in names.split()})
+
+
+class Registry(MutableMapping[str, T]):
+    """What the names of a subject stand for; those that were declared are imported when they are asked for.
+
+    Examples
+    --------
+    >>> from optlaws.laws.storage import Stored
+    >>> sorted(Stored.kinds), Stored.kinds["piecewise"].__name__
+    (['loader', 'piecewise', 'polynomial'], 'PiecewiseLaw')
+    """
+
+    def __init__(self, subject: str) -> None:
+        self._modules = _MODULES[subject]
+        self._values: dict[str, T] = {}
+
+    def __getitem__(self, name: str) -> T:
+        if name not in self._values and name in self._modules:
+            import_module(self._modules[name])
+        return self._values[name]
+
+    def __setitem__(self, name: str, value: T) -> None:
+        self._values[name] = value
+
+    def __delitem__(self, name: str) -> None:
+        del self._values[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._values or name in self._modules
+
+    def __iter__(self) -> Iterator[str]:
+        return iter({**self._modules, **self._values})
+
+    def __len__(self) -> int:
+        return len({**self._modules, **self._values})

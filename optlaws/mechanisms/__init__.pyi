@@ -1,0 +1,34 @@
+# made by tests/contracts/faces.py from the table in __init__.py
+from optlaws.mechanisms.angles import deg as deg
+from optlaws.mechanisms.cam.polydyne import mass_law as mass_law
+from optlaws.mechanisms.cam.polydyne import polydyne as polydyne
+from optlaws.mechanisms.follower.cycle import CycleResponse as CycleResponse
+from optlaws.mechanisms.follower.follower import Follower as Follower
+from optlaws.mechanisms.follower.off_design import Deviation as Deviation
+from optlaws.mechanisms.follower.off_design import off_design as off_design
+from optlaws.mechanisms.follower.response import Response as Response
+from optlaws.mechanisms.lever.design import find_torsion_levers as find_torsion_levers
+from optlaws.mechanisms.lever.lever import TorsionLever as TorsionLever
+from optlaws.mechanisms.lever.motion import LeverMotion as LeverMotion
+from optlaws.mechanisms.spectrum.residual import residual_functional as residual_functional
+from optlaws.mechanisms.spectrum.residual import residual_phasor as residual_phasor
+from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum as ResponseSpectrum
+from optlaws.mechanisms.spectrum.spectrum import response_spectrum as response_spectrum
+
+__all__ = [
+    "CycleResponse",
+    "Deviation",
+    "Follower",
+    "LeverMotion",
+    "Response",
+    "ResponseSpectrum",
+    "TorsionLever",
+    "deg",
+    "find_torsion_levers",
+    "mass_law",
+    "off_design",
+    "polydyne",
+    "residual_functional",
+    "residual_phasor",
+    "response_spectrum",
+]

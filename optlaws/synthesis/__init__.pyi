@@ -1,0 +1,94 @@
+# made by tests/contracts/faces.py from the table in __init__.py
+from optlaws.synthesis.front import Front as Front
+from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
+from optlaws.synthesis.limits.closed_forms import limit as limit
+from optlaws.synthesis.limits.laws import limit_law as limit_law
+from optlaws.synthesis.pareto import pareto_front as pareto_front
+from optlaws.synthesis.problem.constants import FUNCTIONALS as FUNCTIONALS
+from optlaws.synthesis.problem.constants import B as B
+from optlaws.synthesis.problem.constants import C as C
+from optlaws.synthesis.problem.constants import C_minus as C_minus
+from optlaws.synthesis.problem.constants import C_plus as C_plus
+from optlaws.synthesis.problem.constants import D as D
+from optlaws.synthesis.problem.constants import Functional as Functional
+from optlaws.synthesis.problem.constants import J as J
+from optlaws.synthesis.problem.constants import jounce as jounce
+from optlaws.synthesis.problem.constants import rms_c as rms_c
+from optlaws.synthesis.problem.constants import rms_j as rms_j
+from optlaws.synthesis.problem.expression import Expression as Expression
+from optlaws.synthesis.problem.expression import Maximum as Maximum
+from optlaws.synthesis.problem.expression import Term as Term
+from optlaws.synthesis.problem.expression import maximum as maximum
+from optlaws.synthesis.problem.problem import Problem as Problem
+from optlaws.synthesis.problem.ranges import Range as Range
+from optlaws.synthesis.problem.ranges import at_least as at_least
+from optlaws.synthesis.problem.ranges import at_most as at_most
+from optlaws.synthesis.problem.ranges import between as between
+from optlaws.synthesis.problem.windows import Window as Window
+from optlaws.synthesis.problem.windows import via as via
+from optlaws.synthesis.proof.certificate import Certificate as Certificate
+from optlaws.synthesis.proof.certificate import Contact as Contact
+from optlaws.synthesis.proof.power.certificate import PowerCertificate as PowerCertificate
+from optlaws.synthesis.solution import Solution as Solution
+from optlaws.synthesis.solution import Status as Status
+from optlaws.synthesis.solve import sweep as sweep
+from optlaws.synthesis.solve import synthesize as synthesize
+from optlaws.synthesis.spaces.bases import Basis as Basis
+from optlaws.synthesis.spaces.bases import Bernstein as Bernstein
+from optlaws.synthesis.spaces.bases import Chebyshev as Chebyshev
+from optlaws.synthesis.spaces.bases import Pieces as Pieces
+from optlaws.synthesis.spaces.bases import PolynomialBasis as PolynomialBasis
+from optlaws.synthesis.spaces.bases import Powers as Powers
+from optlaws.synthesis.spaces.bases import basis as basis
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions as BoundaryConditions
+from optlaws.synthesis.spaces.end_conditions import construct as construct
+from optlaws.synthesis.spaces.splines import BSplines as BSplines
+from optlaws.synthesis.spaces.splines import PiecewiseBasis as PiecewiseBasis
+
+__all__ = [
+    "FUNCTIONALS",
+    "B",
+    "BSplines",
+    "Basis",
+    "Bernstein",
+    "BoundaryConditions",
+    "C",
+    "C_minus",
+    "C_plus",
+    "Certificate",
+    "Chebyshev",
+    "Contact",
+    "D",
+    "Expression",
+    "Front",
+    "Functional",
+    "J",
+    "Maximum",
+    "Pieces",
+    "PiecewiseBasis",
+    "PolynomialBasis",
+    "PowerCertificate",
+    "Powers",
+    "Problem",
+    "Range",
+    "Solution",
+    "Status",
+    "Term",
+    "Window",
+    "acceleration_limit",
+    "at_least",
+    "at_most",
+    "basis",
+    "between",
+    "construct",
+    "jounce",
+    "limit",
+    "limit_law",
+    "maximum",
+    "pareto_front",
+    "rms_c",
+    "rms_j",
+    "sweep",
+    "synthesize",
+    "via",
+]
