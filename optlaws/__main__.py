@@ -1,5 +1,5 @@
 """`python -m optlaws` is the command `optlaws`."""
 
-from optlaws.cli.commands import main
+from optlaws.cli.app import main
 
 main()

@@ -13,7 +13,7 @@ from hypothesis import HealthCheck, example, given, seed, settings
 from hypothesis import strategies as st
 
 import optlaws
-from optlaws.cli.commands import exit_code
+from optlaws.cli.app import exit_code
 from optlaws.errors import OptlawsError
 from optlaws.files import reading
 from optlaws.jobs import job

@@ -1,5 +1,5 @@
-"""The command `optlaws`, one file for each group of its commands."""
+"""The command `optlaws`: one file a command, and the file's name is the command's."""
 
-from optlaws.cli.commands import exit_code, main
+from optlaws.cli.app import exit_code, main
 
 __all__ = ["exit_code", "main"]

@@ -13,7 +13,7 @@ import pytest
 
 import optlaws
 from optlaws import BoundaryConditions, MotionLaw, Problem, Solution, SolverFailure, construct
-from optlaws.cli import commands
+from optlaws.cli import app
 from tests.documents import ROOT
 
 KEYS = ["status", "objective", "lower_bound", "gap", "limit", "constants", "z", "law", "iterations", "seconds"]
@@ -24,7 +24,7 @@ Capture = pytest.CaptureFixture[str]
 
 
 def called(capsys: Capture, *arguments: object) -> tuple[int, str, str]:
-    code = commands.exit_code([str(one) for one in arguments])
+    code = app.exit_code([str(one) for one in arguments])
     return code, *capsys.readouterr()
 
 
@@ -124,7 +124,7 @@ def test_a_solver_that_fails_ends_with_4(capsys: Capture, monkeypatch: pytest.Mo
     def fails(problem: Problem, **_: object) -> Solution:
         raise SolverFailure("no law was found", problem=problem, tried="IPOPT said 'Restoration_Failed'")
 
-    monkeypatch.setattr(commands, "synthesize", fails)
+    monkeypatch.setattr(optlaws, "synthesize", fails)
     text = refused(capsys, *SOLVE, "--json", code=4)
     assert "Restoration_Failed" in text
     assert "Problem(B=1.641" in text
@@ -134,7 +134,7 @@ def test_an_interrupt_ends_with_130(capsys: Capture, monkeypatch: pytest.MonkeyP
     def interrupted(*_: object, **__: object) -> Solution:
         raise KeyboardInterrupt
 
-    monkeypatch.setattr(commands, "synthesize", interrupted)
+    monkeypatch.setattr(optlaws, "synthesize", interrupted)
     assert refused(capsys, *SOLVE, code=130) == "optlaws: interrupted\n"
 
 

@@ -20,7 +20,7 @@ import msgspec
 from cyclopts import App
 
 import optlaws
-from optlaws.cli.commands import app
+from optlaws.cli.app import app
 from optlaws.jobs.job import JOBS
 
 FROZEN = Path(__file__).with_name("frozen.json")

@@ -9,7 +9,7 @@ import pytest
 
 import optlaws
 from optlaws import Chebyshev, Pieces, Powers, Problem, Solution, Window, deg, pareto_front, synthesize, verification
-from optlaws.cli.commands import exit_code
+from optlaws.cli.app import exit_code
 from tests.contracts.frozen import commands
 from tests.documents import ROOT
 from tests.laws.examples import EXAMPLES

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 from optlaws import Chebyshev, InputError, Problem, synthesize
-from optlaws.cli.commands import exit_code
+from optlaws.cli.app import exit_code
 from optlaws.jobs.job import run
 from optlaws.jobs.laws.atlas import COLUMNS
 from optlaws.jobs.laws.atlas_lookup import look_up, read

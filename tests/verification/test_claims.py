@@ -12,7 +12,7 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from optlaws import Chebyshev, InputError, Pieces, Problem, pareto_front
-from optlaws.cli.commands import exit_code
+from optlaws.cli.app import exit_code
 from optlaws.errors import InfeasibleProblem
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.solve import synthesize

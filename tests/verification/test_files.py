@@ -8,8 +8,8 @@ import pytest
 from cyclopts import App
 
 from optlaws import Chebyshev, InputError, Problem, synthesize
-from optlaws.cli.verify import NotProven
-from optlaws.cli.verify import verify as command
+from optlaws.cli.app import NotProven
+from optlaws.cli.synthesis.verify import verify as command
 from optlaws.verification import verify
 
 pytest.importorskip("flint")

@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from optlaws import Chebyshev, Functional, InputError, Problem, smoothstep
-from optlaws.cli.commands import exit_code
+from optlaws.cli.app import exit_code
 from optlaws.synthesis.spaces.bases import Basis
 from optlaws.verification import exact_bound, verify, verify_all
 from optlaws.verification.exact.of_basis import exact_space

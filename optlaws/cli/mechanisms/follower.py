@@ -1,27 +1,15 @@
-"""The subcommand `optlaws follower`: what an elastic follower's mass does under a cam."""
+"""The command `optlaws follower`: what an elastic follower's mass does under a cam."""
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import Annotated, Any
+from typing import Any
 
-from cyclopts import Parameter
-from rich.console import Console
-from rich.table import Table
-
+import optlaws
+from optlaws.cli.options import AsJson, check_picture, read_law
+from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
-from optlaws.files import reading
-from optlaws.laws import MotionLaw
-from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.savin.family import FAMILIES
-from optlaws.laws.savin.savin import savin
-from optlaws.mechanisms.cam.polydyne import polydyne
-from optlaws.mechanisms.follower.follower import Follower
-from optlaws.mechanisms.follower.off_design import off_design
-from optlaws.mechanisms.follower.response import Response
 
-_PICTURES = (".png", ".svg")
 _POINTS = 2001
 
 
@@ -39,7 +27,7 @@ def follower(
     design_damping: float | None = None,
     spectrum: tuple[float, float] | None = None,
     plot: Path | None = None,
-    as_json: Annotated[bool, Parameter(name="--json")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Response of an elastic follower's mass: peaks, dynamic factor, residual vibration, and the same off design.
 
@@ -71,8 +59,7 @@ def follower(
     as_json
         Print one JSON object on stdout and nothing else.
     """
-    if plot is not None and plot.suffix not in _PICTURES:
-        raise InputError(f"--plot takes a file name that ends in {' or '.join(_PICTURES)}, got {plot}")
+    check_picture(plot)
     if (plot is None) != (spectrum is None):
         raise InputError("--spectrum LOW HIGH gives the range of nu for --plot FILE: name both or neither")
     mass = _follower(nu, (speed_rpm, rise_angle, natural_period), damping)
@@ -81,38 +68,37 @@ def follower(
         raise InputError("--design-damping needs --design-nu")
     cam = reference
     if design_nu is not None:
-        cam = polydyne(reference, design_nu, damping if design_damping is None else design_damping)
+        cam = optlaws.polydyne(reference, design_nu, damping if design_damping is None else design_damping)
     response = mass.response(cam)
     if plot is not None and spectrum is not None:
         _draw(cam, reference, mass.damping, spectrum, plot)
     found = _summary(mass, cam, reference, response)
     if as_json:
-        print(json.dumps(found))  # noqa: T201
+        print_json(found)
     else:
         _show(found)
 
 
-def _follower(nu: float | None, speed: tuple[float | None, ...], damping: float) -> Follower:
+def _follower(nu: float | None, speed: tuple[float | None, ...], damping: float) -> optlaws.Follower:
     rpm, angle, period = speed
     if nu is not None and speed == (None, None, None):
-        return Follower(nu, damping)
+        return optlaws.Follower(nu, damping)
     if nu is None and rpm is not None and angle is not None and period is not None:
-        return Follower.from_speed(speed_rpm=rpm, rise_angle_deg=angle, natural_period=period, damping=damping)
+        return optlaws.Follower.from_speed(speed_rpm=rpm, rise_angle_deg=angle, natural_period=period, damping=damping)
     raise InputError("give either --nu or all of --speed-rpm, --rise-angle and --natural-period")
 
 
-def _law(name: str, alpha: float | None) -> MotionLaw:
+def _law(name: str, alpha: float | None) -> optlaws.MotionLaw:
+    from optlaws.laws.savin.family import FAMILIES
+
     if (name in FAMILIES) != (alpha is not None):
         raise InputError(f"the laws {', '.join(FAMILIES)} need --alpha, and no other takes it")
-    if alpha is not None:
-        return savin(name, alpha)
-    if name.endswith(".json"):
-        data = reading.json_file(Path(name))
-        return MotionLaw.from_dict(data["law"] if isinstance(data, dict) and "law" in data else data)
-    return catalogue[name].law
+    return read_law(name) if alpha is None else optlaws.savin(name, alpha)
 
 
-def _summary(mass: Follower, cam: MotionLaw, reference: MotionLaw, response: Response) -> dict[str, Any]:
+def _summary(
+    mass: optlaws.Follower, cam: optlaws.MotionLaw, reference: optlaws.MotionLaw, response: optlaws.Response
+) -> dict[str, Any]:
     return {
         "nu": mass.nu,
         "damping": mass.damping,
@@ -128,46 +114,45 @@ def _summary(mass: Follower, cam: MotionLaw, reference: MotionLaw, response: Res
                 "dynamic_factor": one.dynamic_factor,
                 "residual_acceleration": one.response.residual_acceleration,
             }
-            for one in off_design(cam, reference, mass)
+            for one in optlaws.off_design(cam, reference, mass)
         ],
         "cam": {"constants": cam.constants.to_dict(), "law": cam.to_dict()},
     }
 
 
 def _show(found: dict[str, Any]) -> None:
-    table = Table(show_header=False, box=None, pad_edge=False)
-    table.add_row("follower", f"nu {found['nu']:.8g}, damping ratio {found['damping']:g}")
-    table.add_row("dynamic factor", f"{found['dynamic_factor']:.8g}")
+    facts = table()
+    facts.add_row("follower", f"nu {found['nu']:.8g}, damping ratio {found['damping']:g}")
+    facts.add_row("dynamic factor", f"{found['dynamic_factor']:.8g}")
     for key, text in (("peak_acceleration", "in the rise"), ("dwell_acceleration", "in the dwell")):
         peak = found[key]
-        table.add_row(f"acceleration {text}", f"{peak['value']:.8g} at k = {peak['k']:.6g}")
-    table.add_row("residual acceleration", f"{found['residual_acceleration']:.8g}")
-    table.add_row("residual displacement", f"{found['residual_displacement']:.8g}")
+        facts.add_row(f"acceleration {text}", f"{peak['value']:.8g} at k = {peak['k']:.6g}")
+    facts.add_row("residual acceleration", f"{found['residual_acceleration']:.8g}")
+    facts.add_row("residual displacement", f"{found['residual_displacement']:.8g}")
     cam = found["cam"]["constants"]
-    table.add_row("cam", ", ".join(f"{name} {_number(cam[name]['value'])}" for name in "BCDJ"))
-    console = Console()
-    console.print(table)
-    off = Table("nu off by", "nu", "dynamic factor", "residual acceleration", box=None, pad_edge=False)
+    facts.add_row("cam", ", ".join(f"{name} {_number(cam[name]['value'])}" for name in "BCDJ"))
+    off = table("nu off by", "nu", "dynamic factor", "residual acceleration")
     for one in found["off_design"]:
         cells = (f"{one[key]:.6g}" for key in ("nu", "dynamic_factor", "residual_acceleration"))
         off.add_row(f"{one['percent']:+g} %" if one["percent"] else "0 %", *cells)
-    console.print(off)
+    show(facts, off)
 
 
 def _number(value: float | None) -> str:
     return "inf" if value is None else f"{value:.7g}"
 
 
-def _draw(cam: MotionLaw, reference: MotionLaw, damping: float, span: tuple[float, float], file: Path) -> None:
+def _draw(
+    cam: optlaws.MotionLaw, reference: optlaws.MotionLaw, damping: float, span: tuple[float, float], file: Path
+) -> None:
     import numpy as np
 
     from optlaws import drawing
     from optlaws.files import writing
-    from optlaws.mechanisms.spectrum.spectrum import response_spectrum
 
     if not 0.0 < span[0] < span[1]:
         raise InputError(f"--spectrum takes a range of nu, two rising numbers above 0, got {span[0]:g} {span[1]:g}")
-    found = response_spectrum(cam, np.linspace(*span, _POINTS), damping)
+    found = optlaws.response_spectrum(cam, np.linspace(*span, _POINTS), damping)
     C = reference.constants.C.value
     with drawing.style():
         figure = drawing.figure()

@@ -1,32 +1,30 @@
-"""The subcommand `optlaws study`: many problems, on all cores or on a cluster."""
+"""The command `optlaws study`: many problems, on all cores or on a cluster."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
 from concurrent.futures import Executor
 from contextlib import contextmanager
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING
 
-from cyclopts import Parameter
-from rich.console import Console
-
+import optlaws
+from optlaws.cli.options import AsJson, Whole
+from optlaws.cli.show import print_json, progress, show
 from optlaws.errors import InputError
-from optlaws.studies.progress import Bar, Lines, listed
-from optlaws.studies.run import run_study
-from optlaws.studies.store.table import NotInstalled
-from optlaws.studies.study import Study, open_study
+
+if TYPE_CHECKING:
+    from optlaws.studies.study import Study
 
 
 def study(
     file: Path | None = None,
     *,
     out: Path | None = None,
-    workers: int | None = None,
+    workers: Whole | None = None,
     dask: str | None = None,
     status: Path | None = None,
-    as_json: Annotated[bool, Parameter(name="--json")] = False,
+    as_json: AsJson = False,
 ) -> None:
     """Solve every point of a study; the same command goes on where an interrupted one stopped.
 
@@ -48,15 +46,17 @@ def study(
     if status is not None:
         if file is not None or out is not None or dask is not None:
             raise InputError("--status takes a directory and neither a study file nor --out nor --dask")
-        _show(open_study(status), as_json=as_json)
+        _show(optlaws.open_study(status), as_json=as_json)
         return
     if file is None:
         raise InputError("name a study file, or a directory by --status DIR")
+    from optlaws.studies.progress import Bar, Lines
+
     target = out if out is not None else file.resolve().parent.parent / "studies" / file.stem
-    progress = Console(stderr=True)
-    watch = Bar(progress) if progress.is_terminal else Lines(progress)
+    console = progress()
+    watch = Bar(console) if console.is_terminal else Lines(console)
     with _cluster(dask) as (executor, threads):
-        found = run_study(file, target, executor=executor, workers=workers or threads, watch=watch)
+        found = optlaws.run_study(file, target, executor=executor, workers=workers or threads, watch=watch)
     _show(found, as_json=as_json)
 
 
@@ -65,6 +65,8 @@ def _cluster(address: str | None) -> Iterator[tuple[Executor | None, int | None]
     if address is None:
         yield None, None
         return
+    from optlaws.studies.store.table import NotInstalled
+
     try:
         from distributed import Client
     except ImportError:
@@ -78,14 +80,15 @@ def _cluster(address: str | None) -> Iterator[tuple[Executor | None, int | None]
 
 
 def _show(found: Study, *, as_json: bool) -> None:
+    from optlaws.studies.progress import listed
+
     counts, total, running = found.counts, len(found), found.running
     done = sum(counts.values())
     if as_json:
-        progress = {"path": str(found.path), "points": total, "done": done, "running": running, "counts": counts}
-        print(json.dumps({**found.about, **progress}))  # noqa: T201
+        state = {"path": str(found.path), "points": total, "done": done, "running": running, "counts": counts}
+        print_json({**found.about, **state})
         return
-    console = Console()
-    state = "finished" if done == total else "under way" if running else "interrupted: run the same command again"
-    console.print(f"{found.path}: {done} of {total} points, {state}", markup=False, highlight=False, soft_wrap=True)
-    if counts:
-        console.print(listed(counts), markup=False, highlight=False, soft_wrap=True)
+    state_in_words = (
+        "finished" if done == total else "under way" if running else "interrupted: run the same command again"
+    )
+    show(f"{found.path}: {done} of {total} points, {state_in_words}", *([listed(counts)] if counts else []))

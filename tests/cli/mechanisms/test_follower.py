@@ -7,7 +7,7 @@ from typing import Any
 import pytest
 
 from optlaws import Follower, MotionLaw, polydyne, savin, smoothstep
-from optlaws.cli import commands
+from optlaws.cli import app
 from optlaws.laws.catalogue.catalogue import catalogue
 
 Capture = pytest.CaptureFixture[str]
@@ -25,7 +25,7 @@ KEYS = [
 
 
 def called(capsys: Capture, *arguments: object) -> tuple[int, str, str]:
-    code = commands.exit_code(["follower", *(str(one) for one in arguments)])
+    code = app.exit_code(["follower", *(str(one) for one in arguments)])
     return code, *capsys.readouterr()
 
 

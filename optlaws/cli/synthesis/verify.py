@@ -2,29 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated
+from typing import TYPE_CHECKING
 
-from cyclopts import Parameter
-
-from optlaws.errors import InputError, OptlawsError
+from optlaws.cli.app import NotProven
+from optlaws.cli.options import AsJson
+from optlaws.cli.show import print_json
+from optlaws.errors import InputError
 
 if TYPE_CHECKING:
     from optlaws.verification import Verification
 
 
-class NotProven(OptlawsError):  # noqa: N818
-    """A file claims something that is false or not proven; the message says what.
-
-    Examples
-    --------
-    >>> issubclass(NotProven, OptlawsError)
-    True
-    """
-
-
-def verify(*files: Path, as_json: Annotated[bool, Parameter(name="--json")] = False) -> None:
+def verify(*files: Path, as_json: AsJson = False) -> None:
     """Check solutions or certificates with every rounding enclosed; no solver takes part.
 
     Ends with 0 if every claim of every file is proven, 1 if one is false or not proven, 2 if a file cannot be checked.
@@ -42,7 +32,7 @@ def verify(*files: Path, as_json: Annotated[bool, Parameter(name="--json")] = Fa
         raise InputError("name at least one file that `optlaws solve --output FILE` wrote")
     found = {_name(file, place): one for file in files for place, one in verify_all(file).items()}
     if as_json:
-        print(json.dumps({name: one.to_dict() for name, one in found.items()}, allow_nan=False))  # noqa: T201
+        print_json({name: one.to_dict() for name, one in found.items()})
     else:
         for name, one in found.items():
             word = "proven" if one.proven else "NOT PROVEN"

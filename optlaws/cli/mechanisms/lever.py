@@ -2,20 +2,19 @@
 
 from __future__ import annotations
 
-import json
 from math import degrees
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Any
 
-from cyclopts import Parameter
-from rich.console import Console
-from rich.table import Table
-
+import optlaws
+from optlaws.cli.options import AsJson, save
+from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
-from optlaws.mechanisms.angles import deg
-from optlaws.mechanisms.lever.design import BETA, LAM, find_torsion_levers
-from optlaws.mechanisms.lever.lever import TorsionLever
-from optlaws.mechanisms.lever.motion import LeverMotion
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from optlaws.mechanisms.lever.motion import LeverMotion
 
 _ANGLES = ("chi01", "chi02")
 _CONSTANTS = ("zeta", "B1", "B3", "C1", "C3")
@@ -34,7 +33,7 @@ def lever(
     period: float | None = None,
     least_transmission: float = 30.0,
     most_rocker_swing: float = 60.0,
-    as_json: Annotated[bool, Parameter(name="--json")] = False,
+    as_json: AsJson = False,
     output: Path | None = None,
 ) -> None:
     """Law of motion of a mass that swings between torsion bars on a cam-lever mechanism: exact and asymptotic.
@@ -80,9 +79,9 @@ def lever(
     given: dict[str, float] = {
         "rho": rho,
         "nu": nu,
-        "swing": deg(swing),
-        "least_transmission": deg(least_transmission),
-        "most_rocker_swing": deg(most_rocker_swing),
+        "swing": optlaws.deg(swing),
+        "least_transmission": optlaws.deg(least_transmission),
+        "most_rocker_swing": optlaws.deg(most_rocker_swing),
     }
     levers = _levers(beta, lam, wanted or [], given)
     machines = [_machine(one.exact, inertia, stiffness, period, one.xi) for one in levers]
@@ -90,7 +89,7 @@ def lever(
         _save(output, levers)
     if as_json:
         found = [_plain(one) | machine for one, machine in zip(levers, machines, strict=True)]
-        print(json.dumps(found[0] if wanted is None else {"levers": found}))  # noqa: T201
+        print_json(found[0] if wanted is None else {"levers": found})
         return
     for one, machine in zip(levers, machines, strict=True):
         _show(one, machine)
@@ -98,15 +97,17 @@ def lever(
 
 def _levers(
     beta: float | None, lam: float | None, wanted: list[str], given: dict[str, float]
-) -> tuple[TorsionLever, ...]:
+) -> tuple[optlaws.TorsionLever, ...]:
     if wanted:
+        from optlaws.mechanisms.lever.design import BETA, LAM
+
         values = dict(_value(text) for text in wanted)
-        return find_torsion_levers(
+        return optlaws.find_torsion_levers(
             values, beta=BETA if beta is None else beta, lam=LAM if lam is None else lam, **given
         )
     if beta is None or lam is None:
         raise InputError("give --beta and --lam, or with --wanted a constant for each that is left out")
-    return (TorsionLever(beta=beta, lam=lam, **given),)
+    return (optlaws.TorsionLever(beta=beta, lam=lam, **given),)
 
 
 def _value(text: str) -> tuple[str, float]:
@@ -132,7 +133,7 @@ def _machine(
     }
 
 
-def _plain(one: TorsionLever) -> dict[str, Any]:
+def _plain(one: optlaws.TorsionLever) -> dict[str, Any]:
     linkage = one.linkage
     return {
         "beta": one.beta,
@@ -157,44 +158,40 @@ def _motion(motion: LeverMotion) -> dict[str, Any]:
     return {"T": motion.period, **{name: getattr(motion, name) for name in (*_ANGLES, *_CONSTANTS)}}
 
 
-def _save(file: Path, levers: tuple[TorsionLever, ...]) -> None:
-    from optlaws.files.writing import MARK, write
-
+def _save(file: Path, levers: tuple[optlaws.TorsionLever, ...]) -> None:
     if len(levers) > 1:
         raise InputError(f"--output takes one law, found are {len(levers)}: give --beta or --lam of one of them")
-    write(file, json.dumps({"about": MARK, "law": levers[0].law().to_dict()}, indent=1) + "\n")
+    save(file, {"law": levers[0].law().to_dict()})
 
 
-def _show(one: TorsionLever, machine: dict[str, float]) -> None:
-    console = Console()
-    table = Table(show_header=False, box=None, pad_edge=False)
+def _show(one: optlaws.TorsionLever, machine: dict[str, float]) -> None:
+    facts = table()
     linkage = one.linkage
-    table.add_row("beta, lambda", f"{one.beta:.8g}, {one.lam:.8g}")
-    table.add_row("alpha, psi0", f"{linkage.alpha:.8g}, {degrees(linkage.psi0):.6g} deg")
-    table.add_row("xi = c2/c1", f"{one.xi:.8g}")
+    facts.add_row("beta, lambda", f"{one.beta:.8g}, {one.lam:.8g}")
+    facts.add_row("alpha, psi0", f"{linkage.alpha:.8g}, {degrees(linkage.psi0):.6g} deg")
+    facts.add_row("xi = c2/c1", f"{one.xi:.8g}")
     for name, twist, left in zip(("1", "2"), one.twists, one.twists_left, strict=True):
         slack = "" if left > 0.0 else ": slack"
-        table.add_row(
+        facts.add_row(
             f"twist of bar {name}", f"{degrees(twist):.6g} deg at rest, {degrees(left):.4g} deg at least{slack}"
         )
     for name, value in machine.items():
         unit = "s" if name == "period_seconds" else "N m/rad"
-        table.add_row(name.replace("_", " ").replace(" seconds", ""), f"{value:.8g} {unit}")
-    console.print(table)
-    console.print(_compared(one))
+        facts.add_row(name.replace("_", " ").replace(" seconds", ""), f"{value:.8g} {unit}")
+    show(facts, _compared(one))
 
 
-def _compared(one: TorsionLever) -> Table:
-    table = Table("", "exact", "asymptotic", "off by, %", box=None, pad_edge=False)
+def _compared(one: optlaws.TorsionLever) -> Table:
+    rows = table("", "exact", "asymptotic", "off by, %")
     exact, asymptotic = _motion(one.exact), _motion(one.asymptotic)
-    table.add_row("T, sqrt(I/c1)", f"{exact['T']:.8g}", f"{asymptotic['T']:.8g}", f"{100 * one.errors['T']:.2g}")
+    rows.add_row("T, sqrt(I/c1)", f"{exact['T']:.8g}", f"{asymptotic['T']:.8g}", f"{100 * one.errors['T']:.2g}")
     for name in (*_ANGLES, *_CONSTANTS):
         scale, unit = (degrees(1.0), ", deg") if name in _ANGLES else (1.0, "")
-        table.add_row(
+        rows.add_row(
             f"{name}{unit}",
             f"{scale * exact[name]:.8g}",
             f"{scale * asymptotic[name]:.8g}",
             f"{100 * one.errors[name]:.2g}",
         )
-    table.add_row("max |da|", "", "", f"{100 * one.errors['max |da|']:.2g}")
-    return table
+    rows.add_row("max |da|", "", "", f"{100 * one.errors['max |da|']:.2g}")
+    return rows

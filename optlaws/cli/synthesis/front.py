@@ -1,30 +1,15 @@
-"""The subcommand `optlaws front`: exchanges between two or three constants."""
+"""The command `optlaws front`: exchanges between two or three constants."""
 
 from __future__ import annotations
 
-import json
-from collections.abc import Sequence
-from contextlib import nullcontext
 from pathlib import Path
 from typing import Annotated, Literal
 
-from cyclopts import Parameter, Token
-from rich.console import Console
-from rich.table import Table
+from cyclopts import Parameter
 
-from optlaws.errors import InputError
-from optlaws.synthesis import Problem, basis
-from optlaws.synthesis.front import HEADINGS, Front
-
-_PICTURES = (".png", ".svg")
-
-
-def _whole(_: object, tokens: Sequence[Token]) -> int:
-    # the parser itself would cut 2.5 to 2
-    return int(tokens[0].value)
-
-
-Whole = Annotated[int, Parameter(converter=_whole)]
+import optlaws
+from optlaws.cli.options import AsJson, Whole, check_picture
+from optlaws.cli.show import busy, print_json, show, table
 
 
 def front(
@@ -37,7 +22,7 @@ def front(
     peak_velocity: float | None = None,
     basis_name: Annotated[Literal["powers", "chebyshev"], Parameter(name="--basis")] = "chebyshev",
     monotone: bool = False,
-    as_json: Annotated[bool, Parameter(name="--json")] = False,
+    as_json: AsJson = False,
     csv: Path | None = None,
     plot: Path | None = None,
 ) -> None:
@@ -68,53 +53,53 @@ def front(
     plot
         Draw the front into this file, PNG or SVG.
     """
-    from optlaws.synthesis.pareto import pareto_front
+    from optlaws.synthesis import basis
 
-    if plot is not None and plot.suffix not in _PICTURES:
-        raise InputError(f"--plot takes a file name that ends in {' or '.join(_PICTURES)}, got {plot}")
-    problem = Problem(B=peak_velocity, order=order, basis=basis(basis_name, degree), monotone=monotone)
-    progress = Console(stderr=True)
-    with progress.status("solving") if progress.is_terminal else nullcontext():
-        found = pareto_front(problem, tuple(over.split(",")), points=points, between=between)
+    check_picture(plot)
+    problem = optlaws.Problem(B=peak_velocity, order=order, basis=basis(basis_name, degree), monotone=monotone)
+    with busy("solving"):
+        found = optlaws.pareto_front(problem, tuple(over.split(",")), points=points, between=between)
     if csv is not None:
         _save_table(found, csv)
     if plot is not None:
         _save_picture(found, plot)
     if as_json:
-        print(json.dumps(found.to_dict()))  # noqa: T201
+        print_json(found.to_dict())
     else:
         _show(found)
 
 
-def _show(found: Front) -> None:
-    table = Table(*HEADINGS, box=None, pad_edge=False)
+def _show(found: optlaws.Front) -> None:
+    from optlaws.synthesis.front import HEADINGS
+
+    rows = table(*HEADINGS)
     for row in found.rows:
-        table.add_row(
+        rows.add_row(
             *(_cell(cell, ".0e" if name == "gap" else ".7g") for cell, name in zip(row, HEADINGS, strict=True))
         )
-    console = Console()
-    console.print(table)
+    show(rows)
     if found.failed:
         values = ", ".join(f"{value:.6g}" for value in found.failed)
-        console.print(f"no law was found at {found.over[0]} = {values}", highlight=False)
+        show(f"no law was found at {found.over[0]} = {values}")
 
 
 def _cell(cell: float | str | None, form: str) -> str:
     return "" if cell is None else cell if isinstance(cell, str) else format(cell, form)
 
 
-def _save_table(found: Front, file: Path) -> None:
+def _save_table(found: optlaws.Front, file: Path) -> None:
     from optlaws.files import tables, writing
+    from optlaws.synthesis.front import HEADINGS
 
     about = f"{' and '.join(found.over)} exchanged: {found[0].problem!r}"
     writing.write(file, tables.to_csv(HEADINGS, found.rows, about=about))
 
 
-def _save_picture(found: Front, file: Path) -> None:
+def _save_picture(found: optlaws.Front, file: Path) -> None:
     from optlaws import drawing
-    from optlaws.files import writing as files
+    from optlaws.files import writing
 
     with drawing.style():
         figure = drawing.figure()
         drawing.draw_front(found, figure.subplots(), color=drawing.BLUES[3])
-        files.write(file, drawing.rendered(figure, file.suffix[1:]))
+        writing.write(file, drawing.rendered(figure, file.suffix[1:]))

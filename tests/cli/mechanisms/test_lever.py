@@ -7,14 +7,14 @@ from pathlib import Path
 import pytest
 
 from optlaws import MotionLaw
-from optlaws.cli import commands
+from optlaws.cli import app
 
 Capture = pytest.CaptureFixture[str]
 EXAMPLE = ["lever", "--beta", "0.75", "--lam", "1", "--swing", "60"]
 
 
 def test_json_holds_the_worked_example(capsys: Capture) -> None:
-    assert commands.exit_code([*EXAMPLE, "--json"]) == 0
+    assert app.exit_code([*EXAMPLE, "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["swing"] == pytest.approx(radians(60))
     assert found["xi"] == pytest.approx(0.53768926, rel=1e-7)
@@ -24,14 +24,14 @@ def test_json_holds_the_worked_example(capsys: Capture) -> None:
 
 
 def test_the_table_compares_both_motions(capsys: Capture) -> None:
-    assert commands.exit_code([*EXAMPLE, "--nu", "0"]) == 0
+    assert app.exit_code([*EXAMPLE, "--nu", "0"]) == 0
     out = capsys.readouterr().out
     assert "deg at least: slack" in out
     assert any(line.startswith("B3 ") for line in out.splitlines())
 
 
 def test_stiffness_for_a_period(capsys: Capture) -> None:
-    assert commands.exit_code([*EXAMPLE, "--inertia", "0.02", "--period", "0.1", "--json"]) == 0
+    assert app.exit_code([*EXAMPLE, "--inertia", "0.02", "--period", "0.1", "--json"]) == 0
     found = json.loads(capsys.readouterr().out)
     assert found["stiffness_1"] == pytest.approx(0.02 * (found["exact"]["T"] / 0.1) ** 2)
     assert found["stiffness_2"] == pytest.approx(found["xi"] * found["stiffness_1"])
@@ -39,10 +39,7 @@ def test_stiffness_for_a_period(capsys: Capture) -> None:
 
 def test_wanted_constants(capsys: Capture, tmp_path: Path) -> None:
     file = tmp_path / "law.json"
-    assert (
-        commands.exit_code(["lever", "--lam", "1", "--swing", "60", "--wanted", "B1/B3=0.99", "--output", str(file)])
-        == 0
-    )
+    assert app.exit_code(["lever", "--lam", "1", "--swing", "60", "--wanted", "B1/B3=0.99", "--output", str(file)]) == 0
     assert "0.7174349" in capsys.readouterr().out
     assert MotionLaw.from_dict(json.loads(file.read_text())["law"]).b(0.0) == pytest.approx(0.0, abs=1e-14)
 
@@ -62,7 +59,7 @@ def test_wanted_constants(capsys: Capture, tmp_path: Path) -> None:
     ],
 )
 def test_errors_are_one_clear_text(capsys: Capture, arguments: list[str], said: str) -> None:
-    assert commands.exit_code(arguments) == 2
+    assert app.exit_code(arguments) == 2
     out, err = capsys.readouterr()
     assert out == ""
     assert err.startswith("optlaws: ")

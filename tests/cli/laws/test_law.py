@@ -5,7 +5,7 @@ import json
 import pytest
 
 from optlaws import MotionLaw, SavinFamily, catalogue, savin
-from optlaws.cli.commands import exit_code
+from optlaws.cli.app import exit_code
 
 
 def output(capsys: pytest.CaptureFixture[str], *arguments: str) -> str:

@@ -1,0 +1,41 @@
+"""The command `optlaws catalogue`: the standard laws, listed and searched."""
+
+from __future__ import annotations
+
+import optlaws
+from optlaws.cli.options import AsJson
+from optlaws.cli.show import print_json, show, table
+from optlaws.errors import InputError
+
+_LETTERS = ("b", "c", "j", "j'", "j''")
+
+
+def catalogue(search: str | None = None, /, *, as_json: AsJson = False) -> None:
+    """List the standard laws, or those that a text may mean, the likeliest first.
+
+    Parameters
+    ----------
+    search
+        A name in any language or of a controller, or part of one.
+    as_json
+        Print one JSON array on stdout and nothing else.
+    """
+    known = optlaws.catalogue
+    entries = tuple(known.values()) if search is None else known.search(search)
+    if not entries:
+        raise InputError(f"no law is like {search!r}; `optlaws catalogue` lists all {len(known)}")
+    if as_json:
+        print_json([{key: value for key, value in one.to_dict().items() if key != "law"} for one in entries])
+        return
+    rows = table("law", "B", "C", "D", "J", "continuous")
+    rows.columns[0].no_wrap = True
+    for one in entries:
+        peaks = one.constants
+        numbers = [f"{peak.value:.6g}" for peak in (peaks.B, peaks.C, peaks.D, peaks.J)]
+        rows.add_row(one.name, *numbers, continuous(one.continuity))
+    show(rows)
+
+
+def continuous(order: int) -> str:
+    """Which derivatives of a law are continuous, in letters."""
+    return "a" + "".join(f", {letter}" for letter in _LETTERS[:order])

@@ -1,0 +1,40 @@
+"""The command `optlaws constants`: the peaks of a law whose Z(k) is given."""
+
+from __future__ import annotations
+
+from typing import Annotated
+
+from cyclopts import Parameter
+
+import optlaws
+from optlaws.cli.options import AsJson, Whole
+from optlaws.cli.show import constants_table, print_json, show
+from optlaws.errors import InputError
+
+
+def constants(
+    *,
+    z: Annotated[str, Parameter(allow_leading_hyphen=True)],
+    order: Whole,
+    as_json: AsJson = False,
+) -> None:
+    """Peak constants of the rest-to-rest law with a given Z(k).
+
+    Parameters
+    ----------
+    z
+        Coefficients of Z in ascending powers of k, separated by blanks: "148.4156 -553.8533 771.0667 -514.0444".
+    order
+        Number l of boundary conditions at each end.
+    as_json
+        Print one JSON object on stdout and nothing else.
+    """
+    try:
+        numbers = [float(text) for text in z.replace(",", " ").split()]
+    except ValueError as error:
+        raise InputError(f"--z takes numbers separated by blanks: {error}") from None
+    found = optlaws.construct(optlaws.BoundaryConditions.rest(order), numbers).constants
+    if as_json:
+        print_json(found.to_dict())
+    else:
+        show(constants_table(found))

@@ -1,0 +1,1 @@
+"""Commands for what laws do in machines: followers, loaders, dwells, levers."""

@@ -1,0 +1,138 @@
+"""The command `optlaws dwell`: balancing mechanisms for motions with dwells, compared."""
+
+from __future__ import annotations
+
+from math import degrees, gcd, inf
+from typing import TYPE_CHECKING, Any
+
+import optlaws
+from optlaws.cli.options import AsJson, Whole, read_law
+from optlaws.cli.show import print_json, show, table
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.dwell.choice import DwellComparison
+    from optlaws.mechanisms.dwell.clutch import Teeth
+
+_TEETH = 3
+
+
+def dwell(
+    name: str,
+    /,
+    *,
+    dwell: float,
+    rise: float,
+    swing: float,
+    radius_ratio: float,
+    inertia_ratio: float,
+    clutch_angle: float,
+    most_torque: float,
+    most_size: float = inf,
+    lower_dwell: float | None = None,
+    law_1: str | None = None,
+    law_2: str | None = None,
+    teeth: Whole = 120,
+    as_json: AsJson = False,
+) -> None:
+    """Balancing mechanisms of types I, II and III for an executive link that dwells, and which of them to take.
+
+    Parameters
+    ----------
+    name
+        Executive law: a name or code of the catalogue, or a JSON file with a law or a solution.
+    dwell
+        Upper dwell, degrees.
+    rise
+        Rise, and return, degrees.
+    swing
+        Swing of the executive rocker, degrees.
+    radius_ratio
+        Least radius of the cams over the stroke of the executive link.
+    inertia_ratio
+        Inertia of the loader's rocker over the executive inertia.
+    clutch_angle
+        Angle in which the clutch acts at either end of a dwell, degrees.
+    most_torque
+        Greatest residual torque b that is acceptable.
+    most_size
+        Greatest size a of the cam that is acceptable.
+    lower_dwell
+        Lower dwell, degrees; 0 for none, the upper one unless given.
+    law_1
+        Law of run-out and run-up of type II; the executive law unless given.
+    law_2
+        Law of the reverse motion of type II and of run-out and run-up of type III; the executive law unless given.
+    teeth
+        Greatest number of teeth of the clutch.
+    as_json
+        Print one JSON object on stdout and nothing else; angles in radians.
+    """
+    found = optlaws.compare_dwell_mechanisms(
+        law=read_law(name),
+        dwell=optlaws.deg(dwell),
+        rise=optlaws.deg(rise),
+        swing=optlaws.deg(swing),
+        radius_ratio=radius_ratio,
+        inertia_ratio=inertia_ratio,
+        clutch_angle=optlaws.deg(clutch_angle),
+        most_torque=most_torque,
+        most_size=most_size,
+        lower_dwell=None if lower_dwell is None else optlaws.deg(lower_dwell),
+        law_1=None if law_1 is None else read_law(law_1),
+        law_2=None if law_2 is None else read_law(law_2),
+    )
+    clutches = {kind: optlaws.Clutch(one) for kind, one in found.mechanisms.items() if kind != "I"}
+    if as_json:
+        print_json(_plain(found, clutches, teeth))
+    else:
+        _show(found, clutches, teeth)
+
+
+def _show(found: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: int) -> None:
+    types = table("type", "a", "b", "S1", "S2", "usable")
+    for kind, reason in found.reasons.items():
+        one = found.mechanisms.get(kind)
+        cells = ["", "", "", ""] if one is None else [f"{value:.6g}" for value in (one.a, one.b, one.S1, one.S2)]
+        types.add_row(kind, *cells, reason)
+    chosen = "none is usable" if found.chosen is None else f"type {found.chosen}, the smallest cam of those usable"
+    show(types, f"take {chosen}; the paper's rule of thumb says {found.by_rule}")
+    teeth_of = table("clutch", "p/N wanted", "p", "N", "off by, deg", "exact with")
+    for kind, clutch in clutches.items():
+        for choice in _choices(clutch, teeth):
+            error = f"{degrees(choice.error):.4f}"
+            teeth_of.add_row(kind, f"{clutch.ratio:.8g}", str(choice.p), str(choice.N), error, _remedy(choice))
+    if clutches:
+        show(teeth_of)
+    remarks = {remark for one in found.mechanisms.values() for remark in one.remarks}
+    show(*(f"mind: {remark}" for remark in sorted(remarks)))
+
+
+def _choices(clutch: optlaws.Clutch, teeth: int) -> tuple[Teeth, ...]:
+    found = [one for one in clutch.choices(1, teeth) if gcd(one.p, one.N) == 1]
+    return tuple(found[:_TEETH]) or (clutch.nearest(teeth),)
+
+
+def _remedy(one: Teeth) -> str:
+    angles = {"swing": one.swing, "dwell": one.dwell, "rise": one.rise}
+    said = [f"{name} {degrees(value):.5g}" for name, value in angles.items() if value is not None]
+    said += [] if one.B2 is None else [f"B2 = {one.B2:.5g}"]
+    return " or ".join(said)
+
+
+def _plain(found: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: int) -> dict[str, Any]:
+    return {
+        "chosen": found.chosen,
+        "by_rule": found.by_rule,
+        "reasons": dict(found.reasons),
+        "types": {kind: one.to_dict() for kind, one in found.mechanisms.items()},
+        "clutches": {
+            kind: {
+                "ratio": clutch.ratio,
+                "teeth": [
+                    {"p": one.p, "N": one.N, "error": one.error, "swing": one.swing, "B2": one.B2}
+                    for one in _choices(clutch, teeth)
+                ],
+            }
+            for kind, clutch in clutches.items()
+        },
+    }

@@ -1,0 +1,1 @@
+"""Commands that look for optimal laws and check them: one problem, a front, a study, a problem file."""

@@ -1,0 +1,44 @@
+"""The command `optlaws run`: the jobs of problem files."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from optlaws.cli.show import busy, show
+from optlaws.errors import InputError
+
+
+def run(*files: Path, out: Path | None = None) -> None:
+    """Do the jobs of problem files and write their results.
+
+    Parameters
+    ----------
+    files
+        Problem files (TOML).
+    out
+        Folder for the results of a single file; otherwise results/NAME beside the folder of the problem file.
+    """
+    from optlaws.jobs import job
+
+    if not files:
+        raise InputError("name at least one problem file, for example problems/optimal_table.toml")
+    if out is not None and len(files) > 1:
+        raise InputError("--out takes the results of one problem file; several were named")
+    for file in files:
+        with busy(f"{file}"):
+            written = job.run(file, out)
+        for text in (w for w in written if w.suffix == ".md"):
+            show(*_lines(text))
+        for result in written:
+            print(_near(result))  # noqa: T201
+
+
+def _lines(text: Path) -> list[str]:
+    return [line for line in text.read_text(encoding="utf-8").splitlines() if not line.startswith("<!--")]
+
+
+def _near(file: Path) -> Path:
+    try:
+        return file.relative_to(Path.cwd())
+    except ValueError:
+        return file
