@@ -13,6 +13,7 @@ from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError, SolverFailure
+from optlaws.numbers import whole
 from optlaws.studies.points.points import Points
 from optlaws.studies.points.study_file import StudyFile, entries, read_study
 from optlaws.studies.progress import Silent, Watch
@@ -60,7 +61,7 @@ def run_study(
     Raises
     ------
     InputError
-        If the study file is wrong, or the directory holds another study or is in use.
+        If the study file or the number of workers is wrong, or the directory holds another study or is in use.
     StoreFailure
         If the directory cannot be written, for example on a full disk; what was written stands.
     SolverFailure
@@ -76,6 +77,8 @@ def run_study(
     ...     print(study.counts, round(study.best("C").constants["C"], 6))
     {'optimal': 4} 4.819774
     """
+    if workers is not None:
+        workers = whole(workers, "workers", least=1)
     study = read_study(source)
     points = Points.of(study)
     check(study, points)

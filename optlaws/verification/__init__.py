@@ -71,10 +71,10 @@ def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification
     [('printed[0]', True)]
     """
     _need_flint()
-    from optlaws.verification import claims as checks
+    from optlaws.verification import claims
 
     with _precision:
-        return checks.verify_all(source)
+        return claims.verify_all(source)
 
 
 def exact_bound(certificate: Certificate) -> Fraction | None:

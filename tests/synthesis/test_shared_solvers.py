@@ -1,10 +1,13 @@
-"""Many threads at once, and forks among them: answers are those of one thread, to the last bit."""
+"""What is kept for the next problem, and many threads at once: answers are those of one thread, to the last bit."""
 
 import subprocess
 import sys
 
 import pytest
 
+from optlaws import Chebyshev, Problem
+from optlaws.synthesis.method.on_points import ipopt
+from optlaws.synthesis.program import writer
 from tests.documents import ROOT
 
 
@@ -14,3 +17,24 @@ def test_threads_and_children_answer_as_one_thread_does(rounds: int) -> None:
     answer = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, timeout=60 * rounds)
     assert answer.returncode == 0, answer.stderr
     assert f"and {rounds} children" in answer.stdout
+
+
+def test_solvers_are_kept_as_many_as_their_rows_allow(monkeypatch: pytest.MonkeyPatch) -> None:
+    counts = [ipopt._Counts(4, 1000, count, 0, ()) for count in range(5)]
+    monkeypatch.setattr(ipopt, "_solvers", {})
+    monkeypatch.setattr(ipopt, "_build", lambda counts, **_: counts)
+    for one in (0, 1, 0, 2, 0, 3, 4):
+        assert ipopt._solver((counts[one], False, False)) == counts[one]
+    # those used last; the rows of all kinds count
+    assert [shape[0] for shape in ipopt._solvers] == [counts[3], counts[4]]
+    ipopt._solver((ipopt._Counts(4, 10_000, 0, 0, ()), False, False))
+    assert len(ipopt._solvers) == 1
+
+
+def test_a_grid_of_forty_shapes_writes_each_program_once() -> None:
+    shapes = [(order, degree) for order in range(3, 7) for degree in range(3, 23, 2)]
+    before = writer._model.cache_info().misses
+    for B in (1.7, 1.8):
+        for order, degree in shapes:
+            writer.model(Problem(order=order, B=B, basis=Chebyshev(degree)))
+    assert writer._model.cache_info().misses - before <= len(shapes)

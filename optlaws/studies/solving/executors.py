@@ -7,7 +7,6 @@ from collections.abc import Callable, Mapping
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 from typing import Any, ParamSpec, TypeVar
 
-from optlaws.errors import InputError
 from optlaws.studies.solving.processes import Processes, solve_chunk
 from optlaws.studies.solving.solving import in_process
 
@@ -41,8 +40,6 @@ class Crew:
     """An executor with the function that it is to run, and how many chunks it is given at a time."""
 
     def __init__(self, executor: Executor | None, workers: int | None) -> None:
-        if workers is not None and workers < 1:
-            raise InputError(f"workers must be at least 1, got {workers}")
         self._processes: Processes | None = None
         if executor is None:
             count = workers or cores()

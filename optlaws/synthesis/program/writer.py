@@ -54,7 +54,7 @@ _LEAST_WEIGHT, _GREATEST_WEIGHT = 1e-3, 1e3
 _SIDES = {1.0: "above", -1.0: "below"}
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=256)
 def _model(problem: Problem) -> Model:
     space = _space(problem)
     names = [repr(leaf) for _, leaf in leaves(problem.objective)]
@@ -74,7 +74,7 @@ def relaxed(problem: Problem, tangent: float) -> Model:
     return _relaxed(problem, tangent)
 
 
-@lru_cache(maxsize=16)
+@lru_cache(maxsize=64)
 def _relaxed(problem: Problem, tangent: float) -> Model:
     names = [repr(leaf) for _, leaf in leaves(problem.objective)]
     names += [repr(term) for term in maxima(problem.objective)]

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from dataclasses import astuple, dataclass
-from functools import lru_cache
 from typing import Any
 
 import numpy as np
@@ -46,7 +45,8 @@ _CONE_SHARE = 2.0  # the cone's row as IPOPT sees it is twice as steep as the ma
 # neither CasADi's counts of references, nor a solver's memory, nor MUMPS stand two threads; they hold the
 # interpreter's lock during a solve, so that nothing is lost by waiting
 _casadi = process_lock()
-_SOLVERS = 64  # each holds 100 to 300 kB
+# a solver that was called holds 20 kB a row, most of it IPOPT's and MUMPS's: together some 60 MB
+_MOST_ROWS = 3000
 
 
 @dataclass(frozen=True)
@@ -58,6 +58,15 @@ class _Counts:
     products: int
     cones: int
     norms: tuple[int, ...]
+
+    @property
+    def rows(self) -> int:
+        """The rows of all kinds."""
+        return self.linear + self.products + self.cones + len(self.norms)
+
+
+_Shape = tuple[_Counts, bool, bool]
+_solvers: dict[_Shape, Any] = {}
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,10 +147,9 @@ class _Result:
     iterations: int
 
 
-def _solved(shape: tuple[_Counts, bool, bool], **numbers: Array) -> _Result:
-    counts, careful, fine = shape
+def _solved(shape: _Shape, **numbers: Array) -> _Result:
     with _casadi:
-        solver = _solver(counts, careful=careful, fine=fine)
+        solver = _solver(shape)
         result = solver(**numbers)
         stats = solver.stats()
         found = _Result(
@@ -192,8 +200,22 @@ def _split(pairs: list[tuple[Any, Points]], weights: Array, rows: int, equations
     return [*found, weights[rows - equations : rows]]
 
 
-@lru_cache(maxsize=_SOLVERS)
-def _solver(counts: _Counts, *, careful: bool, fine: bool) -> Any:  # noqa: ANN401 - a casadi Function, imported late
+def _solver(shape: _Shape) -> Any:  # noqa: ANN401 - a casadi Function, imported late
+    """The solver of a shape; those used last are kept, as many as their rows allow. The lock must be held."""
+    counts, careful, fine = shape
+    solver = _solvers.pop(shape, None)
+    if solver is None:
+        solver = _build(counts, careful=careful, fine=fine)
+    _solvers[shape] = solver
+    rows = sum(counts.rows for counts, _, _ in _solvers)
+    while rows > _MOST_ROWS and len(_solvers) > 1:
+        oldest = next(iter(_solvers))
+        rows -= oldest[0].rows
+        del _solvers[oldest]
+    return solver
+
+
+def _build(counts: _Counts, *, careful: bool, fine: bool) -> Any:  # noqa: ANN401 - a casadi Function, imported late
     import casadi as ca
 
     size, linear, products, cones, norms = astuple(counts)

@@ -249,7 +249,7 @@ class PolynomialSpace(LawSpace):
         return self.scale * 4.0 ** (self.order - 1) / self.base_ratio
 
 
-@lru_cache(maxsize=32)
+@lru_cache(maxsize=128)
 def polynomial_space(boundary: BoundaryConditions, degree: int, *, symmetric: bool) -> PolynomialSpace:
     """The space, kept for the next call.
 
