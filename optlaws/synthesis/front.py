@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.synthesis.problem.constants import FUNCTIONALS
-from optlaws.synthesis.problem.problem import CONSTANTS
+from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.solution import Solution
 
 Array = NDArray[np.float64]

@@ -16,7 +16,8 @@ from optlaws.suggest import unknown_key
 from optlaws.synthesis.front import Front, undominated, value_of
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import FUNCTIONALS
-from optlaws.synthesis.problem.problem import CONSTANTS, Problem
+from optlaws.synthesis.problem.fields import CONSTANTS
+from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.program.writer import extreme_velocity
 from optlaws.synthesis.solution import Solution, Status
@@ -218,8 +219,9 @@ def _checked(problem: object, over: Sequence[str], between: tuple[float, float] 
     for name, known in zip(names, [CONSTANTS] * (len(names) - 1) + [tuple(FUNCTIONALS)], strict=True):
         if name not in known:
             raise InputError(unknown_key(name, known, "constant"))
-        if getattr(problem, name, None) is not None:
-            raise InputError(f"{name} is exchanged: leave it out of the problem, got {getattr(problem, name)!r}")
+        if problem.range(name) is not None:
+            given = getattr(problem, name, problem.range(name))
+            raise InputError(f"{name} is exchanged: leave it out of the problem, got {given!r}")
     if between is not None:
         pair = tuple(between)
         if len(pair) != 2 or not all(_positive(value) for value in pair) or pair[0] >= pair[1]:

@@ -19,8 +19,9 @@ from optlaws.synthesis.method import starts
 from optlaws.synthesis.method.contacts import VIOLATION
 from optlaws.synthesis.method.exchange import Outcome, solve
 from optlaws.synthesis.method.lower_bounds import raised
+from optlaws.synthesis.problem.fields import differ_in_numbers
 from optlaws.synthesis.problem.mixtures import warn_of_mixture
-from optlaws.synthesis.problem.problem import CONSTANTS, Problem
+from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import shortfalls, worth
 from optlaws.synthesis.program.writer import Model, model
 from optlaws.synthesis.proof import mirroring
@@ -178,19 +179,8 @@ def _check_types(problem: object, start: object, bound: object) -> None:
 
 
 def _neighbours(first: Problem, second: Problem) -> bool:
-    same_kind = all(type(getattr(first, name)) is type(getattr(second, name)) for name in CONSTANTS)
-    kept = ("order", "monotone", "symmetric", "boundary", "inflexion", "peak_at", "peak_is_variable")
-    alike = all(getattr(first, name) == getattr(second, name) for name in kept)
-    asked = [[(one, isfinite(wanted.high)) for one, wanted in problem.bounded] for problem in (first, second)]
-    weighted = [term for _, term in first.objective.terms] == [term for _, term in second.objective.terms]
-    return (
-        same_kind
-        and alike
-        and asked[0] == asked[1]
-        and weighted
-        and len(first.windows) == len(second.windows)
-        and _same_space(first, second)
-    )
+    peaks = [(one.peak_at, one.peak_is_variable) for one in (first, second)]
+    return peaks[0] == peaks[1] and differ_in_numbers(first, second) and _same_space(first, second)
 
 
 def _raised(problem: Problem, found: Model, plain: _Attempt) -> _Attempt:

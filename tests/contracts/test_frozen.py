@@ -37,13 +37,33 @@ def changes(frozen: Table, now: Table) -> list[str]:
 def is_kept(kind: str, now: str) -> bool:
     """Whether whatever could be given still can, and means the same if it is not given."""
     (old, _, default), (new, _, now_default) = kind.partition(" = "), now.partition(" = ")
-    return default == now_default and set(WORDS.findall(old)) <= set(WORDS.findall(new))
+    known, allowed = set(WORDS.findall(old)), set(WORDS.findall(new))
+    if "str" in allowed:
+        known = {word for word in known if word != "Literal" and not word.startswith("'")}
+    # what had to be given and now may be left out is still taken
+    return default in {"", now_default} and known <= allowed
 
 
 def is_below_an_optional(entry: str, known: dict[str, str]) -> bool:
     """Whether an entry is part of a table that is itself new."""
     parent = entry.rpartition(".")[0]
     return bool(parent) and parent.removesuffix("[]").removesuffix(".*") not in known
+
+
+@pytest.mark.parametrize(
+    ("kind", "now", "kept"),
+    [
+        ("int", "int | None = None", True),
+        ("int = 3", "int", False),
+        ("Literal['a', 'b'] | None = None", "str | None = None", True),
+        ("Literal['a', 'b'] | None = None", "Literal['a', 'b', 'c'] | None = None", True),
+        ("Literal['a', 'b'] | None = None", "Literal['a'] | None = None", False),
+        ("str | None = None", "Literal['a'] | None = None", False),
+        ("int | str = 3", "str = 3", False),
+    ],
+)
+def test_more_may_be_taken_and_less_demanded(kind: str, now: str, *, kept: bool) -> None:
+    assert is_kept(kind, now) == kept
 
 
 @pytest.mark.parametrize(

@@ -2,20 +2,25 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
+from typing import Any
 
 import optlaws
-from optlaws.cli.options import AsJson, Whole
+from optlaws.cli.options import AsJson
+from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
+from optlaws.synthesis.problem.fields import CONSTANTS, ENTRIES
+
+_KNOWN = ("minimise", "order", *CONSTANTS, "bounds")
+_ELSEWHERE = "the atlas holds symmetric laws from rest to rest by B, order and degree; optlaws solve takes it"
 
 
+@asks_for_a_problem(given={"order": ...}, refused={name: _ELSEWHERE for name in ENTRIES if name not in _KNOWN})
 def atlas(
+    entries: dict[str, Any],
     *,
-    order: Whole,
-    minimise: str = "C",
-    peak_velocity: float | None = None,
-    most: list[str] | None = None,
     file: Path = Path("results/atlas/atlas.csv"),
     as_json: AsJson = False,
 ) -> None:
@@ -23,27 +28,16 @@ def atlas(
 
     Parameters
     ----------
-    order
-        Number l of boundary conditions at each end.
-    minimise
-        What is least: C, D, J or rms_c.
-    peak_velocity
-        B; free unless given.
-    most
-        Any of B, C, D, J and rms_c at most a value, such as D=6; may be repeated.
     file
         The atlas.
     as_json
         Print one JSON object on stdout and nothing else.
     """
     from optlaws.jobs.laws.atlas_lookup import look_up, problem
-    from optlaws.synthesis.problem.ranges import read_bounds
 
-    asked = {name: one.high for name, one in read_bounds(most or []).items()}
-    if peak_velocity is not None and "B" in asked:
-        raise InputError("give --peak-velocity or --most B=..., not both")
-    point = look_up(file, minimise=minimise, order=order, B=peak_velocity, most=asked)
-    solution = optlaws.synthesize(problem(point, B=peak_velocity, most=asked))
+    B, most = entries.get("B"), _greatest(entries)
+    point = look_up(file, minimise=entries["minimise"], order=entries["order"], B=B, most=most)
+    solution = optlaws.synthesize(problem(point, B=B, most=most))
     exact = {name: getattr(solution.constants, name).value for name in ("B", "C", "D", "J")}
     exact["rms_c"] = solution.constants.rms_c
     if as_json:
@@ -55,3 +49,15 @@ def atlas(
     for name, value in exact.items():
         rows.add_row(name, f"{point.constants[name]:.8g}" if name in point.constants else "", f"{value:.10g}")
     show(rows, f"{solution.status.value}: {solution.problem!r}")
+
+
+def _greatest(entries: Mapping[str, Any]) -> dict[str, float]:
+    """The greatest values that are asked, by constant."""
+    bounds: Mapping[str, optlaws.Range] = entries.get("bounds", {})
+    own = {name: entries[name].high for name in CONSTANTS if name in entries and name != "B"}
+    for name, asked in bounds.items():
+        if name in own or (name == "B" and "B" in entries):
+            raise InputError(f"{name} is given twice: by its own option and by --most {name}=...")
+        if asked.low > 0.0:
+            raise InputError("--least is not for this command: the atlas is searched by greatest values")
+    return own | {name: asked.high for name, asked in bounds.items()}

@@ -3,25 +3,23 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated, Literal
-
-from cyclopts import Parameter
+from typing import Any
 
 import optlaws
 from optlaws.cli.options import AsJson, Whole, check_picture
+from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import busy, print_json, show, table
 
 
+@asks_for_a_problem(
+    given={"degree": 9, "basis": "chebyshev"}, refused={"minimise": "the last constant of --over is minimised"}
+)
 def front(
+    entries: dict[str, Any],
     *,
     over: str = "B,C",
-    order: Whole,
-    degree: Whole = 9,
     points: Whole = 50,
     between: tuple[float, float] | None = None,
-    peak_velocity: float | None = None,
-    basis_name: Annotated[Literal["powers", "chebyshev"], Parameter(name="--basis")] = "chebyshev",
-    monotone: bool = False,
     as_json: AsJson = False,
     csv: Path | None = None,
     plot: Path | None = None,
@@ -32,20 +30,10 @@ def front(
     ----------
     over
         Two or three constants, separated by commas; the last is minimised at given values of the others.
-    order
-        Number l of boundary conditions at each end.
-    degree
-        Degree of Z(k).
     points
         How many laws.
     between
         Least and greatest value of the first constant; where it pays unless given.
-    peak_velocity
-        B, where it is not exchanged; free unless given.
-    basis_name
-        Basis of Z(k).
-    monotone
-        Ask b >= 0 too: no return within the motion.
     as_json
         Print one JSON object on stdout and nothing else.
     csv
@@ -53,10 +41,8 @@ def front(
     plot
         Draw the front into this file, PNG or SVG.
     """
-    from optlaws.synthesis import basis
-
     check_picture(plot)
-    problem = optlaws.Problem(B=peak_velocity, order=order, basis=basis(basis_name, degree), monotone=monotone)
+    problem = optlaws.Problem.from_dict(entries)
     with busy("solving"):
         found = optlaws.pareto_front(problem, tuple(over.split(",")), points=points, between=between)
     if csv is not None:

@@ -15,32 +15,13 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files import reading, tables, writing
 from optlaws.files.problem_file import convert
 from optlaws.jobs.pages import printed
-from optlaws.studies.points.problem_entries import HEADINGS, Asked, Asking, Count, Text, gap, problem, record, shown
+from optlaws.studies.points.problem_entries import Asked, Lists, Some, Text, gap, problem, record, shown
 from optlaws.suggest import unknown_key
 from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, synthesize
-
-Some = msgspec.Meta(min_length=1)
+from optlaws.synthesis.problem.fields import ENTRIES
 
 RESULTS = ("objective", "lower bound", "gap", "limit", "above limit, %", "status")
 COLUMNS = (*FUNCTIONALS, *RESULTS)
-
-
-class Sweep(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Values that entries take in turn; lists in one table go together and are of one length."""
-
-    minimise: Annotated[list[Text], Some] | None = None
-    B: Annotated[list[Asking], Some] | None = None
-    C: Annotated[list[Asking], Some] | None = None
-    D: Annotated[list[Asking], Some] | None = None
-    J: Annotated[list[Asking], Some] | None = None
-    order: Annotated[list[Count], Some] | None = None
-    basis: Annotated[list[Literal["powers", "chebyshev"]], Some] | None = None
-    degree: Annotated[list[Count], Some] | None = None
-    monotone: Annotated[list[bool], Some] | None = None
-
-    def values(self) -> dict[str, list[Any]]:
-        """The lists that are there."""
-        return {name: getattr(self, name) for name in Sweep.__struct_fields__ if getattr(self, name) is not None}
 
 
 class Compare(msgspec.Struct, forbid_unknown_fields=True):
@@ -66,7 +47,7 @@ class Study(msgspec.Struct, forbid_unknown_fields=True):
     job: str
     title: Text
     problem: Asked
-    sweep: Annotated[list[Sweep], Some]
+    sweep: Annotated[list[Lists], Some]
     text: str = ""
     bound: Literal["quick", "tight"] = "quick"
     columns: Annotated[list[str], Some] = msgspec.field(default_factory=lambda: ["B", "C", "D", "J", *RESULTS[1:]])
@@ -110,7 +91,7 @@ def _entries(spec: Study) -> Iterator[dict[str, Any]]:
     parts = []
     names: list[str] = []
     for i, one in enumerate(spec.sweep):
-        values = one.values()
+        values = one.given()
         lengths = {len(value) for value in values.values()}
         if len(lengths) != 1:
             raise InputError(f"sweep[{i}]: needs one or more lists of one length, got lengths {sorted(lengths)}")
@@ -181,13 +162,13 @@ def _cells(
     spec: Study, rows: Sequence[Row], beside: Sequence[Sequence[tables.Cell]]
 ) -> tuple[list[str], list[list[tables.Cell]]]:
     swept = list(rows[0].entries)
-    headings = [HEADINGS.get(name, name) for name in swept] + spec.columns
+    headings = [ENTRIES[name].heading for name in swept] + spec.columns
     headings += [f"{column}, {one.name}" for one in spec.compare for column in one.columns]
     if spec.beside is not None:
         headings += [f"{column}, {spec.beside.name}" for column in spec.beside.columns]
     cells = []
     for row, aside in zip(rows, beside, strict=True):
-        line: list[tables.Cell] = [shown(row.entries[name]) for name in swept]
+        line: list[tables.Cell] = [shown(name, row.entries[name]) for name in swept]
         line += [row.status if name == "status" else _cell(row.solution, name) for name in spec.columns]
         for one, other in zip(spec.compare, row.others, strict=True):
             line += [_cell(other, name) for name in one.columns]

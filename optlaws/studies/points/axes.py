@@ -15,10 +15,11 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import real
 from optlaws.studies.points.study_file import Sample, Span, Steps, StudyFile
+from optlaws.synthesis.problem.fields import ENTRIES, Kind
 
-WHOLE = ("order", "degree", "continuity")
-TEXTS = ("minimise", "basis")
-SWITCHES = ("monotone", "symmetric")
+#: kinds of entries that a range can run through; also numbers that fill a place in text
+_NUMBERS = (Kind.CONSTANT, Kind.NUMBER, Kind.WHOLE)
+_TYPES: dict[Kind, type] = {Kind.TEXT: str, Kind.BASIS: str, Kind.SWITCH: bool}
 
 Columns = tuple[Sequence[Any], ...]
 
@@ -39,13 +40,26 @@ class Axis:
         return {name: column[place] for name, column in zip(self.names, self.columns, strict=True)}
 
 
+def kind_of(name: str) -> Kind:
+    """What the values of whatever varies are: of an entry, of "bounds.NAME", or of a place in text.
+
+    Examples
+    --------
+    >>> kind_of("degree").name, kind_of("bounds.rms_c").name, kind_of("w").name
+    ('WHOLE', 'CONSTANT', 'NUMBER')
+    """
+    if name in ENTRIES:
+        return ENTRIES[name].kind
+    return Kind.CONSTANT if name.startswith("bounds.") else Kind.NUMBER
+
+
 class Numbers(Sequence[float]):
     """The values of a range, made when they are asked for."""
 
     def __init__(self, name: str, steps: Steps) -> None:
         check_span(name, steps)
-        self._name, self._steps = name, steps
-        if name in WHOLE:
+        self._name, self._steps, self._whole = name, steps, kind_of(name) is Kind.WHOLE
+        if self._whole:
             numbers.whole(steps.steps, f"{name}: steps", most=numbers.MOST_DEGREE)
             for i in range(len(self)):
                 whole(name, self._at(i))
@@ -63,7 +77,7 @@ class Numbers(Sequence[float]):
         if not -len(self) <= place < len(self):
             raise IndexError(place)
         value = self._at(place % len(self))
-        return whole(self._name, value) if self._name in WHOLE else value
+        return whole(self._name, value) if self._whole else value
 
     def _at(self, place: int) -> float:
         return scaled(self._steps, place / max(1, len(self) - 1))
@@ -88,7 +102,7 @@ def scaled(span: Steps | Span, share: float) -> float:
 
 def check_span(name: str, span: Steps | Span) -> None:
     """Refuse spans without values: infinite ends, logs of what is not above 0, entries that are no numbers."""
-    if name in (*TEXTS, *SWITCHES, "breaks", "start", "end", "windows"):
+    if kind_of(name) not in _NUMBERS:
         raise InputError(f"{name} is no number: give a list of its values, not a range")
     if not (np.isfinite(span.low) and np.isfinite(span.high)):
         raise InputError(f"{name}: from and to must be finite, got {span.low!r} and {span.high!r}")
@@ -120,13 +134,13 @@ def axes(study: StudyFile) -> list[Axis]:
 def _column(name: str, values: list[Any] | Steps) -> Sequence[Any]:
     if isinstance(values, Steps):
         return Numbers(name, values)
-    if name in WHOLE:
+    kind = kind_of(name)
+    if kind is Kind.WHOLE:
         return [whole(name, value) for value in values]
-    kind: Any = str if name in TEXTS else bool if name in SWITCHES else None
     for value in values:
-        if kind is not None and not isinstance(value, kind):
-            raise InputError(f"{name} must be {'text' if kind is str else 'true or false'}, got {shortened(value)}")
-    return [value if real(value) is None else float(value) for value in values]
+        if kind in _TYPES and not isinstance(value, _TYPES[kind]):
+            raise InputError(f"{name} must be {kind.value}, got {shortened(value)}")
+    return [float(value) if kind in _NUMBERS and real(value) is not None else value for value in values]
 
 
 def sampled(sample: Sample) -> Columns:
@@ -155,7 +169,7 @@ def sampled(sample: Sample) -> Columns:
 
 class _Spread(Sequence[float]):
     def __init__(self, name: str, span: Span, shares: NDArray[np.float64]) -> None:
-        self._whole, self._span, self._shares = name in WHOLE, span, shares
+        self._whole, self._span, self._shares = kind_of(name) is Kind.WHOLE, span, shares
 
     def __len__(self) -> int:
         return len(self._shares)

@@ -4,47 +4,74 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from math import ceil, isfinite, log10
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import msgspec
 
 from optlaws.errors import InputError
 from optlaws.synthesis import Problem, Range, Solution, Status
+from optlaws.synthesis.problem.fields import ENTRIES, Kind
+from optlaws.synthesis.problem.windows import Window
 
 Count = Annotated[int, msgspec.Meta(ge=1, le=100)]
 Positive = Annotated[float, msgspec.Meta(gt=0.0, le=1e100)]
+Number = Annotated[float, msgspec.Meta(ge=-1e100, le=1e100)]
 Bound = Annotated[float, msgspec.Meta(ge=0.0)]
 Asking = Positive | Annotated[list[Bound], msgspec.Meta(min_length=2, max_length=2)] | Literal["free"]
 Text = Annotated[str, msgspec.Meta(min_length=1)]
 
-HEADINGS = {name: f"{name} asked" for name in ("B", "C", "D", "J")} | {
-    "minimise": "minimised",
-    "order": "order l",
-    "degree": "degree of Z",
+Some = msgspec.Meta(min_length=1)
+
+#: what files hold for each kind of entry
+TYPES: dict[Kind, Any] = {
+    Kind.CONSTANT: Asking,
+    Kind.CONSTANTS: dict[str, Asking],
+    Kind.WHOLE: Count,
+    Kind.NUMBER: Number,
+    Kind.NUMBERS: list[Number],
+    Kind.TEXT: Text,
+    Kind.SWITCH: bool,
+    Kind.BASIS: Text,
+    Kind.BREAKS: Count | Annotated[list[Bound], msgspec.Meta(min_length=2)],
+    Kind.WINDOWS: list[dict[str, Any] | str],
 }
 
 
-class Asked(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Entries of a problem; those left out are the base problem's, or as in `Problem`. "free" takes a constant away."""
-
-    minimise: Text | None = None
-    B: Asking | None = None
-    C: Asking | None = None
-    D: Asking | None = None
-    J: Asking | None = None
-    order: Count | None = None
-    bounds: dict[str, Asking] | None = None
-    inflexion: Annotated[float, msgspec.Meta(gt=0.0, lt=1.0)] | None = None
-    basis: Literal["powers", "chebyshev", "bernstein", "bsplines", "pieces"] | None = None
-    degree: Count | None = None
-    breaks: Count | Annotated[list[Bound], msgspec.Meta(min_length=2)] | None = None
-    continuity: Count | None = None
-    monotone: bool | None = None
-    symmetric: bool | None = None
+class Entries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """Entries of a problem that a file may hold; what is left out is None."""
 
     def given(self) -> dict[str, Any]:
-        """The entries that are there."""
-        return {name: getattr(self, name) for name in Asked.__struct_fields__ if getattr(self, name) is not None}
+        """The entries of a problem that are there, in the order of the table."""
+        return {name: getattr(self, name) for name in ENTRIES if getattr(self, name) is not None}
+
+
+def _struct(name: str, doc: str, types: Mapping[str, Any]) -> Any:  # noqa: ANN401 - a type
+    members = [(entry, types[entry] | None, None) for entry in ENTRIES]
+    space = {"__doc__": doc}
+    return msgspec.defstruct(
+        name, members, bases=(Entries,), namespace=space, module=__name__, kw_only=True, forbid_unknown_fields=True
+    )
+
+
+if TYPE_CHECKING:
+
+    class Asked(Entries):
+        """A problem."""
+
+    class Lists(Entries):
+        """Lists of values."""
+
+else:
+    Asked = _struct(
+        "Asked",
+        'Entries of a problem; those left out are as in the base problem or `Problem`. "free" takes a constant away.',
+        {name: TYPES[entry.kind] for name, entry in ENTRIES.items()},
+    )
+    Lists = _struct(
+        "Lists",
+        "Values that entries take in turn; lists in one table go together and are of one length.",
+        {name: Annotated[list[TYPES[entry.kind]], Some] for name, entry in ENTRIES.items()},
+    )
 
 
 def problem(where: str, *parts: Mapping[str, Any]) -> Problem:
@@ -72,14 +99,18 @@ def problem(where: str, *parts: Mapping[str, Any]) -> Problem:
         raise InputError(f"{where}: {error}") from None
 
 
-def shown(value: Any) -> str | float | int:  # noqa: ANN401 - an entry
-    """An entry as a table's cell.
+def shown(name: str, value: Any) -> str | float | int:  # noqa: ANN401 - an entry
+    """The value of an entry as a table's cell.
 
     Examples
     --------
-    >>> shown([0, 60]), shown([1.5, 1.8]), shown(1.641)
-    ('at most 60', '1.5 to 1.8', 1.641)
+    >>> shown("B", [0, 60]), shown("C", [1.5, 1.8]), shown("B", 1.641), shown("start", [0, 0.5])
+    ('at most 60', '1.5 to 1.8', 1.641, '0, 0.5')
     """
+    if isinstance(value, dict):
+        return "; ".join(f"{key} {shown('B', one)}" for key, one in value.items())
+    if isinstance(value, list) and ENTRIES[name].kind not in {Kind.CONSTANT, Kind.CONSTANTS}:
+        return ("; " if ENTRIES[name].kind is Kind.WINDOWS else ", ").join(_brief(one) for one in value)
     if isinstance(value, Range):
         value = [value.low, value.high]
     if isinstance(value, list):
@@ -88,6 +119,12 @@ def shown(value: Any) -> str | float | int:  # noqa: ANN401 - an entry
             return f"at least {low:g}"
         return f"{low:g} to {high:g}" if low > 0.0 else f"at most {high:g}"
     return value if isinstance(value, int | float) and not isinstance(value, bool) else str(value)
+
+
+def _brief(part: Any) -> str:  # noqa: ANN401 - a window or a number
+    if isinstance(part, Mapping):
+        return repr(Window.from_dict(part))
+    return part if isinstance(part, str) else f"{part:g}"
 
 
 def gap(solution: Solution) -> str:

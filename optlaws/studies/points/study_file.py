@@ -15,21 +15,10 @@ from optlaws.files.problem_file import convert
 from optlaws.numbers import finite
 from optlaws.studies.points.problem_entries import Asked, Text
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.problem.fields import ENTRIES
 
 Positive = Annotated[float, msgspec.Meta(gt=0.0, le=1e7)]
 _PLACE = re.compile(r"\{(?:1-)?(\w+)\}")
-
-
-class Base(Asked, kw_only=True, forbid_unknown_fields=True):
-    """Entries that all points share; text may hold places such as {w} or {1-w}, which `vary` fills."""
-
-    start: list[float] | None = None
-    end: list[float] | None = None
-    windows: list[dict[str, Any]] | None = None
-
-    def given(self) -> dict[str, Any]:
-        """The entries that are there."""
-        return {name: getattr(self, name) for name in Base.__struct_fields__ if getattr(self, name) is not None}
 
 
 class Steps(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -71,7 +60,7 @@ class StudyFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     title
         What the study is about.
     problem
-        Entries shared by all points.
+        Entries shared by all points; text may hold places such as {w} or {1-w}, which `vary` fills.
     vary
         By entry: a list of values or a range; the study takes their product.
     together
@@ -90,7 +79,7 @@ class StudyFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
     job: Literal["atlas"] | None = None
     title: Text = "study"
-    problem: Base
+    problem: Asked
     vary: dict[str, Values | Steps] = {}
     together: list[dict[str, Values]] = []
     sample: list[Sample] = []
@@ -130,22 +119,30 @@ def read_study(source: Path | str | Mapping[str, Any]) -> StudyFile:
             # by itself, for an error that names the entry
             convert(values, Steps, Path(f"{file}, vary, {name}"))
     study = convert(data, StudyFile, file)
+    _check_names(study, str(file))
     names = study.names()
-    if not names:
-        raise InputError(
-            f"{file}: nothing varies: add a table [vary], such as B = {{ from = 1.5, to = 2.5, steps = 11 }}"
-        )
-    known = {*Base.__struct_fields__} - {"bounds"} | places(study)
-    for name in names:
-        if name not in known and not name.startswith("bounds."):
-            raise InputError(f"{file}: {unknown_key(name, {*known, 'bounds.NAME'}, 'entry')}")
-        if names.count(name) > 1:
-            raise InputError(f"{file}: {name} varies twice")
     for name in places(study):
         if name not in names:
             raise InputError(f"{file}: nothing fills the place {{{name}}}: vary {name}")
         _check_fillings(study, name, str(file))
     return study
+
+
+def _check_names(study: StudyFile, file: str) -> None:
+    """Refuse a study in which nothing varies, or something that is no entry, or something twice."""
+    names = study.names()
+    if not names:
+        raise InputError(
+            f"{file}: nothing varies: add a table [vary], such as B = {{ from = 1.5, to = 2.5, steps = 11 }}"
+        )
+    known = {*ENTRIES} - {"bounds"} | places(study)
+    for name in names:
+        if name == "bounds":
+            raise InputError(f'{file}: bounds vary one by one: name the constant, as in "bounds.rms_c"')
+        if name not in known and not name.startswith("bounds."):
+            raise InputError(f"{file}: {unknown_key(name, {*known, 'bounds.NAME'}, 'entry')}")
+        if names.count(name) > 1:
+            raise InputError(f"{file}: {name} varies twice")
 
 
 def _check_fillings(study: StudyFile, name: str, file: str) -> None:
@@ -159,7 +156,8 @@ def places(study: StudyFile) -> set[str]:
     """Names in braces within text of the problem and of what varies."""
     values = [value for one in study.vary.values() if isinstance(one, list) for value in one]
     values += [value for table in study.together for one in table.values() for value in one]
-    values += [study.problem.minimise, *(study.problem.bounds or {}), *study.names()]
+    base = study.problem.given()
+    values += [base.get("minimise"), *base.get("bounds", {}), *study.names()]
     return {name for text in values if isinstance(text, str) for name in _PLACE.findall(text)}
 
 
@@ -192,7 +190,7 @@ def entries(base: Mapping[str, Any], inputs: Mapping[str, Any]) -> dict[str, Any
     for name, value in inputs.items():
         if name.startswith("bounds."):
             bounds[name.removeprefix("bounds.")] = value
-        elif name in Base.__struct_fields__:
+        elif name in ENTRIES:
             merged[name] = value
     merged = {name: filled(v, inputs) if isinstance(v, str) else v for name, v in merged.items() if v != "free"}
     bounds = {filled(name, inputs): value for name, value in bounds.items() if value != "free"}

@@ -18,17 +18,19 @@ import msgspec
 from optlaws.errors import InputError
 from optlaws.files import writing
 from optlaws.files.writing import MARK
-from optlaws.studies.points.axes import SWITCHES, TEXTS, WHOLE, Axis
+from optlaws.studies.points.axes import Axis, kind_of
 from optlaws.studies.points.points import Points
 from optlaws.studies.solving.solving import Row
 from optlaws.studies.store.directory import StudyDirectory
 from optlaws.studies.store.journal import Journal, StoreFailure
+from optlaws.synthesis.problem.fields import Kind
 
 if TYPE_CHECKING:
     import pyarrow as pa
 
 NUMBERS = ("objective", "lower_bound", "gap", "limit", "B", "C", "D", "J", "rms_c", "seconds")
 OTHERS = ("index", "key", "status", "iterations", "law", "error")
+_COLUMNS = {Kind.WHOLE: "whole", Kind.TEXT: "text", Kind.BASIS: "text", Kind.SWITCH: "switch"}
 #: rows of one group in the Parquet file
 GROUP = 4096
 
@@ -193,12 +195,9 @@ def schema(points: Points, about: Mapping[str, bytes] | None = None) -> pa.Schem
 def kind(axis: Axis, name: str) -> str:
     """What the values of an entry are; numbers among texts, or pairs, are text too: JSON."""
     values = axis.columns[axis.names.index(name)]
-    if name in WHOLE:
-        return "whole"
-    if name in TEXTS:
-        return "text"
-    if name in SWITCHES:
-        return "switch"
+    known = _COLUMNS.get(kind_of(name))
+    if known is not None:
+        return known
     if isinstance(values, list) and not all(isinstance(value, float) for value in values):
         return "text"
     return "number"

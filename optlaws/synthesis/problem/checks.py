@@ -2,25 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import MOST_ORDER, MOST_VELOCITY, real, whole
-from optlaws.synthesis.problem.constants import Functional
-from optlaws.synthesis.problem.ranges import Range, as_range
+from optlaws.synthesis.problem.expression import Expression, Term, leaves
+from optlaws.synthesis.problem.named_constants import expression, is_named
+from optlaws.synthesis.problem.ranges import Bounds, Range, as_range
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.spaces.bases import Basis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
-
-def one_of(value: Any, bounds: Mapping[Any, Any], constant: Functional) -> Any:  # noqa: ANN401
-    """What is asked of a constant that has an entry of its own."""
-    asked = [one for key, one in bounds.items() if key in (constant, constant.name) and one is not None]
-    if asked and value is not None:
-        raise InputError(f"{constant.name} is given twice: as {value!r} and in bounds as {asked[0]!r}")
-    return asked[0] if asked else value
+NO_ORDER = (
+    "the problem lacks order, the number of conditions at each end: give order=4, say, or the end conditions themselves"
+)
 
 
 def constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - it is checked here
@@ -37,6 +33,14 @@ def constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - i
     return found.high if found.fixed else found
 
 
+def constant_of_bounds(value: Any, asked: Range, name: str) -> float | Range | None:  # noqa: ANN401
+    """What `bounds` ask of a constant that has an entry of its own, where that asks nothing."""
+    plain = asked.high if asked.fixed else asked
+    if value is not None:
+        raise InputError(f"{name} is given twice: as {value!r} and in bounds as {plain!r}")
+    return constant(plain, name)
+
+
 def listed(values: Any, name: str) -> tuple[Any, ...]:  # noqa: ANN401 - it is checked here
     """The entries of a list."""
     if not isinstance(values, list | tuple):
@@ -44,24 +48,27 @@ def listed(values: Any, name: str) -> tuple[Any, ...]:  # noqa: ANN401 - it is c
     return tuple(values)
 
 
-def windows_of(windows: Any) -> tuple[Window, ...]:  # noqa: ANN401 - they are checked here
+def windows(given: Any) -> tuple[Window, ...]:  # noqa: ANN401 - they are checked here
     """One window or several as a tuple."""
-    found = tuple(windows) if isinstance(windows, list | tuple) else (windows,)
-    for window in found:
+    several = tuple(given) if isinstance(given, list | tuple) else (given,)
+    for window in several:
         if not isinstance(window, Window):
             raise InputError(f"windows must be Window values such as via('a', 0.3, at=0.4), got {shortened(window)}")
-    return found
+    return several
 
 
-def inflexion_of(k: Any, *, symmetric: bool) -> float | None:  # noqa: ANN401 - it is checked here
-    """The k of the inflexion; of symmetric laws 1/2."""
+def bounds(given: Any) -> Bounds:  # noqa: ANN401 - it is checked here
+    """What is asked of constants by name."""
+    return Bounds(given)
+
+
+def inflexion(k: Any) -> float | None:  # noqa: ANN401 - it is checked here
+    """The k of the inflexion."""
     if k is None:
         return None
     number = real(k)
     if number is None or not 0.0 < number < 1.0:
         raise InputError(f"inflexion must be a k between 0 and 1, got {shortened(k)}")
-    if symmetric and k != 0.5:
-        raise InputError(f"a symmetric law has its inflexion at 1/2, not at {k!r}: ask symmetric=False")
     return number
 
 
@@ -70,22 +77,60 @@ def _velocity(value: Any) -> bool:  # noqa: ANN401 - it is checked here
     return number is not None and 1.0 < number <= MOST_VELOCITY
 
 
-def order_of(order: Any, boundary: Any) -> int:  # noqa: ANN401 - they are checked here
-    """The order l, which the boundary conditions tell too."""
-    if boundary is not None and not isinstance(boundary, BoundaryConditions):
-        raise InputError(f"boundary must be BoundaryConditions(start, end), got {shortened(boundary)}")
-    if boundary is not None and order in {0, boundary.order}:
-        return boundary.order
-    found = whole(order, "order", least=1, most=MOST_ORDER)
-    if boundary is not None:
-        raise InputError(f"order {found} does not fit {boundary.order} boundary conditions at each end")
-    return found
+def boundary(given: Any) -> BoundaryConditions | None:  # noqa: ANN401 - it is checked here
+    """End conditions, or None for rest to rest."""
+    if given is not None and not isinstance(given, BoundaryConditions):
+        raise InputError(f"boundary must be BoundaryConditions(start, end), got {shortened(given)}")
+    return given
 
 
-def check_choices(chosen: Any, **switches: Any) -> None:  # noqa: ANN401 - they are checked here
-    """Refuse a basis that is none and switches that are neither True nor False."""
-    if not isinstance(chosen, Basis):
-        raise InputError(f"basis must be a Basis such as Powers(9) or Chebyshev(9), got {shortened(chosen)}")
-    for name, value in switches.items():
-        if not isinstance(value, bool):
-            raise InputError(f"{name} must be True or False, got {shortened(value)}")
+class NotGiven(int):
+    """The order that nobody gave: another value than a 0 that somebody did.
+
+    Examples
+    --------
+    >>> NotGiven() == 0, type(NotGiven()) is int
+    (True, False)
+    """
+
+
+def order(given: Any) -> int:  # noqa: ANN401 - it is checked here
+    """The order l, where it is given."""
+    return given if isinstance(given, NotGiven) else whole(given, "order", least=1, most=MOST_ORDER)
+
+
+def order_with(given: int, ends: BoundaryConditions | None) -> int:
+    """The order l that is given, or that of the boundary conditions."""
+    missing = isinstance(given, NotGiven)
+    if ends is None:
+        if missing:
+            raise InputError(NO_ORDER)
+        return given
+    if not missing and given != ends.order:
+        raise InputError(f"order {given} does not fit {ends.order} boundary conditions at each end")
+    return ends.order
+
+
+def chosen_basis(given: Any) -> Basis:  # noqa: ANN401 - it is checked here
+    """A basis."""
+    if not isinstance(given, Basis):
+        raise InputError(f"basis must be a Basis such as Powers(9) or Chebyshev(9), got {shortened(given)}")
+    return given
+
+
+def switch(given: Any, name: str) -> bool:  # noqa: ANN401 - it is checked here
+    """True or False."""
+    if not isinstance(given, bool):
+        raise InputError(f"{name} must be True or False, got {shortened(given)}")
+    return given
+
+
+def objective(minimise: Any) -> str | Expression:  # noqa: ANN401 - it is checked here
+    """What is minimised: text where every constant of it has a name, else an expression."""
+    if isinstance(minimise, str):
+        terms = expression(minimise)
+    elif isinstance(minimise, Term | Expression):
+        terms = minimise.expression()
+    else:
+        raise InputError(f"minimise must be a constant such as 'C', a sum or an expression, got {shortened(minimise)}")
+    return repr(terms) if all(is_named(leaf) for _, leaf in leaves(terms)) else terms

@@ -4,23 +4,20 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
-from math import isfinite
 from typing import Any
 
-from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.suggest import unknown_key
-from optlaws.synthesis.problem.checks import check_choices, constant, inflexion_of, listed, one_of, order_of, windows_of
+from optlaws.synthesis.problem.checks import NotGiven, constant_of_bounds, order_with
 from optlaws.synthesis.problem.constants import FUNCTIONALS, C_minus, C_plus, Functional
 from optlaws.synthesis.problem.expression import Expression, Term, leaves
-from optlaws.synthesis.problem.named_constants import expression, is_named
+from optlaws.synthesis.problem.fields import CONSTANTS, FIELDS, from_entries, to_entries
+from optlaws.synthesis.problem.named_constants import expression
 from optlaws.synthesis.problem.ranges import Bounds, Range, as_range
 from optlaws.synthesis.problem.windows import Window
-from optlaws.synthesis.spaces.bases import Basis, Chebyshev, basis
+from optlaws.synthesis.spaces.bases import Basis, Chebyshev
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
-CONSTANTS = ("B", "C", "D", "J")
 _NAMED = tuple(FUNCTIONALS[name] for name in CONSTANTS)
 
 
@@ -37,8 +34,8 @@ class Problem:
     B, C, D, J
         Peak velocity, acceleration, power and jerk: a number fixes the constant, a `Range` such as
         `between(1.5, 1.8)` or `at_most(60)` bounds it, None leaves it free. `at_most` asks |b| <= B everywhere and
-        nothing else, `at_least` that the greatest |b| is no less, wherever it is. From rest to rest a number also puts
-        the peak in the middle, unless there is an inflexion: b(1/2) is B, the greatest |b|.
+        nothing else. From rest to rest a number, and a lower bound above the mean velocity 1, also put the peak in
+        the middle, unless there is an inflexion: b(1/2) is B, the greatest |b|.
     bounds
         The same for any constant: `{"rms_c": at_most(4), "C_minus": at_most(5)}`, by its name or itself.
     basis
@@ -53,7 +50,7 @@ class Problem:
     inflexion
         The k at which b is greatest: b <= b(inflexion) everywhere and c is 0 there, whatever the sign of b. A fixed
         or lower bounded B is asked of b there. Without an inflexion that is k = 1/2 for laws from rest to rest with
-        a fixed B, else wherever it falls. Symmetric laws can have it at 1/2 only.
+        a fixed B or one bounded from below, else wherever it falls. Symmetric laws can have it at 1/2 only.
     windows
         Values and windows of a, b, c, j: `via("a", 0.3, at=0.4)`, `Window("b", high=1.2, start=0.2, stop=0.3)`.
 
@@ -69,7 +66,7 @@ class Problem:
     """
 
     B: float | Range | None = None
-    order: int = 0
+    order: int = NotGiven()
     basis: Basis = field(default_factory=lambda: Chebyshev(9))
     minimise: str | Term | Expression = "C"
     monotone: bool = False
@@ -83,16 +80,14 @@ class Problem:
     inflexion: float | None = None
 
     def __post_init__(self) -> None:
-        object.__setattr__(self, "order", order_of(self.order, self.boundary))
-        object.__setattr__(self, "windows", windows_of(self.windows))
-        object.__setattr__(self, "inflexion", inflexion_of(self.inflexion, symmetric=self.symmetric))
-        check_choices(self.basis, monotone=self.monotone, symmetric=self.symmetric)
-        object.__setattr__(self, "minimise", _canonical(self.minimise))
-        own = {one: asked for one, asked in Bounds(self.bounds).items() if one not in _NAMED}
-        for one in _NAMED:
-            asked = one_of(getattr(self, one.name), self.bounds, one)
-            object.__setattr__(self, one.name, constant(asked, one.name))
-        object.__setattr__(self, "bounds", Bounds(own))
+        for one in FIELDS:
+            object.__setattr__(self, one.name, one.check(getattr(self, one.name)))
+        object.__setattr__(self, "order", order_with(self.order, self.boundary))
+        self._give_bounds_their_entries()
+        if self.symmetric and self.inflexion not in {None, 0.5}:
+            raise InputError(
+                f"a symmetric law has its inflexion at 1/2, not at {self.inflexion!r}: ask symmetric=False"
+            )
         self._drop_implied_inflexion()
         if self.boundary is not None:
             if self.boundary == BoundaryConditions.rest(self.order):
@@ -101,9 +96,18 @@ class Problem:
                 raise InputError("a law with these boundary conditions is not symmetric: ask symmetric=False")
         self.basis.check(symmetric=self.symmetric)
 
+    def _give_bounds_their_entries(self) -> None:
+        """What `bounds` ask of B, C, D and J belongs to the entries of these names."""
+        for one in _NAMED:
+            if one in self.bounds:
+                asked = constant_of_bounds(getattr(self, one.name), self.bounds[one], one.name)
+                object.__setattr__(self, one.name, asked)
+        others = {one: asked for one, asked in self.bounds.items() if one not in _NAMED}
+        object.__setattr__(self, "bounds", Bounds(others))
+
     def _drop_implied_inflexion(self) -> None:
         """Problems that ask the same are equal: of symmetric laws B may put the peak in the middle already."""
-        if self.symmetric and self.inflexion is not None and _fixed_above_mean(as_range(self.B, "B")):
+        if self.symmetric and self.inflexion is not None and _above_mean(as_range(self.B, "B")):
             object.__setattr__(self, "inflexion", None)
 
     @kept_property
@@ -137,7 +141,7 @@ class Problem:
         """The k at which b is asked to be greatest and c is 0; None where it may be greatest anywhere."""
         if self.inflexion is not None:
             return self.inflexion
-        return 0.5 if self.boundary is None and _fixed_above_mean(self.range("B")) else None
+        return 0.5 if self.boundary is None and _above_mean(self.range("B")) else None
 
     @property
     def peak_is_variable(self) -> bool:
@@ -181,25 +185,7 @@ class Problem:
         >>> Problem.from_dict(Problem(B=2, order=3).to_dict()) == Problem(B=2, order=3)
         True
         """
-        found: dict[str, Any] = {"minimise": str(self.minimise), "order": self.order}
-        found |= self.basis.to_dict()
-        found |= {"monotone": self.monotone, "symmetric": self.symmetric}
-        for name in CONSTANTS:
-            value = getattr(self, name)
-            if value is not None:
-                found[name] = value if isinstance(value, float) else _plain(value)
-        if self.bounds:
-            found["bounds"] = {
-                one.name: asked.high if asked.fixed else _plain(asked) for one, asked in self.bounds.items()
-            }
-        if self.inflexion is not None:
-            found["inflexion"] = self.inflexion
-        if self.boundary is not None:
-            found["start"] = [float(v) for v in self.boundary.start]
-            found["end"] = [float(v) for v in self.boundary.end]
-        if self.windows:
-            found["windows"] = [window.to_dict() for window in self.windows]
-        return found
+        return to_entries(self)
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Problem:
@@ -210,34 +196,7 @@ class Problem:
         InputError
             If a key is unknown (the nearest right one is named) or missing, or a value is out of range.
         """
-        known: tuple[str, ...] = (
-            "minimise",
-            *CONSTANTS,
-            "bounds",
-            "inflexion",
-            "order",
-            "basis",
-            "degree",
-            "monotone",
-            "symmetric",
-            "start",
-            "end",
-            "windows",
-        )
-        known = (*known, "breaks", "continuity")
-        for key in data:
-            if key not in known:
-                raise InputError(unknown_key(key, known))
-        if "order" not in data and "start" not in data:
-            raise InputError("the problem lacks order")
-        given = dict(data)
-        shape = {name: given.pop(name) for name in ("breaks", "continuity") if name in given}
-        chosen = basis(given.pop("basis", "chebyshev"), given.pop("degree", 9), **shape)
-        if "start" in given or "end" in given:
-            start, end = (listed(given.pop(name, ()), name) for name in ("start", "end"))
-            given["boundary"] = BoundaryConditions(start, end)
-        given["windows"] = tuple(Window.from_dict(window) for window in listed(given.pop("windows", ()), "windows"))
-        return cls(basis=chosen, **given)
+        return cls(**from_entries(data))
 
     def __repr__(self) -> str:
         shown = ("B", "order", "basis", "minimise")
@@ -245,24 +204,10 @@ class Problem:
         return f"Problem({', '.join(parts)})"
 
 
-def _fixed_above_mean(wanted: Range | None) -> bool:
-    """Whether B is fixed, to a value that laws with stroke 1 can have as the peak of their velocity alone."""
-    return wanted is not None and wanted.fixed and wanted.low > 1.0
+def _above_mean(wanted: Range | None) -> bool:
+    """Whether a lower bound of B says anything of laws with stroke 1."""
+    return wanted is not None and wanted.low > 1.0
 
 
 def _given(problem: Problem, one: Any) -> bool:  # noqa: ANN401 - a dataclass field
     return bool(getattr(problem, one.name) != one.default)
-
-
-def _canonical(minimise: Any) -> str | Expression:  # noqa: ANN401 - it is checked here
-    if isinstance(minimise, str):
-        found = expression(minimise)
-    elif isinstance(minimise, Term | Expression):
-        found = minimise.expression()
-    else:
-        raise InputError(f"minimise must be a constant such as 'C', a sum or an expression, got {shortened(minimise)}")
-    return repr(found) if all(is_named(leaf) for _, leaf in leaves(found)) else found
-
-
-def _plain(one: Range) -> list[float | None]:
-    return [one.low, one.high if isfinite(one.high) else None]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from math import inf, isfinite
@@ -13,6 +14,13 @@ from optlaws.numbers import finite, real
 from optlaws.suggest import unknown_key
 
 QUANTITIES = {"a": 0, "b": 1, "c": 2, "j": 3}
+
+_NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
+_TEXT = re.compile(
+    rf"\s*(?:(?P<low>{_NUMBER})\s*<=)?\s*(?P<quantity>[A-Za-z_]\w*)\s*(?:(?P<sign><=|>=|=)\s*(?P<value>{_NUMBER}))?"
+    rf"\s*(?:@\s*(?P<start>{_NUMBER})\s*(?:\.\.\s*(?P<stop>{_NUMBER})\s*)?)?"
+)
+_LONGEST = 200
 
 
 @dataclass(frozen=True, repr=False)
@@ -155,6 +163,35 @@ def via(quantity: str, value: float, *, at: float) -> Window:
     True
     """
     return Window(quantity, value, value, at, at)
+
+
+def read_window(text: str) -> Window:
+    """A window from text: what is asked of a, b, c or j, then where; the whole motion unless said.
+
+    Raises
+    ------
+    InputError
+        If the text is no window, the quantity unknown, or a number out of range.
+
+    Examples
+    --------
+    >>> read_window("b <= 1.2 @ 0.2..0.3"), read_window("a = 0.3 @ 0.4")
+    (Window('b', high=1.2, start=0.2, stop=0.3), via('a', 0.3, at=0.4))
+    >>> read_window("-20 <= j <= 20 @ 0").point
+    True
+    """
+    parts = _TEXT.fullmatch(text) if len(text) <= _LONGEST else None
+    if parts is None or not (parts["low"] or parts["sign"]) or (parts["low"] and parts["sign"] in {">=", "="}):
+        raise InputError(
+            'a window is written as "b <= 1.2 @ 0.2..0.3", "0.4 <= a <= 0.6 @ 0.5", "c >= -4" or "a = 0.3 @ 0.4", '
+            f"got {shortened(text)}"
+        )
+    number = {name: float(parts[name]) for name in ("low", "value", "start", "stop") if parts[name] is not None}
+    start = number.get("start", 0.0)
+    stop = number.get("stop", start if "start" in number else 1.0)
+    low = number.get("value", -inf) if parts["sign"] in {">=", "="} else number.get("low", -inf)
+    high = number.get("value", inf) if parts["sign"] in {"<=", "="} else inf
+    return Window(parts["quantity"], low, high, start, stop)
 
 
 def _number(value: Any, name: str) -> float:  # noqa: ANN401 - it is checked here

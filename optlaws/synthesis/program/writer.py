@@ -50,7 +50,6 @@ def model(problem: Problem) -> Model:
 ROOT = "root of D"
 _REST = 1e-15
 _ABOVE_MEAN = nextafter(1.0, 2.0)
-_ANY = 2.0
 _LEAST_WEIGHT, _GREATEST_WEIGHT = 1e-3, 1e3
 _SIDES = {1.0: "above", -1.0: "below"}
 
@@ -106,10 +105,9 @@ def least_violation(problem: Problem) -> Model:
 def extreme_velocity(problem: Problem, *, greatest: bool) -> Model:
     """The least or the greatest B for which the constraints do not contradict; B is a variable.
 
-    The peak is where a fixed B puts it. Where that is nowhere, there is no greatest B.
+    Where the problem does not say at which k the peak is, there is no greatest B.
     """
-    placed = replace(problem, B=_ANY).peak_at
-    free = replace(problem, B=Range(low=_ABOVE_MEAN), inflexion=placed)
+    free = replace(problem, B=Range(low=_ABOVE_MEAN))
     writer = _Writer(_space(problem), ["B"], free)
     writer.cost = writer.unit("B", -1.0 if greatest else 1.0)
     if free.peak_at is None:

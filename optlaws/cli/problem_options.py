@@ -1,0 +1,192 @@
+"""Options of commands that ask for a problem, derived from the table of a problem's entries."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import wraps
+from typing import Annotated, Any, Literal
+
+from cyclopts import Parameter
+
+from optlaws.cli.options import Whole
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.synthesis import Basis, BoundaryConditions, at_most
+from optlaws.synthesis.problem.fields import ENTRIES, Entry, Kind
+from optlaws.synthesis.problem.ranges import read_bounds
+from optlaws.synthesis.spaces.breaks import read_breaks
+
+Command = Callable[..., None]
+
+
+def _numbers(text: str) -> list[float]:
+    try:
+        return [float(one) for one in text.replace(",", " ").split()]
+    except ValueError:
+        raise InputError(f'start and end are numbers such as "0, 0.5", got {shortened(text)}') from None
+
+
+def _as_given(value: Any) -> Any:  # noqa: ANN401 - what the parser made of it
+    return value
+
+
+@dataclass(frozen=True)
+class Option:
+    """One option; `read` makes the entry of what was given, which may begin with a minus where `signed`."""
+
+    name: str
+    type: Any
+    about: str
+    read: Callable[[Any], Any] = _as_given
+    signed: bool = False
+
+    @property
+    def keyword(self) -> str:
+        """The name of the command's parameter."""
+        return self.name.removeprefix("--").replace("-", "_")
+
+    def parameter(self, *, default: Any, shown: bool) -> inspect.Parameter:  # noqa: ANN401
+        """The parameter of a command; a default of `...` asks for a value."""
+        needed = default is ...
+        kind = self.type if needed or default is not None else self.type | None
+        how = Parameter(name=self.name, help=self.about, show=shown, allow_leading_hyphen=self.signed)
+        return inspect.Parameter(
+            self.keyword,
+            inspect.Parameter.KEYWORD_ONLY,
+            default=inspect.Parameter.empty if needed else default,
+            annotation=Annotated[kind, how],
+        )
+
+
+#: type and reader of each kind of entry
+_KINDS: dict[Kind, tuple[Any, Callable[[Any], Any]]] = {
+    Kind.CONSTANT: (float, _as_given),
+    Kind.WHOLE: (Whole, _as_given),
+    Kind.NUMBER: (float, _as_given),
+    Kind.NUMBERS: (str, _numbers),
+    Kind.TEXT: (str, _as_given),
+    Kind.SWITCH: (bool, _as_given),
+    Kind.BASIS: (Literal[tuple(Basis.kinds)], _as_given),
+    Kind.BREAKS: (str, read_breaks),
+    Kind.WINDOWS: (list[str], _as_given),
+}
+
+
+def _own(name: str, entry: str, about: str | None = None, read: Callable[[Any], Any] | None = None) -> Option:
+    known = ENTRIES[entry]
+    kind, plain = _KINDS[known.kind]
+    return Option(name, kind, about or known.about, read or plain, signed=known.kind in {Kind.NUMBERS, Kind.WINDOWS})
+
+
+#: entries whose options have names of their own, or mean less than files can say
+_OWN: dict[str, tuple[Option, ...]] = {
+    "B": (_own("--peak-velocity", "B", "B, above 1 (dimensionless; the mean velocity is 1); free unless given."),),
+    "C": (_own("--most-acceleration", "C", "C at most this.", at_most),),
+    "D": (_own("--most-power", "D", "D at most this.", at_most),),
+    "J": (_own("--most-jerk", "J", "J at most this.", at_most),),
+    "symmetric": (_own("--unsymmetric", "symmetric", "Seek among unsymmetric laws too.", lambda given: not given),),
+    "bounds": (
+        Option("--most", list[str], "Any constant at most a value, such as rms_c=4; may be repeated."),
+        Option("--least", list[str], "Any constant at least a value; may be repeated."),
+    ),
+    "windows": (_own("--window", "windows"),),
+}
+
+
+def options_of(entry: Entry) -> tuple[Option, ...]:
+    """The options that give an entry.
+
+    Examples
+    --------
+    >>> [option.name for option in options_of(ENTRIES["bounds"])], options_of(ENTRIES["degree"])[0].name
+    (['--most', '--least'], '--degree')
+    """
+    return _OWN.get(entry.name) or (_own(f"--{entry.name}", entry.name),)
+
+
+def asks_for_a_problem(
+    *, given: Mapping[str, Any] | None = None, refused: Mapping[str, str] | None = None
+) -> Callable[[Command], Command]:
+    """Give a command the options of a problem; its first parameter takes the entries that were given, as a dict.
+
+    Parameters
+    ----------
+    given
+        By entry: the value of its option unless given; `...` asks for one.
+    refused
+        By entry: why the command does not take it.
+    """
+    why, defaults = refused or {}, given or {}
+    asked = [
+        option.parameter(default=_default(entry, option, defaults, why), shown=entry.name not in why)
+        for entry in ENTRIES.values()
+        for option in options_of(entry)
+    ]
+
+    def decorated(command: Command) -> Command:
+        own = list(inspect.signature(command).parameters.values())[1:]
+
+        @wraps(command)
+        def called(**values: Any) -> None:  # noqa: ANN401 - whatever the parser made
+            typed = {one.name: values.pop(one.name, one.default) for one in asked}
+            command(_entries(typed, why), **values)
+
+        called.__signature__ = inspect.Signature([*asked, *own])  # type: ignore[attr-defined]
+        called.__annotations__ = {one.name: one.annotation for one in (*asked, *own)}
+        return called
+
+    return decorated
+
+
+def _default(entry: Entry, option: Option, given: Mapping[str, Any], refused: Mapping[str, str]) -> Any:  # noqa: ANN401
+    if option.type is bool:
+        return False
+    if entry.name in refused:
+        return None
+    return given.get(entry.name, entry.default if entry.kind is Kind.TEXT else None)
+
+
+def _entries(typed: Mapping[str, Any], refused: Mapping[str, str]) -> dict[str, Any]:
+    """The entries that the values of options ask for."""
+    entries: dict[str, Any] = {}
+    for entry in ENTRIES.values():
+        options = options_of(entry)
+        values = [typed[option.keyword] for option in options]
+        first = next((option for option, value in zip(options, values, strict=True) if _is_given(value)), None)
+        if first is None:
+            continue
+        if entry.name in refused:
+            raise InputError(f"{first.name} is not for this command: {refused[entry.name]}")
+        entries[entry.name] = (
+            read_bounds(*(value or [] for value in values)) if len(values) > 1 else first.read(*values)
+        )
+    _check_ends(entries)
+    _check_breaks(entries)
+    return entries
+
+
+def _is_given(value: object) -> bool:
+    return value is not None and value is not False
+
+
+def _check_ends(entries: dict[str, Any]) -> None:
+    """Ask for the order where nothing tells it; laws with other ends than rest, or an inflexion, are unsymmetric."""
+    ends = [entries[name] for name in ("start", "end") if name in entries]
+    if len(ends) == 1:
+        raise InputError("--start and --end go together")
+    if ends:
+        boundary = BoundaryConditions(*map(tuple, ends))
+    elif "order" not in entries:
+        raise InputError("give --order, the number of conditions at each end, or the conditions by --start and --end")
+    if "inflexion" in entries or (ends and boundary != BoundaryConditions.rest(boundary.order)):
+        entries["symmetric"] = False
+
+
+def _check_breaks(entries: Mapping[str, Any]) -> None:
+    if "basis" not in entries:
+        return
+    piecewise = "breaks" in inspect.signature(Basis.kinds[entries["basis"]]).parameters
+    if piecewise != ("breaks" in entries) or ("continuity" in entries and not piecewise):
+        raise InputError("--basis bsplines and pieces need --breaks, the others take neither --breaks nor --continuity")

@@ -1,0 +1,320 @@
+"""The table of a problem's entries, from which every door to problems derives: files, studies, sweeps, commands."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from enum import Enum
+from functools import partial
+from math import isfinite
+from operator import eq
+from typing import Any
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.problem import checks
+from optlaws.synthesis.problem.ranges import Range
+from optlaws.synthesis.problem.windows import Window, read_window
+from optlaws.synthesis.spaces.bases import basis
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+
+
+class Kind(Enum):
+    """What the values of an entry are; each door knows how it reads and writes a kind.
+
+    Examples
+    --------
+    >>> ENTRIES["degree"].kind
+    <Kind.WHOLE: 'a whole number'>
+    """
+
+    CONSTANT = 'a number, a pair [low, high] or "free"'
+    CONSTANTS = "constants by name, each with a number or a pair [low, high]"
+    WHOLE = "a whole number"
+    NUMBER = "a number"
+    NUMBERS = "numbers"
+    TEXT = "text"
+    SWITCH = "true or false"
+    BASIS = "the name of a basis"
+    BREAKS = "a number of pieces, or places from 0 to 1"
+    WINDOWS = 'tables, or texts such as "b <= 1.2 @ 0.2..0.3"'
+
+
+@dataclass(frozen=True)
+class Entry:
+    """One entry as files, studies and commands call it.
+
+    Attributes
+    ----------
+    name
+        What it is called.
+    kind
+        What its values are.
+    about
+        What it asks, in a sentence.
+    heading
+        What a column of its values is called.
+    default
+        Its value unless given; None where nothing is asked, or where there is none to give.
+    """
+
+    name: str
+    kind: Kind
+    about: str
+    heading: str
+    default: Any
+
+
+def _entry(name: str, kind: Kind, about: str, heading: str | None = None, *, default: Any = None) -> Entry:  # noqa: ANN401
+    return Entry(name, kind, about, heading if heading is not None else name, default)
+
+
+@dataclass(frozen=True)
+class Field:
+    """One field of `Problem`, with the entries that make it up.
+
+    Attributes
+    ----------
+    name
+        The name of the field.
+    check
+        Whatever was given -> what the problem keeps; its error names the field.
+    entries
+        One or more; a field left out of all of them has the default of `Problem`.
+    near
+        Whether a warm start leads from one value to another: equal values, or values that differ in numbers.
+    compared
+        The attribute of `Problem` that `near` compares.
+    joined
+        Entries, by keywords -> what `check` takes.
+    plain
+        What the problem keeps -> JSON-able entries, none where nothing is asked.
+    optional
+        Whether it may ask nothing.
+    """
+
+    name: str
+    check: Callable[[Any], Any]
+    entries: tuple[Entry, ...]
+    near: Callable[[Any, Any], bool]
+    compared: str
+    joined: Callable[..., Any]
+    plain: Callable[[Any], dict[str, Any]]
+    optional: bool = False
+
+
+def _single(
+    entry: Entry,
+    check: Callable[[Any], Any],
+    *,
+    near: Callable[[Any, Any], bool] = eq,
+    compared: str | None = None,
+    read: Callable[[Any], Any] | None = None,
+    plain: Callable[[Any], Any] | None = None,
+    optional: bool = False,
+) -> Field:
+    """A field that is one entry: `read` takes the entry to the field, `plain` takes it back, None to leave it out."""
+
+    def joined(**entries: Any) -> Any:  # noqa: ANN401 - it is checked by `check`
+        value = entries[entry.name]
+        return value if read is None else read(value)
+
+    def written(value: Any) -> dict[str, Any]:  # noqa: ANN401
+        shown = value if plain is None else plain(value)
+        return {} if shown is None else {entry.name: shown}
+
+    return Field(entry.name, check, (entry,), near, compared or entry.name, joined, written, optional)
+
+
+def _constant(name: str, about: str) -> Field:
+    entry = _entry(name, Kind.CONSTANT, about, f"{name} asked")
+    return _single(entry, partial(checks.constant, name=name), near=_asked_alike, plain=_plain_range, optional=True)
+
+
+def _asked_alike(first: Any, second: Any) -> bool:  # noqa: ANN401
+    """Numbers, ranges bounded on the same side, or nothing."""
+    if isinstance(first, Range) and isinstance(second, Range):
+        return isfinite(first.high) == isfinite(second.high)
+    return type(first) is type(second)
+
+
+def _bounded_alike(first: Mapping[Any, Range], second: Mapping[Any, Range]) -> bool:
+    return list(first) == list(second) and all(_asked_alike(first[one], second[one]) for one in first)
+
+
+def _same_terms(first: Any, second: Any) -> bool:  # noqa: ANN401 - expressions
+    return [term for _, term in first.terms] == [term for _, term in second.terms]
+
+
+def _as_many(first: tuple[Any, ...], second: tuple[Any, ...]) -> bool:
+    return len(first) == len(second)
+
+
+def _any(_first: object, _second: object) -> bool:
+    # the solver compares the spaces that the bases span
+    return True
+
+
+def _plain_range(asked: Any) -> Any:  # noqa: ANN401 - a number, a range or None
+    return [asked.low, asked.high if isfinite(asked.high) else None] if isinstance(asked, Range) else asked
+
+
+def _plain_bounds(bounds: Mapping[Any, Range]) -> dict[str, Any] | None:
+    return {one.name: r.high if r.fixed else _plain_range(r) for one, r in bounds.items()} or None
+
+
+def _joined_basis(**entries: Any) -> Any:  # noqa: ANN401
+    name, degree = (entries.pop(one, ENTRIES[one].default) for one in ("basis", "degree"))
+    return basis(name, degree, **entries)
+
+
+def _joined_ends(start: Any = (), end: Any = ()) -> BoundaryConditions:  # noqa: ANN401
+    return BoundaryConditions(checks.listed(start, "start"), checks.listed(end, "end"))
+
+
+def _plain_ends(boundary: BoundaryConditions | None) -> dict[str, Any]:
+    if boundary is None:
+        return {}
+    return {"start": [float(v) for v in boundary.start], "end": [float(v) for v in boundary.end]}
+
+
+def _read_windows(windows: Any) -> tuple[Window, ...]:  # noqa: ANN401
+    given = checks.listed(windows, "windows")
+    return tuple(read_window(one) if isinstance(one, str) else Window.from_dict(one) for one in given)
+
+
+def _plain_windows(windows: tuple[Window, ...]) -> list[dict[str, Any]] | None:
+    return [window.to_dict() for window in windows] or None
+
+
+#: in the order in which files name them
+FIELDS: tuple[Field, ...] = (
+    _single(
+        _entry(
+            "minimise",
+            Kind.TEXT,
+            "What to minimise: a constant, or a sum or maximum of some.",
+            "minimised",
+            default="C",
+        ),
+        checks.objective,
+        near=_same_terms,
+        compared="objective",
+        plain=str,
+    ),
+    _constant("B", "Peak velocity, above 1: the mean velocity is 1."),
+    _constant("C", "Peak acceleration."),
+    _constant("D", "Peak power."),
+    _constant("J", "Peak jerk."),
+    _single(
+        _entry(
+            "order",
+            Kind.WHOLE,
+            "Number l of boundary conditions at each end: 3 for acceleration 0, 4 for jerk 0 too.",
+            "order l",
+        ),
+        checks.order,
+    ),
+    _single(
+        _entry("bounds", Kind.CONSTANTS, "Any constant at most or at least a value."),
+        checks.bounds,
+        near=_bounded_alike,
+        plain=_plain_bounds,
+        optional=True,
+    ),
+    _single(
+        _entry("inflexion", Kind.NUMBER, "The k of the peak velocity, where c is 0; of unsymmetric laws."),
+        checks.inflexion,
+        optional=True,
+    ),
+    Field(
+        "basis",
+        checks.chosen_basis,
+        (
+            _entry("basis", Kind.BASIS, "Basis of Z(k).", default="chebyshev"),
+            _entry("degree", Kind.WHOLE, "Degree of Z(k), or of the law on each piece.", "degree of Z", default=9),
+            _entry("breaks", Kind.BREAKS, 'For bsplines and pieces: places such as "0 0.3 1", or how many equal ones.'),
+            _entry("continuity", Kind.WHOLE, "For bsplines and pieces: order up to which derivatives are continuous."),
+        ),
+        near=_any,
+        compared="basis",
+        joined=_joined_basis,
+        plain=lambda kept: dict(kept.to_dict()),
+    ),
+    _single(
+        _entry("monotone", Kind.SWITCH, "Ask b >= 0 too: no return within the motion.", default=False),
+        partial(checks.switch, name="monotone"),
+    ),
+    _single(
+        _entry("symmetric", Kind.SWITCH, "Ask a(k) + a(1-k) = 1.", default=True),
+        partial(checks.switch, name="symmetric"),
+    ),
+    Field(
+        "boundary",
+        checks.boundary,
+        (
+            _entry("start", Kind.NUMBERS, 'Values of a, b, c, ... at k = 0, such as "0, 0.5"; rest unless given.'),
+            _entry("end", Kind.NUMBERS, "Values of a, b, c, ... at k = 1; rest unless given."),
+        ),
+        near=eq,
+        compared="boundary",
+        joined=_joined_ends,
+        plain=_plain_ends,
+        optional=True,
+    ),
+    _single(
+        _entry("windows", Kind.WINDOWS, 'a, b, c or j in bounds, such as "b <= 1.2 @ 0.2..0.3" or "a = 0.3 @ 0.4".'),
+        checks.windows,
+        near=_as_many,
+        read=_read_windows,
+        plain=_plain_windows,
+        optional=True,
+    ),
+)
+
+ENTRIES: dict[str, Entry] = {entry.name: entry for field in FIELDS for entry in field.entries}
+
+#: the constants that have an entry of their own
+CONSTANTS = tuple(entry.name for entry in ENTRIES.values() if entry.kind is Kind.CONSTANT)
+
+
+def from_entries(data: Mapping[str, Any]) -> dict[str, Any]:
+    """The fields that entries ask for.
+
+    Raises
+    ------
+    InputError
+        If an entry is unknown (the nearest right one is named), the order is missing, or an entry cannot be read.
+
+    Examples
+    --------
+    >>> from_entries({"order": 4, "degree": 5})
+    {'order': 4, 'basis': Chebyshev(degree=5)}
+    """
+    if not isinstance(data, Mapping):
+        raise InputError(f"a problem must be a table of entries such as order and B, got {shortened(data)}")
+    for name in data:
+        if name not in ENTRIES:
+            raise InputError(unknown_key(name, ENTRIES))
+    if "order" not in data and "start" not in data:
+        raise InputError(checks.NO_ORDER)
+    given = {}
+    for field in FIELDS:
+        entries = {entry.name: data[entry.name] for entry in field.entries if entry.name in data}
+        if entries:
+            given[field.name] = field.joined(**entries)
+    return given
+
+
+def to_entries(problem: object) -> dict[str, Any]:
+    """The entries of a problem, plain and JSON-able: those that every problem has, then those that ask something."""
+    entries: dict[str, Any] = {}
+    for field in sorted(FIELDS, key=lambda one: one.optional):
+        entries |= field.plain(getattr(problem, field.name))
+    return entries
+
+
+def differ_in_numbers(first: object, second: object) -> bool:
+    """Whether two problems differ at most in numbers along which warm starts run, and in their bases."""
+    return all(field.near(getattr(first, field.compared), getattr(second, field.compared)) for field in FIELDS)
