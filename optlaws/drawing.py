@@ -5,8 +5,10 @@ from __future__ import annotations
 import io
 from collections.abc import Iterator
 from contextlib import contextmanager
+from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
 
+from optlaws.files import writing
 from optlaws.files.writing import MARK
 
 if TYPE_CHECKING:
@@ -113,9 +115,23 @@ def draw_spectrum(
     return list(axes.plot(spectrum.nu, values / over, **style))
 
 
+def save_picture(drawing: Figure, place: Path) -> list[Path]:
+    """Write a figure as svg and png: `place` has no ending. Both are left as they are where they show the same.
+
+    Fonts and renderers differ between machines, so that the svg, whose places can be compared, speaks for its twin.
+    """
+    vector, raster = (place.with_name(f"{place.name}.{kind}") for kind in ("svg", "png"))
+    content = rendered(drawing, "svg")
+    if not (writing.is_current(vector, content) and writing.is_own(raster)):
+        writing.write(raster, rendered(drawing, "png"))
+    writing.write(vector, content)
+    return [vector, raster]
+
+
 def rendered(drawing: Figure, kind: str) -> bytes:
     """The picture as svg or png, without the date: the same drawing gives the same bytes."""
     stream = io.BytesIO()
     metadata = {"svg": {"Date": None, "Creator": MARK}, "png": {"Software": MARK}}[kind]
-    drawing.savefig(stream, format=kind, metadata=metadata)
+    with style():
+        drawing.savefig(stream, format=kind, metadata=metadata)
     return stream.getvalue()

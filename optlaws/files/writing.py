@@ -1,12 +1,20 @@
-"""Writing results: whole or not at all, and never over a file that was not made here."""
+"""Writing results: whole or not at all, never over what a user made or changed, and only where something changed.
+
+Every file carries the mark "made by optlaws" with a seal, a digest of all else that it holds, so that an edit shows.
+"""
 
 from __future__ import annotations
 
+import re
+import struct
+from hashlib import sha256
 from pathlib import Path
 from secrets import token_hex
+from zlib import crc32
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files.comparison import say_the_same
 from optlaws.files.reading import storable
 
 MARK = "made by optlaws"
@@ -15,24 +23,106 @@ _DEVICES = {"con", "prn", "aux", "nul", "conin$", "conout$"} | {
     f"{port}{i}" for port in ("com", "lpt") for i in range(10)
 }
 _BLANK = 32
+_PNG = b"\x89PNG"
+_SEALED = MARK.encode() + rb"(?: ([0-9a-f]{16}))?"
+_IN_TEXT = re.compile(_SEALED + rb"(?=\r?$|\"|<| -->)", re.MULTILINE)
+_IN_PNG = re.compile(rb"(?<=tEXtSoftware\0)" + _SEALED)
 
 
-def write(file: Path, content: str | bytes) -> Path:
-    """Replace a file at once. A file already there without the mark "made by optlaws" is kept as `name.orig`.
+def write(file: Path, content: str | bytes, *, digits: int | None = None) -> Path:
+    """Replace a file at once, unless it says the same already.
 
-    Every content passed must hold the mark, so that the next run knows its own files. A new file has the rights that
-    the umask leaves, a replaced one those it had.
+    A file that is there and was not made by optlaws, or was changed since, is kept as `name.orig`; one that says the
+    same but for rounding (see `comparison`; `digits` is how many mean something) is left as it is. A new file has the
+    rights that the umask leaves, a replaced one those it had.
+
+    Every content passed must hold the mark "made by optlaws", at the end of a line, a text or an entry; the seal is
+    put behind it.
 
     Raises
     ------
     InputError
         If the name is none for a file: see `check_name`.
+    ValueError
+        If the content does not hold the mark.
     """
     check_name(file)
     data = content.encode() if isinstance(content, str) else content
+    if is_current(file, data, digits=digits):
+        return file
     file.parent.mkdir(parents=True, exist_ok=True)
-    if file.exists() and MARK.encode() not in file.read_bytes():
+    if file.exists() and not is_own(file):
         file.replace(_free_name(file))
+    _replace(file, sealed(data))
+    return file
+
+
+def is_current(file: Path, content: bytes, *, digits: int | None = None) -> bool:
+    """Whether a file was made by optlaws, not changed since, and says the same as a content but for rounding."""
+    return is_own(file) and say_the_same(_unsealed(file.read_bytes())[0], content, file.suffix, digits)
+
+
+def is_own(file: Path) -> bool:
+    """Whether a file was made by optlaws and not changed since: whether its seal is that of what it holds.
+
+    Line ends count for nothing: some systems change them on their own.
+    """
+    if not file.is_file():
+        return False
+    plain, seal = _unsealed(file.read_bytes())
+    return seal is not None and seal == _seal(plain)
+
+
+def sealed(content: bytes) -> bytes:
+    """The content with the seal behind its mark.
+
+    Raises
+    ------
+    ValueError
+        If it does not hold the mark.
+
+    Examples
+    --------
+    >>> sealed(b"# about; made by optlaws")
+    b'# about; made by optlaws a554eb6dcb07b0e4'
+    """
+    plain, _ = _unsealed(content)
+    mark = _mark(plain)
+    if mark is None:
+        raise ValueError(f"what is written must hold the mark {MARK!r}")
+    return _with_mark(plain, mark, f"{MARK} {_seal(plain)}".encode())
+
+
+def _unsealed(data: bytes) -> tuple[bytes, str | None]:
+    """The content as it was passed, and its seal, if it has one."""
+    mark = _mark(data)
+    if mark is None or mark[1] is None:
+        return data, None
+    return _with_mark(data, mark, MARK.encode()), mark[1].decode()
+
+
+def _mark(data: bytes) -> re.Match[bytes] | None:
+    return (_IN_PNG if data.startswith(_PNG) else _IN_TEXT).search(data)
+
+
+def _with_mark(data: bytes, mark: re.Match[bytes], new: bytes) -> bytes:
+    if data.startswith(_PNG):
+        return data.replace(_chunk(mark[0]), _chunk(new), 1)
+    return data[: mark.start()] + new + data[mark.end() :]
+
+
+def _seal(content: bytes) -> str:
+    plain = content if content.startswith(_PNG) else content.replace(b"\r\n", b"\n")
+    return sha256(plain).hexdigest()[:16]
+
+
+def _chunk(mark: bytes) -> bytes:
+    """The part of a PNG file that says what made it."""
+    text = b"tEXtSoftware\0" + mark
+    return struct.pack(">I", len(text) - 4) + text + struct.pack(">I", crc32(text))
+
+
+def _replace(file: Path, data: bytes) -> None:
     mode = file.stat().st_mode & 0o777 if file.exists() else None
     copy = file.with_name(f".{file.name[:100]}.{token_hex(8)}")
     try:
@@ -45,7 +135,6 @@ def write(file: Path, content: str | bytes) -> Path:
     except BaseException:
         copy.unlink(missing_ok=True)
         raise
-    return file
 
 
 def check_name(file: Path) -> None:

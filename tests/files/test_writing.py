@@ -1,20 +1,24 @@
-"""Writing results: whole or not at all, never over a file that was not made here; tables give the same bytes."""
+"""Writing results: whole or not at all, never over what a user made or changed; tables give the same bytes."""
 
+import json
 import os
 from pathlib import Path
 
 import pytest
+from PIL import Image
 
+from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 
 MINE = f"# {writing.MARK}\n"
+SEALED = writing.sealed(MINE.encode()).decode()
 
 
 def test_a_file_is_written_with_its_folders(tmp_path: Path) -> None:
     target = tmp_path / "a" / "b.csv"
     assert writing.write(target, MINE) == target
-    assert target.read_text("utf-8") == MINE
+    assert target.read_text("utf-8") == SEALED
     assert [path.name for path in target.parent.iterdir()] == ["b.csv"]
     assert target.stat().st_mode & 0o777 == 0o644
 
@@ -28,7 +32,7 @@ def test_own_files_are_replaced_and_foreign_ones_kept(tmp_path: Path) -> None:
         target.write_text(text, "utf-8")
         writing.write(target, MINE.encode())
     kept = {path.name: path.read_text("utf-8") for path in tmp_path.iterdir()}
-    assert kept == {"b.csv": MINE, "b.csv.orig": "first", "b.csv.orig1": "second", "b.csv.orig2": "third"}
+    assert kept == {"b.csv": SEALED, "b.csv.orig": "first", "b.csv.orig1": "second", "b.csv.orig2": "third"}
 
 
 def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(
@@ -45,7 +49,77 @@ def test_a_write_that_fails_leaves_the_old_file_and_nothing_else(
     with pytest.raises(OSError, match="disk full"):
         writing.write(target, MINE + "new")
     assert [path.name for path in tmp_path.iterdir()] == ["b.csv"]
-    assert target.read_text("utf-8") == MINE
+    assert target.read_text("utf-8") == SEALED
+
+
+CONTENTS = {
+    "table.csv": f"# about; {writing.MARK}\nB,C\n1.5,5.5721384\n",
+    "page.md": f"# Laws made by optlaws and others\n\n<!-- {writing.MARK} -->\n\nC = 5.5721384.\n",
+    "laws.json": json.dumps({"about": f"a title; {writing.MARK}", "C": 5.572138396124845}),
+    "rows.sha256": f"0123  rows\n# {writing.MARK}\n",
+}
+
+
+@pytest.mark.parametrize("name", CONTENTS)
+def test_an_edit_shows_and_is_kept(tmp_path: Path, name: str) -> None:
+    target = writing.write(tmp_path / name, CONTENTS[name])
+    written = target.read_text("utf-8")
+    assert len(written) == len(CONTENTS[name]) + len(" 0123456789abcdef")
+    assert writing.is_own(target)
+    # some systems change line ends on their own
+    target.write_bytes(written.replace("\n", "\r\n").encode())
+    assert writing.is_own(target)
+    for edited in (written.replace("5", "6").replace("0123  rows", "0124  rows"), written + "\n", CONTENTS[name]):
+        assert edited != written
+        target.write_text(edited, "utf-8")
+        assert not writing.is_own(target)
+        writing.write(target, CONTENTS[name])
+        assert target.read_text("utf-8") == written
+        assert (tmp_path / f"{name}.orig").read_text("utf-8") == edited
+        (tmp_path / f"{name}.orig").unlink()
+    writing.write(target, CONTENTS[name].replace("about", "else").replace("a title", "other").replace("C =", "D ="))
+    assert [path.name for path in tmp_path.iterdir()] == [name]
+
+
+def test_what_has_no_mark_is_not_written(tmp_path: Path) -> None:
+    for content in (b"nothing", b"made by optlaws, once", b"\x89PNG made by optlaws"):
+        with pytest.raises(ValueError, match="must hold the mark"):
+            writing.write(tmp_path / "a.csv", content)
+    assert list(tmp_path.iterdir()) == []
+
+
+@pytest.mark.parametrize("name", [name for name in CONTENTS if name != "rows.sha256"])
+def test_a_file_that_says_the_same_is_left_as_it_is(tmp_path: Path, name: str) -> None:
+    target = writing.write(tmp_path / name, CONTENTS[name])
+    before = target.read_bytes()
+    writing.write(target, CONTENTS[name].replace("5.5721384", "5.5721385").replace("5.572138396124845", "5.5721384"))
+    assert target.read_bytes() == before
+    writing.write(target, CONTENTS[name].replace("5.5721384", "5.5721386").replace("5.572138396124845", "5.5721386"))
+    assert target.read_bytes() != before
+
+
+def test_pictures_are_sealed_and_rewritten_together(tmp_path: Path) -> None:
+    def drawn(place: float) -> dict[str, bytes]:
+        with drawing.style():
+            figure = drawing.figure()
+            axes = figure.subplots()
+            axes.plot([0.0, place], [0.0, 1.0])
+            axes.set(xlim=(0.0, 2.0))
+        return {path.name: path.read_bytes() for path in drawing.save_picture(figure, tmp_path / "figure")}
+
+    first = drawn(1.0)
+    assert list(first) == ["figure.svg", "figure.png"]
+    assert all(writing.is_own(path) for path in tmp_path.iterdir())
+    with Image.open(tmp_path / "figure.png") as picture:
+        picture.load()
+        assert picture.info["Software"].startswith(f"{writing.MARK} ")
+    assert drawn(1.0 + 1e-6) == first
+    moved = drawn(1.1)
+    assert all(moved[name] != first[name] for name in first)
+    with (tmp_path / "figure.png").open("ab") as stream:
+        stream.write(b"edited")
+    assert drawn(1.1) == moved
+    assert sorted(path.name for path in tmp_path.iterdir()) == ["figure.png", "figure.png.orig", "figure.svg"]
 
 
 @pytest.mark.skipif(os.name == "nt", reason="there is no umask")

@@ -20,6 +20,7 @@ from optlaws.mechanisms.dwell.mechanism import KINDS, DwellMechanism, dwell_mech
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 HEADINGS = ("type", "section", "from", "to", "way")
 
@@ -67,18 +68,14 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
                 [kind, section.name, degrees(place), degrees(place + section.angle), round(section.travel, 12) + 0.0]
             )
             place += section.angle
-    drawings = {"mechanism": draw_cams(types), "motion": draw_motions(types)}
+    figures = {"mechanism": draw_cams(types), "motion": draw_motions(types)}
     said = "; ".join(f"{kind}: a = {one.a:.5g}, b = {one.b:.5g}" for kind, one in types.items())
     text = [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", "", f"Law {spec.law}; {said}.", ""]
     text += ["![The cams](mechanism.svg)", "", "![The motions](motion.svg)", ""]
     text += ["Cam angles in degrees, ways of the rocker in strokes of the executive link.", ""]
     return [
         writing.write(out / "drawing.md", "\n".join([*text, tables.to_markdown(HEADINGS, rows)])),
-        *(
-            writing.write(out / f"{name}.{kind}", content)
-            for name, kinds in drawings.items()
-            for kind, content in kinds.items()
-        ),
+        *(path for name, figure in figures.items() for path in drawing.save_picture(figure, out / name)),
     ]
 
 
@@ -93,8 +90,8 @@ SHADES = {
 _SAMPLES = 721
 
 
-def draw_cams(types: Mapping[str, DwellMechanism]) -> dict[str, bytes]:
-    """The executive cam and the balancing cams of the types, to one scale, as svg and png."""
+def draw_cams(types: Mapping[str, DwellMechanism]) -> Figure:
+    """The executive cam and the balancing cams of the types, to one scale."""
     angles = np.linspace(0.0, tau, _SAMPLES)
     radii = {"executive cam": _executive(next(iter(types.values())), angles)}
     for kind, one in types.items():
@@ -112,11 +109,11 @@ def draw_cams(types: Mapping[str, DwellMechanism]) -> dict[str, bytes]:
             cam(axes, (i * apart, 0.0), radius, angles, shown=0.0, colour=colour)
             axes.text(i * apart, -0.5 * apart - 0.25, name, ha="center")
         axes.set(xlim=(-0.55 * apart, 3.55 * apart), ylim=(-0.5 * apart - 0.5, 0.5 * apart + 0.1))
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
-def draw_motions(types: Mapping[str, DwellMechanism]) -> dict[str, bytes]:
-    """Way and speed of the rocker over the cam angle, with the sections of the dwells, as svg and png."""
+def draw_motions(types: Mapping[str, DwellMechanism]) -> Figure:
+    """Way and speed of the rocker over the cam angle, with the sections of the dwells."""
     from matplotlib.patches import Patch
 
     with drawing.style():
@@ -142,7 +139,7 @@ def draw_motions(types: Mapping[str, DwellMechanism]) -> dict[str, bytes]:
         patches = [Patch(facecolor=SHADES[name]) for name in used]
         labels = ["loader's rocker", "executive link", *used]
         figure.legend([*lines, *patches], labels, loc="outside lower center", ncols=4)
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
 def _sections(axes: Axes, one: DwellMechanism) -> None:

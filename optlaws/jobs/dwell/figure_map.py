@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from math import degrees, pi
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -14,14 +15,17 @@ from optlaws.mechanisms.angles import deg
 from optlaws.mechanisms.dwell.choice import least_dwell
 from optlaws.mechanisms.dwell.mechanism import dwell_mechanism
 
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
 SHADES = {"I": "#eeeeee", "III": "#cfe5dc", "II": "#cfe0f0"}
 RULE = (45.0, 100.0)
 _POINTS = 21
 _WHOLE = 180.0
 
 
-def draw(law: MotionLaw, limits: Sequence[float], clutch_angles: Sequence[float]) -> dict[str, bytes]:
-    """A panel for each limit of b over the inertia ratio, with the paper's rule drawn on it, as svg and png.
+def draw(law: MotionLaw, limits: Sequence[float], clutch_angles: Sequence[float]) -> Figure:
+    """A panel for each limit of b over the inertia ratio, with the paper's rule drawn on it.
 
     Neither swing nor least radius matters: the order of the sizes is always II, III, I.
     """
@@ -49,7 +53,7 @@ def draw(law: MotionLaw, limits: Sequence[float], clutch_angles: Sequence[float]
             axes.set_xticks([0, *RULE, _WHOLE])
         panels[0].set_ylabel("clutch angle (degrees)")
         figure.legend([line], ["the paper's rule: I up to 45°, II above 100°"], loc="outside lower center")
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
 def _from(kind: str, law: MotionLaw, limit: float, clutch: float) -> float:

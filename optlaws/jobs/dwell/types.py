@@ -24,6 +24,7 @@ from optlaws.mechanisms.dwell.mechanism import KINDS, DwellMechanism, dwell_mech
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
 Text = Annotated[str, msgspec.Meta(min_length=1)]
@@ -115,7 +116,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     about = f"{spec.title}; from {file.name}; angles in degrees"
     rows = [[*one.given, *_criteria(one)] for one in cases]
     teeth = [row for one in cases for row in _teeth(one, spec.teeth)]
-    drawings = {
+    figures = {
         "size_of_type_I": draw_first(spec),
         "nomograms": draw_all(spec),
         "map": figure_map.draw(catalogue[spec.law].law, spec.map.limits, spec.map.clutch_angles),
@@ -124,11 +125,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "criteria.csv", tables.to_csv((*GIVEN, *CRITERIA), rows, about=about)),
         writing.write(out / "teeth.csv", tables.to_csv(TEETH, teeth, about=about)),
         writing.write(out / "dwell_types.md", _markdown(spec, rows, teeth)),
-        *(
-            writing.write(out / f"{name}.{kind}", content)
-            for name, kinds in drawings.items()
-            for kind, content in kinds.items()
-        ),
+        *(path for name, figure in figures.items() for path in drawing.save_picture(figure, out / name)),
     ]
 
 
@@ -179,8 +176,8 @@ COLOURS = {"I": drawing.GREY, "II": drawing.BLUES[3], "III": drawing.GREEN}
 _POINTS = 49
 
 
-def draw_first(spec: Types) -> dict[str, bytes]:
-    """Criterion a of type I over the dwell, a curve for each swing and scenario, as svg and png."""
+def draw_first(spec: Types) -> Figure:
+    """Criterion a of type I over the dwell, a curve for each swing and scenario."""
     dwells = np.linspace(1.0, max(spec.dwells), _POINTS)
     strokes = ("-", "--", "-.", ":")
     with drawing.style():
@@ -194,11 +191,11 @@ def draw_first(spec: Types) -> dict[str, bytes]:
         axes.set(xlabel="dwell (degrees)", ylabel="a: greatest radius over that of the executive cam")
         axes.set(title=f"Cam of the loader of type I, law {spec.law}", ylim=(1.0, None))
         axes.legend(loc="upper left")
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
-def draw_all(spec: Types) -> dict[str, bytes]:
-    """Criteria a and b of the types in the first scenario, a panel for each swing and clutch angle, as svg and png."""
+def draw_all(spec: Types) -> Figure:
+    """Criteria a and b of the types in the first scenario, a panel for each swing and clutch angle."""
     with drawing.style():
         rows, columns = len(spec.swings), len(spec.clutch_angles)
         figure = drawing.figure(3.5 * columns + 1.0, 2.7 * rows + 0.9)
@@ -214,7 +211,7 @@ def draw_all(spec: Types) -> dict[str, bytes]:
                 if i == rows - 1:
                     axes.set_xlabel("dwell (degrees)")
         figure.legend(handles.values(), handles.keys(), loc="outside lower center", ncols=5)
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
 def _panel(axes: Axes, spec: Types, swing: float, clutch: float, *, last: bool) -> dict[str, Line2D]:

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import msgspec
 import numpy as np
@@ -24,6 +24,9 @@ from optlaws.mechanisms.follower.off_design import Deviation, off_design
 from optlaws.mechanisms.spectrum.spectrum import response_spectrum
 from optlaws.studies.points.problem_entries import Positive, Text
 from optlaws.suggest import unknown_key
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 Ratio = Annotated[float, msgspec.Meta(ge=0.0, le=10.0)]
 Vibrating = Annotated[float, msgspec.Meta(ge=0.0, lt=1.0)]
@@ -116,12 +119,12 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         raise InputError(f"spectrum: from must be below to, got {spec.spectrum.least:g} and {spec.spectrum.most:g}")
     about = f"{spec.title}; from {file.name}"
     written = [writing.write(out / name, text) for name, text in texts(spec, cams, about).items()]
-    drawings = {
+    figures = {
         "spectrum": spectrum(spec, [cams[name] for name in spec.spectrum.cams]),
         "curves": curves(spec, [cams[name] for name in spec.curves.cams]),
     }
-    for name, kinds in drawings.items():
-        written += [writing.write(out / f"{name}.{kind}", content) for kind, content in kinds.items()]
+    for name, figure in figures.items():
+        written += drawing.save_picture(figure, out / name)
     return written
 
 
@@ -266,8 +269,8 @@ _COLOURS = (drawing.BLUES[4], drawing.WARM, drawing.GREEN, drawing.BLUES[1], dra
 _OFF = (drawing.WARM, drawing.GREEN, drawing.BLUES[1])
 
 
-def curves(spec: Study, cams: Sequence[Cam]) -> dict[str, bytes]:
-    """Acceleration of cam and mass over k, one panel for each cam, as svg and png."""
+def curves(spec: Study, cams: Sequence[Cam]) -> Figure:
+    """Acceleration of cam and mass over k, one panel for each cam."""
     asked = spec.curves
     k = np.linspace(0.0, asked.until, _POINTS)
     rise = k[k <= 1.0]
@@ -291,11 +294,11 @@ def curves(spec: Study, cams: Sequence[Cam]) -> dict[str, bytes]:
             f"Accelerations of cam and mass, damping ratio {asked.damping:g}", x=0.01, ha="left", fontsize=11.0
         )
         figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
-def spectrum(spec: Study, cams: Sequence[Cam]) -> dict[str, bytes]:
-    """Residual acceleration and dynamic factor over nu, as svg and png."""
+def spectrum(spec: Study, cams: Sequence[Cam]) -> Figure:
+    """Residual acceleration and dynamic factor over nu."""
     asked = spec.spectrum
     nu = np.linspace(asked.least, asked.most, asked.points)
     with drawing.style():
@@ -318,4 +321,4 @@ def spectrum(spec: Study, cams: Sequence[Cam]) -> dict[str, bytes]:
             fontsize=11.0,
         )
         figure.legend(loc="outside lower center", ncols=3)
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure

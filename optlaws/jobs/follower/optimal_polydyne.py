@@ -27,6 +27,7 @@ from optlaws.synthesis import Chebyshev, Problem, Solution, Status, at_most, syn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 
 @dataclass(frozen=True, eq=False)
@@ -152,8 +153,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "table.csv", tables.to_csv(HEADINGS, lines, about=about)),
         writing.write(out / "table.md", _markdown(spec, lines)),
     ]
-    kinds = draw(spec.title, found, (spec.figure[0], spec.figure[1]))
-    return written + [writing.write(out / f"figure.{kind}", content) for kind, content in kinds.items()]
+    figure = draw(spec.title, found, (spec.figure[0], spec.figure[1]))
+    return written + drawing.save_picture(figure, out / "figure")
 
 
 def _line(one: Compared) -> list[tables.Cell]:
@@ -181,8 +182,8 @@ _POINTS = 601
 _LEAST = 2e-3
 
 
-def draw(title: str, found: Sequence[Sequence[Compared]], between: tuple[float, float]) -> dict[str, bytes]:
-    """The figure as svg and png."""
+def draw(title: str, found: Sequence[Sequence[Compared]], between: tuple[float, float]) -> Figure:
+    """The figure."""
     with drawing.style():
         figure = drawing.figure(9.6, 3.9 * len(found) + 1.1)
         panels = figure.subplots(len(found), 2, squeeze=False, width_ratios=(3, 2))
@@ -194,7 +195,7 @@ def draw(title: str, found: Sequence[Sequence[Compared]], between: tuple[float, 
         handles, labels = panels[0, 0].get_legend_handles_labels()
         figure.suptitle(title, x=0.01, ha="left", fontsize=11.0)
         figure.legend(handles, labels, loc="outside lower center", ncols=3)
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
 def _residuals(axes: Axes, laws: Sequence[Compared], between: tuple[float, float]) -> None:

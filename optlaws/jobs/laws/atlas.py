@@ -19,6 +19,7 @@ from optlaws.studies.run import run_study
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 AXES = ("minimise", "order", "degree", "B")
 CONSTANTS = ("B", "C", "D", "J", "rms_c")
@@ -38,8 +39,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "atlas.csv", tables.to_csv(COLUMNS, [_cells(point) for point in points], about=about)),
         writing.write(out / "atlas.md", _markdown(study.title, points)),
     ]
-    for name, kinds in draw(points).items():
-        written += [writing.write(out / f"{name}.{kind}", content) for kind, content in kinds.items()]
+    for name, figure in draw(points).items():
+        written += drawing.save_picture(figure, out / name)
     return written
 
 
@@ -89,8 +90,8 @@ _STROKES = ((0, (1, 1.5)), (0, (4, 1.5)), "-")
 _ROOM = 2.5
 
 
-def draw(points: Sequence[StudyPoint]) -> dict[str, dict[str, bytes]]:
-    """The figures as svg and png, by name."""
+def draw(points: Sequence[StudyPoint]) -> dict[str, Figure]:
+    """The figures by name."""
     drawn = {}
     for constant, word in (("C", "acceleration"), ("D", "power")):
         some = [point for point in points if point.inputs["minimise"] == constant]
@@ -104,7 +105,7 @@ def draw(points: Sequence[StudyPoint]) -> dict[str, dict[str, bytes]]:
                 ylabel=f"peak {word} {constant} (dimensionless)",
             )
             figure.legend(loc="outside right upper")
-            drawn[f"least-{constant.lower()}"] = {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+            drawn[f"least-{constant.lower()}"] = figure
     return drawn
 
 

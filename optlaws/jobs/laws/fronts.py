@@ -27,6 +27,7 @@ from optlaws.synthesis.pareto import pareto_front
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 Points = Annotated[int, msgspec.Meta(ge=2, le=1000)]
 Positive = Annotated[float, msgspec.Meta(gt=0.0, le=1e100)]
@@ -95,8 +96,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "fronts.json", _json(about, found)),
     ]
     for picture, fronts in found:
-        kinds = draw(picture, fronts)
-        written += [writing.write(out / f"{picture.name}.{kind}", content) for kind, content in kinds.items()]
+        figure = draw(picture, fronts)
+        written += drawing.save_picture(figure, out / picture.name)
     return written
 
 
@@ -241,8 +242,8 @@ def _point(law: MotionLaw, picture: Picture) -> Ends:
 _MARGIN = 0.06
 
 
-def draw(picture: Picture, fronts: Sequence[Front]) -> dict[str, bytes]:
-    """The figure as svg and png."""
+def draw(picture: Picture, fronts: Sequence[Front]) -> Figure:
+    """The figure."""
     x, y = (_window(picture, fronts, axis) for axis in (0, 1))
     with drawing.style():
         figure = drawing.figure(8.6, 5.0)
@@ -257,7 +258,7 @@ def draw(picture: Picture, fronts: Sequence[Front]) -> dict[str, bytes]:
             _corners(axes, picture, fronts, shades)
         axes.set(xlim=x, ylim=y, title=picture.title)
         figure.legend(loc="outside right upper")
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
 def _window(picture: Picture, fronts: Sequence[Front], axis: int) -> Ends:

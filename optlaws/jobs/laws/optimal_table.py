@@ -33,6 +33,7 @@ from optlaws.synthesis import (
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 Curves = Mapping[int, Sequence[Solution]]
 
@@ -64,7 +65,7 @@ class Misprint(msgspec.Struct, forbid_unknown_fields=True):
     means: Number | None = None
 
 
-class Figure(msgspec.Struct, forbid_unknown_fields=True, rename={"start": "from", "stop": "to"}):
+class Shown(msgspec.Struct, forbid_unknown_fields=True, rename={"start": "from", "stop": "to"}):
     """What the figure shows: optima of these degrees over B."""
 
     degrees: Annotated[list[Count], msgspec.Meta(min_length=1, max_length=5)]
@@ -84,7 +85,7 @@ class Table(msgspec.Struct, forbid_unknown_fields=True):
     degrees: Annotated[list[Count], msgspec.Meta(min_length=1)]
     grid: Count
     bases: dict[str, Base]
-    figure: Figure
+    figure: Shown
     misprint: list[Misprint] = []
 
 
@@ -115,13 +116,13 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     headings, cells = _cells(spec, rows)
     judged = [(v.row, v.quantity, v.printed, v.exact, v.on_grid, v.verdict, v.reason) for v in verdicts]
     verdict_headings = ("row B", "quantity", "printed", "exact", "on grid", "verdict", "reason")
-    kinds = draw(spec, rows, curves)
+    figure = draw(spec, rows, curves)
     return [
         writing.write(out / "table.csv", tables.to_csv(headings, cells, about=about)),
         writing.write(out / "verdicts.csv", tables.to_csv(verdict_headings, judged, about=about)),
         writing.write(out / "table.md", _markdown(spec, headings, cells, verdict_headings, judged)),
         writing.write(out / "laws.json", _laws(about, rows)),
-        *(writing.write(out / f"figure.{kind}", content) for kind, content in kinds.items()),
+        *drawing.save_picture(figure, out / "figure"),
     ]
 
 
@@ -320,8 +321,8 @@ def _law(law: MotionLaw) -> dict[str, Any]:
 _FEWEST = 5  # coefficients of Z: a cubic, or one of degree 4 that has no more odd ones
 
 
-def draw(spec: Table, rows: Sequence[Row], curves: Curves) -> dict[str, bytes]:
-    """The figure as svg and png."""
+def draw(spec: Table, rows: Sequence[Row], curves: Curves) -> Figure:
+    """The figure."""
     with drawing.style():
         figure = drawing.figure(8.0, 5.2)
         axes = figure.subplots()
@@ -337,7 +338,7 @@ def draw(spec: Table, rows: Sequence[Row], curves: Curves) -> dict[str, bytes]:
             title=f"Least peak acceleration at a given peak velocity, order l = {spec.order}",
         )
         axes.legend(loc="upper left")
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
 def _printed(axes: Axes, spec: Table, rows: Sequence[Row]) -> None:

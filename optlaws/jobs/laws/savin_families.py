@@ -18,6 +18,7 @@ from optlaws.studies.points.problem_entries import Text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 HEADINGS = ("family", "alpha", "delta", "order of a⁽ⁿ⁾(0)", "a⁽ⁿ⁾(0)", "B", "C", "k of C", "D", "k of D")
 BEST = (
@@ -48,8 +49,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "table.csv", tables.to_csv(HEADINGS, lines, about=about)),
         writing.write(out / "table.md", _markdown(spec, families, lines)),
     ]
-    kinds = draw(spec.title, families, spec.points)
-    return written + [writing.write(out / f"figure.{kind}", content) for kind, content in kinds.items()]
+    figure = draw(spec.title, families, spec.points)
+    return written + drawing.save_picture(figure, out / "figure")
 
 
 def _lines(family: SavinFamily, rows: int) -> list[list[tables.Cell]]:
@@ -111,8 +112,8 @@ def _markdown(spec: Study, families: list[SavinFamily], lines: list[list[tables.
 _MARKS: dict[str, Any] = {"marker": "o", "markersize": 4.5, "linestyle": "", "zorder": 4}
 
 
-def draw(title: str, families: Sequence[SavinFamily], points: int) -> dict[str, bytes]:
-    """The figure as svg and png."""
+def draw(title: str, families: Sequence[SavinFamily], points: int) -> Figure:
+    """The figure."""
     with drawing.style():
         figure = drawing.figure(9.2, 6.6)
         panels = figure.subplots(2, 2, sharex=True)
@@ -131,7 +132,7 @@ def draw(title: str, families: Sequence[SavinFamily], points: int) -> dict[str, 
             panels[0, 0].plot([], [], color=drawing.GREY, markerfacecolor=face, label=label, **_MARKS)
         figure.suptitle(title, x=0.01, ha="left", fontsize=11.0)
         figure.legend(loc="outside lower center", ncols=3)
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
 def _heights(family: SavinFamily) -> list[Callable[[float], float]]:

@@ -20,6 +20,7 @@ from optlaws.mechanisms.lever.lever import TorsionLever
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 _ANGLES = ("chi01", "chi02")
 _NAMES = (*_ANGLES, "period", "zeta", "B1", "B3", "C1", "C3")
@@ -42,14 +43,10 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec = convert(data, Drawing, file)
     lever = TorsionLever(beta=spec.beta, lam=spec.lam, rho=spec.rho, nu=spec.nu, swing=deg(spec.swing))
-    drawings = {"mechanism": draw_mechanism(lever), "motion": draw_motion(lever)}
+    figures = {"mechanism": draw_mechanism(lever), "motion": draw_motion(lever)}
     return [
         writing.write(out / "drawing.md", _markdown(spec, lever)),
-        *(
-            writing.write(out / f"{name}.{kind}", content)
-            for name, kinds in drawings.items()
-            for kind, content in kinds.items()
-        ),
+        *(path for name, figure in figures.items() for path in drawing.save_picture(figure, out / name)),
     ]
 
 
@@ -78,8 +75,8 @@ _PALE = drawing.BLUES[0]
 _O1 = np.zeros(2)
 
 
-def draw_mechanism(lever: TorsionLever) -> dict[str, bytes]:
-    """The drawing as svg and png: at rest in full, at both extremes in pale lines."""
+def draw_mechanism(lever: TorsionLever) -> Figure:
+    """The drawing: at rest in full, at both extremes in pale lines."""
     from matplotlib.patches import Circle
 
     with drawing.style():
@@ -99,7 +96,7 @@ def draw_mechanism(lever: TorsionLever) -> dict[str, bytes]:
         _angles(axes, lever)
         _labels(axes, lever)
         axes.set(xlim=(-1.28, lever.lam + 0.55), ylim=(-1.2, 1.2))
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
 def _o2(lever: TorsionLever) -> Point:
@@ -202,8 +199,8 @@ def _labels(axes: Axes, lever: TorsionLever) -> None:
     axes.annotate("torsion bar 2, stiffness $\\xi c_1$,\non the driven mass", _beside(o2, 0.0, -0.46), **small)
 
 
-def draw_motion(lever: TorsionLever) -> dict[str, bytes]:
-    """The figure as svg and png."""
+def draw_motion(lever: TorsionLever) -> Figure:
+    """The figure."""
     exact, asymptotic = lever.exact, lever.asymptotic
     chi = np.linspace(exact.chi02, exact.chi01, 201)
     k = np.linspace(0.0, 1.0, 401)
@@ -238,4 +235,4 @@ def draw_motion(lever: TorsionLever) -> dict[str, bytes]:
             title=f"Stroke of {degrees(lever.swing):.4g} degrees as it runs",
         )
         right.legend(loc="upper right")
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure

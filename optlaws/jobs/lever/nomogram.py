@@ -19,6 +19,7 @@ from optlaws.mechanisms.lever.lever import TorsionLever
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 HEADINGS = ("beta", "swing, deg", "chi01, deg", "chi02, deg", "gamma01, deg", "xi", "T", "exact T")
 
@@ -46,11 +47,11 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     swings = np.linspace(min(spec.tabled), max(spec.tabled), spec.points).tolist()
     curves = {beta: found for beta in spec.beta if (found := _levers(spec, beta, swings))}
     about = f"{spec.title}; from {file.name}"
-    kinds = draw(curves)
+    figure = draw(curves)
     return [
         writing.write(out / "nomogram.csv", tables.to_csv(HEADINGS, rows, about=about)),
         writing.write(out / "nomogram.md", _markdown(spec, rows)),
-        *(writing.write(out / f"nomogram.{kind}", content) for kind, content in kinds.items()),
+        *drawing.save_picture(figure, out / "nomogram"),
     ]
 
 
@@ -77,8 +78,8 @@ def _markdown(spec: Nomogram, rows: Sequence[Sequence[tables.Cell]]) -> str:
     return "\n".join([*text, tables.to_markdown(HEADINGS, rows)])
 
 
-def draw(curves: Mapping[float, Sequence[TorsionLever]]) -> dict[str, bytes]:
-    """The figure as svg and png: for each beta, from the swing up to gamma01 and from there to xi."""
+def draw(curves: Mapping[float, Sequence[TorsionLever]]) -> Figure:
+    """The figure: for each beta, from the swing up to gamma01 and from there to xi."""
     from matplotlib.ticker import FormatStrFormatter, LogLocator, NullLocator
 
     with drawing.style():
@@ -96,7 +97,7 @@ def draw(curves: Mapping[float, Sequence[TorsionLever]]) -> dict[str, bytes]:
         for axes in (left, right):
             axes.set_xlabel("swing of the driven link (degrees)")
             axes.margins(x=0.12, y=0.09)
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
 def _curve(

@@ -20,6 +20,7 @@ from optlaws.mechanisms.lever.lever import TorsionLever
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 CONSTANTS = ("B1", "B3", "C1", "C3")
 
@@ -77,11 +78,11 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         raise InputError("no combination of beta, lambda, rho, nu and swing keeps to the limits")
     about = f"{spec.title}; from {file.name}"
     headings, cells = _cells(groups)
-    kinds = draw(spec.drawn, groups)
+    figure = draw(spec.drawn, groups)
     return [
         writing.write(out / "parametric.csv", tables.to_csv(headings, cells, about=about)),
         writing.write(out / "parametric.md", _markdown(spec, groups)),
-        *(writing.write(out / f"constants.{kind}", content) for kind, content in kinds.items()),
+        *drawing.save_picture(figure, out / "constants"),
     ]
 
 
@@ -178,8 +179,8 @@ _PANELS = (
 )
 
 
-def draw(betas: Sequence[float], groups: Sequence[Group]) -> dict[str, bytes]:
-    """The figure as svg and png: bands between the least and the greatest constant at each swing."""
+def draw(betas: Sequence[float], groups: Sequence[Group]) -> Figure:
+    """The figure: bands between the least and the greatest constant at each swing."""
     colours = _colours(betas)
     with drawing.style():
         figure = drawing.figure(9.6, 6.8)
@@ -194,7 +195,7 @@ def draw(betas: Sequence[float], groups: Sequence[Group]) -> dict[str, bytes]:
         handles = [rows[0][0].plot([], [], color=colours[beta], linewidth=5.0)[0] for beta in betas]
         labels = [f"beta = {beta:g}" + (" (harmonic)" if beta == 1.0 else "") for beta in betas]
         figure.legend(handles, labels, loc="outside right upper")
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
 def _colours(betas: Sequence[float]) -> dict[float, str]:

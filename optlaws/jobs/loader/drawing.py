@@ -21,6 +21,7 @@ from optlaws.mechanisms.loader.loader import Loader, loader
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
 
 HEADINGS = ("link", "B", "C", "D", "J")
 
@@ -42,7 +43,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec = convert(data, Drawing, file)
     one = loader(catalogue[spec.law].law)
-    drawings = {
+    figures = {
         "mechanism": draw_mechanism(one, deg(spec.shown), spec.radius_ratio),
         "exchange": draw_exchange(one, spec.title),
     }
@@ -65,11 +66,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     ]
     return [
         writing.write(out / "drawing.md", "\n".join(text)),
-        *(
-            writing.write(out / f"{name}.{kind}", content)
-            for name, kinds in drawings.items()
-            for kind, content in kinds.items()
-        ),
+        *(path for name, figure in figures.items() for path in drawing.save_picture(figure, out / name)),
     ]
 
 
@@ -79,7 +76,7 @@ _APART = 6.4
 _SAMPLES = 721
 
 
-def draw_mechanism(one: Loader, shown: float, radius_ratio: float) -> dict[str, bytes]:
+def draw_mechanism(one: Loader, shown: float, radius_ratio: float) -> Figure:
     """Executive cam and balancing cam on one shaft, at the cam angle `shown`; strokes are equal."""
     angles = np.linspace(0.0, 2.0 * np.pi, _SAMPLES)
     executive = _cycle(one.executive, angles, 0.0)
@@ -101,10 +98,10 @@ def draw_mechanism(one: Loader, shown: float, radius_ratio: float) -> dict[str, 
         for x, name in ((0.0, "executive cam"), (_APART, "balancing cam")):
             axes.text(x, -radius_ratio - 1.45, name, ha="center")
         axes.set(xlim=(-3.0, _APART + 3.0), ylim=(-radius_ratio - 1.8, guide + 2.4))
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
-def draw_exchange(one: Loader, title: str) -> dict[str, bytes]:
+def draw_exchange(one: Loader, title: str) -> Figure:
     """Velocities, energies and powers over the motion."""
     k = np.linspace(0.0, 1.0, 401)
     B, Y = one.executive.peak(1).value, one.Y
@@ -124,7 +121,7 @@ def draw_exchange(one: Loader, title: str) -> dict[str, bytes]:
                 axes.plot(k, total, color=drawing.WARM, linewidth=1.2, linestyle="--", label="sum")
             _below(axes, label)
         figure.suptitle(f"{title}, Y = {Y:.6g}", x=0.01, ha="left", fontsize=11.0)
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure
 
 
 def _below(axes: Axes, label: str) -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 import msgspec
 import numpy as np
@@ -15,6 +15,9 @@ from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
 from optlaws.mechanisms.loader.loader import loader
 from optlaws.mechanisms.loader.trapezium import TrapeziumSubstitute
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
 
 HEADINGS = ("e13", "gamma_w", "m", "n", "Y by eq. 25", "Y", "B", "C", "D", "B of loader", "C of loader", "D of loader")
 
@@ -51,11 +54,11 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     if not rows:
         raise InputError(f"{file}: no trapezium has these e13 and gamma_w; try e13 from 0.5 to 0.66, gamma_w from 0.25")
     about = f"{spec.title}; from {file.name}"
-    kinds = draw(spec.title, HEADINGS, rows)
+    figure = draw(spec.title, HEADINGS, rows)
     return [
         writing.write(out / "nomogram.csv", tables.to_csv(HEADINGS, rows, about=about)),
         writing.write(out / "nomogram.md", _markdown(spec, rows)),
-        *(writing.write(out / f"nomogram.{kind}", content) for kind, content in kinds.items()),
+        *drawing.save_picture(figure, out / "nomogram"),
     ]
 
 
@@ -95,8 +98,8 @@ _PANELS = (
 )
 
 
-def draw(title: str, headings: Sequence[str], rows: Sequence[Sequence[float]]) -> dict[str, bytes]:
-    """The figure as svg and png."""
+def draw(title: str, headings: Sequence[str], rows: Sequence[Sequence[float]]) -> Figure:
+    """The figure."""
     values = np.array(rows)
     column = {name: values[:, i] for i, name in enumerate(headings)}
     from matplotlib import colormaps
@@ -113,4 +116,4 @@ def draw(title: str, headings: Sequence[str], rows: Sequence[Sequence[float]]) -
         handles, labels = axes.get_legend_handles_labels()
         figure.legend(handles, labels, title="gamma_w = B/C", loc="outside right upper")
         figure.suptitle(f"{title} (all dimensionless)", x=0.01, ha="left", fontsize=11.0)
-        return {kind: drawing.rendered(figure, kind) for kind in ("svg", "png")}
+        return figure

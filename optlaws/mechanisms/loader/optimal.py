@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from math import inf
+from math import inf, isfinite
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from optlaws.mechanisms.loader.limits import loader_acceleration_limit, loader_v
 from optlaws.mechanisms.loader.loader import Loader, loader
 from optlaws.mechanisms.loader.search import Task, search, tangent_bound
 from optlaws.mechanisms.loader.space import LoaderSpace
-from optlaws.numbers import bounded, positive
+from optlaws.numbers import positive
 from optlaws.synthesis.problem.expression import Expression, Term
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import at_most
@@ -28,7 +28,7 @@ from optlaws.synthesis.spaces.bases import Basis, Chebyshev, PolynomialBasis
 Array = NDArray[np.float64]
 
 STARTS = ("C", "rms_c", "J")
-_PROVEN, _KEPT = 1e-8, 1e-7  # relative gap of a proof; what a constraint may be broken by
+_PROVEN = _KEPT = 1e-7  # relative gap of a proof: no less than what a constraint may be broken by
 _LEAST_DEGREE, _AT_REST = 3, 2
 
 
@@ -49,7 +49,7 @@ class BalancedLaw:
     lower_bound
         What no symmetric law with this B, order, degree and b >= 0 is below.
     status
-        `optimal` where the bound meets the objective to 1e-8, else `local`.
+        `optimal` where the bound meets the objective to 1e-7, else `local`.
     starts
         The objectives that the starts led to, ascending; those that lost their way are left out.
 
@@ -79,7 +79,7 @@ class BalancedLaw:
             "status": self.status.value,
             "minimise": repr(self.minimise),
             "objective": self.objective,
-            "lower_bound": bounded(self.lower_bound),
+            "lower_bound": self.lower_bound if isfinite(self.lower_bound) else None,
             "executive": {"B": self.law.constants.B.value, "C": self.law.constants.C.value},
             "loader": self.loader.to_dict(),
             "law": self.law.to_dict(),

@@ -21,7 +21,6 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.numbers import bounded
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
 from optlaws.synthesis.limits.rounding import rounded_down
@@ -137,7 +136,7 @@ class Certificate:
             "tangent": self.tangent,
             "contacts": [asdict(contact) for contact in self.contacts],
             "equations": list(self.equations),
-            "bound": bounded(self.bound),
+            "bound": self.bound if isfinite(self.bound) else None,
         }
 
     @classmethod
