@@ -242,16 +242,17 @@ def as_range(value: float | Range | None) -> Range | None:
 
 
 def peak_in_the_middle(problem: Problem) -> bool:
-    """Whether what is asked of B places the peak velocity: every rise has a B above 1."""
+    """Whether what is asked of B places the peak velocity: a number does, and every rise has a B above 1."""
     wanted = as_range(problem.B)
-    return problem.inflexion is None and problem.boundary is None and wanted is not None and wanted.low > 1.0
+    plain = problem.inflexion is None and problem.boundary is None
+    return plain and wanted is not None and wanted.low == wanted.high and wanted.low > 1.0
 
 
 def velocity_broken(problem: Problem, one: Judged, allowed: float) -> list[str]:
     """What a law does that is not asked of its velocity.
 
-    A number or a lower bound places the peak at k = 1/2 between rests, an inflexion wherever it says. An upper end
-    holds for |b| everywhere and places nothing.
+    A number places the peak at k = 1/2 between rests, an inflexion wherever it says. An upper end holds for |b|
+    everywhere, a lower one for the greatest |b|, and they place nothing.
     """
     wanted = as_range(problem.B)
     b, c = one.derivatives[1:3]

@@ -158,7 +158,8 @@ class _Program:
                 self.hold(one.derivative(PEAKS[name]), SIGNS.get(name, (1.0, -1.0)), name)
         wanted = as_range(problem.B)
         if wanted is not None:
-            self.velocity(wanted, in_the_middle=problem.boundary is None and wanted.low > 1.0)
+            placed = problem.inflexion == 0.5 or (wanted.fixed and wanted.low > 1.0)
+            self.velocity(wanted, in_the_middle=problem.boundary is None and placed)
         if problem.monotone:
             self.hold(one.ratio() if problem.boundary is None else one.derivative(1), (-1.0,))
         for name in ("C", "J"):

@@ -59,7 +59,7 @@ def _of_term(problem: Problem, term: Term) -> Fraction | None:
 
 
 def _of_constant(problem: Problem, constant: str) -> Fraction | None:
-    if problem.inflexion not in {None, 0.5}:
+    if problem.inflexion not in {None, 0.5} or _held_up_anywhere(problem, constant):
         return _uneven(problem, constant)
     B = _best(problem.range("B"), constant, problem.order)
     if problem.order == 1 and B is None:
@@ -77,13 +77,16 @@ def _of_constant(problem: Problem, constant: str) -> Fraction | None:
 
 
 def _uneven(problem: Problem, constant: str) -> Fraction | None:
-    """Of laws whose peak velocity is not in the middle: the least at any B, and what B and the place ask of C and D."""
+    """Of laws whose peak velocity need not be in the middle: the least at any B, and what B and the place ask of C, D.
+
+    The middle is the place that asks least of them.
+    """
     if problem.order == 1:
         return None
     least = Fraction(limit(constant, None, order=problem.order))
-    if constant not in {"C", "D"} or problem.inflexion is None:
+    if constant not in {"C", "D"}:
         return least
-    k, asked = Fraction(problem.inflexion), problem.range("B") or Range()
+    k, asked = Fraction(problem.inflexion or 0.5), problem.range("B") or Range()
     # the greatest b is at least the mean velocity
     peak = Fraction(max(asked.low, _MEAN_VELOCITY))
     if constant == "D":
@@ -98,6 +101,14 @@ def _uneven(problem: Problem, constant: str) -> Fraction | None:
     # with no more time at B than there is, a <= B - B² / C
     B = Fraction(min(max(asked.low, 2.0), asked.high))
     return max(least, slopes, B * B / (B - 1))
+
+
+def _held_up_anywhere(problem: Problem, constant: str) -> bool:
+    """Whether B is raised above its best by a bound that does not say where: elsewhere than at 1/2 it may cost less."""
+    asked = problem.range("B")
+    if asked is None or asked.fixed or problem.inflexion is not None:
+        return False
+    return asked.low > (_MEAN_VELOCITY if problem.order == 1 else best_velocity(constant, problem.order))
 
 
 def _best(asked: Range | None, constant: str, order: int) -> float | None:

@@ -23,6 +23,7 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Family, NormFamily, Program
 from optlaws.synthesis.method.aligned import aligned
 from optlaws.synthesis.method.exchange import polished, solve
+from optlaws.synthesis.method.middle import asked_in_the_middle
 from optlaws.synthesis.method.on_points.grids import first_points
 from optlaws.synthesis.method.on_points.highs import vertex_on_points
 from optlaws.synthesis.problem.constants import B, Functional, RootMeanSquare
@@ -59,6 +60,9 @@ def raised(problem: Problem, found: Model, optimum: ActiveSet) -> list[ActiveSet
     ways = [] if alone else _held_up(problem, found, optimum, constant, low)
     ways.sort(key=lambda way: way[0].program.worth(way[1].x))
     led = [one for way in ways[:_FOLLOWED] if _reached(*way, constant, low) for one in raised(problem, *way)]
+    middle = asked_in_the_middle(problem, found, optimum, constant)
+    if middle is not None:
+        led = [*raised(*middle), *led]
     return led or list(islice(between(problem, found, optimum, constant, low), 1 if alone else None))
 
 

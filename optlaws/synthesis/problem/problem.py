@@ -34,8 +34,8 @@ class Problem:
     B, C, D, J
         Peak velocity, acceleration, power and jerk: a number fixes the constant, a `Range` such as
         `between(1.5, 1.8)` or `at_most(60)` bounds it, None leaves it free. `at_most` asks |b| <= B everywhere and
-        nothing else. From rest to rest a number, and a lower bound above the mean velocity 1, also put the peak in
-        the middle, unless there is an inflexion: b(1/2) is B, the greatest |b|.
+        nothing else, `at_least` that the greatest |b| is no less, wherever it is. From rest to rest a number also puts
+        the peak in the middle, unless there is an inflexion: b(1/2) is B, the greatest |b|.
     bounds
         The same for any constant: `{"rms_c": at_most(4), "C_minus": at_most(5)}`, by its name or itself.
     basis
@@ -50,7 +50,7 @@ class Problem:
     inflexion
         The k at which b is greatest: b <= b(inflexion) everywhere and c is 0 there, whatever the sign of b. A fixed
         or lower bounded B is asked of b there. Without an inflexion that is k = 1/2 for laws from rest to rest with
-        a fixed B or one bounded from below, else wherever it falls. Symmetric laws can have it at 1/2 only.
+        a fixed B, else wherever it falls. Symmetric laws can have it at 1/2 only.
     windows
         Values and windows of a, b, c, j: `via("a", 0.3, at=0.4)`, `Window("b", high=1.2, start=0.2, stop=0.3)`.
 
@@ -107,7 +107,7 @@ class Problem:
 
     def _drop_implied_inflexion(self) -> None:
         """Problems that ask the same are equal: of symmetric laws B may put the peak in the middle already."""
-        if self.symmetric and self.inflexion is not None and _above_mean(as_range(self.B, "B")):
+        if self.symmetric and self.inflexion is not None and _fixed_above_mean(as_range(self.B, "B")):
             object.__setattr__(self, "inflexion", None)
 
     @kept_property
@@ -141,7 +141,7 @@ class Problem:
         """The k at which b is asked to be greatest and c is 0; None where it may be greatest anywhere."""
         if self.inflexion is not None:
             return self.inflexion
-        return 0.5 if self.boundary is None and _above_mean(self.range("B")) else None
+        return 0.5 if self.boundary is None and _fixed_above_mean(self.range("B")) else None
 
     @property
     def peak_is_variable(self) -> bool:
@@ -204,9 +204,9 @@ class Problem:
         return f"Problem({', '.join(parts)})"
 
 
-def _above_mean(wanted: Range | None) -> bool:
-    """Whether a lower bound of B says anything of laws with stroke 1."""
-    return wanted is not None and wanted.low > 1.0
+def _fixed_above_mean(wanted: Range | None) -> bool:
+    """Whether B is fixed, to a value that laws with stroke 1 can have as the peak of their velocity alone."""
+    return wanted is not None and wanted.fixed and wanted.low > 1.0
 
 
 def _given(problem: Problem, one: Any) -> bool:  # noqa: ANN401 - a dataclass field

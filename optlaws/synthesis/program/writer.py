@@ -50,6 +50,7 @@ def model(problem: Problem) -> Model:
 ROOT = "root of D"
 _REST = 1e-15
 _ABOVE_MEAN = nextafter(1.0, 2.0)
+_ANY = 2.0
 _LEAST_WEIGHT, _GREATEST_WEIGHT = 1e-3, 1e3
 _SIDES = {1.0: "above", -1.0: "below"}
 
@@ -105,9 +106,10 @@ def least_violation(problem: Problem) -> Model:
 def extreme_velocity(problem: Problem, *, greatest: bool) -> Model:
     """The least or the greatest B for which the constraints do not contradict; B is a variable.
 
-    Where the problem does not say at which k the peak is, there is no greatest B.
+    The peak is where a fixed B puts it. Where that is nowhere, there is no greatest B.
     """
-    free = replace(problem, B=Range(low=_ABOVE_MEAN))
+    placed = replace(problem, B=_ANY).peak_at
+    free = replace(problem, B=Range(low=_ABOVE_MEAN), inflexion=placed)
     writer = _Writer(_space(problem), ["B"], free)
     writer.cost = writer.unit("B", -1.0 if greatest else 1.0)
     if free.peak_at is None:

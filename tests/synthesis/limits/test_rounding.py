@@ -122,7 +122,8 @@ def test_the_limit_of_a_sum_is_not_above_the_sum_of_the_limits() -> None:
 
 
 KINDS: list[dict[str, Any]] = [
-    *({"order": 1, "B": B} for B in (None, 1.6, at_most(1.6), at_least(1.3))),
+    *({"order": 1, "B": B} for B in (None, 1.6, at_most(1.6))),
+    {"order": 1, "B": at_least(1.3), "inflexion": 0.5},
     {"order": 1, "minimise": "max(C_plus, C_minus/2)", "symmetric": False},
     {"B": 1.859, "basis": Chebyshev(15)},
     {"B": at_most(1.6), "minimise": "J"},

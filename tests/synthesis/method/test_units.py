@@ -21,8 +21,8 @@ def asked(B: float) -> list[Problem]:
         Problem(order=3, B=B, minimise="J"),
         Problem(order=3, B=B, minimise="C", basis=Pieces(8, 5, 3)),
         Problem(order=3, B=B, minimise="C", symmetric=False, basis=Chebyshev(7)),
-        Problem(order=3, B=between(B, 2.0 * B), minimise="C/4 + J/32"),
-        Problem(order=4, B=at_least(B), minimise="max(C/4, rms_c/3)"),
+        Problem(order=3, B=between(B, 2.0 * B), inflexion=0.5, minimise="C/4 + J/32"),
+        Problem(order=4, B=at_least(B), inflexion=0.5, minimise="max(C/4, rms_c/3)"),
     ]
 
 
@@ -76,7 +76,7 @@ def test_the_power_of_great_laws_is_bounded() -> None:
     "problem",
     [
         Problem(order=3, B=1e6, minimise="max(C/4, D/2.25)", monotone=True),
-        Problem(order=3, B=at_least(1e6), minimise=residual(nu=7.0, damping=0.1)),
+        Problem(order=3, B=at_least(1e6), inflexion=0.5, minimise=residual(nu=7.0, damping=0.1)),
         Problem(order=3, B=1e6, minimise="rms_j", symmetric=False, basis=Pieces(4, 6, 3)),
     ],
 )

@@ -29,7 +29,7 @@ def shape(given: object) -> str:
 LINEAR: list[dict[str, Any]] = [
     {},
     {"order": 2, "monotone": True, "B": 2.6},
-    {"B": between(1.5, 1.6)},
+    {"B": between(1.5, 1.6), "inflexion": 0.5},
     {"B": at_most(1.55), "order": 3},
     {"minimise": "J"},
     {"minimise": "J", "B": 1.7},
@@ -37,7 +37,7 @@ LINEAR: list[dict[str, Any]] = [
     {"minimise": "J", "B": 1.5, "order": 2},
     {"minimise": "jounce"},
     {"minimise": "jounce", "B": 1.859, "order": 5},
-    {"minimise": "jounce", "B": between(2.3, 2.6), "order": 3, "monotone": True},
+    {"minimise": "jounce", "B": between(2.3, 2.6), "inflexion": 0.5, "order": 3, "monotone": True},
     {"minimise": "C_plus", "symmetric": False, "B": 2.1},
     {"minimise": "C_plus", "symmetric": False, "C": at_most(7.0), "order": 3},
     {"minimise": "C_minus", "symmetric": False, "C": at_most(7.0), "B": 1.9, "order": 3},
@@ -74,7 +74,7 @@ CURVED: list[dict[str, Any]] = [
     {"minimise": "rms_j", "C": at_most(5.2), "B": 1.9},
     {"minimise": "rms_c/3.5 + C/4", "B": 1.7},
     {"minimise": "max(rms_c/3.5, C/5)", "B": 1.641},
-    {"minimise": "rms_c/3.5 + rms_j/25", "B": between(1.5, 1.6)},
+    {"minimise": "rms_c/3.5 + rms_j/25", "B": between(1.5, 1.6), "inflexion": 0.5},
     {"minimise": "0.5*rms_c/3.5 + 0.5*J/32", "order": 3, "B": 1.8, "monotone": True},
 ]
 

@@ -22,6 +22,7 @@ from optlaws import (
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.verification import verify
+from tests.synthesis.judge import judge
 
 K = np.linspace(0.0, 1.0, 4001)
 
@@ -163,3 +164,30 @@ def _mean(laws: list[Any], weights: Any) -> PolynomialLaw:  # noqa: ANN401
     for law, weight in zip(laws, weights, strict=True):
         series[: len(law.acceleration)] += weight * np.array(law.acceleration)
     return PolynomialLaw(series)
+
+
+@pytest.mark.parametrize("low", [1.9, 2.2, 4.0])
+def test_a_lower_bound_of_b_says_nothing_of_the_place(low: float) -> None:
+    problem = Problem(order=2, minimise="J", B=at_least(low), symmetric=False)
+    solution, middle = synthesize(problem), synthesize(replace(problem, inflexion=0.5))
+    judge(solution)
+    # the peak in the middle is the best one for symmetric laws only
+    assert solution.objective < 0.95 * middle.objective
+    peak = solution.constants.B
+    assert np.abs(solution.law.b(K)).max() <= peak.value == pytest.approx(low, rel=1e-9)
+    there = synthesize(replace(problem, inflexion=peak.k))
+    assert there.status == "optimal"
+    assert there.objective == pytest.approx(solution.objective, rel=1e-6)
+    assert solution.limit is not None
+    assert solution.limit <= solution.objective
+    assert verify(solution.to_dict()).proven
+
+
+@pytest.mark.parametrize("minimise", ["C", "J", "rms_c", "D"])
+def test_a_lower_bound_of_b_is_met_no_worse_than_in_the_middle(minimise: str) -> None:
+    for symmetric in (True, False):
+        problem = Problem(order=3, minimise=minimise, B=between(2.1, 3.0), symmetric=symmetric)
+        solution = synthesize(problem)
+        judge(solution)
+        assert solution.objective <= synthesize(replace(problem, inflexion=0.5)).objective * (1.0 + 1e-9)
+        assert solution.status == "local"

@@ -49,7 +49,7 @@ GENERAL = [
     Problem(B=1.859, order=5, basis=Chebyshev(7), minimise="jounce"),
     Problem(B=1.7, order=3, basis=Chebyshev(9), minimise="C/8 + J/64"),
     Problem(order=4, basis=Chebyshev(9), minimise="max(C/4, J/32)"),
-    Problem(B=between(1.5, 1.6), order=4, basis=Chebyshev(9)),
+    Problem(B=between(1.5, 1.6), inflexion=0.5, order=4, basis=Chebyshev(9)),
     Problem(B=1.7, order=3, basis=Chebyshev(9), J=at_most(60.0)),
     Problem(B=1.8, C=at_most(5.0), order=3, basis=Chebyshev(9), minimise="J"),
     Problem(B=2.5, order=3, basis=Chebyshev(9), symmetric=False),
@@ -67,7 +67,7 @@ INFEASIBLE = [
     Problem(B=1.12, order=4, basis=Chebyshev(3)),
     Problem(B=2.9, order=2, basis=Chebyshev(3), monotone=True),
     Problem(B=1.7, C=at_most(4.8), order=4, basis=Chebyshev(9)),
-    Problem(B=between(1.5, 1.6), J=at_most(40.0), order=4, basis=Chebyshev(9)),
+    Problem(B=between(1.5, 1.6), inflexion=0.5, J=at_most(40.0), order=4, basis=Chebyshev(9)),
 ]
 
 
