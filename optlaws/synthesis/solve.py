@@ -23,7 +23,7 @@ from optlaws.synthesis.problem.fields import differ_in_numbers
 from optlaws.synthesis.problem.mixtures import warn_of_mixture
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import shortfalls, worth
-from optlaws.synthesis.program.writer import Model, model
+from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof import mirroring
 from optlaws.synthesis.proof.infeasible import failure
 from optlaws.synthesis.proof.make import certify, lower_bound
@@ -78,13 +78,13 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = 
     began = perf_counter()
     _check_types(problem, start, bound)
     warn_of_mixture(problem.objective, problem.order)
-    found = model(problem)
+    found = model_of(problem)
     warm = start.active_set if start is not None and _neighbours(problem, start.problem) else None
     if warm is not None and len(warm.x) != found.program.size:
         warm = None  # a symmetric law stands for an unsymmetric one
     tries = [_attempt(problem, found, warm, None)]
     if not problem.convex and warm is None:
-        for point in starts.points(problem, found):
+        for point in starts.points(found):
             tries.append(_attempt(problem, found, None, point))
             if _agree(tries):
                 break
@@ -192,7 +192,7 @@ def _raised(problem: Problem, found: Model, plain: _Attempt) -> _Attempt:
         return plain
     optimum = plain.outcome.optimum
     tried: list[_Attempt] = []
-    for held in raised(problem, found, optimum) if optimum is not None else []:
+    for held in raised(found, optimum) if optimum is not None else []:
         law = found.space.law(held.x[: found.space.terms])
         measured = worth(problem, law)
         if measured.excess <= 10.0 * VIOLATION and not shortfalls(problem, law):
@@ -238,7 +238,7 @@ def _from_symmetric(problem: Problem, found: Model, began: float) -> Solution | 
         symmetric = synthesize(asked)
     except (InfeasibleProblem, SolverFailure):
         return None
-    optimum = mirroring.unfolded(problem, found, model(asked), symmetric.active_set)
+    optimum = mirroring.unfolded(found, model_of(asked), symmetric.active_set)
     plain = _measured(problem, found, optimum)
     at_best = optimum.x.copy()
     at_best[: found.space.terms] = mirroring.coordinates(found, symmetric.law)
@@ -291,7 +291,7 @@ def _solution(problem: Problem, found: Model, attempts: tuple[_Attempt, _Attempt
     if best.law is None or optimum is None or bounding is None:
         raise SolverFailure("no start led to a law", problem=problem)
     limit = known_limit(problem)
-    proof = certify(problem, found, bounding, best.objective, limit)
+    proof = certify(found, bounding, best.objective, limit)
     bound = max(lower_bound(proof, limit), -np.inf if history.power is None else history.power.bound)
     if abs(best.objective - bound) <= GAP * (best.objective if best.objective > NOTHING else 1.0):
         status = Status.OPTIMAL

@@ -10,6 +10,7 @@ from math import inf, isfinite
 
 from flint import arb, ctx, fmpq_poly, fmpz_poly
 
+from optlaws.synthesis.families import names
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
@@ -129,23 +130,22 @@ def _velocity(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     wanted = problem.range("B")
     least, greatest = law.extremes(1)
     speed, reached = (-least).max(greatest), (-least).max(greatest)
-    at = "1/2" if problem.peak_at == 0.5 else f"{problem.peak_at}"
     if problem.peak_at is not None:
         peak = Fraction(problem.peak_at)
         reached = arb(law.value(1, peak))
         scale = max(1.0, up(upper(speed)))
-        yield _of(f"b <= b({at})", greatest - reached, scale)
+        yield _of(f"b <= {names.at('b', problem.peak_at)}", greatest - reached, scale)
         if problem.inflexion is not None and not problem.symmetric:
-            yield _of(f"c({at}) = 0", arb(abs(law.value(2, peak))), scale)
+            yield _of(names.acceleration_at_peak(problem.peak_at), arb(abs(law.value(2, peak))), scale)
         if problem.peak_is_variable:
-            yield _of(f"-b <= b({at})", -least - reached, scale)
+            yield _of(f"-b <= {names.at('b', problem.peak_at)}", -least - reached, scale)
     if wanted is not None:
         if isfinite(wanted.high):
             yield _of("|b| <= B", speed - ball(wanted.high), wanted.high)
         if wanted.fixed and problem.peak_at is not None:
-            yield _of(f"b({at}) = B", abs(reached - ball(wanted.high)), wanted.high)
+            yield _of(names.velocity_at_peak(problem.peak_at), abs(reached - ball(wanted.high)), wanted.high)
         elif wanted.low > 0.0:
-            yield _of("B at least", ball(wanted.low) - reached, wanted.low)
+            yield _of(names.at_least("B"), ball(wanted.low) - reached, wanted.low)
     if problem.monotone:
         yield _of("b >= 0", -least)
 
@@ -153,15 +153,15 @@ def _velocity(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
 def _constant(law: ExactLaw, constant: Functional, wanted: Range) -> Iterator[Excess]:
     value = law.term(constant)
     if isfinite(wanted.high):
-        yield _of(f"{constant.name} at most", value - ball(wanted.high), wanted.high)
+        yield _of(names.at_most(constant.name), value - ball(wanted.high), wanted.high)
     if wanted.low > 0.0:
-        yield _of(f"{constant.name} at least", ball(wanted.low) - value, wanted.low)
+        yield _of(names.at_least(constant.name), ball(wanted.low) - value, wanted.low)
 
 
 def _windows(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     for i, window in enumerate(problem.windows, 1):
         least, greatest = law.extremes(window.order, Fraction(window.start), Fraction(window.stop))
         if isfinite(window.high):
-            yield _of(f"window {i}, above", greatest - ball(window.high), abs(window.high))
+            yield _of(names.window_side(names.window(i), 1.0), greatest - ball(window.high), abs(window.high))
         if isfinite(window.low):
-            yield _of(f"window {i}, below", ball(window.low) - least, abs(window.low))
+            yield _of(names.window_side(names.window(i), -1.0), ball(window.low) - least, abs(window.low))

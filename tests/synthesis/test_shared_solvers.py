@@ -36,5 +36,5 @@ def test_a_grid_of_forty_shapes_writes_each_program_once() -> None:
     before = writer._model.cache_info().misses
     for B in (1.7, 1.8):
         for order, degree in shapes:
-            writer.model(Problem(order=order, B=B, basis=Chebyshev(degree)))
+            writer.model_of(Problem(order=order, B=B, basis=Chebyshev(degree)))
     assert writer._model.cache_info().misses - before <= len(shapes)

@@ -1,4 +1,4 @@
-"""Lower bounds of peaks: rows hold a peak down everywhere, but it is held up at one place, and which is to be found.
+"""Lower bounds of peaks: rows hold a peak down everywhere, but it is held up at one place, and which is to be model.
 
 The optimum without the lower bound is continued: one extremum of the constant is held as an equation, first at the
 value that it has and then, step by step, at the bound. Where no extremum leads there, the peak is asked at one place
@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Family, NormFamily, Program
+from optlaws.synthesis.families.names import at_least
 from optlaws.synthesis.method.aligned import aligned
 from optlaws.synthesis.method.exchange import polished, solve
 from optlaws.synthesis.method.middle import asked_in_the_middle
@@ -30,7 +31,7 @@ from optlaws.synthesis.problem.constants import B, Functional, RootMeanSquare
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import shortfalls
-from optlaws.synthesis.program.writer import Model, model
+from optlaws.synthesis.program.writer import Model, model_of
 
 Array = NDArray[np.float64]
 
@@ -43,7 +44,7 @@ _ROOM = 1e3
 _SHORT = 1e-9
 
 
-def raised(problem: Problem, found: Model, optimum: ActiveSet) -> list[ActiveSet]:
+def raised(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
     """Candidates in which every constant is at or above its lower bound, from the optimum without these bounds.
 
     Raises
@@ -51,43 +52,42 @@ def raised(problem: Problem, found: Model, optimum: ActiveSet) -> list[ActiveSet
     InputError
         If a constant with a lower bound is made of several families of rows.
     """
-    short = shortfalls(problem, found.space.law(optimum.x[: found.space.terms]))
+    problem = model.problem
+    short = shortfalls(problem, model.law(optimum.x))
     if not short:
         return [optimum]
     constant, low = next(iter(short.items()))
     # where nothing else is minimised, every law with the constant at its lower bound is best, and no contact shows one
     alone = all(leaf == constant for _, leaf in leaves(problem.objective))
-    ways = [] if alone else _held_up(problem, found, optimum, constant, low)
+    ways = [] if alone else _held_up(model, optimum, constant, low)
     ways.sort(key=lambda way: way[0].program.worth(way[1].x))
-    led = [one for way in ways[:_FOLLOWED] if _reached(*way, constant, low) for one in raised(problem, *way)]
-    middle = asked_in_the_middle(problem, found, optimum, constant)
+    led = [state for way in ways[:_FOLLOWED] if _reached(*way, constant, low) for state in raised(*way)]
+    middle = asked_in_the_middle(model, optimum, constant)
     if middle is not None:
         led = [*raised(*middle), *led]
-    return led or list(islice(between(problem, found, optimum, constant, low), 1 if alone else None))
+    return led or list(islice(between(model, optimum, constant, low), 1 if alone else None))
 
 
-def _reached(found: Model, state: ActiveSet, constant: Functional, low: float) -> bool:
-    return constant.value(found.space.law(state.x[: found.space.terms])) >= low * (1.0 - _SHORT)
+def _reached(model: Model, state: ActiveSet, constant: Functional, low: float) -> bool:
+    return constant.value(model.law(state.x)) >= low * (1.0 - _SHORT)
 
 
-def _held_up(
-    problem: Problem, found: Model, plain: ActiveSet, constant: Functional, low: float
-) -> list[tuple[Model, ActiveSet]]:
+def _held_up(model: Model, plain: ActiveSet, constant: Functional, low: float) -> list[tuple[Model, ActiveSet]]:
     """Optima in which the constant is `low` at one place, with the programs that ask it there."""
-    family = family_of(found, constant)
+    family = family_of(model, constant)
     held = replace(family, held=True)
     extrema, signs, height = family.extremes(plain.x)
     led = []
     for j in np.flatnonzero(height > _WORTHY * height.max()):
         free = _inside(family, float(extrema[j]))
-        start = plain.joined(len(found.program.families), float(extrema[j]), float(signs[j]), free=free)
-        led.append(_continued(found.program, held, start, (float(height[j]), low)))
-    ways = [_rested(found.program, family, one, low) for one in led if one is not None]
+        start = plain.joined(len(model.program.families), float(extrema[j]), float(signs[j]), free=free)
+        led.append(_continued(model.program, held, start, (float(height[j]), low)))
+    ways = [_rested(model.program, family, one, low) for one in led if one is not None]
     if not ways and isinstance(family, NormFamily):
-        ways = aligned(found.program, family, plain, low)
+        ways = aligned(model.program, family, plain, low)
     elif not ways:
-        ways = _asked(found.program, family, plain, (constant.name, low), places(problem, family))
-    return [(replace(found, program=program), state) for program, state in ways]
+        ways = _asked(model.program, family, plain, (constant.name, low), places(model.problem, family))
+    return [(replace(model, program=program), state) for program, state in ways]
 
 
 def _continued(program: Program, held: Family, state: ActiveSet, heights: tuple[float, float]) -> ActiveSet | None:
@@ -136,16 +136,16 @@ def _stayed(
 ) -> list[tuple[Program, ActiveSet]]:
     """Optima with the peak where it was asked, of a linear program, as long as they may be better than the ways."""
     best = min((program.worth(state.x) for _, state in ways), default=inf)
-    found = []
-    for worth, row in sorted(stuck, key=lambda one: one[0]):
+    stayed = []
+    for worth, row in sorted(stuck, key=lambda placed: placed[0]):
         if worth >= best:
             break
         there = _with(program, row)
         state = solve(there, rounds=1).optimum
         if state is not None:
-            found.append((there, state))
+            stayed.append((there, state))
             best = min(best, there.worth(state.x))
-    return found
+    return stayed
 
 
 def _let_go(program: Program, family: Family, state: ActiveSet, low: float) -> tuple[Program, ActiveSet] | None:
@@ -194,7 +194,7 @@ _PLACED_ROUNDS = 4
 _SMOOTH = {"C": "rms_c", "C_plus": "rms_c", "C_minus": "rms_c", "J": "rms_j", "D": "rms_c", "B": "rms_c"}
 
 
-def family_of(found: Model, constant: Functional) -> Family:
+def family_of(model: Model, constant: Functional) -> Family:
     """The rows of a constant that is to be held up.
 
     Raises
@@ -202,10 +202,10 @@ def family_of(found: Model, constant: Functional) -> Family:
     InputError
         If there are several families of them.
     """
-    families = constant.families(found.space, np.zeros(found.program.size), 0.0)
+    families = constant.families(model.space, np.zeros(model.program.size), 0.0)
     if len(families) != 1:
         raise InputError(f"{constant!r} is made of {len(families)} families of rows: it cannot be bounded from below")
-    return replace(families[0], name=f"{constant.name} at least")
+    return replace(families[0], name=at_least(constant.name))
 
 
 def places(problem: Problem, family: Family) -> Array:
@@ -217,21 +217,21 @@ def places(problem: Problem, family: Family) -> Array:
     return (low + high) / 2.0 + (high - low) / 2.0 * np.cos(np.linspace(0.0, np.pi, count))
 
 
-def between(problem: Problem, found: Model, plain: ActiveSet, constant: Functional, low: float) -> Iterator[ActiveSet]:
+def between(model: Model, plain: ActiveSet, constant: Functional, low: float) -> Iterator[ActiveSet]:
     """Laws between the optimum without the lower bound and smooth laws beyond it that have the constant at `low`."""
-    other = model(_without(problem, constant))
+    other = model_of(_without(model.problem, constant))
     family = family_of(other, constant)
-    terms = found.space.terms
+    terms = model.space.terms
 
     def value(coordinates: Array) -> float:
-        return constant.value(found.space.law(coordinates))
+        return constant.value(model.space.law(coordinates))
 
     laws: Iterator[ActiveSet]
     if isinstance(family, NormFamily):
         begin = solve(other.program).optimum
         laws = iter(()) if begin is None else (state for _, state in aligned(other.program, family, begin, low))
     else:
-        laws = _at_places(problem, other, family, low)
+        laws = _at_places(model.problem, other, family, low)
     for beyond in laws:
         if value(beyond.x[:terms]) >= low:
             x = plain.x.copy()

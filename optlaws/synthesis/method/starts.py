@@ -9,8 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.writer import Model, model
+from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 
 Array = NDArray[np.float64]
@@ -20,44 +19,44 @@ _RANDOM = 2
 _SPREAD = 0.3
 
 
-def points(problem: Problem, found: Model) -> Iterator[Array]:
+def points(model: Model) -> Iterator[Array]:
     """Coordinates of the laws of least RMS of c, of least C, and some around them; D follows from the law."""
+    problem = model.problem
     convex: list[Array] = []
     for constant in ("rms_c", "C"):
-        near = model(replace(problem, minimise=constant, D=None))
-        optimum = solve(near.program).optimum
+        optimum = solve(model_of(replace(problem, minimise=constant, D=None)).program).optimum
         if optimum is not None:
-            convex.append(optimum.x[: found.space.terms])
-            yield _completed(found, convex[-1])
+            convex.append(model.coordinates(optimum.x))
+            yield _completed(model, convex[-1])
     if not problem.symmetric and problem.boundary is None and problem.inflexion is None:
-        for lifted in _from_symmetric(problem, found):
+        for lifted in _from_symmetric(model):
             convex.append(lifted)
-            yield _completed(found, lifted)
+            yield _completed(model, lifted)
     if not convex:
         return
     generator = np.random.default_rng(_SEED)
     size = max(float(np.abs(convex[-1]).max()), 1.0)
     for i in range(_RANDOM):
-        away = _SPREAD * size * generator.normal(size=found.space.terms)
-        yield _completed(found, convex[i % len(convex)] + away)
+        away = _SPREAD * size * generator.normal(size=model.space.terms)
+        yield _completed(model, convex[i % len(convex)] + away)
 
 
-def _from_symmetric(problem: Problem, found: Model) -> list[Array]:
+def _from_symmetric(model: Model) -> list[Array]:
     """Coordinates of the best symmetric law that the default start leads to: it belongs to the problem too."""
-    half = model(replace(problem, symmetric=True))
+    half = model_of(replace(model.problem, symmetric=True))
     optimum = solve(half.program).optimum
-    if optimum is None or not isinstance(half.space, PolynomialSpace) or not isinstance(found.space, PolynomialSpace):
+    if optimum is None or not isinstance(half.space, PolynomialSpace) or not isinstance(model.space, PolynomialSpace):
         return []
-    lifted = np.zeros(found.space.terms)
-    lifted[np.isin(found.space.index, half.space.index)] = optimum.x[: half.space.terms]
+    lifted = np.zeros(model.space.terms)
+    lifted[np.isin(model.space.index, half.space.index)] = half.coordinates(optimum.x)
     return [lifted]
 
 
-def _completed(found: Model, coordinates: Array) -> Array:
+def _completed(model: Model, coordinates: Array) -> Array:
     """With room enough for the variables beyond the coordinates."""
-    x = np.zeros(found.program.size)
-    x[: found.space.terms] = coordinates
-    law = found.space.law(coordinates)
-    for name, place in found.places.items():
+    x = np.zeros(model.program.size)
+    x[: model.space.terms] = coordinates
+    law = model.space.law(coordinates)
+    for name, place in model.places.items():
         x[place] = law.peak(1).value if name == "B" else 2.0 * law.power_peak().value
     return x

@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.names import mirrored
 from optlaws.synthesis.problem.constants import Functional, Power
 
 if TYPE_CHECKING:
@@ -64,8 +65,8 @@ class CombinedPeak(Functional):
             return [plain]
         facing = self.signs if self.nu % 2 else tuple(-sign for sign in self.signs)
         if any(self.weights[1::2]):
-            mirrored = tuple(-w if i % 2 else w for i, w in enumerate(self.weights))
-            return [plain, (f"{self.name} mirrored", mirrored, facing)]
+            weights = tuple(-w if i % 2 else w for i, w in enumerate(self.weights))
+            return [plain, (mirrored(self.name), weights, facing)]
         return [(self.name, self.weights, tuple(dict.fromkeys((*self.signs, *facing))))]
 
 
@@ -86,7 +87,7 @@ class CombinedPower(Power):
         self.check(space)
         sides = [(self.name, self.weights)]
         if space.symmetric and any(self.weights[1::2]):
-            sides.append((f"{self.name} mirrored", tuple(-w if i % 2 else w for i, w in enumerate(self.weights))))
+            sides.append((mirrored(self.name), tuple(-w if i % 2 else w for i, w in enumerate(self.weights))))
         return tuple(space.power(name, slack, bound, floats(weights)) for name, weights in sides)
 
 

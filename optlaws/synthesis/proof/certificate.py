@@ -23,11 +23,12 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
+from optlaws.synthesis.families.names import VariableName
 from optlaws.synthesis.limits.rounding import rounded_down
 from optlaws.synthesis.problem.constants import Peak, Power
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.writer import ROOT, Model, least_violation, maxima, model, relaxed, relaxed_power
+from optlaws.synthesis.program.writer import Model, least_violation, maxima, model_of, relaxed, relaxed_power
 from optlaws.synthesis.proof.data import StatedCertificate, StatedContact, problem_of, stated
 from optlaws.synthesis.proof.farkas import surplus
 from optlaws.synthesis.spaces.space import LawSpace
@@ -247,7 +248,7 @@ def _model(certificate: Certificate) -> Model:
         return relaxed(certificate.problem, certificate.tangent)
     if certificate.program == VIOLATION:
         return least_violation(certificate.problem)
-    return model(certificate.problem)
+    return model_of(certificate.problem)
 
 
 def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
@@ -303,7 +304,7 @@ def _greatest(certificate: Certificate, found: Model, claim: float) -> dict[str,
     """Greatest values of the program's variables in a law that contradicts the claim."""
     bounds: dict[str, float] = {}
     if certificate.program == VIOLATION:
-        bounds["t"] = 0.0
+        bounds[VariableName.VIOLATION] = 0.0
     else:
         spread(certificate.problem.objective, claim, bounds, least_values(certificate.problem, found.space))
     problem = certificate.problem
@@ -313,7 +314,7 @@ def _greatest(certificate: Certificate, found: Model, claim: float) -> dict[str,
             bounds[name] = min(bounds.get(name, inf), asked.high)
     power = relaxed_power(problem)
     if power is not None and power.name in bounds:
-        bounds[ROOT] = bounds[power.name] ** 0.5
+        bounds[VariableName.POWER_ROOT] = bounds[power.name] ** 0.5
     if "B" in found.places and not isfinite(bounds["B"]):
         # b is nowhere further from its mean, the stroke, than the integral of |c|
         curved = min(bounds.get(name, inf) for name in ("C", "rms_c"))

@@ -8,8 +8,10 @@ from math import ceil, floor
 import numpy as np
 
 from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.synthesis.families import names
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import Points
+from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method.equations import contradiction
 from optlaws.synthesis.method.exchange import Outcome, as_answered, solve
@@ -17,7 +19,7 @@ from optlaws.synthesis.method.on_points.grids import exchanged, first_points
 from optlaws.synthesis.method.on_points.highs import vertex_on_points
 from optlaws.synthesis.problem.constants import C
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model
+from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of
 from optlaws.synthesis.proof.certificate import OBJECTIVE, VIOLATION, Certificate
 from optlaws.synthesis.proof.make import certificate, violation_certificate
 from optlaws.synthesis.spaces.bases import Basis, PolynomialBasis
@@ -32,10 +34,10 @@ _MORE_FREEDOM = {
 }
 
 _TEXT = {
-    "chord": "b <= B",
-    "b": "|b| <= B",
-    "ratio": "b >= 0",
-    "forward": "b >= 0",
+    RowName.BELOW_PEAK: "b <= B",
+    RowName.VELOCITY: "|b| <= B",
+    RowName.RATIO: "b >= 0",
+    RowName.FORWARD: "b >= 0",
     "C": "|c| <= C",
     "J": "|j| <= J",
     "D": "|d| <= D",
@@ -47,7 +49,7 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
     tried = f"IPOPT said {outcome.status!r} after {outcome.iterations} iterations, {outcome.rounds} rounds of exchange"
     straight = _convex_part(problem)
     elastic = least_violation(straight)
-    disagreement = _disagreement(straight, elastic)
+    disagreement = _disagreement(elastic)
     if disagreement is not None:
         return InfeasibleProblem(
             _disagreeing(problem, disagreement, elastic),
@@ -56,9 +58,9 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
             tried="the equations contradict each other by linear algebra alone (error.proof has their multipliers)",
         )
     trial = solve(elastic.program)
-    proof = None if trial.optimum is None else violation_certificate(straight, elastic, trial.optimum)
+    proof = None if trial.optimum is None else violation_certificate(elastic, trial.optimum)
     if proof is None or not proof.proves_infeasible:
-        proof = _at_vertices(straight, elastic) or proof
+        proof = _at_vertices(elastic) or proof
     if proof is not None and proof.proves_infeasible:
         return InfeasibleProblem(
             _why(problem, proof, elastic), problem=problem, proof=proof, tried=_contradiction(proof)
@@ -117,9 +119,9 @@ def _out_of_reach(problem: Problem, elastic: Model) -> Certificate | None:
         others = {other: wanted for other, wanted in problem.bounds.items() if other != one}
         if one.name in cones:
             least = replace(problem, minimise=one.expression(), bounds=others)
-            found = model(least)
-            optimum = solve(found.program).optimum
-            proof = None if optimum is None else certificate(least, found, optimum, OBJECTIVE)
+            model = model_of(least)
+            optimum = solve(model.program).optimum
+            proof = None if optimum is None else certificate(model, optimum, OBJECTIVE)
             if proof is not None and proof.bound > asked.high:
                 return proof
     return None
@@ -127,25 +129,25 @@ def _out_of_reach(problem: Problem, elastic: Model) -> Certificate | None:
 
 def _why(problem: Problem, proof: Certificate, elastic: Model) -> str:
     """Which constraints contradict each other: those with a multiplier in the proof."""
-    names = [_named(problem, c.constraint) for c in proof.contacts if c.multiplier > 0.0]
-    names += _equations(problem, proof, elastic)
-    asked = " and ".join(dict.fromkeys(reversed(names)))
+    acting = [_named(problem, contact.constraint) for contact in proof.contacts if contact.multiplier > 0.0]
+    acting += _equations(problem, proof, elastic)
+    asked = " and ".join(dict.fromkeys(reversed(acting)))
     return (
         f"no law of order {problem.order} with {_shape(problem)} has {asked}. "
         f"{_MORE_FREEDOM[_kind(problem)]} or a lower order helps{_possible(problem)}"
     )
 
 
-def _disagreement(problem: Problem, elastic: Model) -> Certificate | None:
+def _disagreement(elastic: Model) -> Certificate | None:
     """Proof that the equations alone have no solution."""
     weights = contradiction(elastic.program.equalities, elastic.program.right)
     if weights is None:
         return None
-    proof = Certificate(problem, (), tuple(weights.tolist()), VIOLATION)
+    proof = Certificate(elastic.problem, (), tuple(weights.tolist()), VIOLATION)
     return proof if proof.proves_infeasible else None
 
 
-def _at_vertices(problem: Problem, elastic: Model) -> Certificate | None:
+def _at_vertices(elastic: Model) -> Certificate | None:
     """Proof by the simplex method that rows at finitely many places contradict each other: so do those everywhere."""
     program = elastic.program
     if program.curved:
@@ -158,7 +160,7 @@ def _at_vertices(problem: Problem, elastic: Model) -> Certificate | None:
         answer = vertex_on_points(program, points)
         if answer is None:
             return None
-        proof = violation_certificate(problem, elastic, as_answered(points, answer))
+        proof = violation_certificate(elastic, as_answered(points, answer))
         if proof.proves_infeasible:
             return proof
         points = [exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
@@ -166,17 +168,19 @@ def _at_vertices(problem: Problem, elastic: Model) -> Certificate | None:
 
 
 def _disagreeing(problem: Problem, proof: Certificate, elastic: Model) -> str:
-    names = list(dict.fromkeys(_equations(problem, proof, elastic)))
-    law = f"no law of order {problem.order} with {_shape(problem)} has {' and '.join(names)}: "
-    if len(names) <= _PLAIN:
-        return f"{law}with the end conditions {'that' if len(names) == 1 else 'these'} cannot be. Leave one out"
+    texts = list(dict.fromkeys(_equations(problem, proof, elastic)))
+    law = f"no law of order {problem.order} with {_shape(problem)} has {' and '.join(texts)}: "
+    if len(texts) <= _PLAIN:
+        return f"{law}with the end conditions {'that' if len(texts) == 1 else 'these'} cannot be. Leave one out"
     return f"{law}these equations contradict each other. {_MORE_FREEDOM[_kind(problem)]} may help, or one left out"
 
 
 def _equations(problem: Problem, proof: Certificate, elastic: Model) -> list[str]:
     """The equations that have a multiplier in the proof."""
     return [
-        f"{name} = {problem.B:g}" if name == "b(1/2) = B" and isinstance(problem.B, float) else name
+        f"{name} = {problem.B:g}"
+        if name == names.velocity_at_peak(problem.peak_at) and isinstance(problem.B, float)
+        else name
         for name, weight in zip(elastic.equation_names, proof.equations, strict=True)
         if abs(weight) > _WEIGHTLESS
     ]
@@ -192,8 +196,9 @@ def _shape(problem: Problem) -> str:
 
 
 def _named(problem: Problem, constraint: str) -> str:
-    if constraint.startswith("window "):
-        return repr(problem.windows[int(constraint.split()[1].rstrip(",")) - 1])
+    number = names.window_number(constraint)
+    if number is not None:
+        return repr(problem.windows[number - 1])
     asked = problem.range(constraint)
     if constraint not in _TEXT and asked is not None:
         return f"{constraint} <= {asked.high:g}"
@@ -215,6 +220,6 @@ def _possible(problem: Problem) -> str:
 def _extreme(problem: Problem, *, greatest: bool) -> float | None:
     if greatest and problem.peak_at is None:
         return None
-    found = extreme_velocity(problem, greatest=greatest)
-    optimum = solve(found.program).optimum
-    return None if optimum is None else float(optimum.x[found.places["B"]])
+    extreme = extreme_velocity(problem, greatest=greatest)
+    optimum = solve(extreme.program).optimum
+    return None if optimum is None else float(optimum.x[extreme.places["B"]])

@@ -9,10 +9,11 @@ import numpy as np
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import NormFamily
+from optlaws.synthesis.families.names import RowName, VariableName, velocity_at_peak
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.writer import ROOT, Model, relaxed
+from optlaws.synthesis.program.writer import Model, relaxed
 from optlaws.synthesis.proof.certificate import OBJECTIVE, RELAXED, VIOLATION, Certificate, Contact
 from optlaws.synthesis.proof.directions import turned
 from optlaws.synthesis.spaces.bases import PolynomialBasis
@@ -24,15 +25,16 @@ _NO_NORM = 1e-300
 _NOTHING = 1e-14
 
 
-def certify(problem: Problem, found: Model, optimum: ActiveSet, objective: float, limit: float | None) -> Certificate:
+def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | None) -> Certificate:
     """The certificate of an optimum; of the relaxed program, solved here, where the problem is not convex.
 
     The tangent begins at the root that the best law itself needs and is moved to where the relaxed optimum asks for
     it, as long as that may pay: not below the limit.
     """
+    problem = model.problem
     if problem.convex:
-        return certificate(problem, found, optimum, OBJECTIVE)
-    tangent = _needed_root(found, optimum) or float(np.sqrt(objective))
+        return certificate(model, optimum, OBJECTIVE)
+    tangent = _needed_root(model, optimum) or float(np.sqrt(objective))
     best: Certificate | None = None
     warm: ActiveSet | None = None
     plain = _by_the_peak(problem)
@@ -45,12 +47,12 @@ def certify(problem: Problem, found: Model, optimum: ActiveSet, objective: float
         warm = outcome.optimum
         if warm is None:
             break
-        proof = certificate(problem, loose, warm, RELAXED, tangent)
+        proof = certificate(loose, warm, RELAXED, tangent)
         if best is None or proof.bound > best.bound:
             best = proof
         if limit is not None and best.bound < _NEAR * limit:
             break
-        moved = float(warm.x[loose.places[ROOT]])
+        moved = float(warm.x[loose.places[VariableName.POWER_ROOT]])
         if abs(moved - tangent) < 1e-6 * tangent:
             break
         tangent = moved
@@ -63,54 +65,54 @@ def _by_the_peak(problem: Problem) -> Certificate | None:
     plain = problem.symmetric and problem.boundary is None and isinstance(problem.basis, PolynomialBasis)
     if others or term != D or not plain or problem.order == 1 or not isinstance(problem.B, float):
         return None
-    found = relaxed(problem, problem.B)
-    pull = 2.0 * weight * problem.B / found.unit
+    loose = relaxed(problem, problem.B)
+    pull = 2.0 * weight * problem.B / loose.unit
     contacts = (
-        Contact("tangent", 1.0, 0.0, weight / found.unit),
-        Contact("b / sqrt(2k)", 1.0, 0.5, pull),
+        Contact(RowName.TANGENT, 1.0, 0.0, weight / loose.unit),
+        Contact(RowName.FROM_START, 1.0, 0.5, pull),
     )
-    equations = [0.0] * len(found.program.right)
-    equations[found.equation_names.index("b(1/2) = B")] = -pull
+    equations = [0.0] * len(loose.program.right)
+    equations[loose.equation_names.index(velocity_at_peak(0.5))] = -pull
     return Certificate(problem, contacts, tuple(equations), RELAXED, problem.B)
 
 
-def _needed_root(found: Model, optimum: ActiveSet) -> float:
+def _needed_root(model: Model, optimum: ActiveSet) -> float:
     """The least r with |b| <= r sqrt(2k) and r sqrt(2(1-k)) everywhere, nearly."""
     k = np.arange(1, _PLACES) / _PLACES
-    if found.space.symmetric:
+    if model.space.symmetric:
         # the rest is its mirror image, and not every space has it
         k = k[k <= 0.5]
-    family = found.space.derivative(1, "b", np.zeros(found.program.size))
+    family = model.space.derivative(1, RowName.VELOCITY, np.zeros(model.program.size))
     velocity = family.value(optimum.x, family.u(k))
     return float((np.abs(velocity) / np.sqrt(2.0 * np.minimum(k, 1.0 - k))).max())
 
 
-def certificate(problem: Problem, found: Model, optimum: ActiveSet, program: str, tangent: float = 0.0) -> Certificate:
+def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float = 0.0) -> Certificate:
     """Contacts and multipliers of an optimum in terms of k."""
     contacts = []
-    for i, family in enumerate(found.program.families):
-        mine = np.flatnonzero(optimum.family == i)
+    for i, family in enumerate(model.program.families):
+        own = np.flatnonzero(optimum.family == i)
         direction: tuple[float, ...] = ()
         if isinstance(family, NormFamily):
             image = family.matrix @ np.append(optimum.x, 1.0)
             direction = tuple((image / max(float(np.linalg.norm(image)), _NO_NORM)).tolist())
-        for j, k in zip(mine, family.k(optimum.u[mine]), strict=True):
+        for j, k in zip(own, family.k(optimum.u[own]), strict=True):
             if isinstance(family, ConeFamily):
                 direction = family.direction(optimum.x, float(optimum.u[j]))
             multiplier = float(optimum.multipliers[j])
             place = float(min(max(k, 0.0), 1.0))
             contacts.append(Contact(family.name, float(optimum.s[j]), place, multiplier, direction))
     equations = tuple(optimum.equality_multipliers.tolist())
-    return turned(found, Certificate(problem, tuple(contacts), equations, program, tangent))
+    return turned(model, Certificate(model.problem, tuple(contacts), equations, program, tangent))
 
 
-def violation_certificate(problem: Problem, found: Model, optimum: ActiveSet) -> Certificate:
+def violation_certificate(model: Model, optimum: ActiveSet) -> Certificate:
     """The certificate that no law exists, without multipliers that are mere rounding."""
     sizes = (optimum.multipliers, optimum.equality_multipliers)
-    least = _NOTHING * max((float(np.abs(one).max(initial=0.0)) for one in sizes), default=0.0)
-    kept = [np.where(np.abs(one) < least, 0.0, one) for one in sizes]
+    least = _NOTHING * max((float(np.abs(size).max(initial=0.0)) for size in sizes), default=0.0)
+    kept = [np.where(np.abs(size) < least, 0.0, size) for size in sizes]
     plain = replace(optimum, multipliers=kept[0], equality_multipliers=kept[1])
-    return certificate(problem, found, plain, VIOLATION)
+    return certificate(model, plain, VIOLATION)
 
 
 def lower_bound(proof: Certificate, limit: float | None) -> float:

@@ -8,8 +8,8 @@ from numpy.typing import NDArray
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Family, Program
+from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.problem.constants import Peak
-from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model
 
 Array = NDArray[np.float64]
@@ -17,7 +17,7 @@ Array = NDArray[np.float64]
 Contact = tuple[int, float, float, float]
 
 
-def unfolded(problem: Problem, found: Model, half: Model, optimum: ActiveSet) -> ActiveSet:
+def unfolded(model: Model, half: Model, optimum: ActiveSet) -> ActiveSet:
     """The optimum of the program of symmetric laws as a point of that of all laws, with multipliers that fit it.
 
     Each contact is there twice, at k and at 1 - k, with half its multiplier. The equations' multipliers are those that
@@ -25,40 +25,40 @@ def unfolded(problem: Problem, found: Model, half: Model, optimum: ActiveSet) ->
 
     Parameters
     ----------
-    problem, found
-        The unsymmetric problem and its program.
+    model
+        The program of the unsymmetric problem.
     half, optimum
         The program of the same problem with symmetric laws, and its optimum.
     """
-    names = {family.name: i for i, family in enumerate(found.program.families)}
-    odd = {one.name for one in problem.constants if isinstance(one, Peak) and one.nu % 2 == 0}
+    names = {family.name: i for i, family in enumerate(model.program.families)}
+    odd = {peak.name for peak in model.problem.constants if isinstance(peak, Peak) and peak.nu % 2 == 0}
     contacts: list[Contact] = []
     for i, family in enumerate(half.program.families):
         if family.name in names:
             target, sign = names[family.name], -1.0 if family.name in odd else 1.0
             for j in np.flatnonzero(optimum.family == i):
                 row = (float(optimum.u[j]), float(optimum.s[j]), float(optimum.multipliers[j]))
-                contacts += _both(found.program.families[target], family, (target, *row), sign)
-    return _with_equations(found.program, _unfolded_point(found, half, optimum.x), contacts)
+                contacts += _both(model.program.families[target], family, (target, *row), sign)
+    return _with_equations(model.program, _unfolded_point(model, half, optimum.x), contacts)
 
 
-def coordinates(found: Model, law: MotionLaw) -> Array:
+def coordinates(model: Model, law: MotionLaw) -> Array:
     """The coordinates of a law of the space, from its velocity at places that determine it."""
-    family = found.space.derivative(1, "b", np.zeros(found.program.size))
+    family = model.space.derivative(1, RowName.VELOCITY, np.zeros(model.program.size))
     u = family.nodes()
     if u is None:
-        u = np.cos((np.arange(2 * found.space.terms + 16) + 0.5) * np.pi / (2 * found.space.terms + 16))
+        u = np.cos((np.arange(2 * model.space.terms + 16) + 0.5) * np.pi / (2 * model.space.terms + 16))
     columns = family.columns(u)[0]
     velocities = np.array([float(law.b(k)) for k in np.clip(family.k(u), 0.0, 1.0).tolist()]) - columns[:, -1]
-    solution = np.linalg.lstsq(columns[:, : found.space.terms], velocities, rcond=None)[0]
+    solution = np.linalg.lstsq(columns[:, : model.space.terms], velocities, rcond=None)[0]
     return np.asarray(solution, dtype=np.float64)
 
 
-def _unfolded_point(found: Model, half: Model, x: Array) -> Array:
-    point = np.zeros(found.program.size)
-    law = half.space.law(x[: half.space.terms])
-    point[: found.space.terms] = coordinates(found, law)
-    for name, place in found.places.items():
+def _unfolded_point(model: Model, half: Model, x: Array) -> Array:
+    point = np.zeros(model.program.size)
+    law = half.law(x)
+    point[: model.space.terms] = coordinates(model, law)
+    for name, place in model.places.items():
         # where B is given it is a variable of unsymmetric laws alone
         point[place] = x[half.places[name]] if name in half.places else law.peak(1).value
     return point
@@ -76,12 +76,12 @@ def _both(family: Family, half: Family, contact: Contact, sign: float) -> list[C
 def _with_equations(program: Program, x: Array, contacts: list[Contact]) -> ActiveSet:
     family, u, s, multipliers = (np.array(column) for column in zip(*contacts, strict=True)) if contacts else [[]] * 4
     family = np.asarray(family, dtype=np.intp)
-    u, s, multipliers = (np.asarray(one, dtype=np.float64) for one in (u, s, multipliers))
+    u, s, multipliers = (np.asarray(column, dtype=np.float64) for column in (u, s, multipliers))
     slope = program.objective.copy()
-    for i, one in enumerate(program.families):
-        mine = np.flatnonzero(family == i)
-        if len(mine):
-            slope += multipliers[mine] @ one.jet(x, u[mine], s[mine]).gradient
+    for i, rows in enumerate(program.families):
+        own = np.flatnonzero(family == i)
+        if len(own):
+            slope += multipliers[own] @ rows.jet(x, u[own], s[own]).gradient
     weights = np.linalg.lstsq(program.equalities.T, -slope, rcond=None)[0] if len(program.right) else np.empty(0)
     return ActiveSet(
         x=x,

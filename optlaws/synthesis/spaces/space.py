@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily
+from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
 Array = NDArray[np.float64]
@@ -100,7 +101,7 @@ class LawSpace(ABC):
 
     def backward(self, slack: Array, bound: float) -> LinearFamily:
         """Rows -b <= slack . x + bound."""
-        return self.derivative(1, "b", slack, bound, (-1.0,))
+        return self.derivative(1, RowName.VELOCITY, slack, bound, (-1.0,))
 
     @abstractmethod
     def power(self, name: str, slack: Array, bound: float = 0.0, weights: tuple[float, ...] = (1.0,)) -> ProductFamily:

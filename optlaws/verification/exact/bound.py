@@ -16,12 +16,13 @@ from math import inf, isfinite
 
 from flint import arb, arb_mat, ctx
 
+from optlaws.synthesis.families.names import VariableName
 from optlaws.synthesis.problem.constants import Peak
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate, Contact
 from optlaws.verification.exact.balls import ball, down, lower, up, upper
-from optlaws.verification.exact.rows import ROOT, ExactRows, Row
+from optlaws.verification.exact.rows import ExactRows, Row
 
 Vector = list[arb]
 
@@ -272,7 +273,7 @@ def greatest_values(certificate: Certificate, rows: ExactRows, claim: float) -> 
         if asked is not None:
             found[name] = min(found.get(name, inf), asked.high)
     if isfinite(found.get("D", inf)):
-        found[ROOT] = up(upper(ball(found["D"]).sqrt()))
+        found[VariableName.POWER_ROOT] = up(upper(ball(found["D"]).sqrt()))
     start = rows.space.bounds.start_velocity
     if "B" in rows.names and not isfinite(found.get("B", inf)) and start is not None:
         # b is b(0) and the integral of c
@@ -303,7 +304,7 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
         found.setdefault(1, []).append(ball(stroke))
     if start is not None and change is not None and start == 0 and start + change == 0:
         # b² <= 2 D k
-        known(1, ROOT)
+        known(1, VariableName.POWER_ROOT)
     return {nu: ball(min(map(upper, several))) for nu, several in found.items()}
 
 

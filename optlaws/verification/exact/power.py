@@ -12,11 +12,12 @@ from fractions import Fraction
 
 from flint import arb, arb_mat, ctx
 
+from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.problem.expression import Expression, Maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate, Contact
 from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step
-from optlaws.synthesis.proof.power.rows import LEAST_POWER, POWER, applies
+from optlaws.synthesis.proof.power.rows import POWER_ROWS, applies
 from optlaws.verification.exact.balls import ball
 from optlaws.verification.exact.rows import ExactRows
 
@@ -164,7 +165,7 @@ class _Proof:
     def contact(self, one: Contact, box: _Box) -> Vector:
         """The row of a contact, at most 0; zeros where the problem asks for nothing of the kind."""
         nothing = [arb(0)] * (len(box.low) + 1)
-        if one.constraint in {POWER, LEAST_POWER}:
+        if one.constraint in POWER_ROWS:
             return self.power(one, box) or nothing
         row = self.rows.row(one)
         return nothing if row is None else self.mapped(row.vector(self.rows.names))
@@ -181,7 +182,7 @@ class _Proof:
         if not near > 0 or not far >= near:
             return None
         place = len(self.points) + self.rows.names.index("D") if "D" in self.rows.names else None
-        least = one.constraint == LEAST_POWER
+        least = one.constraint == RowName.POWER_FROM_LEAST
         D = self.D if place is None else (box.low if least else box.high)[place]
         found = [ball(one.sign) * x for x in self.derivative(2, k)]
         found = [x + forth * D / (near * far) * y for x, y in zip(found, velocity, strict=True)]

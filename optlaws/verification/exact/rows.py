@@ -13,6 +13,8 @@ from operator import mul
 from flint import arb
 
 from optlaws.errors import InputError
+from optlaws.synthesis.families import names
+from optlaws.synthesis.families.names import RowName, VariableName
 from optlaws.synthesis.problem.constants import B, Functional, Peak, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
 from optlaws.synthesis.problem.problem import Problem
@@ -23,7 +25,6 @@ from optlaws.verification.exact.balls import ball
 from optlaws.verification.exact.known_constants import known
 from optlaws.verification.exact.of_basis import exact_space
 
-ROOT = "root of D"
 _NEAR = Fraction(1, 10**9)
 
 Names = Mapping[str, float | arb]
@@ -37,10 +38,10 @@ class Row:
     constants: Names = field(default_factory=dict)
     right: arb | float = 0.0
 
-    def vector(self, names: list[str]) -> list[arb]:
+    def vector(self, variables: list[str]) -> list[arb]:
         """Coefficients of z and of the named constants, then what is constant."""
         *free, base = self.functions
-        return [*free, *(arb(self.constants.get(name, 0.0)) for name in names), base + self.right]
+        return [*free, *(arb(self.constants.get(name, 0.0)) for name in variables), base + self.right]
 
 
 Maker = Callable[[Contact, Fraction], Row]
@@ -86,7 +87,7 @@ class ExactRows:
         if problem.peak_is_variable:
             self.names.append("B")
         if self.relaxed and _bounds_power(problem):
-            self.names.append(ROOT)
+            self.names.append(VariableName.POWER_ROOT)
         self.names = list(dict.fromkeys(self.names))
         self._constraints()
 
@@ -113,7 +114,7 @@ class ExactRows:
             self._bounded(leaf, {leaf.name: -1.0}, 0.0)
         for term in maxima:
             for i, part in enumerate(term.parts, 1):
-                self._single(f"part {i} of {term!r}", {**part.weights(), repr(term): -1.0}, 0.0)
+                self._single(names.maximum_part(i, repr(term)), {**part.weights(), repr(term): -1.0}, 0.0)
 
     def _bounded(self, leaf: Functional, slack: Names, high: float) -> None:
         """Rows of `leaf <= -slack + high`."""
@@ -144,13 +145,15 @@ class ExactRows:
         def from_end(contact: Contact, k: Fraction, way: Fraction) -> Row:
             found = self.space.values(1, k)
             left = ball(2 * way).sqrt()
-            return Row([one * contact.sign / left if way else arb(0) for one in found], {ROOT: -1.0})
+            return Row([one * contact.sign / left if way else arb(0) for one in found], {VariableName.POWER_ROOT: -1.0})
 
         if start is not None and change is not None and start == 0:
-            self._add("b / sqrt(2k)", lambda one, k: from_end(one, k, k), (1.0, -1.0))
+            self._add(RowName.FROM_START, lambda one, k: from_end(one, k, k), (1.0, -1.0))
         if start is not None and change is not None and start + change == 0:
-            self._add("b / sqrt(2 - 2k)", lambda one, k: from_end(one, k, 1 - k), (1.0, -1.0))
-        self._single("tangent", {ROOT: 2 * self.tangent, **slack}, ball(high) + self.tangent**2)
+            self._add(RowName.FROM_END, lambda one, k: from_end(one, k, 1 - k), (1.0, -1.0))
+        self._single(
+            RowName.TANGENT, {VariableName.POWER_ROOT: 2 * self.tangent, **slack}, ball(high) + self.tangent**2
+        )
 
     def _norm(self, nu: int, contact: Contact, slack: Names, high: float) -> Row:
         """A direction times the values at Gauss points, each by the root of its weight: at most the norm (Cauchy)."""
@@ -166,25 +169,26 @@ class ExactRows:
         self._peak()
         self._velocity()
         if problem.monotone:
-            self._everywhere("forward", partial(self.space.values, 1), (-1.0,), {})
+            self._everywhere(RowName.FORWARD, partial(self.space.values, 1), (-1.0,), {})
             if self.space.divided:
-                self._everywhere("ratio", self.space.ratio, (1.0,), {})
+                self._everywhere(RowName.RATIO, self.space.ratio, (1.0,), {})
         for constant, wanted in problem.bounded:
             self._range(constant, wanted)
         for nu, k, value in self.space.conditions:
             self.equations.append(Row(self.space.values(nu, k), {}, -ball(value)))
         for i, window in enumerate(problem.windows, 1):
-            for part, side in zip(parts(window, symmetric=problem.symmetric), ("", " mirrored"), strict=False):
-                self._window(f"window {i}{side}", window, part)
+            halves = (names.window(i), names.mirrored(names.window(i)))
+            for part, name in zip(parts(window, symmetric=problem.symmetric), halves, strict=False):
+                self._window(name, window, part)
 
     def _range(self, constant: Functional, wanted: Range) -> None:
         name = constant.name
         if name in self.names and wanted.low > 0.0:
-            self._single(f"{name} at least", {name: -1.0}, -ball(wanted.low))
+            self._single(names.at_least(name), {name: -1.0}, -ball(wanted.low))
         if not isfinite(wanted.high):
             return
         if name in self.names:
-            self._single(f"{name} at most", {name: 1.0}, ball(wanted.high))
+            self._single(names.at_most(name), {name: 1.0}, ball(wanted.high))
         else:
             self._bounded(constant, {}, wanted.high)
 
@@ -197,7 +201,7 @@ class ExactRows:
         if problem.peak_at is None:
             return
         peak = Fraction(problem.peak_at)
-        self._everywhere("chord", partial(space.chord, peak), (1.0,), {})
+        self._everywhere(RowName.BELOW_PEAK, partial(space.chord, peak), (1.0,), {})
         if fixed is not None and problem.symmetric:
             self.equations.append(Row(space.values(1, peak), {}, -ball(fixed)))
         elif problem.peak_is_variable:
@@ -211,16 +215,16 @@ class ExactRows:
         if wanted is None:
             return
         if problem.peak_is_variable:
-            self._everywhere("b", partial(self.space.values, 1), (1.0, -1.0), {"B": -1.0})
+            self._everywhere(RowName.VELOCITY, partial(self.space.values, 1), (1.0, -1.0), {"B": -1.0})
         elif wanted.fixed:
-            self._add("b", self._below_middle, (1.0, -1.0))
+            self._add(RowName.VELOCITY, self._below_middle, (1.0, -1.0))
         else:
             self._range(B, wanted)
             return
         if not wanted.fixed:
             if isfinite(wanted.high):
-                self._single("B at most", {"B": 1.0}, ball(wanted.high))
-            self._single("B at least", {"B": -1.0}, -ball(wanted.low))
+                self._single(names.at_most("B"), {"B": 1.0}, ball(wanted.high))
+            self._single(names.at_least("B"), {"B": -1.0}, -ball(wanted.low))
 
     def _below_middle(self, contact: Contact, k: Fraction) -> Row:
         pairs = zip(self.space.values(1, k), self.space.values(1, Fraction(1, 2)), strict=True)
@@ -239,8 +243,8 @@ class ExactRows:
             found = self.space.values(part.order, min(max(k, part.start), part.stop))
             return Row([one * contact.sign for one in found], {}, -contact.sign * ball(bound))
 
-        for side, sign in (("above", 1.0), ("below", -1.0)):
-            self._add(f"{name}, {side}", make, (sign,))
+        for sign in (1.0, -1.0):
+            self._add(names.window_side(name, sign), make, (sign,))
 
 
 def parts(window: Window, *, symmetric: bool) -> Iterator[Part]:

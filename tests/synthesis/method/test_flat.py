@@ -12,7 +12,7 @@ from optlaws.synthesis.method.on_points.flat import sharpened
 from optlaws.synthesis.method.on_points.grids import first_points
 from optlaws.synthesis.method.on_points.highs import vertex_on_points
 from optlaws.synthesis.method.on_points.ipopt import Answer
-from optlaws.synthesis.program.writer import model
+from optlaws.synthesis.program.writer import model_of
 from optlaws.verification.exact.bound import prove
 from tests.synthesis.judge import judge
 
@@ -85,7 +85,7 @@ def test_where_an_interior_point_hides_the_optimum_a_vertex_shows_it() -> None:
 
 def test_a_program_without_vertices_has_no_answer() -> None:
     # the objective has no bound
-    program = model(Problem(order=2, minimise="J")).program
+    program = model_of(Problem(order=2, minimise="J")).program
     families = tuple(replace(one, bound=1e9) for one in program.families)
     upward = replace(program, families=families, objective=-program.objective)
     assert vertex_on_points(upward, first_points(upward)) is None
@@ -100,7 +100,7 @@ def test_what_does_not_show_the_binding_rows_is_refused(monkeypatch: pytest.Monk
         return sharpened(program, points, answer)
 
     monkeypatch.setattr(exchange, "sharpened", watched)
-    outcome = exchange.solve(model(Problem(order=2, minimise="J")).program)
+    outcome = exchange.solve(model_of(Problem(order=2, minimise="J")).program)
     assert outcome.optimum is not None
     assert seen
     assert all(one is None for one in seen)

@@ -9,7 +9,7 @@ from optlaws import Chebyshev, Pieces, Problem, Solution, at_least, between, res
 from optlaws.synthesis.families.family import ProductFamily
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.units import units_of
-from optlaws.synthesis.program.writer import model
+from optlaws.synthesis.program.writer import model_of
 from optlaws.verification.exact.bound import exact_bound
 from tests.synthesis.judge import Judged
 
@@ -81,7 +81,7 @@ def test_the_power_of_great_laws_is_bounded() -> None:
     ],
 )
 def test_rows_in_other_units_are_the_same_rows(problem: Problem) -> None:
-    program = model(problem).program
+    program = model_of(problem).program
     units = units_of(program)
     assert units is not None
     numbers = np.random.default_rng(5)
@@ -104,4 +104,4 @@ def test_rows_in_other_units_are_the_same_rows(problem: Problem) -> None:
 
 
 def test_laws_of_usual_size_are_solved_as_they_are() -> None:
-    assert units_of(model(Problem(order=3, B=2.0)).program) is None
+    assert units_of(model_of(Problem(order=3, B=2.0)).program) is None

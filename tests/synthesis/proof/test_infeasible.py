@@ -153,7 +153,7 @@ def test_nothing_is_printed_by_the_solver_whatever_comes_of_it() -> None:
     code = """
 from optlaws import *
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.program.writer import model
+from optlaws.synthesis.program.writer import model_of
 import numpy as np
 problems = [
     Problem(order=5, basis=Pieces(2, 4, 2), symmetric=False, minimise="rms_c"),
@@ -167,7 +167,7 @@ for problem in problems:
         synthesize(problem)
     except OptlawsError as error:
         assert "iterations" not in error.tried or "after -" not in error.tried
-found = model(Problem(B=1.7, order=3, minimise="D"))
+found = model_of(Problem(B=1.7, order=3, minimise="D"))
 outcome = solve(found.program, start=np.full(found.program.size, np.nan))
 assert outcome.optimum is None and outcome.iterations == 0, outcome
 """

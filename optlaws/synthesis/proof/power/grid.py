@@ -11,9 +11,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily
+from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.proof.certificate import Contact
 from optlaws.synthesis.proof.power.certificate import Step
-from optlaws.synthesis.proof.power.rows import LEAST_POWER, POWER, Box, PowerRows
+from optlaws.synthesis.proof.power.rows import Box, PowerRows
 
 Array = NDArray[np.float64]
 
@@ -115,9 +116,9 @@ class Grid:
         self.acceleration = np.vstack([self.acceleration, self.rows.derivative(2, k)])
 
     def _kinds(self, box: Box) -> list[tuple[str, float]]:
-        names = [POWER]
+        names = [RowName.POWER]
         if self.rows.place is not None and box.low[self.rows.place] > 0.0:
-            names.append(LEAST_POWER)
+            names.append(RowName.POWER_FROM_LEAST)
         return [(name, sign) for name in names for sign in (1.0, -1.0)]
 
     def scaled(self, box: Box) -> Linear:
@@ -126,7 +127,7 @@ class Grid:
         triple = (self.k, self.velocity, self.acceleration)
         parts = [self.fixed]
         for name, sign in self._kinds(box):
-            parts.append(rows.power(box, triple, np.full(len(self.k), sign), least=name == LEAST_POWER))
+            parts.append(rows.power(box, triple, np.full(len(self.k), sign), least=name == RowName.POWER_FROM_LEAST))
         parts.append(rows.objective()[None])
         every = np.vstack(parts)
         centre, half = (box.low + box.high) / 2.0, (box.high - box.low) / 2.0

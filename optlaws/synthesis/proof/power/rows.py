@@ -14,16 +14,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.problem.constants import Peak
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.writer import Model, model
+from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.certificate import Contact, least_values, row_of, spread
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 
 Array = NDArray[np.float64]
 
-POWER, LEAST_POWER = "power", "power, from the least D"
+POWER_ROWS = (RowName.POWER, RowName.POWER_FROM_LEAST)
 # a velocity nearer to zero bounds no acceleration worth the name
 _AWAY = 1e-6
 _WORST = 1e10
@@ -52,25 +53,26 @@ class Box:
 
 def applies(problem: Problem) -> bool:
     """Whether the power of the problem's laws can be bounded by boxes: polynomials whose end velocities are given."""
-    found = model(problem)
+    model = model_of(problem)
     # a peak of one sign may be below 0 where the velocity changes from end to end, and boxes begin at 0
     one_sided = any(isinstance(leaf, Peak) and len(leaf.signs) == 1 for _, leaf in leaves(problem.objective))
     if one_sided and problem.boundary is not None:
         return False
-    known = isinstance(found.space, PolynomialSpace) and found.space.order > 1
-    return known and isfinite(greatest(problem, found, 1.0).get("D", inf))
+    known = isinstance(model.space, PolynomialSpace) and model.space.order > 1
+    return known and isfinite(greatest(model, 1.0).get("D", inf))
 
 
-def greatest(problem: Problem, found: Model, claim: float) -> dict[str, float]:
+def greatest(model: Model, claim: float) -> dict[str, float]:
     """Greatest values of the constants in a law whose objective is below the claim."""
+    problem = model.problem
     bounds: dict[str, float] = {}
-    spread(problem.objective, claim, bounds, least_values(problem, found.space))
+    spread(problem.objective, claim, bounds, least_values(problem, model.space))
     for name in ("B", *(one.name for one, _ in problem.bounded)):
         asked = problem.range(name)
         if asked is not None:
             bounds[name] = min(bounds.get(name, inf), asked.high)
     if "D" in bounds:
-        ends = (found.space.start_velocity, found.space.start_velocity + found.space.velocity_change)
+        ends = (model.space.start_velocity, model.space.start_velocity + model.space.velocity_change)
         bounds["B"] = min(bounds.get("B", inf), sqrt(max(map(abs, ends)) ** 2 + bounds["D"]))
     return bounds
 
@@ -90,10 +92,10 @@ class PowerRows:
 
     def __init__(self, problem: Problem, claim: float, points: Sequence[float]) -> None:
         self.problem, self.claim, self.points = problem, claim, np.array(points, dtype=np.float64)
-        self.model = model(problem)
+        self.model = model_of(problem)
         self.space = self.model.space
         self.terms, self.size = self.space.terms, self.model.program.size
-        self.greatest = greatest(problem, self.model, claim)
+        self.greatest = greatest(self.model, claim)
         self.place = self.model.places.get("D")
         self.anchors = self._anchors()
         self._families = {nu: self.space.derivative(nu, "", np.zeros(self.size)) for nu in (1, 2)}
@@ -192,15 +194,15 @@ class PowerRows:
     def of_contacts(self, contacts: Sequence[Contact], box: Box) -> Array:
         """The rows of contacts, each at most 0 with its constant: zeros where the problem does not ask for it."""
         found = np.zeros((len(contacts), self.size + 1))
-        for name in (POWER, LEAST_POWER):
+        for name in POWER_ROWS:
             mine = [i for i, one in enumerate(contacts) if one.constraint == name]
             k = np.array([contacts[i].k for i in mine])
             signs = np.array([contacts[i].sign for i in mine])
             if mine:
                 rows = (k, self.derivative(1, k), self.derivative(2, k))
-                found[mine] = self.power(box, rows, signs, least=name == LEAST_POWER)
+                found[mine] = self.power(box, rows, signs, least=name == RowName.POWER_FROM_LEAST)
         for i, one in enumerate(contacts):
-            if one.constraint not in {POWER, LEAST_POWER}:
+            if one.constraint not in POWER_ROWS:
                 row, right = row_of(self.model.program, one)
                 found[i] = self.mapped(np.append(row, -right)[None])[0]
         return found

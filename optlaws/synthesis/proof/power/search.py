@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.writer import model
+from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step, moved_by
 from optlaws.synthesis.proof.power.grid import Grid
 from optlaws.synthesis.proof.power.rows import Box, PowerRows, applies
@@ -46,7 +46,7 @@ def tightened(problem: Problem, objective: float, x: Array, explore: Explore) ->
     """
     if not applies(problem) or objective <= 0.0:
         return None
-    share = min(1.0, (_COORDINATES / model(problem).space.terms) ** 3)
+    share = min(1.0, (_COORDINATES / model_of(problem).space.terms) ** 3)
     for gap, budget in _CLAIMS:
         search = searched(problem, objective * (1.0 - gap), x, int(budget * share), explore)
         if search.found is not None or search.overtaken:
@@ -144,7 +144,7 @@ class Search:
 
 def _points(problem: Problem, claim: float) -> list[float]:
     """Places at which velocities determine the law well, and at which they are known well beforehand."""
-    space = model(problem).space
+    space = model_of(problem).space
     k = (0.5 if space.symmetric else 1.0) * np.sin(np.pi / 2 * np.arange(1, _CANDIDATES + 1) / _CANDIDATES)
     from scipy.linalg import qr
 

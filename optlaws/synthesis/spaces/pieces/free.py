@@ -13,6 +13,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.series.gegenbauer import chebyshev_series
 from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.pieces.forward import above_rest
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
@@ -105,7 +106,7 @@ class PieceSpace(PiecewiseSpace):
         if order == 1 or whole or self.boundary != BoundaryConditions.rest(order):
             return super().forward(slack)
         pieces = self._wide(above_rest(self.pieces(1), self.pieces(order), order), len(slack))
-        return PieceFamily("ratio", slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces)
+        return PieceFamily(RowName.RATIO, slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces)
 
     def equations(self) -> list[Equation]:
         """The end conditions that the base law and the splines do not keep by themselves."""

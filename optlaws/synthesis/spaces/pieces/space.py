@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.synthesis.families.family import Family, NormFamily
+from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.pieces.below_peak import below_peak
 from optlaws.synthesis.spaces.pieces.from_rest import PieceMirroredFamily, PieceRootFamily, mirrored
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceProductFamily, PieceSeries
@@ -103,11 +104,13 @@ class PiecewiseSpace(LawSpace):
         """Rows b <= b(peak), divided by what they vanish like there: undivided they would be ill posed."""
         series = below_peak(self.pieces(2), self.pieces(3), 1.0 - 2.0 * peak, smooth=self.continuity > 1)
         pieces = self._wide(series, len(slack))
-        return PieceFamily("chord", slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces, jumps=True)
+        return PieceFamily(
+            RowName.BELOW_PEAK, slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces, jumps=True
+        )
 
     def forward(self, slack: Array) -> Family:
         """Rows b >= 0."""
-        return self.derivative(1, "forward", slack, signs=(-1.0,))
+        return self.derivative(1, RowName.FORWARD, slack, signs=(-1.0,))
 
     def from_rest(
         self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)

@@ -20,6 +20,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.series.gegenbauer import chebyshev_series
 from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, construct
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.pieces.space import PiecewiseSpace
@@ -106,7 +107,7 @@ class SplineSpace(PiecewiseSpace):
         series = -self._series(self._parts, self.basis.degree + 1, self._ratio)
         series[:, 1::2] *= -1.0
         pieces = self._wide(PieceSeries(self.pieces(1).breaks, series), len(slack))
-        return PieceFamily("ratio", slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces)
+        return PieceFamily(RowName.RATIO, slack, domain=self.domain, series=np.zeros((1, 1)), pieces=pieces)
 
     def law(self, coordinates: Array) -> PiecewiseLaw:
         """The law with the given coordinates, on the breaks of Z."""

@@ -26,6 +26,7 @@ from optlaws.synthesis.families.family import (
     RatioFamily,
     RootFamily,
 )
+from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, construct
 from optlaws.synthesis.spaces.polynomials.below_peak import chord
 from optlaws.synthesis.spaces.space import LawSpace, Quadrature
@@ -172,7 +173,7 @@ class PolynomialSpace(LawSpace):
         if not self.symmetric:
             return super().backward(slack, bound)
         series = self.widened(self.series(1)[::2], len(slack))
-        return EvenFamily("b", slack, bound, (-1.0,), series=series)
+        return EvenFamily(RowName.VELOCITY, slack, bound, (-1.0,), series=series)
 
     def power(self, name: str, slack: Array, bound: float = 0.0, weights: tuple[float, ...] = (1.0,)) -> ProductFamily:
         """Rows |b c| <= slack . x + bound; with weights, of w0 b + w1 c + ... and its derivative."""
@@ -213,9 +214,9 @@ class PolynomialSpace(LawSpace):
     def below(self, slack: Array, peak: float = 0.5) -> Family:
         """Rows b <= b(peak) of laws with c(peak) = 0, divided by (2k - 2 peak)²: else they were ill posed."""
         if self.symmetric:
-            return EvenFamily("chord", slack, series=self.widened(-_chord(self.series(1)[::2]), len(slack)))
+            return EvenFamily(RowName.BELOW_PEAK, slack, series=self.widened(-_chord(self.series(1)[::2]), len(slack)))
         series = self._below(1.0 - 2.0 * peak)
-        return LinearFamily("chord", slack, domain=self.domain, series=self.widened(series, len(slack)))
+        return LinearFamily(RowName.BELOW_PEAK, slack, domain=self.domain, series=self.widened(series, len(slack)))
 
     def _below(self, centre: float) -> Array:
         j = self.series(3)
@@ -225,14 +226,14 @@ class PolynomialSpace(LawSpace):
     def forward(self, slack: Array) -> Family:
         """Rows b >= 0, from rest to rest as b / (k(1-k))^(l-1) >= 0 (in units of the base law's)."""
         if not self.at_rest:
-            return self.derivative(1, "forward", slack, signs=(-1.0,))
+            return self.derivative(1, RowName.FORWARD, slack, signs=(-1.0,))
         scale = np.append(self._ratio_scale, 1.0)
         columns = gegenbauer(self.order - 0.5, int(self.index[-1]), self._u)[np.append(self.index, 0)] * scale[:, None]
         series = -chebyshev_series(columns.T, self._angle)
         if not self.symmetric:
-            return LinearFamily("ratio", slack, domain=self.domain, series=self.widened(series, len(slack)))
+            return LinearFamily(RowName.RATIO, slack, domain=self.domain, series=self.widened(series, len(slack)))
         ratio = self.widened(series[::2], len(slack))
-        return RatioFamily("ratio", slack, series=ratio, index=self.order - 0.5, scale=-scale)
+        return RatioFamily(RowName.RATIO, slack, series=ratio, index=self.order - 0.5, scale=-scale)
 
     def from_rest(
         self, name: str, slack: Array, *, backward: bool = False, weights: tuple[float, ...] = (1.0,)

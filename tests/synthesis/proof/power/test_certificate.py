@@ -21,10 +21,11 @@ from optlaws import (
     between,
     synthesize,
 )
-from optlaws.synthesis.program.writer import model
+from optlaws.synthesis.families.names import RowName
+from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.certificate import Contact
 from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step
-from optlaws.synthesis.proof.power.rows import LEAST_POWER, POWER, Anchors, Box, PowerRows, velocity_brackets
+from optlaws.synthesis.proof.power.rows import Anchors, Box, PowerRows, velocity_brackets
 from optlaws.synthesis.proof.power.search import searched
 from tests.synthesis.power_proof import proven_exactly
 
@@ -178,7 +179,7 @@ def test_the_search_comes_upon_a_better_law_than_it_was_given(first: Solution) -
     seen: list[float] = []
 
     def explore(x: np.ndarray) -> bool:
-        seen.append(model(FIRST).space.law(x[:5]).power_peak().value)
+        seen.append(model_of(FIRST).space.law(x[:5]).power_peak().value)
         return False
 
     x = np.append(poor.active_set.x[:5], poor.law.power_peak().value)
@@ -191,7 +192,7 @@ def test_the_search_comes_upon_a_better_law_than_it_was_given(first: Solution) -
 @settings(max_examples=30)
 def test_laws_in_a_box_obey_its_rows(seed: int) -> None:
     random = np.random.default_rng(seed)
-    space = model(MIXED).space
+    space = model_of(MIXED).space
     law = space.law(random.normal(size=space.terms) * random.choice([0.1, 0.5, 2.0]))
     C, D = law.peak(2).value, law.power_peak().value
     problem = replace(MIXED, minimise="C + D")
@@ -203,7 +204,12 @@ def test_laws_in_a_box_obey_its_rows(seed: int) -> None:
     low, high = (at + random.random(5) * (end - at) * random.random() for end in (root.low, root.high))
     box = Box(np.minimum(low, at), np.maximum(high, at))
     k = random.random(20) / 2
-    contacts = [Contact(name, s, one, 1.0) for name in (POWER, LEAST_POWER, "C") for s in (1.0, -1.0) for one in k]
+    contacts = [
+        Contact(name, s, one, 1.0)
+        for name in (RowName.POWER, RowName.POWER_FROM_LEAST, "C")
+        for s in (1.0, -1.0)
+        for one in k
+    ]
     assert (rows.of_contacts(contacts, box) @ np.append(at, 1.0)).max() <= 1e-9 * (1 + C)
     assert abs(rows.derivative(1, k) @ np.append(at, 1.0) - law.b(k)).max() < 1e-10
     least, greatest = rows.brackets(box, k, rows.derivative(1, k))
@@ -215,7 +221,7 @@ def test_laws_in_a_box_obey_its_rows(seed: int) -> None:
 @settings(max_examples=30)
 def test_velocities_known_at_some_k_bracket_those_at_others(seed: int) -> None:
     random = np.random.default_rng(seed)
-    law = model(MIXED).space.law(random.normal(size=3))
+    law = model_of(MIXED).space.law(random.normal(size=3))
     D = law.power_peak().value
     at = random.random(3)
     anchors = Anchors(at, law.b(at) - random.random(3), law.b(at) + random.random(3))

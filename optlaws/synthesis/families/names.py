@@ -1,0 +1,124 @@
+"""Names of rows, equations and variables: certificates find their formulas by them, so stored proofs hold the texts."""
+
+from __future__ import annotations
+
+from enum import StrEnum
+
+
+class _Name(StrEnum):
+    """A text that shows itself as one."""
+
+    def __repr__(self) -> str:
+        return repr(str(self))
+
+
+class RowName(_Name):
+    """What rows are called that do not belong to one constant, and those of power certificates.
+
+    Examples
+    --------
+    >>> RowName.BELOW_PEAK
+    'chord'
+    """
+
+    VELOCITY = "b"
+    BELOW_PEAK = "chord"
+    FORWARD = "forward"
+    RATIO = "ratio"
+    FROM_START = "b / sqrt(2k)"
+    FROM_END = "b / sqrt(2 - 2k)"
+    TANGENT = "tangent"
+    TO_SPARE = "to spare"
+    POWER = "power"
+    POWER_FROM_LEAST = "power, from the least D"
+
+
+class VariableName(_Name):
+    """What variables are called that stand for no constant of the objective.
+
+    Examples
+    --------
+    >>> VariableName.POWER_ROOT
+    'root of D'
+    """
+
+    POWER_ROOT = "root of D"
+    VIOLATION = "t"
+
+
+_WINDOW = "window "
+_SIDES = {1.0: "above", -1.0: "below"}
+
+
+def at_most(constant: str) -> str:
+    """The upper bound of a constant that is a variable."""
+    return f"{constant} at most"
+
+
+def at_least(constant: str) -> str:
+    """The lower bound of a constant."""
+    return f"{constant} at least"
+
+
+def maximum_part(number: int, maximum: str) -> str:
+    """That a maximum is at least its part of this number, counted from 1."""
+    return f"part {number} of {maximum}"
+
+
+def mirrored(name: str) -> str:
+    """The same rows for the mirror image: of symmetric laws they speak of the other half."""
+    return f"{name} mirrored"
+
+
+def window(number: int) -> str:
+    """A window by its number, counted from 1."""
+    return f"{_WINDOW}{number}"
+
+
+def window_side(name: str, sign: float) -> str:
+    """What a window's rows hold down (sign 1) or up (-1).
+
+    Examples
+    --------
+    >>> window_side(mirrored(window(2)), -1.0)
+    'window 2 mirrored, below'
+    """
+    return f"{name}, {_SIDES[sign]}"
+
+
+def window_number(row: str) -> int | None:
+    """The number of the window that a row belongs to; None if it belongs to none.
+
+    Examples
+    --------
+    >>> window_number("window 2 mirrored, below"), window_number("chord")
+    (2, None)
+    """
+    return int(row.split()[1].rstrip(",")) if row.startswith(_WINDOW) else None
+
+
+def at(symbol: str, k: float) -> str:
+    """A quantity at a place.
+
+    Examples
+    --------
+    >>> at("b", 0.5), at("c", 0.3)
+    ('b(1/2)', 'c(0.3)')
+    """
+    return f"{symbol}(1/2)" if k == 0.5 else f"{symbol}({k})"
+
+
+def velocity_at_peak(k: float | None) -> str:
+    """The equation that B is the velocity at k; with None, that B is what it is wherever b is greatest.
+
+    Examples
+    --------
+    >>> velocity_at_peak(0.5), velocity_at_peak(None)
+    ('b(1/2) = B', 'B')
+    """
+    return "B" if k is None else f"{at('b', k)} = B"
+
+
+def acceleration_at_peak(k: float) -> str:
+    """The equation that c is 0 where b is greatest."""
+    return f"{at('c', k)} = 0"
