@@ -45,6 +45,7 @@ class Study:
         self._directory = StudyDirectory(Path(path))
         self._about, self.file = self._directory.read()
         self._checked: tuple[int, int] | None = None
+        self._scanned: tuple[tuple[int, ...], Journal] | None = None
 
     @property
     def path(self) -> Path:
@@ -202,7 +203,16 @@ class Study:
         return Counter(self._parquet().read(columns=["status"])["status"].to_pylist())
 
     def _journal(self) -> Journal:
-        return Journal(self._directory.journal)
+        """The journal as far as it is written; it is read again when it has grown."""
+        file = self._directory.journal
+        try:
+            found = file.stat()
+        except FileNotFoundError:
+            return Journal(file)
+        state = (found.st_ino, found.st_mtime_ns, found.st_size)
+        if self._scanned is None or self._scanned[0] != state:
+            self._scanned = (state, Journal(file))
+        return self._scanned[1]
 
     def _parquet(self) -> Any:  # noqa: ANN401 - pyarrow has no types
         _needed("pyarrow", f"reading {self._directory.table}")

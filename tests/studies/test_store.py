@@ -1,5 +1,7 @@
 """The journal: what is torn, damaged or cut short is solved again, and nothing else."""
 
+import errno
+import fcntl
 import os
 import resource
 import shutil
@@ -9,6 +11,7 @@ import sys
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import Any
 
 import pytest
@@ -180,6 +183,55 @@ def test_the_lock_of_a_killed_run_is_no_hindrance(tmp_path: Path) -> None:
     assert not StudyDirectory(tmp_path).in_use()
     with StudyDirectory(tmp_path).locked():
         assert (tmp_path / "lock").read_text() == str(os.getpid())
+
+
+def test_a_file_system_without_locks_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def refuse(*_: object, **__: object) -> None:
+        raise OSError(errno.ENOLCK, "No locks available")
+
+    monkeypatch.setattr(fcntl, "flock", refuse)
+    with pytest.raises(InputError, match=r"lock cannot be locked: No locks available; put the study"):
+        serially(SMALL, tmp_path)
+    assert not StudyDirectory(tmp_path).in_use()
+
+
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root can become another user")
+def test_another_user_who_may_only_read_sees_that_a_run_is_under_way() -> None:
+    script = (
+        "import os, sys\nfrom pathlib import Path\nfrom optlaws.studies.store.directory import StudyDirectory\n"
+        "from filelock import lock_descriptor\nos.setuid(65534)\nprint(StudyDirectory(Path(sys.argv[1])).in_use())"
+    )
+    with TemporaryDirectory() as name:
+        folder = Path(name)
+        folder.chmod(0o755)
+        with StudyDirectory(folder).locked():
+            (folder / "lock").chmod(0o444)
+            done = subprocess.run(
+                [sys.executable, "-c", script, name], cwd=ROOT, capture_output=True, text=True, check=False
+            )
+    assert done.stdout == "True\n", done.stderr
+
+
+def test_a_journal_is_read_again_only_when_it_has_grown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    interrupted(tmp_path, 3)
+    study = open_study(tmp_path)
+    scans: list[Path] = []
+    scan = Journal._scan
+
+    def counted(journal: Journal) -> None:
+        scans.append(journal.file)
+        scan(journal)
+
+    monkeypatch.setattr(Journal, "_scan", counted)
+    for index in range(10):
+        assert study[index].index == index
+    assert sum(study.counts.values()) == 15
+    assert len(scans) == 1
+    journal = Journal(tmp_path / "journal")
+    journal.open()
+    journal.append([(4, [b'{"index":27,"status":"local"}'])])
+    journal.close()
+    assert study.counts["local"] == 1
 
 
 @pytest.fixture

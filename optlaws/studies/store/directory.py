@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-import sys
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from importlib.metadata import version
@@ -103,14 +102,26 @@ class StudyDirectory:
             If another run has it, or the directory holds other files and no study.
         """
         with self._lock_file() as stream:
-            if not _lock(stream.fileno()):
-                stream.seek(0)
-                owner = stream.read().decode(errors="replace").strip()
-                raise InputError(f"{self.path} is in use by another run{f', process {owner}' if owner else ''}")
+            try:
+                locked = _lock(stream)
+            except OSError as error:
+                raise InputError(
+                    f"{self.lock} cannot be locked: {error.strerror}; put the study on a file system with locks"
+                ) from None
+            if not locked:
+                raise InputError(f"{self.path} is in use by another run{self._owner(stream)}")
             stream.truncate(0)
             stream.write(str(os.getpid()).encode())
             stream.flush()
             yield
+
+    def _owner(self, stream: IO[bytes]) -> str:
+        # some systems let nobody read what another process has locked
+        with suppress(OSError):
+            stream.seek(0)
+            if owner := stream.read().decode(errors="replace").strip():
+                return f", process {owner}"
+        return ""
 
     def _lock_file(self) -> IO[bytes]:
         writing.check_name(self.path)
@@ -134,7 +145,7 @@ class StudyDirectory:
         # whoever may only read can see it as well; what cannot be asked is not in use by this user
         for mode in ("r+b", "rb"):
             with suppress(OSError), self.lock.open(mode) as stream:
-                return not _lock(stream.fileno())
+                return not _lock(stream)
         return False
 
 
@@ -159,21 +170,8 @@ def _listed(found: dict[str, str]) -> str:
     return ", ".join(f"{name} {number}" for name, number in found.items())
 
 
-if sys.platform == "win32":
-    import msvcrt
+def _lock(stream: IO[bytes]) -> bool:
+    """Whether the file is this process's alone until it is closed."""
+    from filelock import lock_descriptor
 
-    def _lock(handle: int) -> bool:
-        try:
-            msvcrt.locking(handle, msvcrt.LK_NBLCK, 1)
-        except OSError:
-            return False
-        return True
-else:
-    import fcntl
-
-    def _lock(handle: int) -> bool:
-        try:
-            fcntl.flock(handle, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError:
-            return False
-        return True
+    return lock_descriptor(stream.fileno(), blocking=False)
