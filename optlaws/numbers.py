@@ -27,7 +27,7 @@ MOST_TERMS = 400
 MOST_EXPONENT = 50
 MOST_VALUES = 1_000_000
 MOST_DERIVATIVE = 50
-MOST_FREQUENCY = 1e4
+MOST_FREQUENCY = 1e5
 MOST_WHOLE = 2**63 - 1
 
 _DENOMINATOR_BITS = 100_000
@@ -115,7 +115,7 @@ def positive(value: Any, name: str) -> float:  # noqa: ANN401
 
 
 def frequency(value: Any, name: str = "nu") -> float:  # noqa: ANN401
-    """Radians of a free vibration in the rise, as a float above 0 and at most 10 000.
+    """Radians of a free vibration in the rise, as a float above 0 and at most 100 000.
 
     Raises
     ------

@@ -12,7 +12,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.loader.law import LoaderLaw
 from optlaws.mechanisms.loader.tops import is_symmetric, tops
-from optlaws.numbers import positive
+from optlaws.numbers import real
 
 AGREES = 1e-9
 ROUNDING = 1e-13
@@ -214,4 +214,6 @@ def loader(law: MotionLaw) -> Loader:
 
 def _check(**quantities: float) -> None:
     for name, value in quantities.items():
-        positive(value, name)
+        number = real(value)
+        if number is None or not 0.0 < number < inf:
+            raise InputError(f"{name} must be positive and finite, got {shortened(value)}")
