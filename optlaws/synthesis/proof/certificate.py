@@ -12,7 +12,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
 from fractions import Fraction
-from math import inf, isfinite, nan
+from math import fsum, inf, isfinite, nan
 from typing import Any
 
 import numpy as np
@@ -40,8 +40,9 @@ OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
 _NEAR, _SHARE = 2.0**-12, 2.0**-14
 _ACCELERATION = 2
 _FACING = {"C_plus": "C_minus", "C_minus": "C_plus"}
-#: roundings in a row before it is weighted
-_OPERATIONS = 8
+#: roundings in a row before it is weighted, and of the sum
+_UNIT = 9 * 2.0**-53
+_SPLIT = 2.0**27 + 1.0
 
 
 @dataclass(frozen=True)
@@ -181,26 +182,41 @@ def _excess(certificate: Certificate) -> float:
 class _Sum:
     """The sum of weighted rows: its slope, exact in the variables beyond the coordinates, and what rounding hides.
 
-    `value` is rounded down, the slope by a coordinate is off by `blur` at most.
+    `value` is rounded down, the slope by each coordinate is off by its `blur` at most.
     """
 
     slope: Array
     value: float
-    blur: float
+    blur: Array
 
 
 def _summed(found: Model, lines: list[tuple[float, Array, float]]) -> _Sum:
-    terms, unit = found.space.terms, (len(lines) + _OPERATIONS) * 2.0**-53
-    slope = found.program.objective.copy()
     weights, rights = np.array([one[0] for one in lines]), np.array([one[2] for one in lines])
-    if lines:
-        rows = np.vstack([one[1] for one in lines])
-        slope += weights @ rows
-        for place in found.places.values():
-            slope[place] = _exact_sum(float(found.program.objective[place]), weights, rows[:, place])
-    blur = unit * sum(abs(weight) * float(np.abs(row[:terms]).max(initial=0.0)) for weight, row, _ in lines)
-    value = -float(weights @ rights) - unit * float(np.abs(weights) @ np.abs(rights))
-    return _Sum(slope, value, blur if terms else 0.0)
+    rows = np.vstack([np.empty((0, found.program.size)), *(one[1] for one in lines)])
+    slope = _weighted(weights, rows, found.program.objective)
+    for place in found.places.values():
+        slope[place] = _exact_sum(float(found.program.objective[place]), weights, rows[:, place])
+    value = -float(_weighted(weights, rights[:, None], np.zeros(1))[0])
+    hidden = _UNIT * (np.abs(weights) @ np.abs(np.column_stack([rows[:, : found.space.terms], rights])))
+    return _Sum(slope, value - float(hidden[-1]), hidden[:-1])
+
+
+def _weighted(weights: Array, rows: Array, start: Array) -> Array:
+    """Start + weights . rows, rounded once: the great multipliers of laws at the edge of what exists cancel."""
+    products = weights[:, None] * rows
+    high, low = _halves(weights[:, None])
+    upper, lower = _halves(rows)
+    rest = low * lower - (((products - high * upper) - low * upper) - high * lower)
+    columns = np.vstack([start[None, :], products, rest])
+    # fsum refuses what overflows
+    return np.array([fsum(one) for one in columns.T.tolist()]) if np.isfinite(columns).all() else start * np.nan
+
+
+def _halves(values: Array) -> tuple[Array, Array]:
+    """Each value as a sum of two whose products are exact (Dekker 1971)."""
+    scaled = _SPLIT * values
+    high = scaled - (scaled - values)
+    return high, values - high
 
 
 def _exact_sum(start: float, weights: Array, column: Array) -> float:
@@ -288,16 +304,16 @@ def _charge(found: Model, certificate: Certificate, total: _Sum, claim: float) -
             beyond += slope[place] * max(min(-least.get(name, 0.0), facing), 0.0)
     return beyond + min(
         (
-            mean * _reach(_extension(found.space, nu), slope[:terms], total.blur)
+            _reach(_extension(found.space, nu), slope[:terms], total.blur) @ (mean + _base_moments(found.space, nu))
             for nu, mean in _means(certificate, found.space, greatest)
         ),
-        default=0.0 if not slope[:terms].any() and not total.blur else inf,
+        default=0.0 if not slope[:terms].any() and not total.blur.any() else inf,
     )
 
 
-def _reach(extension: Array, slope: Array, blur: float) -> float:
-    """The sum of the magnitudes of the slope's moments, wherever it is within its blur."""
-    return float(np.abs(extension @ slope).sum() + blur * np.abs(extension).sum())
+def _reach(extension: Array, slope: Array, blur: Array) -> Array:
+    """The greatest magnitudes of the slope's weights of moments, wherever it is within its blur."""
+    return np.asarray(np.abs(extension @ slope) + np.abs(extension) @ blur)
 
 
 def _greatest(certificate: Certificate, found: Model, claim: float) -> dict[str, float]:
@@ -366,7 +382,7 @@ def _at_least(term: Term, change: float) -> float:
 
 
 def _means(certificate: Certificate, space: LawSpace, greatest: dict[str, float]) -> list[tuple[int, float]]:
-    """Orders of derivatives whose mean magnitude is bounded, with the bound for law and base law together."""
+    """Orders of derivatives whose mean magnitude is bounded, with the bound."""
     means = [(2, greatest.get("C", inf)), (2, greatest.get("rms_c", inf)), (3, greatest.get("J", inf))]
     means += [(2, mean) for mean in _from_one_sign(certificate.problem, space, greatest)]
     means += [(3, greatest.get("rms_j", inf)), (4, greatest.get("jounce", inf))]
@@ -384,15 +400,17 @@ def _means(certificate: Certificate, space: LawSpace, greatest: dict[str, float]
     for nu, mean in means:
         if isfinite(mean):
             least[nu] = min(least.get(nu, inf), mean)
-    return [(nu, mean + _base_rms(space, nu)) for nu, mean in least.items()]
+    return list(least.items())
 
 
-def _base_rms(space: LawSpace, nu: int) -> float:
+def _base_moments(space: LawSpace, nu: int) -> Array:
+    """Magnitudes of the base law's moments: coordinates say by how much the moments of a law differ from them."""
+
     def computed() -> Array:
         rule = space.quadrature(nu)
-        return np.sqrt(np.array([rule.weights @ rule.values[:, -1] ** 2], dtype=np.float64))
+        return np.asarray(np.abs(rule.moments.T @ (rule.weights * rule.values[:, -1])), dtype=np.float64)
 
-    return float(space.cached(("RMS", nu), computed)[0])
+    return space.cached(("moments", nu), computed)
 
 
 def _extension(space: LawSpace, nu: int) -> Array:
