@@ -19,6 +19,7 @@ from optlaws.synthesis.method import starts
 from optlaws.synthesis.method.contacts import VIOLATION
 from optlaws.synthesis.method.exchange import Outcome, solve
 from optlaws.synthesis.method.lower_bounds import raised
+from optlaws.synthesis.method.narrow import narrowed, on_equations
 from optlaws.synthesis.problem.fields import differ_in_numbers
 from optlaws.synthesis.problem.mixtures import warn_of_mixture
 from optlaws.synthesis.problem.problem import Problem
@@ -38,6 +39,8 @@ TIGHT = "tight"
 BOUNDS = ("quick", TIGHT)
 # what passes without a look at the divided rows, in which a contact pinned to the middle may hide a larger excess
 _ROUNDING = 1e-13
+# an objective that is better than what is proven by more than this share belongs to a law that breaks a bound
+_BEYOND_PROOF = 1e-12
 
 Array = NDArray[np.float64]
 
@@ -89,12 +92,8 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = 
             if _agree(tries):
                 break
     sound = sorted((one for one in tries if one.law is not None), key=lambda one: one.objective)
-    unfolded = _from_symmetric(problem, found, began) if not sound and problem.mirrored else None
-    if unfolded is not None:
-        return unfolded
     if not sound:
-        error = failure(problem, tries[0].outcome)
-        raise error if isinstance(error, InfeasibleProblem) else _no_power_so_small(problem) or error
+        return _otherwise(problem, found, tries[0].outcome, began)
     plain, power = sound[0], None
     if bound == TIGHT and not problem.convex:
         plain, power = _tightened(problem, found, plain)
@@ -102,10 +101,7 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = 
     objectives = tuple(one.objective for one in sound) if not problem.convex and best is sound[0] else ()
     iterations = sum(one.outcome.iterations for one in tries)
     solution = _solution(problem, found, (plain, best), _History(objectives, iterations, began, power))
-    if problem.mirrored and solution.status is Status.INACCURATE:
-        unfolded = _from_symmetric(problem, found, began)
-        return solution if unfolded is None or unfolded.gap >= solution.gap else unfolded
-    return solution
+    return _kept(problem, found, solution, began)
 
 
 def sweep(problems: Iterable[Problem]) -> Iterator[Solution]:
@@ -162,9 +158,12 @@ def _attempt(problem: Problem, found: Model, warm: ActiveSet | None, point: Arra
 
     attempt.outcome = solve(found.program, warm, start=point, holds=holds)
     optimum = attempt.outcome.optimum
-    if optimum is not None and not (last and last[0] is optimum.x):
-        holds(optimum.x)
-    if optimum is None or attempt.excess > 10.0 * VIOLATION:
+    if optimum is not None:
+        optimum = optimum.at(on_equations(found.program, optimum.x))
+        attempt.outcome = replace(attempt.outcome, optimum=optimum)
+        if not (last and last[0] is optimum.x):
+            holds(optimum.x)
+    if optimum is None or attempt.excess > 10.0 * VIOLATION or not isfinite(attempt.objective):
         attempt.law = None
     return attempt
 
@@ -248,6 +247,46 @@ def _from_symmetric(problem: Problem, found: Model, began: float) -> Solution | 
     return _solution(problem, found, (plain, best), _History((), symmetric.iterations, began, None))
 
 
+def _otherwise(problem: Problem, found: Model, outcome: Outcome, began: float) -> Solution:
+    """The answer where no start led to a law; the error that says why there is none."""
+    unfolded = _from_symmetric(problem, found, began) if problem.mirrored else None
+    if unfolded is not None:
+        return unfolded
+    narrow = _with_hardly_any_room(problem, found, began) if problem.convex else None
+    if narrow is not None:
+        return narrow
+    error = failure(problem, outcome)
+    raise error if isinstance(error, InfeasibleProblem) else _no_power_so_small(problem) or error
+
+
+def _kept(problem: Problem, found: Model, solution: Solution, began: float) -> Solution:
+    """The solution, or another where its law is better than what is proven or its bound misses it."""
+    if problem.convex and _beyond_proof(solution):
+        return _with_hardly_any_room(problem, found, began) or solution
+    if problem.mirrored and solution.status is Status.INACCURATE:
+        unfolded = _from_symmetric(problem, found, began)
+        return solution if unfolded is None or unfolded.gap >= solution.gap else unfolded
+    return solution
+
+
+def _with_hardly_any_room(problem: Problem, found: Model, began: float) -> Solution | None:
+    """The best of the laws that keep bounds which leave hardly any room, and what is proven of them."""
+    best: Solution | None = None
+    for optimum, kept in narrowed(problem, found):
+        moved = _measured(problem, found, optimum.at(np.concatenate([kept, optimum.x[len(kept) :]])))
+        if moved.law is not None and not shortfalls(problem, moved.law):
+            plain = replace(moved, outcome=replace(moved.outcome, optimum=optimum))
+            solution = _solution(problem, found, (plain, moved), _History((), 0, began, None))
+            if best is None or _beyond_proof(best) or (not _beyond_proof(solution) and solution.gap < best.gap):
+                best = solution
+    return best
+
+
+def _beyond_proof(solution: Solution) -> bool:
+    """Whether the law is better than any law is, so that it breaks a bound by more than rounding."""
+    return solution.objective < solution.lower_bound - _BEYOND_PROOF * abs(solution.lower_bound)
+
+
 def _measured(problem: Problem, found: Model, optimum: ActiveSet) -> _Attempt:
     law = found.space.law(optimum.x[: found.space.terms])
     measured = worth(problem, law)
@@ -296,7 +335,8 @@ def _solution(problem: Problem, found: Model, attempts: tuple[_Attempt, _Attempt
     if abs(best.objective - bound) <= GAP * (best.objective if best.objective > NOTHING else 1.0):
         status = Status.OPTIMAL
     else:
-        status = Status.INACCURATE if problem.convex and best is plain else Status.LOCAL
+        held_up = best is not plain and plain.law is not None and bool(shortfalls(problem, plain.law))
+        status = Status.INACCURATE if problem.convex and not held_up else Status.LOCAL
     return Solution(
         problem=problem,
         law=best.law,

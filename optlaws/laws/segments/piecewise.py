@@ -25,6 +25,7 @@ Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[Any]
 
 JUMP = 1e-9  # a difference at a break below this share of the derivative's size is rounding, not a jump
+UNSEEN = 1e-13  # and so is one below this share of the size of a lower derivative: uniform motion has c = 0 but for it
 HIGHEST = 9
 
 _GAUSS = 24  # points a segment for the mean square of a, of which nothing asks more than curiosity
@@ -98,7 +99,7 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
     def jumps(self, nu: int) -> tuple[tuple[float, float], ...]:
         """Breaks k inside (0, 1) where the derivative of order nu jumps, each with right-hand less left-hand value.
 
-        Differences below 1e-9 of the derivative's size are taken for rounding.
+        Differences below 1e-9 of the derivative's size, or 1e-13 of that of a lower one, are taken for rounding.
 
         Raises
         ------
@@ -117,14 +118,20 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
         ends = np.array([0.0, 1.0])
         sides = np.array([one.derivative(ends, length, order) for one, length in self._lengths])
         left, right = sides[:-1, 1], sides[1:, 0]
-        inside = [one.derivative(np.linspace(0.0, 1.0, 9), length, order) for one, length in self._lengths]
-        known = np.abs(np.concatenate(inside))
-        size = float(known[np.isfinite(known)].max(initial=0.0))
-        return tuple(
+        rounding = JUMP * self._size(order)
+        leaps = tuple(
             (k, float(after - before))
             for k, before, after in zip(self.breaks[1:-1], left.tolist(), right.tolist(), strict=True)
-            if before != after and not abs(after - before) <= JUMP * size
+            if before != after and not abs(after - before) <= rounding
         )
+        unseen = max((UNSEEN * self._size(lower) for lower in range(1, order)), default=0.0) if leaps else 0.0
+        return tuple((k, height) for k, height in leaps if not abs(height) <= unseen)
+
+    def _size(self, nu: int) -> float:
+        """The greatest finite magnitude of a derivative at nine places of every segment."""
+        inside = [one.derivative(np.linspace(0.0, 1.0, 9), length, nu) for one, length in self._lengths]
+        known = np.abs(np.concatenate(inside))
+        return float(known[np.isfinite(known)].max(initial=0.0))
 
     @property
     def continuity(self) -> int:

@@ -22,6 +22,10 @@ class ActiveSet:
     multipliers: Array
     equality_multipliers: Array
 
+    def at(self, x: Array) -> ActiveSet:
+        """With other variables; the same object for the same ones."""
+        return self if x is self.x else replace(self, x=x)
+
     def moved(self, contact: int, u: float) -> ActiveSet:
         """With one contact let go from its end to u."""
         places, free = self.u.copy(), self.free.copy()

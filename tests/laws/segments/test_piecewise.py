@@ -270,3 +270,12 @@ def test_every_combination_of_segments_joins() -> None:
         for nu in range(4):
             finite = law(K, nu)
             assert law.peak(nu).value >= np.abs(finite).max() * (1 - 1e-14)
+
+
+def test_jumps_of_rounding_size_are_none_in_uniform_motion() -> None:
+    segments = [PolynomialSegment((1e-15,), b0=1.0), PolynomialSegment((-1e-15,), b0=1.0)]
+    law = PiecewiseLaw([0.0, 0.5, 1.0], segments)
+    assert law.jumps(2) == ()
+    assert law.constants.J.value < 1e-9
+    small = PiecewiseLaw([0.0, 0.5, 1.0], [PolynomialSegment((4e-15,)), PolynomialSegment((-4e-15,), b0=2e-15)])
+    assert [k for k, _ in small.jumps(2)] == [0.5]

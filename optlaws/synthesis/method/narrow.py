@@ -1,0 +1,96 @@
+"""Laws of problems that leave hardly any room: a constant that is bounded by its own least value, or nearly.
+
+There the little by which a solver breaks a bound grows to its square root in the objective, and the law looks better
+than any law is. With the bounds loosened there is room; on the way from the optimum then to the law with most room
+there is one that keeps every bound as it was asked, and hardly worse.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import replace
+from math import isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.family import NormFamily, Program
+from optlaws.synthesis.method.exchange import solve
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.evaluation import worth
+from optlaws.synthesis.program.writer import Model, least_violation, model_of
+
+Array = NDArray[np.float64]
+
+#: the shares by which bounds are loosened, one after the other; a norm's optimum moves with the square root
+_LOOSENED = (1e-8, 1e-10, 1e-12)
+_CLOSER = 0.1
+_HALVINGS = 50
+#: the most by which the law with most room may break a bound
+_ROOM = 1e-11
+_NO_EQUATIONS = 1e-12
+
+
+def narrowed(problem: Problem, found: Model) -> Iterator[tuple[ActiveSet, Array]]:
+    """Optima with the bounds loosened less and less, whose contacts prove, each with a law that keeps the bounds.
+
+    None where the constraints contradict each other, or where they are not convex.
+    """
+    bounded = [asked for _, asked in problem.bounded if isfinite(asked.high)]
+    if not bounded or not all(one.convex for one, _ in problem.bounded):
+        return
+    terms = found.space.terms
+
+    def excess(coordinates: Array) -> float:
+        return worth(problem, found.space.law(coordinates)).excess
+
+    elastic = least_violation(problem)
+    anchor = solve(elastic.program).optimum
+    if anchor is None:
+        return
+    roomy = on_equations(elastic.program, anchor.x)[:terms]
+    if excess(roomy) > _ROOM:
+        return
+    state: ActiveSet | None = None
+    for share in _LOOSENED:
+        program = model_of(_loosened(problem, share)).program
+        state = solve(program, None if state is None else _closer(program, state, roomy)).optimum
+        if state is not None:
+            near = on_equations(found.program, state.x)[:terms]
+            yield state, _inward(near, roomy, excess)
+
+
+def _loosened(problem: Problem, share: float) -> Problem:
+    bounds = {one: replace(asked, high=asked.high * (1.0 + share)) for one, asked in problem.bounded}
+    return replace(problem, C=None, D=None, J=None, bounds=bounds)
+
+
+def _closer(program: Program, state: ActiveSet, roomy: Array) -> ActiveSet:
+    """A guess of the optimum with a hundredth of the room: a norm leaves a tenth of the way then, and pulls tenfold."""
+    x = state.x.copy()
+    x[: len(roomy)] = roomy + _CLOSER * (x[: len(roomy)] - roomy)
+    norms = [isinstance(one, NormFamily) and not one.slack.any() for one in program.families]
+    bounding = np.array([norms[i] for i in state.family], dtype=np.bool_)
+    return replace(state, x=x, multipliers=np.where(bounding, state.multipliers / _CLOSER, state.multipliers))
+
+
+def on_equations(program: Program, x: Array) -> Array:
+    """The nearest x that keeps the equations to rounding; x itself if it does."""
+    off = program.right - program.equalities @ x
+    if float(np.abs(off).max(initial=0.0)) <= _NO_EQUATIONS * max(1.0, float(np.abs(x).max(initial=0.0))):
+        return x
+    return np.asarray(x + np.linalg.lstsq(program.equalities, off, rcond=_NO_EQUATIONS)[0])
+
+
+def _inward(near: Array, roomy: Array, excess: Callable[[Array], float]) -> Array:
+    """The nearest to `near`, on the way to `roomy`, that breaks no bound by more than `roomy` does."""
+    allowed = excess(roomy)
+    begin, end = 0.0, 1.0
+    for _ in range(_HALVINGS):
+        middle = (begin + end) / 2.0
+        if excess(roomy + middle * (near - roomy)) <= allowed:
+            begin = middle
+        else:
+            end = middle
+    return np.asarray(roomy + begin * (near - roomy))

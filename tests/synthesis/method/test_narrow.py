@@ -1,0 +1,50 @@
+"""Bounds at a constant's own least value leave hardly any room: the law must keep them all the same."""
+
+import pytest
+
+from optlaws import Basis, BSplines, Chebyshev, Pieces, Problem, at_most, synthesize
+from optlaws.synthesis.program.evaluation import worth
+
+UNSYMMETRIC = [Chebyshev(5), Pieces(8, 5, 3), BSplines(4, 4, 3)]
+
+
+@pytest.mark.parametrize("basis", UNSYMMETRIC, ids=lambda basis: basis.name)
+@pytest.mark.parametrize(("bounded", "minimise"), [("rms_c", "rms_j"), ("rms_c", "C"), ("rms_j", "C")])
+@pytest.mark.parametrize("room", [0.0, 1e-12])
+def test_a_bound_at_the_least_value_is_kept(basis: Basis, bounded: str, minimise: str, room: float) -> None:
+    least = synthesize(Problem(order=3, basis=basis, symmetric=False, minimise=bounded))
+    asked = at_most(least.objective * (1.0 + room))
+    problem = Problem(order=3, basis=basis, symmetric=False, minimise=minimise, bounds={bounded: asked})
+    solution = synthesize(problem)
+    assert solution.lower_bound <= solution.objective
+    assert solution.gap < 1e-4
+    assert worth(problem, solution.law).excess <= 1e-13
+    # the norm has one least law, and those with a little room lie within its square root
+    there = Problem(order=3, basis=basis, symmetric=False, minimise=minimise)
+    assert solution.objective == pytest.approx(worth(there, least.law).objective, rel=30.0 * (room + 1e-13) ** 0.5)
+
+
+def test_a_peak_at_its_least_value_beside_another() -> None:
+    basis = Chebyshev(5)
+    least = synthesize(Problem(order=3, B=1.8, basis=basis, minimise="C"))
+    problem = Problem(order=3, B=1.8, basis=basis, minimise="J", symmetric=False, C=at_most(least.objective))
+    solution = synthesize(problem)
+    assert solution.lower_bound <= solution.objective
+    assert solution.constants.C.value <= least.objective * (1.0 + 1e-13)
+
+
+def test_the_ends_are_met_where_hardly_any_room_is_left() -> None:
+    basis = Pieces(8, 5, 3)
+    least = synthesize(Problem(order=3, basis=basis, symmetric=False, minimise="rms_c"))
+    problem = Problem(
+        order=3, basis=basis, symmetric=False, minimise="rms_j", bounds={"rms_c": at_most(least.objective)}
+    )
+    law = synthesize(problem).law
+    assert law.a(1.0) == pytest.approx(1.0, abs=1e-13)
+    assert law.b(1.0) == pytest.approx(0.0, abs=1e-12)
+
+
+@pytest.mark.parametrize("minimise", ["J", "jounce", "J + C"])
+def test_uniform_motion_of_pieces_has_no_jumps(minimise: str) -> None:
+    solution = synthesize(Problem(order=1, basis=Pieces(8, 5, 3), minimise=minimise))
+    assert 0.0 <= solution.lower_bound <= solution.objective < 1e-9
