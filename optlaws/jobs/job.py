@@ -2,47 +2,56 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping
+from importlib import import_module
 from pathlib import Path
 from typing import Any
 
 from optlaws.errors import InputError
 from optlaws.files import reading
-from optlaws.jobs.dwell import drawing as dwell_drawing
-from optlaws.jobs.dwell import types as dwell_types
-from optlaws.jobs.follower import follower, optimal_polydyne
-from optlaws.jobs.laws import atlas, fronts, optimal_table, savin_families, solutions
-from optlaws.jobs.lever import drawing as lever_drawing
-from optlaws.jobs.lever import nomogram as lever_nomogram
-from optlaws.jobs.lever import parametric as lever_parametric
-from optlaws.jobs.lever import tables as lever_tables
-from optlaws.jobs.loader import drawing as loader_drawing
-from optlaws.jobs.loader import nomogram as loader_nomogram
-from optlaws.jobs.loader import optimal as loader_optimal
-from optlaws.jobs.loader import table as loader_table
 from optlaws.suggest import unknown_key
 
 Job = Callable[[Mapping[str, Any], Path, Path], list[Path]]
 
-JOBS: dict[str, Job] = {
-    "atlas": atlas.run,
-    "dwell drawing": dwell_drawing.run,
-    "dwell types": dwell_types.run,
-    "follower": follower.run,
-    "fronts": fronts.run,
-    "lever drawing": lever_drawing.run,
-    "lever nomogram": lever_nomogram.run,
-    "lever parametric": lever_parametric.run,
-    "lever tables": lever_tables.run,
-    "loader drawing": loader_drawing.run,
-    "loader nomogram": loader_nomogram.run,
-    "loader optimal": loader_optimal.run,
-    "loader table": loader_table.run,
-    "optimal polydyne": optimal_polydyne.run,
-    "optimal table": optimal_table.run,
-    "savin families": savin_families.run,
-    "solutions": solutions.run,
+_MODULES = {
+    "atlas": "laws.atlas",
+    "dwell drawing": "dwell.drawing",
+    "dwell types": "dwell.types",
+    "follower": "follower.follower",
+    "fronts": "laws.fronts",
+    "lever drawing": "lever.drawing",
+    "lever nomogram": "lever.nomogram",
+    "lever parametric": "lever.parametric",
+    "lever tables": "lever.tables",
+    "loader drawing": "loader.drawing",
+    "loader nomogram": "loader.nomogram",
+    "loader optimal": "loader.optimal",
+    "loader table": "loader.table",
+    "optimal polydyne": "follower.optimal_polydyne",
+    "optimal table": "laws.optimal_table",
+    "savin families": "laws.savin_families",
+    "solutions": "laws.solutions",
 }
+
+
+class _Jobs(Mapping[str, Job]):
+    """The function `run` of each job's module, which is imported, and matplotlib with it, when it is asked for."""
+
+    def __getitem__(self, name: str) -> Job:
+        job: Job = import_module(f"optlaws.jobs.{_MODULES[name]}").run
+        return job
+
+    def __contains__(self, name: object) -> bool:
+        return name in _MODULES
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(_MODULES)
+
+    def __len__(self) -> int:
+        return len(_MODULES)
+
+
+JOBS = _Jobs()
 
 
 def run(file: Path, out: Path | None = None) -> list[Path]:

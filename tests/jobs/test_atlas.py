@@ -14,19 +14,9 @@ from optlaws.jobs.laws.atlas import COLUMNS
 from optlaws.jobs.laws.atlas_lookup import look_up, read
 from optlaws.studies.points.study_file import read_study
 from tests.documents import ROOT
+from tests.jobs import examples
 
 ATLAS = ROOT / "results" / "atlas" / "atlas.csv"
-SMALL = """
-job = "atlas"
-title = "A small atlas"
-[problem]
-basis = "chebyshev"
-[vary]
-minimise = ["C", "D"]
-order = [3, 4]
-degree = [5, 7]
-B = [1.5, 1.8]
-"""
 
 
 def test_the_atlas_is_complete_and_small() -> None:
@@ -100,7 +90,7 @@ def test_the_command_solves_what_was_asked(capsys: pytest.CaptureFixture[str]) -
 
 def test_the_job_writes_table_and_figures(tmp_path: Path) -> None:
     file = tmp_path / "atlas.toml"
-    file.write_text(SMALL)
+    file.write_text(examples.ATLAS)
     written = run(file, tmp_path / "out")
     assert sorted(one.name for one in written) == sorted(
         ["atlas.csv", "atlas.md", *(f"least-{name}.{kind}" for name in "cd" for kind in ("svg", "png"))]
@@ -108,7 +98,7 @@ def test_the_job_writes_table_and_figures(tmp_path: Path) -> None:
     lines = written[0].read_text("utf-8").splitlines()
     assert tuple(lines[1].split(",")) == COLUMNS
     assert len(lines) == 2 + 16
-    file.write_text(SMALL.replace("order = [3, 4]\n", "") + "order = [3, 4]\n")
+    file.write_text(examples.ATLAS.replace("order = [3, 4]\n", "") + "order = [3, 4]\n")
     with pytest.raises(InputError, match="an atlas varies minimise, order, degree, B"):
         run(file, tmp_path / "out")
 

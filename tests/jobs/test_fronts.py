@@ -6,33 +6,14 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from optlaws import InputError, Problem, drawing, synthesize
+from optlaws import Problem, drawing, synthesize
 from optlaws.jobs import job
 from optlaws.synthesis.pareto import pareto_front
 from tests.documents import ROOT
+from tests.jobs.examples import FRONTS
 from tests.jobs.written import table
 
 RESULTS = ROOT / "results" / "fronts"
-SMALL = """
-job = "fronts"
-title = "Small"
-points = 4
-[problem]
-order = 4
-degree = 3
-[[figure]]
-name = "one"
-title = "C at given B"
-over = ["B", "C"]
-between = [1.4, 1.9]
-catalogue = ["II", "smoothstep", "modified sine"]
-front = [{ label = "l = 4" }, { label = "l = 3", order = 3, points = 3 }]
-[[figure]]
-name = "two"
-title = "J at given C"
-over = ["C", "J"]
-front = [{ label = "B = 1.641", B = 1.641 }]
-"""
 
 
 def run(folder: Path, text: str) -> Path:
@@ -44,7 +25,7 @@ def run(folder: Path, text: str) -> Path:
 
 @pytest.fixture(scope="module")
 def made(tmp_path_factory: pytest.TempPathFactory) -> Path:
-    return run(tmp_path_factory.mktemp("fronts"), SMALL)
+    return run(tmp_path_factory.mktemp("fronts"), FRONTS)
 
 
 def test_every_point_is_tabled_with_its_bound(made: Path) -> None:
@@ -74,35 +55,6 @@ def test_the_figures_are_pictures(made: Path) -> None:
         for label in labels:
             assert label in text
         assert f"{name}.svg" in (made / "fronts.md").read_text("utf-8")
-
-
-def test_two_runs_give_the_same_bytes(made: Path, tmp_path: Path) -> None:
-    again = run(tmp_path, SMALL)
-    for file in made.iterdir():
-        assert (again / file.name).read_bytes() == file.read_bytes(), file.name
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "match"),
-    [
-        ("order = 4", "ordre = 4", "ordre.*order"),
-        ('over = ["B", "C"]', 'over = ["B", "K"]', "over"),
-        ('over = ["B", "C"]', 'over = ["B"]', "over"),
-        ('over = ["B", "C"]', 'over = ["B", "B"]', "figure one, l = 4.*each once"),
-        ("between = [1.4, 1.9]", "between = [1.9, 1.4]", "figure one, l = 4.*between"),
-        ("between = [1.4, 1.9]", "between = [1.4]", "between"),
-        ('{ label = "l = 4" }', '{ lable = "l = 4" }', "lable.*label"),
-        ('{ label = "l = 4" }', '{ label = "l = 4", B = 1.6 }', "B is exchanged"),
-        ('name = "two"', 'name = "one"', "names must differ"),
-        ('name = "two"', 'name = "../two"', "name"),
-        ("points = 4", "points = 1", "points"),
-        ('["II", "smoothstep", ', '["V", ', "figure one, catalogue: no law is called 'V'"),
-    ],
-)
-def test_errors_name_the_file_and_the_entry(tmp_path: Path, old: str, new: str, match: str) -> None:
-    assert old in SMALL
-    with pytest.raises(InputError, match=rf"(?s)small\.toml.*{match}"):
-        run(tmp_path, SMALL.replace(old, new, 1))
 
 
 def test_a_front_can_be_drawn_alone() -> None:

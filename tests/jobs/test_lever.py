@@ -5,51 +5,13 @@ from pathlib import Path
 
 import pytest
 
-from optlaws import InputError, TorsionLever, deg
+from optlaws import TorsionLever, deg
 from optlaws.jobs import job
 from tests.documents import ROOT
+from tests.jobs.examples import LEVER_DRAWING, LEVER_NOMOGRAM, LEVER_PARAMETRIC, LEVER_PRINTED, LEVER_TABLES
 from tests.mechanisms.lever.cases import rows
 
 RESULTS = ROOT / "results"
-PRINTED = "coefficient,beta,lambda,printed\nQ,0.5,,0.375\nR,1,3,0.000\nR,1.5,10,0.172\nP,0.25,,0.234\n"
-TABLES = """
-job = "lever tables"
-title = "Few"
-printed = "few.csv"
-[[misprint]]
-coefficient = "P"
-beta = "0.25"
-reason = "the sign"
-"""
-STUDY = """
-job = "lever parametric"
-title = "Few"
-beta = [0.5, 1.0, 1.5]
-lambda = [1, 4]
-rho = [0.15]
-nu = [0.05, 0.15]
-swing = [30, 100]
-drawn = [0.5, 1.5]
-"""
-NOMOGRAM = """
-job = "lever nomogram"
-title = "Few"
-beta = [0.5, 1.5]
-lambda = 3
-rho = 0.15
-nu = 0.15
-tabled = [20, 60]
-points = 5
-"""
-DRAWING = """
-job = "lever drawing"
-title = "One"
-beta = 0.75
-lambda = 1
-rho = 0.15
-nu = 0.15
-swing = 60
-"""
 
 
 def read(file: Path) -> list[dict[str, str]]:
@@ -58,14 +20,14 @@ def read(file: Path) -> list[dict[str, str]]:
 
 
 def done(folder: Path, text: str) -> Path:
-    (folder / "few.csv").write_text(PRINTED, encoding="utf-8")
+    (folder / "few.csv").write_text(LEVER_PRINTED, encoding="utf-8")
     (folder / "job.toml").write_text(text, encoding="utf-8")
     job.run(folder / "job.toml", folder / "out")
     return folder / "out"
 
 
 def test_every_printed_coefficient_has_its_verdict(tmp_path: Path) -> None:
-    found = read(done(tmp_path, TABLES) / "verdicts.csv")
+    found = read(done(tmp_path, LEVER_TABLES) / "verdicts.csv")
     assert [row["verdict"] for row in found] == [
         "reproduced to its digits",
         "reproduced to its digits",
@@ -102,7 +64,7 @@ def test_results_hold_the_parametric_study() -> None:
 
 
 def test_a_study_counts_the_levers_whose_exact_motion_is_within_the_limits(tmp_path: Path) -> None:
-    out = done(tmp_path, STUDY)
+    out = done(tmp_path, LEVER_PARAMETRIC)
     found = {(row["beta"], row["swing, deg"]): row for row in read(out / "parametric.csv")}
     assert set(found) == {("0.5", "30"), ("0.5", "100"), ("1", "30"), ("1.5", "30")}
     most = found["0.5", "100"]
@@ -115,7 +77,7 @@ def test_a_study_counts_the_levers_whose_exact_motion_is_within_the_limits(tmp_p
 
 
 def test_the_nomogram_is_the_sizing(tmp_path: Path) -> None:
-    out = done(tmp_path, NOMOGRAM)
+    out = done(tmp_path, LEVER_NOMOGRAM)
     found = {(row["beta"], row["swing, deg"]): row for row in read(out / "nomogram.csv")}
     assert set(found) == {("0.5", "20"), ("0.5", "60"), ("1.5", "20")}
     one = TorsionLever(0.5, 3, 0.15, 0.15, deg(60))
@@ -127,43 +89,7 @@ def test_the_nomogram_is_the_sizing(tmp_path: Path) -> None:
 
 
 def test_the_drawing_is_the_same_each_time(tmp_path: Path) -> None:
-    first = {file.name: file.read_bytes() for file in done(tmp_path, DRAWING).iterdir()}
+    first = {file.name: file.read_bytes() for file in done(tmp_path, LEVER_DRAWING).iterdir()}
     assert set(first) == {"drawing.md", *(f"{n}.{k}" for n in ("mechanism", "motion") for k in ("svg", "png"))}
-    assert {file.name: file.read_bytes() for file in done(tmp_path, DRAWING).iterdir()} == first
+    assert {file.name: file.read_bytes() for file in done(tmp_path, LEVER_DRAWING).iterdir()} == first
     assert "6.100747" in first["drawing.md"].decode()
-
-
-@pytest.mark.parametrize(
-    ("text", "said"),
-    [
-        (TABLES.replace('"0.25"', '"0.3"'), "misprint: not among the printed numbers .*: P 0.3"),
-        (TABLES.replace("misprint", "misprit"), "did you mean 'misprint'"),
-        (STUDY.replace("drawn = [0.5, 1.5]", "drawn = [0.7]"), "drawn: 0.7 not among beta"),
-        (STUDY.replace("[30, 100]", "[170]"), "no combination of beta, lambda, rho, nu and swing"),
-        (STUDY.replace("[30, 100]", "[200]"), "swing"),
-        (STUDY.replace("lambda", "lamda"), "did you mean 'lambda'"),
-        (NOMOGRAM.replace("[20, 60]", "[175]"), "no combination of beta and swing"),
-        (DRAWING.replace("0.75", "1.5"), r"job.toml: the angle between coupler and rocker"),
-    ],
-)
-def test_wrong_files_are_refused(tmp_path: Path, text: str, said: str) -> None:
-    with pytest.raises(InputError, match=said):
-        done(tmp_path, text)
-
-
-@pytest.mark.parametrize(
-    ("line", "said"),
-    [
-        ("R,0.5,,0.1", "R needs a lambda and the others have none"),
-        ("Q,0.5,1,0.1", "R needs a lambda and the others have none"),
-        ("U,0.5,,0.1", "coefficient must be Q, P, S or R, got 'U'"),
-        ("Q,-1,,0.1", "beta and lambda must be above 0, got -1"),
-        ("Q,0.5,,none", "'none' is not a number"),
-        ("Q,0.5,,0.000", "printed as 0, it is 0.375"),
-    ],
-)
-def test_wrong_printed_data_are_refused(tmp_path: Path, line: str, said: str) -> None:
-    (tmp_path / "few.csv").write_text(PRINTED + line + "\n", encoding="utf-8")
-    (tmp_path / "job.toml").write_text(TABLES, encoding="utf-8")
-    with pytest.raises(InputError, match=said):
-        job.run(tmp_path / "job.toml", tmp_path / "out")

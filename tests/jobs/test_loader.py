@@ -4,25 +4,16 @@ from pathlib import Path
 
 import pytest
 
-from optlaws import InputError
 from optlaws.jobs import job
 from tests.documents import ROOT
+from tests.jobs.examples import LOADER_DRAWING, LOADER_NOMOGRAM, LOADER_PRINTED, LOADER_TABLE
 from tests.jobs.written import table
 from tests.mechanisms.reference import rows
 
 RESULTS = ROOT / "results"
-PRINTED = """# printed
-code,law,B,C,D
-K,K,1.571,4.94,3.876
-0050,0050,1.274,inf,3.248
-KC00,KC00,1.632,4.734,4.897
-"""
-TABLE = 'job = "loader table"\ntitle = "Three"\nprinted = "printed.csv"\ngrid = 20\n'
-NOMOGRAM = 'job = "loader nomogram"\ntitle = "Few"\ngamma_w = [0.25, 0.3]\n[e13]\nfrom = 0.6\nto = 0.66\nstep = 0.03\n'
-DRAWING = 'job = "loader drawing"\ntitle = "One"\nlaw = "3-4-5 polynomial"\nshown = 40\nradius_ratio = 1.0\n'
 
 
-def run(folder: Path, text: str, printed: str = PRINTED) -> Path:
+def run(folder: Path, text: str, printed: str = LOADER_PRINTED) -> Path:
     (folder / "printed.csv").write_text(printed, "utf-8")
     file = folder / "small.toml"
     file.write_text(text, "utf-8")
@@ -31,7 +22,7 @@ def run(folder: Path, text: str, printed: str = PRINTED) -> Path:
 
 
 def test_a_small_table_is_judged(tmp_path: Path) -> None:
-    out = run(tmp_path, TABLE)
+    out = run(tmp_path, LOADER_TABLE)
     verdicts = {(row["row"], row["quantity"]): row for row in table(out / "verdicts.csv")}
     assert verdicts["K", "B"]["verdict"] == verdicts["0050", "C"]["verdict"] == "reproduced to its digits"
     assert verdicts["KC00", "D"]["verdict"] == "off by -21 %"
@@ -67,26 +58,8 @@ def test_results_hold_the_reference_nomogram() -> None:
 
 
 def test_the_figures_are_pictures(tmp_path: Path) -> None:
-    for text, names in ((NOMOGRAM, ["nomogram"]), (DRAWING, ["mechanism", "exchange"])):
+    for text, names in ((LOADER_NOMOGRAM, ["nomogram"]), (LOADER_DRAWING, ["mechanism", "exchange"])):
         out = run(tmp_path, text)
         for name in names:
             assert (out / f"{name}.png").read_bytes().startswith(b"\x89PNG")
             assert "made by optlaws" in (out / f"{name}.svg").read_text("utf-8")
-
-
-@pytest.mark.parametrize(
-    ("text", "printed", "match"),
-    [
-        (TABLE.replace("grid", "gird"), PRINTED, "gird.*grid"),
-        (TABLE.replace("grid = 20", "grid = 1"), PRINTED, "grid"),
-        (TABLE, PRINTED.replace("1.571", "1,571"), "5 cells"),
-        (TABLE, PRINTED.replace("1.571", "1.5x"), "row K, B.*not a number"),
-        (TABLE, PRINTED.replace("K,K", "K,Kq"), "no law is called 'Kq'"),
-        (NOMOGRAM.replace("0.25, 0.3", "0.2"), PRINTED, "no trapezium"),
-        (NOMOGRAM.replace("step = 0.03", "step = 0"), PRINTED, "step"),
-        (DRAWING.replace("shown = 40", "shown = 400"), PRINTED, "shown"),
-    ],
-)
-def test_errors_name_the_file_and_the_entry(tmp_path: Path, text: str, printed: str, match: str) -> None:
-    with pytest.raises(InputError, match=rf"(?s)small\.toml.*{match}|{match}"):
-        run(tmp_path, text, printed)

@@ -4,7 +4,7 @@ from pathlib import Path
 
 import pytest
 
-from optlaws import InputError, savin
+from optlaws import savin
 from optlaws.jobs import job
 from optlaws.laws.savin.savin import alpha_range
 from tests.documents import ROOT
@@ -70,21 +70,3 @@ def test_families_beyond_the_paper_are_families(tmp_path: Path) -> None:
     job.run(file, tmp_path / "out")
     names = {row["family"] for row in table(tmp_path / "out" / "table.csv")}
     assert names == {"IV", "the family of u = 4", "the family of u = 5"}
-
-
-@pytest.mark.parametrize(
-    ("old", "new", "match"),
-    [
-        ('families = ["I", "II", "III", "IV"]', 'families = ["V"]', "families"),
-        ('families = ["I", "II", "III", "IV"]', "families = [-1]", "families"),
-        ("rows = 8", "rows = 0", "rows"),
-        ("rows = 8", "row = 8", "did you mean 'rows'"),
-    ],
-)
-def test_errors_name_the_file_and_the_entry(tmp_path: Path, old: str, new: str, match: str) -> None:
-    text = PROBLEM.read_text("utf-8")
-    assert old in text
-    file = tmp_path / "wrong.toml"
-    file.write_text(text.replace(old, new), "utf-8")
-    with pytest.raises(InputError, match=rf"(?s)wrong\.toml.*{match}"):
-        job.run(file, tmp_path / "out")
