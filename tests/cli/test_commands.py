@@ -138,11 +138,6 @@ def test_an_interrupt_ends_with_130(capsys: Capture, monkeypatch: pytest.MonkeyP
     assert refused(capsys, *SOLVE, code=130) == "optlaws: interrupted\n"
 
 
-def test_a_folder_in_the_place_of_the_output_is_bad_input(capsys: Capture, tmp_path: Path) -> None:
-    (tmp_path / "file").write_text("", "utf-8")
-    refused(capsys, *SOLVE, "--output", tmp_path / "file" / "solution.json")
-
-
 @pytest.mark.parametrize("arguments", [["bogus"], ["solv"], ["--bogus"]])
 def test_an_unknown_command_is_refused(capsys: Capture, arguments: list[str]) -> None:
     refused(capsys, *arguments)

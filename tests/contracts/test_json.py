@@ -2,21 +2,16 @@
 
 import json
 from dataclasses import replace
-from pathlib import Path
 from typing import Any, NoReturn
 
 import pytest
 
 import optlaws
 from optlaws import Chebyshev, Pieces, Powers, Problem, Solution, Window, deg, pareto_front, synthesize, verification
-from optlaws.cli.app import exit_code
-from tests.contracts.frozen import commands
-from tests.documents import ROOT
 from tests.laws.examples import EXAMPLES
 
 #: an acceleration that jumps: J has no bound
 JUMPS = Problem(order=2, basis=Pieces(degree=3, breaks=4, continuity=1), B=1.8)
-STUDY = "[problem]\norder = 2\nbasis = 'pieces'\nbreaks = 4\ncontinuity = 1\ndegree = 3\n[vary]\nB = [1.8]\n"
 
 
 def refuse(constant: str) -> NoReturn:
@@ -78,38 +73,3 @@ def values(jumping: Solution) -> dict[str, Any]:
 def test_every_value(jumping: Solution) -> None:
     for name, value in values(jumping).items():
         assert strict(json.dumps(value.to_dict())), name
-
-
-COMMANDS = [
-    "solve --order 2 --degree 3 --basis pieces --breaks 4 --continuity 1 --peak-velocity 1.8",
-    "constants --order 1 --z 0.5",
-    "law 0050 --at 0.5",
-    "law II --alpha 1",
-    "catalogue",
-    "front --order 2 --degree 3 --points 2",
-    "follower 0050 --nu 20",
-    "loader 0050",
-    "dwell K --dwell 90 --rise 90 --swing 20 --clutch-angle 15 --radius-ratio 1 --inertia-ratio 0.1 --most-torque 0.5",
-    "lever --beta 0.75 --lam 1 --swing 60",
-    f"atlas --order 4 --peak-velocity 1.71 --file {ROOT}/results/atlas/atlas.csv",
-]
-
-
-@pytest.mark.parametrize("command", COMMANDS)
-def test_every_command(command: str, capsys: pytest.CaptureFixture[str]) -> None:
-    assert exit_code([*command.split(), "--json"]) == 0
-    assert strict(capsys.readouterr().out)
-
-
-def test_commands_that_read_files(jumping: Solution, tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
-    solution, study = tmp_path / "solution.json", tmp_path / "study.toml"
-    solution.write_text(json.dumps(jumping.to_dict()), "utf-8")
-    study.write_text(STUDY, "utf-8")
-    for arguments in (["verify", solution], ["study", study, "--out", tmp_path / "out", "--workers", "1"]):
-        assert exit_code([*map(str, arguments), "--json"]) == 0
-        assert strict(capsys.readouterr().out)
-
-
-def test_every_command_with_json_is_here() -> None:
-    asked = {command.split()[0] for command in COMMANDS} | {"verify", "study"}
-    assert asked == {name for name, options in commands().items() if "--json" in " ".join(options).split()}

@@ -144,9 +144,14 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
         1
         """
         for nu in range(1, HIGHEST + 1):
-            if self.jumps(nu) or not np.isfinite(self._sides(nu)[1]).all():
+            if self.jumps(nu) or not self._is_finite(nu):
                 return nu - 1
         return HIGHEST
+
+    def _is_finite(self, nu: int) -> bool:
+        """Whether the derivative of order nu is bounded; no kind of segment grows without limit but at its ends."""
+        ends = np.array([0.0, 1.0])
+        return all(np.isfinite(one.derivative(ends, length, nu)).all() for one, length in self._lengths)
 
     def peak(self, nu: int) -> Peak:  # noqa: D102
         k, values = self._sides(derivative(nu))

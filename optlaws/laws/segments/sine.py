@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from math import cos
 
 import numpy as np
+from numpy.polynomial.polynomial import polyval
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
@@ -49,19 +50,24 @@ class SineSegment(Segment, kind="sine"):
 
     def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
         s, w = u * length, self.frequency
-        steady = np.polynomial.Polynomial([*self.powers, 0.0])
+        steady = polyval(s, self._steady[min(nu, len(self._steady) - 1)])
         if nu >= 2:
             # a shift of the phase by quarter turns is a change of function: no rounding of multiples of pi
             turned = (np.sin, np.cos, lambda x: -np.sin(x), lambda x: -np.cos(x))[(nu - 2) % 4]
-            smooth = steady.deriv(nu - 2)(s) if nu > 2 else steady(s)
-            return np.asarray(smooth + self.amplitude * w ** (nu - 2) * turned(w * s + self.phase), dtype=np.float64)
+            return np.asarray(steady + self.amplitude * w ** (nu - 2) * turned(w * s + self.phase), dtype=np.float64)
         half = 0.5 * w * s
         if nu == 1:
             swing = 2.0 * np.sin(half + self.phase) * np.sin(half)
         else:
             swing = s * cos(self.phase) - 2.0 / w * np.cos(half + self.phase) * np.sin(half)
         start = self.b0 if nu else self.b0 * s
-        return np.asarray(start + steady.integ(2 - nu)(s) + self.amplitude / w * swing, dtype=np.float64)
+        return np.asarray(start + steady + self.amplitude / w * swing, dtype=np.float64)
+
+    @kept_property
+    def _steady(self) -> tuple[Array, ...]:
+        """What the powers give to a, b, c and the derivatives above, to the first that is zero."""
+        whole = np.polynomial.Polynomial([*self.powers, 0.0]).integ(2)
+        return tuple(whole.deriv(nu).coef for nu in range(len(self.powers) + 3))
 
     def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
         return candidates(self, self.frequency, length, nu)

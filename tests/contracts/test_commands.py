@@ -1,0 +1,133 @@
+"""What every command keeps: strict JSON, whole numbers, refusals that name the option, a help that costs nothing."""
+
+import json
+import subprocess
+import sys
+from pathlib import Path
+from typing import NoReturn
+
+import pytest
+
+import optlaws
+from optlaws.cli.app import BAD_INPUT, exit_code
+from tests.contracts.frozen import Table, commands
+from tests.documents import ROOT
+
+STUDY = "[problem]\norder = 2\nbasis = 'pieces'\nbreaks = 4\ncontinuity = 1\ndegree = 3\n[vary]\nB = [1.8]\n"
+#: a call of each that has something infinite to tell where it can have it
+CALLS = {
+    "atlas": f"--order 4 --peak-velocity 1.71 --file {ROOT}/results/atlas/atlas.csv",
+    "catalogue": "",
+    "constants": "--order 1 --z 0.5",
+    "dwell": "K --dwell 90 --rise 90 --swing 20 --clutch-angle 15 --radius-ratio 1 --inertia-ratio 0.1 --most-torque 1",
+    "follower": "0050 --nu 20",
+    "front": "--order 2 --degree 3 --points 2",
+    "law": "0050 --at 0.5",
+    "lever": "--beta 0.75 --lam 1 --swing 60",
+    "loader": "0050",
+    "run": "problem.toml",
+    "solve": "--order 2 --degree 3 --basis pieces --breaks 4 --continuity 1 --peak-velocity 1.8",
+    "study": "study.toml --workers 1",
+    "verify": "solution.json",
+}
+COMMANDS: Table = commands()
+NUMBERS = {"int": "2.5", "float": "fast", "list[float]": "fast", "tuple[float, float]": "1 fast", "bool": "maybe"}
+FILES = {"--output": "answer.json", "--csv": "front.csv", "--plot": "picture.svg --spectrum 5 9", "--out": "results"}
+WRONG = [
+    (command, option, NUMBERS[kind])
+    for command, options in COMMANDS.items()
+    for option, said in options.items()
+    if (kind := said.partition(" = ")[0].removesuffix(" | None")) in NUMBERS
+]
+WRITTEN = [(command, option) for command, options in COMMANDS.items() for option in FILES if option in options]
+
+Capture = pytest.CaptureFixture[str]
+
+
+@pytest.fixture(autouse=True)
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with the files that the calls name, and one that holds a file in the place of a folder."""
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "study.toml").write_text(STUDY, "utf-8")
+    (tmp_path / "problem.toml").write_bytes((ROOT / "problems" / "lever_nomogram.toml").read_bytes())
+    (tmp_path / "file").write_text("", "utf-8")
+    return tmp_path
+
+
+def refuse(constant: str) -> NoReturn:
+    raise AssertionError(f"{constant} is not JSON")
+
+
+def call(command: str, **changed: str) -> list[str]:
+    """The call of a command with options changed."""
+    words = CALLS[command].split()
+    for name, value in changed.items():
+        option = f"--{name}"
+        if option in words:
+            at = words.index(option)
+            del words[at : at + 2]
+        words += [f"{option}={value}"] if " " not in value else [option, *value.split()]
+    return [command, *words]
+
+
+def refused(capsys: Capture, arguments: list[str]) -> str:
+    assert exit_code(arguments) == BAD_INPUT
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert err.startswith("optlaws: ")
+    assert "Traceback" not in err
+    return err
+
+
+def test_every_command_is_here() -> None:
+    assert set(CALLS) == set(COMMANDS)
+
+
+@pytest.mark.parametrize("command", [name for name, options in COMMANDS.items() if "--json" in options])
+def test_json_is_strict_and_alone(command: str, capsys: Capture) -> None:
+    if command == "verify":
+        problem = optlaws.Problem(order=2, basis=optlaws.Pieces(degree=3, breaks=4, continuity=1), B=1.8)
+        Path("solution.json").write_text(json.dumps(optlaws.synthesize(problem).to_dict()), "utf-8")
+    assert exit_code([*call(command), "--json"]) == 0
+    out = capsys.readouterr().out
+    assert out.count("\n") == 1
+    assert json.loads(out, parse_constant=refuse)
+
+
+@pytest.mark.parametrize(("command", "option", "value"), WRONG)
+def test_a_wrong_value_is_refused_by_its_option(command: str, option: str, value: str, capsys: Capture) -> None:
+    assert option in refused(capsys, call(command, **{option[2:]: value}))
+
+
+@pytest.mark.parametrize("command", COMMANDS)
+def test_an_unknown_option_is_refused_by_its_name(command: str, capsys: Capture) -> None:
+    assert "--nonsense" in refused(capsys, [*call(command), "--nonsense"])
+
+
+@pytest.mark.parametrize(("command", "option"), WRITTEN)
+def test_a_file_that_cannot_be_written_is_refused(command: str, option: str, capsys: Capture) -> None:
+    file, *others = FILES[option].split()
+    arguments = [*call(command), option, f"file/{file}", *(others if command == "follower" else [])]
+    assert "file" in refused(capsys, arguments)
+
+
+def test_help_imports_nothing_heavy() -> None:
+    script = (
+        "import sys\nfrom optlaws.cli import exit_code\n"
+        f"codes = [exit_code([*name, '--help']) for name in ([], *([name] for name in {sorted(COMMANDS)}))]\n"
+        "heavy = {'casadi', 'matplotlib', 'numpy', 'scipy'} & {*sys.modules}\n"
+        "print('codes', {*codes}, 'heavy', heavy, file=sys.stderr)"
+    )
+    done = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
+    assert done.stderr == "codes {0} heavy set()\n"
+    assert all(f"Usage: optlaws {name}" in done.stdout for name in COMMANDS)
+
+
+def test_a_command_imports_what_it_needs_and_no_more() -> None:
+    for command in ("catalogue", "law", "constants", "loader"):
+        script = (
+            f"import sys\nfrom optlaws.cli import exit_code\nassert exit_code({[*call(command), '--json']!r}) == 0\n"
+            "print(*{'casadi', 'matplotlib', 'rich', 'scipy'} & {*sys.modules}, file=sys.stderr)"
+        )
+        done = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
+        assert done.stderr == "\n", command
