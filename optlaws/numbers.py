@@ -74,6 +74,17 @@ def real(value: Any) -> float | None:  # noqa: ANN401
     return None if number != number else number  # noqa: PLR0124 - NaN
 
 
+def bounded(value: float) -> float | None:
+    """The value as JSON holds it, which has no infinity: None where there is no bound.
+
+    Examples
+    --------
+    >>> bounded(2.0), bounded(float("inf"))
+    (2.0, None)
+    """
+    return value if isfinite(value) else None
+
+
 def finite(value: Any, name: str) -> float:  # noqa: ANN401
     """The value as a float; `name` is what an error calls it.
 

@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from math import isfinite
 
 import numpy as np
 from numpy.typing import NDArray
+
+from optlaws.numbers import bounded
 
 Array = NDArray[np.float64]
 
@@ -40,7 +41,7 @@ class Peak:
         >>> Peak(float("inf"), 0.0).to_dict()
         {'value': None, 'k': 0.0}
         """
-        return {"value": _finite(self.value), "k": self.k}
+        return {"value": bounded(self.value), "k": self.k}
 
 
 @dataclass(frozen=True, slots=True)
@@ -83,12 +84,8 @@ class Constants:
             "J": self.J.to_dict(),
         }
         if rms:
-            table["rms_c"] = _finite(self.rms_c)
+            table["rms_c"] = bounded(self.rms_c)
         return table
-
-
-def _finite(value: float) -> float | None:
-    return value if isfinite(value) else None
 
 
 def highest(k: Array, values: Array, tie: float) -> Peak:

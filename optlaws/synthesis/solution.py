@@ -5,14 +5,13 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from enum import StrEnum
 from functools import cache
-from importlib.metadata import version
-from math import isfinite
 from typing import Any
 
 import numpy as np
 
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
+from optlaws.numbers import bounded
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
@@ -138,8 +137,8 @@ class Solution:
         return {
             "status": self.status.value,
             "objective": self.objective,
-            "lower_bound": self.lower_bound if isfinite(self.lower_bound) else None,
-            "gap": self.gap if isfinite(self.gap) else None,
+            "lower_bound": bounded(self.lower_bound),
+            "gap": bounded(self.gap),
             "limit": self.limit,
             "constants": self.constants.to_dict(),
             "z": None if self.z is None else list(self.z_powers or self.z),
@@ -163,4 +162,7 @@ class Solution:
 
 @cache
 def _versions() -> tuple[tuple[str, str], ...]:
+    # it takes as long to import as all of optlaws that a law needs
+    from importlib.metadata import version
+
     return tuple((name, version(name)) for name in ("optlaws", "casadi", "numpy"))

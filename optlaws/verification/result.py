@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from dataclasses import asdict, dataclass, field
-from math import isfinite
 from typing import Any
 
+from optlaws.numbers import bounded
 from optlaws.synthesis.problem.problem import Problem
 
 
@@ -85,7 +85,7 @@ class Verification:
             "objective": None if self.objective is None else _pair(self.objective),
             "gap": self.gap,
             "constants": {name: _pair(pair) for name, pair in self.constants.items()},
-            "excesses": {name: by if isfinite(by) else None for name, by in self.excesses.items()},
+            "excesses": {name: bounded(by) for name, by in self.excesses.items()},
             "charge": self.charge,
             "claims": [asdict(claim) for claim in self.claims],
             "problem": None if self.problem is None else self.problem.to_dict(),
@@ -106,4 +106,4 @@ class Verification:
 
 
 def _pair(pair: tuple[float, float]) -> list[float | None]:
-    return [one if isfinite(one) else None for one in pair]
+    return [bounded(one) for one in pair]

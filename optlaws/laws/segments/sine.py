@@ -67,7 +67,7 @@ class SineSegment(Segment, kind="sine"):
     def _steady(self) -> tuple[Array, ...]:
         """What the powers give to a, b, c and the derivatives above, to the first that is zero."""
         whole = np.polynomial.Polynomial([*self.powers, 0.0]).integ(2)
-        return tuple(whole.deriv(nu).coef for nu in range(len(self.powers) + 3))
+        return tuple(np.asarray(whole.deriv(nu).coef, dtype=np.float64) for nu in range(len(self.powers) + 3))
 
     def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
         return candidates(self, self.frequency, length, nu)

@@ -12,7 +12,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.loader.law import LoaderLaw
 from optlaws.mechanisms.loader.tops import is_symmetric, tops
-from optlaws.numbers import real
+from optlaws.numbers import bounded, real
 
 AGREES = 1e-9
 ROUNDING = 1e-13
@@ -178,7 +178,7 @@ class Loader:
                     ("J", self.law.peak(3)),
                 )
             },
-            "C_at_turn": self.C_at_turn if isfinite(self.C_at_turn) else None,
+            "C_at_turn": bounded(self.C_at_turn),
             "peaks_at_turn": self.peaks_at_turn,
             "turn": self.turn,
             "symmetric": self.symmetric,

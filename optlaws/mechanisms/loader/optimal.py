@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
-from math import inf, isfinite
+from math import inf
 from typing import Any
 
 import numpy as np
@@ -17,7 +17,7 @@ from optlaws.mechanisms.loader.limits import loader_acceleration_limit, loader_v
 from optlaws.mechanisms.loader.loader import Loader, loader
 from optlaws.mechanisms.loader.search import Task, search, tangent_bound
 from optlaws.mechanisms.loader.space import LoaderSpace
-from optlaws.numbers import positive
+from optlaws.numbers import bounded, positive
 from optlaws.synthesis.problem.expression import Expression, Term
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import at_most
@@ -79,7 +79,7 @@ class BalancedLaw:
             "status": self.status.value,
             "minimise": repr(self.minimise),
             "objective": self.objective,
-            "lower_bound": self.lower_bound if isfinite(self.lower_bound) else None,
+            "lower_bound": bounded(self.lower_bound),
             "executive": {"B": self.law.constants.B.value, "C": self.law.constants.C.value},
             "loader": self.loader.to_dict(),
             "law": self.law.to_dict(),

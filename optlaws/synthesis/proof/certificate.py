@@ -21,6 +21,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.numbers import bounded
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
 from optlaws.synthesis.families.names import VariableName
@@ -138,7 +139,7 @@ class Certificate:
             "tangent": self.tangent,
             "contacts": [asdict(contact) for contact in self.contacts],
             "equations": list(self.equations),
-            "bound": self.bound if isfinite(self.bound) else None,
+            "bound": bounded(self.bound),
         }
 
     @classmethod

@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.numbers import bounded
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Contact, contact_of
 from optlaws.synthesis.proof.data import StatedPowerCertificate, StatedStep, problem_of, stated
@@ -141,7 +142,7 @@ class PowerCertificate:
             "claim": self.claim,
             "points": list(self.points),
             "steps": [_written(step) for step in self.steps],
-            "bound": self.bound if isfinite(self.bound) else None,
+            "bound": bounded(self.bound),
         }
 
     @classmethod
