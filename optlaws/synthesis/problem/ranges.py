@@ -117,13 +117,20 @@ def as_range(value: Any, name: str) -> Range | None:  # noqa: ANN401 - it is che
         return value
     if isinstance(value, list | tuple) and len(value) == 2:
         low, high = value
-        return Range(0.0 if low is None else low, inf if high is None else high)
+        return _named_range(0.0 if low is None else low, inf if high is None else high, name)
     number = real(value)
     if number is None or not isfinite(number):
         raise InputError(
             f"{name} must be a finite number, a range such as between(1.5, 1.8), or None, got {shortened(value)}"
         )
-    return Range(number, number)
+    return _named_range(number, number, name)
+
+
+def _named_range(low: Any, high: Any, name: str) -> Range:  # noqa: ANN401 - they are checked here
+    try:
+        return Range(low, high)
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
 
 
 class Bounds(Mapping[Functional, Range]):
