@@ -169,8 +169,9 @@ def line(name: str) -> list[str]:
     plain = {"order": "3", "degree": "5", "basis": "chebyshev"}
     shape = {key: str(value) for key, value in others.items() if key in {"breaks", "basis", "degree"}}
     ends = {key: " ".join(map(str, others[key])) for key in ("start", "end") if key in others}
-    given = {**plain, **shape, **ends} if not ends else {"degree": "5", "basis": "chebyshev", **ends}
-    return [part for key, value in given.items() if key != name for part in (f"--{key}", value)] + options
+    given: dict[str, str] = plain | shape | ends
+    left_out = {name, "order"} if ends else {name}
+    return [part for key, value in given.items() if key not in left_out for part in (f"--{key}", value)] + options
 
 
 @pytest.mark.parametrize("name", EXAMPLES)
@@ -226,9 +227,12 @@ def test_the_command_tells_what_is_wrong(options: list[str], says: str, capsys: 
 def test_nobody_is_told_of_an_order_that_nobody_gave() -> None:
     with pytest.raises(InputError, match=r"B must be a finite number above 1 .*, got '1\.8'"):
         Problem(B="1.8")  # type: ignore[arg-type]
-    for lacking in (Problem, lambda: Problem.from_dict({}), lambda: Problem(B=1.8)):
+    cases: tuple[dict[str, Any], ...] = ({}, {"B": 1.8})
+    for lacking in cases:
         with pytest.raises(InputError, match=r"lacks order.*give order=4"):
-            lacking()
+            Problem(**lacking)
+        with pytest.raises(InputError, match=r"lacks order.*give order=4"):
+            Problem.from_dict(lacking)
     with pytest.raises(InputError, match="order must be an integer of at least 1, got 0"):
         Problem(order=0)
 
