@@ -246,6 +246,8 @@ def listed(values: Any, name: str, most: int = MOST_TERMS) -> list[Any]:  # noqa
 
 
 def _fraction(value: Any, name: str) -> Fraction:  # noqa: ANN401
+    if _plain(value):
+        return Fraction(value)
     if not isinstance(value, bool) and isinstance(value, Rational):
         exact = Fraction(int(value.numerator), int(value.denominator))
     elif (number := real(value)) is not None and isfinite(number):
