@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Literal
@@ -126,6 +126,11 @@ def save_picture(drawing: Figure, place: Path) -> list[Path]:
         writing.write(raster, rendered(drawing, "png"))
     writing.write(vector, content)
     return [vector, raster]
+
+
+def save_pictures(drawings: Mapping[str, Figure], folder: Path) -> list[Path]:
+    """Write figures by name: see `save_picture`."""
+    return [path for name, drawing in drawings.items() for path in save_picture(drawing, folder / name)]
 
 
 def rendered(drawing: Figure, kind: str) -> bytes:

@@ -5,12 +5,17 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 from types import UnionType
-from typing import Any, TypeVar, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
 
 import msgspec
 
 from optlaws.errors import InputError
 from optlaws.suggest import unknown_key
+
+#: entries that many jobs have; degrees are those of a whole turn
+Text = Annotated[str, msgspec.Meta(min_length=1)]
+Positive = Annotated[float, msgspec.Meta(gt=0)]
+Degrees = Annotated[float, msgspec.Meta(gt=0, lt=360)]
 
 Spec = TypeVar("Spec", bound=msgspec.Struct)
 

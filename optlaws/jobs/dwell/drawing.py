@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections.abc import Mapping
 from math import degrees, tau
 from pathlib import Path
-from typing import TYPE_CHECKING, Annotated, Any
+from typing import TYPE_CHECKING, Any
 
 import msgspec
 import numpy as np
 
 from optlaws import drawing
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Degrees, Positive, Text, convert
 from optlaws.jobs.loader.cams import cam
+from optlaws.jobs.pages.page import Page
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.mechanisms.angles import deg
 from optlaws.mechanisms.dwell.mechanism import KINDS, DwellMechanism, dwell_mechanism
@@ -23,10 +24,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 HEADINGS = ("type", "section", "from", "to", "way")
-
-Text = Annotated[str, msgspec.Meta(min_length=1)]
-Positive = Annotated[float, msgspec.Meta(gt=0)]
-Degrees = Annotated[float, msgspec.Meta(gt=0, lt=360)]
 
 
 class Drawing(msgspec.Struct, forbid_unknown_fields=True):
@@ -70,12 +67,12 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
             place += section.angle
     figures = {"mechanism": draw_cams(types), "motion": draw_motions(types)}
     said = "; ".join(f"{kind}: a = {one.a:.5g}, b = {one.b:.5g}" for kind, one in types.items())
-    text = [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", "", f"Law {spec.law}; {said}.", ""]
-    text += ["![The cams](mechanism.svg)", "", "![The motions](motion.svg)", ""]
-    text += ["Cam angles in degrees, ways of the rocker in strokes of the executive link.", ""]
+    page = Page(spec.title).text(f"Law {spec.law}; {said}.")
+    page.figure("mechanism", "The cams").figure("motion", "The motions")
+    page.text("Cam angles in degrees, ways of the rocker in strokes of the executive link.").table(HEADINGS, rows)
     return [
-        writing.write(out / "drawing.md", "\n".join([*text, tables.to_markdown(HEADINGS, rows)])),
-        *(path for name, figure in figures.items() for path in drawing.save_picture(figure, out / name)),
+        writing.write(out / "drawing.md", str(page)),
+        *drawing.save_pictures(figures, out),
     ]
 
 

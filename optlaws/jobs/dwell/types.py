@@ -15,8 +15,9 @@ import numpy as np
 from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Degrees, Positive, Text, convert
 from optlaws.jobs.dwell import figure_map
+from optlaws.jobs.pages.page import Page
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.mechanisms.angles import deg
 from optlaws.mechanisms.dwell.clutch import Clutch
@@ -27,9 +28,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
     from matplotlib.lines import Line2D
 
-Text = Annotated[str, msgspec.Meta(min_length=1)]
-Positive = Annotated[float, msgspec.Meta(gt=0)]
-Degrees = Annotated[float, msgspec.Meta(gt=0, lt=360)]
 Some = msgspec.Meta(min_length=1)
 
 
@@ -124,8 +122,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     return [
         writing.write(out / "criteria.csv", tables.to_csv((*GIVEN, *CRITERIA), rows, about=about)),
         writing.write(out / "teeth.csv", tables.to_csv(TEETH, teeth, about=about)),
-        writing.write(out / "dwell_types.md", _markdown(spec, rows, teeth)),
-        *(path for name, figure in figures.items() for path in drawing.save_picture(figure, out / name)),
+        writing.write(out / "dwell_types.md", str(_page(spec, rows, teeth))),
+        *drawing.save_pictures(figures, out),
     ]
 
 
@@ -148,7 +146,7 @@ def _teeth(one: Case, most: int) -> Iterator[list[tables.Cell]]:
             yield [kind, *one.given[:4], clutch.ratio, 1.0 / clutch.ratio, best.p, best.N, degrees(best.error)]
 
 
-def _markdown(spec: Types, rows: Sequence[Sequence[tables.Cell]], teeth: Sequence[Sequence[tables.Cell]]) -> str:
+def _page(spec: Types, rows: Sequence[Sequence[tables.Cell]], teeth: Sequence[Sequence[tables.Cell]]) -> Page:
     said = (
         f"Law {spec.law} throughout; least radius {spec.radius_over_length:g} rocker lengths, inertia ratio "
         f"{spec.inertia_ratio:g} (b is proportional to it). Angles in degrees, ways in strokes of the executive link. "
@@ -159,17 +157,12 @@ def _markdown(spec: Types, rows: Sequence[Sequence[tables.Cell]], teeth: Sequenc
         ("Criteria a and b of the three types", "nomograms"),
         ("The type with the smallest cam", "map"),
     )
-    text = [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", "", said, ""]
+    page = Page(spec.title).text(said)
     for title, name in pictures:
-        text += [f"![{title}]({name}.svg)", ""]
-    text += ["## Criteria and ways", "", tables.to_markdown((*GIVEN, *CRITERIA), rows, digits=6)]
-    text += [
-        "## Tooth counts",
-        "",
-        f"The nearest p/N with at most {spec.teeth} teeth; the angle it is off in degrees.",
-        "",
-    ]
-    return "\n".join([*text, tables.to_markdown(TEETH, teeth, digits=6)])
+        page.figure(name, title)
+    page.heading("Criteria and ways").table((*GIVEN, *CRITERIA), rows, digits=6).heading("Tooth counts")
+    page.text(f"The nearest p/N with at most {spec.teeth} teeth; the angle it is off in degrees.")
+    return page.table(TEETH, teeth, digits=6)
 
 
 COLOURS = {"I": drawing.GREY, "II": drawing.BLUES[3], "III": drawing.GREEN}

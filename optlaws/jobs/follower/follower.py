@@ -13,7 +13,8 @@ import numpy as np
 from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.pages.page import Page
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.savin.family import FAMILIES
@@ -22,7 +23,7 @@ from optlaws.mechanisms.cam.polydyne import polydyne
 from optlaws.mechanisms.follower.follower import Follower
 from optlaws.mechanisms.follower.off_design import Deviation, off_design
 from optlaws.mechanisms.spectrum.spectrum import response_spectrum
-from optlaws.studies.points.problem_entries import Positive, Text
+from optlaws.studies.points.problem_entries import Positive
 from optlaws.suggest import unknown_key
 
 if TYPE_CHECKING:
@@ -123,9 +124,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         "spectrum": spectrum(spec, [cams[name] for name in spec.spectrum.cams]),
         "curves": curves(spec, [cams[name] for name in spec.curves.cams]),
     }
-    for name, figure in figures.items():
-        written += drawing.save_picture(figure, out / name)
-    return written
+    return written + drawing.save_pictures(figures, out)
 
 
 def _cam(asked: AskedCam, nu: float) -> Cam:
@@ -158,7 +157,7 @@ def texts(spec: Study, cams: Mapping[str, Cam], about: str) -> dict[str, str]:
         "coefficients.csv": tables.to_csv(COEFFICIENTS, _coefficients(cams), about=about),
         "cams.csv": tables.to_csv(CAMS, [_peaks(one) for one in cams.values()], about=about),
         "off_design.csv": tables.to_csv(OFF_DESIGN, [_line(*pair) for pair in _pairs(runs)], about=about),
-        "follower.md": _markdown(spec, cams, runs),
+        "follower.md": str(_page(spec, cams, runs)),
     }
 
 
@@ -222,45 +221,23 @@ def _peaks(one: Cam) -> list[tables.Cell]:
     ]
 
 
-def _markdown(spec: Study, cams: Mapping[str, Cam], runs: Runs) -> str:
+def _page(spec: Study, cams: Mapping[str, Cam], runs: Runs) -> Page:
     heads = ["cam", "damping", "change", *(f"{percent:+g} %" if percent else "0 %" for percent in spec.deviations)]
-
-    def table(values: Mapping[str, list[list[float]]]) -> list[str]:
-        lines = []
-        for name, rows in values.items():
-            cells: list[list[tables.Cell]] = [
-                [run.cam, run.damping, run.change, *row] for (run, _), row in zip(runs, rows, strict=True)
-            ]
-            lines += [f"## {name}", "", tables.to_markdown(heads, cells, digits=6)]
-        return lines
-
-    off = table(
-        {
-            "Dynamic factor off design": [[one.dynamic_factor for one in found] for _, found in runs],
-            "Residual acceleration off design": [
-                [_rounding_is_zero(one.response.residual_acceleration) for one in found] for _, found in runs
-            ],
-        }
-    )
-    text = [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", ""]
-    if spec.text.strip():
-        text += [spec.text.strip(), ""]
-    return "\n".join(
-        [
-            *text,
-            "![Accelerations of cam and mass](curves.svg)",
-            "",
-            "![Response spectra](spectrum.svg)",
-            "",
-            "## The cams",
-            "",
-            tables.to_markdown(CAMS, [_peaks(one) for one in cams.values()], digits=8),
-            *off,
-            "## Coefficients of the laws in powers of k",
-            "",
-            tables.to_markdown(COEFFICIENTS, _coefficients(cams), digits=8),
+    off = {
+        "Dynamic factor off design": [[one.dynamic_factor for one in found] for _, found in runs],
+        "Residual acceleration off design": [
+            [_rounding_is_zero(one.response.residual_acceleration) for one in found] for _, found in runs
+        ],
+    }
+    page = Page(spec.title).text(spec.text)
+    page.figure("curves", "Accelerations of cam and mass").figure("spectrum", "Response spectra")
+    page.heading("The cams").table(CAMS, [_peaks(one) for one in cams.values()], digits=8)
+    for title, values in off.items():
+        lines: list[list[tables.Cell]] = [
+            [run.cam, run.damping, run.change, *row] for (run, _), row in zip(runs, values, strict=True)
         ]
-    )
+        page.heading(title).table(heads, lines, digits=6)
+    return page.heading("Coefficients of the laws in powers of k").table(COEFFICIENTS, _coefficients(cams), digits=8)
 
 
 _POINTS = 801

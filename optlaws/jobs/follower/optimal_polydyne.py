@@ -13,7 +13,8 @@ import numpy as np
 from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.pages.page import Page
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
@@ -22,7 +23,7 @@ from optlaws.mechanisms.cam.constants import cam_constant
 from optlaws.mechanisms.cam.polydyne import polydyne
 from optlaws.mechanisms.spectrum.residual import residual_phasor
 from optlaws.mechanisms.spectrum.robust import residual
-from optlaws.studies.points.problem_entries import Text, gap
+from optlaws.studies.points.problem_entries import gap
 from optlaws.synthesis import Chebyshev, Problem, Solution, Status, at_most, synthesize
 
 if TYPE_CHECKING:
@@ -151,7 +152,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     about = f"{spec.title}; from {file.name}"
     written = [
         writing.write(out / "table.csv", tables.to_csv(HEADINGS, lines, about=about)),
-        writing.write(out / "table.md", _markdown(spec, lines)),
+        writing.write(out / "table.md", str(_page(spec, lines))),
     ]
     figure = draw(spec.title, found, (spec.figure[0], spec.figure[1]))
     return written + drawing.save_picture(figure, out / "figure")
@@ -170,12 +171,10 @@ def _line(one: Compared) -> list[tables.Cell]:
     ]  # fmt: skip
 
 
-def _markdown(spec: Study, lines: list[list[tables.Cell]]) -> str:
-    text = [spec.text.strip(), ""] if spec.text.strip() else []
+def _page(spec: Study, lines: list[list[tables.Cell]]) -> Page:
     interval = f"Greatest residual over nu = {spec.between[0]:g} to {spec.between[1]:g}; nu = {spec.nu:g}."
-    table = tables.to_markdown(HEADINGS, lines, digits=6)
-    heading = [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", ""]
-    return "\n".join([*heading, *text, f"![{spec.title}](figure.svg)", "", interval, "", table])
+    page = Page(spec.title).text(spec.text).figure("figure", spec.title)
+    return page.text(interval).table(HEADINGS, lines, digits=6)
 
 
 _POINTS = 601

@@ -13,6 +13,7 @@ import numpy as np
 from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
+from optlaws.jobs.pages.page import Page
 from optlaws.studies.point import StudyPoint
 from optlaws.studies.points.study_file import read_study
 from optlaws.studies.run import run_study
@@ -37,11 +38,9 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     about = f"{study.title}; from {file.name}"
     written = [
         writing.write(out / "atlas.csv", tables.to_csv(COLUMNS, [_cells(point) for point in points], about=about)),
-        writing.write(out / "atlas.md", _markdown(study.title, points)),
+        writing.write(out / "atlas.md", str(_page(study.title, points))),
     ]
-    for name, figure in draw(points).items():
-        written += drawing.save_picture(figure, out / name)
-    return written
+    return written + drawing.save_pictures(draw(points), out)
 
 
 def _cells(point: StudyPoint) -> list[tables.Cell]:
@@ -49,19 +48,18 @@ def _cells(point: StudyPoint) -> list[tables.Cell]:
     return [*asked, point.status, point.lower_bound, *(point.constants.get(name) for name in CONSTANTS)]
 
 
-def _markdown(title: str, points: Sequence[StudyPoint]) -> str:
-    text = [f"# {title}", "", f"<!-- {writing.MARK} -->", ""]
+def _page(title: str, points: Sequence[StudyPoint]) -> Page:
     laws = sum(point.law is not None for point in points)
     summary = (
         f"{len(points)} points, of which {laws} have a law; all of them are in `atlas.csv`. Each order l asks for one "
         "more derivative that vanishes at the ends: below is what that costs at the highest degree of Z; it "
         "pays where the number is below 0, for with the order the degree of the law grows too."
     )
-    text += [summary, ""]
+    page = Page(title).text(summary)
     for constant in ("C", "D"):
-        text += [f"## Least {constant}", "", f"![Least {constant} over B](least-{constant.lower()}.svg)", ""]
-        text += [tables.to_markdown(*_costs(points, constant))]
-    return "\n".join(text)
+        page.heading(f"Least {constant}").figure(f"least-{constant.lower()}", f"Least {constant} over B")
+        page.table(*_costs(points, constant))
+    return page
 
 
 def _costs(points: Sequence[StudyPoint], constant: str) -> tuple[list[str], list[list[tables.Cell]]]:

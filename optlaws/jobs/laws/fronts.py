@@ -14,12 +14,13 @@ import numpy as np
 from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.pages.page import Page
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.savin.family import FAMILIES
 from optlaws.laws.savin.savin import alpha_range, savin
-from optlaws.studies.points.problem_entries import Asked, Text, gap, problem
+from optlaws.studies.points.problem_entries import Asked, Positive, gap, problem
 from optlaws.synthesis import FUNCTIONALS, Problem
 from optlaws.synthesis.front import HEADINGS, Front
 from optlaws.synthesis.limits.of_problem import known_limit
@@ -30,7 +31,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 Points = Annotated[int, msgspec.Meta(ge=2, le=1000)]
-Positive = Annotated[float, msgspec.Meta(gt=0.0, le=1e100)]
 Pair = Annotated[list[Positive], msgspec.Meta(min_length=2, max_length=2)]
 Constant = Literal["B", "C", "D", "J"]
 
@@ -92,7 +92,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     ]
     written = [
         writing.write(out / "fronts.csv", tables.to_csv(("figure", "front", *HEADINGS), lines, about=about)),
-        writing.write(out / "fronts.md", _markdown(spec, found)),
+        writing.write(out / "fronts.md", str(_page(spec, found))),
         writing.write(out / "fronts.json", _json(about, found)),
     ]
     for picture, fronts in found:
@@ -117,19 +117,16 @@ def _lines(curve: Curve, front: Front) -> list[list[tables.Cell]]:
     return [[curve.label, *row[:5], gap(point), *row[6:]] for row, point in zip(front.rows, front, strict=True)]
 
 
-def _markdown(spec: Study, found: Fronts) -> str:
-    text = [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", ""]
-    if spec.text.strip():
-        text += [spec.text.strip(), ""]
+def _page(spec: Study, found: Fronts) -> Page:
+    page = Page(spec.title).text(spec.text)
     for picture, fronts in found:
         few = []
         for curve, front in zip(picture.front, fronts, strict=True):
             lines = _lines(curve, front)
             last = len(lines) - 1
             few += [lines[i] for i in sorted({round(last * step / (_FEW - 1)) for step in range(_FEW)})]
-        table = tables.to_markdown(("front", *HEADINGS), few)
-        text += [f"## {picture.title}", "", f"![{picture.title}]({picture.name}.svg)", "", table]
-    return "\n".join(text)
+        page.heading(picture.title).figure(picture.name, picture.title).table(("front", *HEADINGS), few)
+    return page
 
 
 def _json(about: str, found: Fronts) -> str:

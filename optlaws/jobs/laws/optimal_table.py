@@ -17,6 +17,7 @@ from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import convert
 from optlaws.jobs.pages import printed
+from optlaws.jobs.pages.page import Page
 from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
 from optlaws.laws.savin.savin import alpha_range, savin
 from optlaws.suggest import unknown_key
@@ -120,7 +121,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     return [
         writing.write(out / "table.csv", tables.to_csv(headings, cells, about=about)),
         writing.write(out / "verdicts.csv", tables.to_csv(verdict_headings, judged, about=about)),
-        writing.write(out / "table.md", _markdown(spec, headings, cells, verdict_headings, judged)),
+        writing.write(out / "table.md", str(_page(spec, headings, cells, verdict_headings, judged))),
         writing.write(out / "laws.json", _laws(about, rows)),
         *drawing.save_picture(figure, out / "figure"),
     ]
@@ -256,36 +257,24 @@ def _decade(gap: float) -> str:
     return f"1e{int(np.ceil(np.log10(max(gap, 1e-10))))}"
 
 
-def _markdown(
+def _page(
     spec: Table,
     headings: Sequence[str],
     cells: Sequence[Sequence[tables.Cell]],
     verdict_headings: Sequence[str],
     verdicts: Sequence[Sequence[tables.Cell]],
-) -> str:
+) -> Page:
     split = headings.index("order l")
-    tail = [[line[0], *line[split:]] for line in cells]
-    return "\n".join(
-        [
-            f"# {spec.title}",
-            "",
-            f"<!-- {writing.MARK} -->",
-            "",
-            "## What is printed, and what the printed Z(k) gives",
-            "",
-            tables.to_markdown(headings[:split], [line[:split] for line in cells]),
-            "## What is possible",
-            "",
-            "The least C of laws of the printed row's own order and degree of Z with its proven lower bound, then of",
-            f"laws of order {spec.order} with richer Z, each proven to the gap shown, and the limits that no law of",
-            "any degree can beat.",
-            "",
-            tables.to_markdown(["B", *(_short(heading) for heading in headings[split:])], tail),
-            "## Every printed number",
-            "",
-            tables.to_markdown(verdict_headings, verdicts),
-        ]
+    page = Page(spec.title).heading("What is printed, and what the printed Z(k) gives")
+    page.table(headings[:split], [line[:split] for line in cells])
+    page.heading("What is possible").text(
+        "The least C of laws of the printed row's own order and degree of Z with its proven lower bound, then of\n"
+        f"laws of order {spec.order} with richer Z, each proven to the gap shown, and the limits that no law of\n"
+        "any degree can beat."
     )
+    tail = [[line[0], *line[split:]] for line in cells]
+    page.table(["B", *(_short(heading) for heading in headings[split:])], tail)
+    return page.heading("Every printed number").table(verdict_headings, verdicts)
 
 
 def _short(heading: str) -> str:

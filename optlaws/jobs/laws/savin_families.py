@@ -12,9 +12,9 @@ import numpy as np
 
 from optlaws import drawing
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.pages.page import Page
 from optlaws.laws.savin.family import SavinFamily
-from optlaws.studies.points.problem_entries import Text
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -47,7 +47,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     lines = [line for one in families for line in _lines(one, spec.rows)]
     written = [
         writing.write(out / "table.csv", tables.to_csv(HEADINGS, lines, about=about)),
-        writing.write(out / "table.md", _markdown(spec, families, lines)),
+        writing.write(out / "table.md", str(_page(spec, families, lines))),
     ]
     figure = draw(spec.title, families, spec.points)
     return written + drawing.save_picture(figure, out / "figure")
@@ -91,22 +91,10 @@ def _best(family: SavinFamily) -> list[tables.Cell]:
     return [name, family.u, family.H, f"{family.M}", low, high, at_C, C.value, at_D, D.value]
 
 
-def _markdown(spec: Study, families: list[SavinFamily], lines: list[list[tables.Cell]]) -> str:
-    text = [spec.text.strip(), ""] if spec.text.strip() else []
-    best = tables.to_markdown(BEST, [_best(one) for one in families], digits=10)
-    return "\n".join(
-        [
-            f"# {spec.title}",
-            "",
-            f"<!-- {writing.MARK} -->",
-            "",
-            *text,
-            f"![{spec.title}](figure.svg)",
-            "",
-            best,
-            tables.to_markdown(HEADINGS, lines, digits=8),
-        ]
-    )
+def _page(spec: Study, families: list[SavinFamily], lines: list[list[tables.Cell]]) -> Page:
+    page = Page(spec.title).text(spec.text).figure("figure", spec.title)
+    page.table(BEST, [_best(one) for one in families], digits=10)
+    return page.table(HEADINGS, lines, digits=8)
 
 
 _MARKS: dict[str, Any] = {"marker": "o", "markersize": 4.5, "linestyle": "", "zorder": 4}

@@ -13,9 +13,10 @@ import msgspec
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files import reading, tables, writing
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.pages import printed
-from optlaws.studies.points.problem_entries import Asked, Lists, Some, Text, gap, problem, record, shown
+from optlaws.jobs.pages.page import Page
+from optlaws.studies.points.problem_entries import Asked, Lists, Some, gap, problem, record, shown
 from optlaws.suggest import unknown_key
 from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, synthesize
 from optlaws.synthesis.problem.fields import ENTRIES
@@ -81,7 +82,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     about = f"{spec.title}; from {file.name}"
     return [
         writing.write(out / "table.csv", tables.to_csv(headings, cells, about=about)),
-        writing.write(out / "table.md", _markdown(spec, headings, cells)),
+        writing.write(out / "table.md", str(Page(spec.title).text(spec.text).table(headings, cells))),
         writing.write(out / "laws.json", _laws(about, rows)),
     ]
 
@@ -191,13 +192,6 @@ def _cell(solution: Solution | None, name: str) -> tables.Cell:
         "status": solution.status.value,
     }
     return cells[name]
-
-
-def _markdown(spec: Study, headings: Sequence[str], cells: Sequence[Sequence[tables.Cell]]) -> str:
-    text = [spec.text.strip(), ""] if spec.text.strip() else []
-    return "\n".join(
-        [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", "", *text, tables.to_markdown(headings, cells)]
-    )
 
 
 def _laws(about: str, rows: Sequence[Row]) -> str:

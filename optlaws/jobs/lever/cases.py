@@ -12,7 +12,6 @@ from optlaws.errors import InputError
 from optlaws.mechanisms.angles import deg
 from optlaws.mechanisms.lever.lever import TorsionLever
 
-Text = Annotated[str, msgspec.Meta(min_length=1)]
 Length = Annotated[float, msgspec.Meta(gt=0.0, le=1e6)]
 Twist = Annotated[float, msgspec.Meta(ge=0.0, le=1e3)]
 Degrees = Annotated[float, msgspec.Meta(gt=0.0, lt=180.0)]

@@ -12,9 +12,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws import drawing
-from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
-from optlaws.jobs.lever.cases import Degrees, Length, Text, Twist
+from optlaws.files import writing
+from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.lever.cases import Degrees, Length, Twist
+from optlaws.jobs.pages.page import Page
 from optlaws.mechanisms.angles import deg
 from optlaws.mechanisms.lever.lever import TorsionLever
 
@@ -45,27 +46,25 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     lever = TorsionLever(beta=spec.beta, lam=spec.lam, rho=spec.rho, nu=spec.nu, swing=deg(spec.swing))
     figures = {"mechanism": draw_mechanism(lever), "motion": draw_motion(lever)}
     return [
-        writing.write(out / "drawing.md", _markdown(spec, lever)),
-        *(path for name, figure in figures.items() for path in drawing.save_picture(figure, out / name)),
+        writing.write(out / "drawing.md", str(_page(spec, lever))),
+        *drawing.save_pictures(figures, out),
     ]
 
 
-def _markdown(spec: Drawing, lever: TorsionLever) -> str:
-    text = [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", ""]
-    if spec.text.strip():
-        text += [spec.text.strip(), ""]
+def _page(spec: Drawing, lever: TorsionLever) -> Page:
     held = ", ".join(
         f"{name} = {value:g}"
         for name, value in (("beta", spec.beta), ("lambda", spec.lam), ("rho", spec.rho), ("nu", spec.nu))
     )
-    text += [f"{held}, swing {spec.swing:g} degrees; angles in degrees, the period in units of sqrt(I / c1).", ""]
-    text += ["![The mechanism](mechanism.svg)", "", "![Moment and motion](motion.svg)", ""]
+    page = Page(spec.title).text(spec.text)
+    page.text(f"{held}, swing {spec.swing:g} degrees; angles in degrees, the period in units of sqrt(I / c1).")
+    page.figure("mechanism", "The mechanism").figure("motion", "Moment and motion")
     rows = []
     for name in _NAMES:
         scale = degrees(1.0) if name in _ANGLES else 1.0
         exact, asymptotic = (scale * getattr(motion, name) for motion in (lever.exact, lever.asymptotic))
         rows.append([name, exact, asymptotic, f"{100 * (asymptotic / exact - 1):.3f}"])
-    return "\n".join([*text, tables.to_markdown(["", "exact", "asymptotic", "off by, %"], rows)])
+    return page.table(["", "exact", "asymptotic", "off by, %"], rows)
 
 
 Point = NDArray[np.float64]

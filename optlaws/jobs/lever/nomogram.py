@@ -13,8 +13,9 @@ import numpy as np
 from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
-from optlaws.jobs.lever.cases import Length, Lengths, Swings, Text, Twist, levers
+from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.lever.cases import Length, Lengths, Swings, Twist, levers
+from optlaws.jobs.pages.page import Page
 from optlaws.mechanisms.lever.lever import TorsionLever
 
 if TYPE_CHECKING:
@@ -50,7 +51,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     figure = draw(curves)
     return [
         writing.write(out / "nomogram.csv", tables.to_csv(HEADINGS, rows, about=about)),
-        writing.write(out / "nomogram.md", _markdown(spec, rows)),
+        writing.write(out / "nomogram.md", str(_page(spec, rows))),
         *drawing.save_picture(figure, out / "nomogram"),
     ]
 
@@ -69,13 +70,10 @@ def _row(one: TorsionLever) -> list[tables.Cell]:
     return [one.beta, *(round(degrees(angle), 9) for angle in angles), one.xi, motion.period, period]
 
 
-def _markdown(spec: Nomogram, rows: Sequence[Sequence[tables.Cell]]) -> str:
-    text = [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", ""]
-    if spec.text.strip():
-        text += [spec.text.strip(), ""]
+def _page(spec: Nomogram, rows: Sequence[Sequence[tables.Cell]]) -> Page:
     held = f"lambda = {spec.lam:g}, rho = {spec.rho:g}, nu = {spec.nu:g}"
-    text += ["![gamma01 and xi over swing and beta](nomogram.svg)", "", f"{held}; T in units of sqrt(I / c1).", ""]
-    return "\n".join([*text, tables.to_markdown(HEADINGS, rows)])
+    page = Page(spec.title).text(spec.text).figure("nomogram", "gamma01 and xi over swing and beta")
+    return page.text(f"{held}; T in units of sqrt(I / c1).").table(HEADINGS, rows)
 
 
 def draw(curves: Mapping[float, Sequence[TorsionLever]]) -> Figure:

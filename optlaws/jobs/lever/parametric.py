@@ -14,8 +14,9 @@ import numpy as np
 from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
-from optlaws.jobs.lever.cases import Lengths, Swings, Text, Twists, levers
+from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.lever.cases import Lengths, Swings, Twists, levers
+from optlaws.jobs.pages.page import Page
 from optlaws.mechanisms.lever.lever import TorsionLever
 
 if TYPE_CHECKING:
@@ -81,7 +82,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     figure = draw(spec.drawn, groups)
     return [
         writing.write(out / "parametric.csv", tables.to_csv(headings, cells, about=about)),
-        writing.write(out / "parametric.md", _markdown(spec, groups)),
+        writing.write(out / "parametric.md", str(_page(spec, groups))),
         *drawing.save_picture(figure, out / "constants"),
     ]
 
@@ -146,22 +147,19 @@ def _ends(values: np.ndarray[Any, np.dtype[np.float64]]) -> list[float]:
     return np.round(np.stack([values.min(axis=0), values.max(axis=0)], axis=1), 9).ravel().tolist()
 
 
-def _markdown(spec: Study, groups: Sequence[Group]) -> str:
-    text = [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", ""]
-    if spec.text.strip():
-        text += [spec.text.strip(), ""]
-    text += ["![B and C over the swing](constants.svg)", "", "## Asymptotic constants", ""]
+def _page(spec: Study, groups: Sequence[Group]) -> Page:
+    page = Page(spec.title).text(spec.text).figure("constants", "B and C over the swing")
     headings = ["beta", "swing, deg", "levers", "B1", "B3", "C1", "abs C3", "T/T0"]
     rows: list[list[tables.Cell]] = [
         [one.beta, one.swing, len(one.values), *(_span(column) for column in one.values.T)] for one in groups
     ]
-    text += [tables.to_markdown(headings, rows), "## What they are off by, at most", ""]
+    page.heading("Asymptotic constants").table(headings, rows)
     headings = ["beta", "swing, deg", "moment, %", "T, %", "B1, %", "B3, %", "C1, %", "C3, %", "max da"]
     rows = [
         [one.beta, one.swing, *(f"{100 * value:.3f}" for value in (one.truncated, *one.off[:5])), f"{one.off[5]:.5f}"]
         for one in groups
     ]
-    return "\n".join([*text, tables.to_markdown(headings, rows)])
+    return page.heading("What they are off by, at most").table(headings, rows)
 
 
 def _span(column: np.ndarray[Any, np.dtype[np.float64]]) -> str:

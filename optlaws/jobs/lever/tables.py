@@ -5,15 +5,16 @@ from __future__ import annotations
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Any, Literal
 
 import msgspec
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.pages import printed
+from optlaws.jobs.pages.page import Page
 from optlaws.mechanisms.lever.linkage import FourBar
 
 COLUMNS = ("coefficient", "beta", "lambda", "printed")
@@ -21,7 +22,6 @@ REPRODUCED = printed.REPRODUCED
 HEADINGS = ("coefficient", "beta", "lambda", "printed", "exact", "verdict", "reason")
 
 Coefficient = Literal["Q", "P", "S", "R"]
-Text = Annotated[str, msgspec.Meta(min_length=1)]
 
 
 class Misprint(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, rename={"lam": "lambda"}):
@@ -56,7 +56,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     about = f"{spec.title}; from {file.name}"
     return [
         writing.write(out / "verdicts.csv", tables.to_csv(HEADINGS, cells, about=about)),
-        writing.write(out / "tables.md", _markdown(spec, lines, verdicts)),
+        writing.write(out / "tables.md", str(_page(spec, lines, verdicts))),
     ]
 
 
@@ -99,23 +99,19 @@ def _above_zero(text: str, where: str) -> float:
     return value
 
 
-def _markdown(spec: Tables, lines: Sequence[Mapping[str, str]], verdicts: Sequence[printed.Verdict]) -> str:
-    text = [f"# {spec.title}", "", f"<!-- {writing.MARK} -->", ""]
-    if spec.text.strip():
-        text += [spec.text.strip(), ""]
+def _page(spec: Tables, lines: Sequence[Mapping[str, str]], verdicts: Sequence[printed.Verdict]) -> Page:
+    page = Page(spec.title).text(spec.text)
     betas = list(dict.fromkeys(line["beta"] for line in lines))
     exact = {(v.quantity, line["beta"], line["lambda"]): v.exact for line, v in zip(lines, verdicts, strict=True)}
     for title, names, lam in (("Q, P and S, exact", "QPS", [""]), ("R, exact", "R", _lambdas(lines))):
         headings = ["beta", *(name if not one else f"{name}, lambda {one}" for name in names for one in lam)]
         rows = [[beta, *(exact.get((name, beta, one)) for name in names for one in lam)] for beta in betas]
-        text += [f"## {title}", "", tables.to_markdown(headings, rows)]
+        page.heading(title).table(headings, rows)
     count = Counter(v.verdict if not v.verdict.endswith("%") else "off by more than rounding" for v in verdicts)
-    text += ["## Verdicts", "", tables.to_markdown(["verdict", "numbers"], [[*one] for one in count.items()])]
+    page.heading("Verdicts").table(["verdict", "numbers"], [[*one] for one in count.items()])
     off = [(v.quantity, v.row, v.printed, v.exact, v.verdict, v.reason) for v in verdicts if v.verdict != REPRODUCED]
     headings = ["coefficient", "of", "printed", "exact", "verdict", "reason"]
-    return "\n".join(
-        [*text, "## Numbers that are not reproduced to their digits", "", tables.to_markdown(headings, off)]
-    )
+    return page.heading("Numbers that are not reproduced to their digits").table(headings, off)
 
 
 def _lambdas(lines: Sequence[Mapping[str, str]]) -> list[str]:

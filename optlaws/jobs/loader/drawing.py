@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from optlaws import drawing
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Positive, Text, convert
 from optlaws.jobs.loader.cams import cam, slide
+from optlaws.jobs.pages.page import Page
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.mechanisms.angles import deg
@@ -24,9 +25,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 HEADINGS = ("link", "B", "C", "D", "J")
-
-Text = Annotated[str, msgspec.Meta(min_length=1)]
-Positive = Annotated[float, msgspec.Meta(gt=0)]
 
 
 class Drawing(msgspec.Struct, forbid_unknown_fields=True):
@@ -51,22 +49,11 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     for name, law in (("executive", one.executive), ("loader", one.law)):
         peaks = law.constants
         rows.append([name, peaks.B.value, peaks.C.value, peaks.D.value, peaks.J.value])
-    text = [
-        f"# {spec.title}",
-        "",
-        f"<!-- {writing.MARK} -->",
-        "",
-        f"Law {spec.law}, Y = {one.Y:.9g}.",
-        "",
-        "![Both cams](mechanism.svg)",
-        "",
-        "![What they exchange](exchange.svg)",
-        "",
-        tables.to_markdown(HEADINGS, rows),
-    ]
+    page = Page(spec.title).text(f"Law {spec.law}, Y = {one.Y:.9g}.")
+    page.figure("mechanism", "Both cams").figure("exchange", "What they exchange").table(HEADINGS, rows)
     return [
-        writing.write(out / "drawing.md", "\n".join(text)),
-        *(path for name, figure in figures.items() for path in drawing.save_picture(figure, out / name)),
+        writing.write(out / "drawing.md", str(page)),
+        *drawing.save_pictures(figures, out),
     ]
 
 

@@ -12,7 +12,8 @@ import numpy as np
 from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Positive, Text, convert
+from optlaws.jobs.pages.page import Page
 from optlaws.mechanisms.loader.loader import loader
 from optlaws.mechanisms.loader.trapezium import TrapeziumSubstitute
 
@@ -20,9 +21,6 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 HEADINGS = ("e13", "gamma_w", "m", "n", "Y by eq. 25", "Y", "B", "C", "D", "B of loader", "C of loader", "D of loader")
-
-Text = Annotated[str, msgspec.Meta(min_length=1)]
-Positive = Annotated[float, msgspec.Meta(gt=0)]
 
 
 class Steps(msgspec.Struct, forbid_unknown_fields=True, rename={"start": "from", "stop": "to"}):
@@ -57,7 +55,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     figure = draw(spec.title, HEADINGS, rows)
     return [
         writing.write(out / "nomogram.csv", tables.to_csv(HEADINGS, rows, about=about)),
-        writing.write(out / "nomogram.md", _markdown(spec, rows)),
+        writing.write(out / "nomogram.md", str(_page(spec, rows))),
         *drawing.save_picture(figure, out / "nomogram"),
     ]
 
@@ -73,21 +71,10 @@ def _row(e13: float, gamma_w: float) -> list[float] | None:
     return [e13, gamma_w, one.m, one.n, one.Y, exact.Y, *own, exact.B, exact.C, exact.D]
 
 
-def _markdown(spec: Nomogram, rows: Sequence[Sequence[float]]) -> str:
+def _page(spec: Nomogram, rows: Sequence[Sequence[float]]) -> Page:
     worst = max(abs(row[4] / row[5] - 1.0) for row in rows)
-    return "\n".join(
-        [
-            f"# {spec.title}",
-            "",
-            f"<!-- {writing.MARK} -->",
-            "",
-            f"Y of eq. 25 is within {worst:.1g} of the exact one, relative to it.",
-            "",
-            "![Y, B, C and D of the loader](nomogram.svg)",
-            "",
-            tables.to_markdown(HEADINGS, rows, digits=6),
-        ]
-    )
+    page = Page(spec.title).text(f"Y of eq. 25 is within {worst:.1g} of the exact one, relative to it.")
+    return page.figure("nomogram", "Y, B, C and D of the loader").table(HEADINGS, rows, digits=6)
 
 
 _PANELS = (

@@ -16,9 +16,10 @@ import numpy as np
 from optlaws import drawing
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.loader.table import COLUMNS
 from optlaws.jobs.pages import printed
+from optlaws.jobs.pages.page import Page
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.mechanisms.loader.limits import loader_acceleration_limit
 from optlaws.mechanisms.loader.loader import Loader, loader
@@ -46,7 +47,6 @@ _ABOUT_RIVALS = (
     "that is minimised, against the printed law; gap: how much better still it could be, at most."
 )
 
-Text = Annotated[str, msgspec.Meta(min_length=1)]
 Orders = Annotated[list[Annotated[int, msgspec.Meta(ge=2)]], msgspec.Meta(min_length=1)]
 Degrees = Annotated[list[Annotated[int, msgspec.Meta(ge=3)]], msgspec.Meta(min_length=1)]
 
@@ -113,7 +113,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(
             out / "laws.json", json.dumps({"about": writing.MARK, "laws": kept}, indent=1) + "\n", digits=DIGITS
         ),
-        writing.write(out / "table.md", _markdown(spec, (headings, least), rivals), digits=DIGITS),
+        writing.write(out / "table.md", str(_page(spec, (headings, least), rivals)), digits=DIGITS),
         *drawing.save_picture(figure, out / "figure"),
     ]
 
@@ -184,27 +184,12 @@ def _better(found: float, own: float) -> float | None:
     return round(100.0 * (1.0 - found / own), 3) if isfinite(own) else None
 
 
-def _markdown(
+def _page(
     spec: Spec, least: tuple[Sequence[str], Sequence[Sequence[tables.Cell]]], rivals: Sequence[Sequence[tables.Cell]]
-) -> str:
-    return "\n".join(
-        [
-            f"# {spec.title}",
-            "",
-            f"<!-- {writing.MARK} -->",
-            "",
-            _ABOUT_LEAST,
-            "",
-            tables.to_markdown(*least),
-            "![C of the loader over B, and a printed law beside its rival](figure.svg)",
-            "",
-            "## Rivals of the same order",
-            "",
-            _ABOUT_RIVALS,
-            "",
-            tables.to_markdown(RIVALS, rivals, digits=6),
-        ]
-    )
+) -> Page:
+    page = Page(spec.title).text(_ABOUT_LEAST).table(*least)
+    page.figure("figure", "C of the loader over B, and a printed law beside its rival")
+    return page.heading("Rivals of the same order").text(_ABOUT_RIVALS).table(RIVALS, rivals, digits=6)
 
 
 def draw(title: str, rows: Sequence[Row], shown: Row) -> Figure:

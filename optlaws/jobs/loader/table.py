@@ -13,8 +13,9 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.pages import printed
+from optlaws.jobs.pages.page import Page
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.mechanisms.loader.loader import Loader, loader
 from optlaws.mechanisms.loader.trapezium import TrapeziumSubstitute, closed_form_Y
@@ -35,8 +36,6 @@ _ABOUT_ENERGY = (
     "that each printed number stands for, as the peak or as the greatest value at the grid, whichever is nearer to "
     "the Y of the row's B."
 )
-
-Text = Annotated[str, msgspec.Meta(min_length=1)]
 
 
 class Table(msgspec.Struct, forbid_unknown_fields=True):
@@ -89,7 +88,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "table.csv", tables.to_csv(HEADINGS, _table(rows), about=about)),
         writing.write(out / "energy.csv", tables.to_csv(ENERGY, _energy(rows), about=about)),
         writing.write(out / "verdicts.csv", tables.to_csv(headings, lines, about=about)),
-        writing.write(out / "table.md", _markdown(spec, rows, judged)),
+        writing.write(out / "table.md", str(_page(spec, rows, judged))),
     ]
 
 
@@ -181,28 +180,11 @@ def _energy(rows: Sequence[Row]) -> list[list[tables.Cell]]:
     ]
 
 
-def _markdown(spec: Table, rows: Sequence[Row], judged: Sequence[printed.Verdict]) -> str:
+def _page(spec: Table, rows: Sequence[Row], judged: Sequence[printed.Verdict]) -> Page:
     good = sum(one.verdict in {printed.REPRODUCED, printed.ON_GRID} for one in judged)
     lines = [[one.row, one.quantity, one.printed, one.exact, one.verdict, one.reason] for one in judged]
     headings = ("row", "quantity", "printed", "exact", "verdict", "reason")
-    return "\n".join(
-        [
-            f"# {spec.title}",
-            "",
-            f"<!-- {writing.MARK} -->",
-            "",
-            _ABOUT_TABLE,
-            "",
-            tables.to_markdown(HEADINGS, _table(rows)),
-            "## The energy parameter",
-            "",
-            _ABOUT_ENERGY,
-            "",
-            tables.to_markdown(ENERGY, _energy(rows)),
-            "## Verdicts",
-            "",
-            f"{good} of {len(judged)} numbers are reproduced to their digits.",
-            "",
-            tables.to_markdown(headings, lines),
-        ]
-    )
+    page = Page(spec.title).text(_ABOUT_TABLE).table(HEADINGS, _table(rows))
+    page.heading("The energy parameter").text(_ABOUT_ENERGY).table(ENERGY, _energy(rows))
+    page.heading("Verdicts").text(f"{good} of {len(judged)} numbers are reproduced to their digits.")
+    return page.table(headings, lines)

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import msgspec
 
 from optlaws.errors import InputError
+from optlaws.files.problem_file import Text
 from optlaws.synthesis import Problem, Range, Solution, Status
 from optlaws.synthesis.problem.fields import ENTRIES, Kind
 from optlaws.synthesis.problem.windows import Window
@@ -18,7 +19,6 @@ Positive = Annotated[float, msgspec.Meta(gt=0.0, le=1e100)]
 Number = Annotated[float, msgspec.Meta(ge=-1e100, le=1e100)]
 Bound = Annotated[float, msgspec.Meta(ge=0.0)]
 Asking = Positive | Annotated[list[Bound], msgspec.Meta(min_length=2, max_length=2)] | Literal["free"]
-Text = Annotated[str, msgspec.Meta(min_length=1)]
 
 Some = msgspec.Meta(min_length=1)
 

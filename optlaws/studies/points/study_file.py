@@ -11,9 +11,9 @@ import msgspec
 
 from optlaws.errors import InputError
 from optlaws.files import reading
-from optlaws.files.problem_file import convert
+from optlaws.files.problem_file import Text, convert
 from optlaws.numbers import finite
-from optlaws.studies.points.problem_entries import Asked, Text
+from optlaws.studies.points.problem_entries import Asked
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem.fields import ENTRIES
 
