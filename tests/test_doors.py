@@ -20,6 +20,7 @@ from optlaws.jobs import job
 from optlaws.studies.points.points import Points
 from optlaws.studies.points.study_file import read_study
 from optlaws.studies.run import check
+from optlaws.synthesis.problem.fields import ENTRIES
 from tests.documents import ROOT
 
 DEEP: Any = 1
@@ -83,15 +84,9 @@ def test_constructors(name: str, a: object, b: object, c: object, d: object) -> 
         CONSTRUCTORS[name](a, b, c, d)
 
 
-ENTRIES = (
-    *("B", "C", "D", "J", "order", "minimise", "inflexion", "bounds", "monotone", "symmetric"),
-    *("basis", "degree", "breaks", "continuity", "start", "end", "windows"),
-)
-
-
 @seed(15)
 @settings(QUICK, max_examples=400)
-@given(name=st.sampled_from(ENTRIES), value=ANY, basis=st.sampled_from(["chebyshev", "bsplines", "pieces"]))
+@given(name=st.sampled_from(list(ENTRIES)), value=ANY, basis=st.sampled_from(["chebyshev", "bsplines", "pieces"]))
 @example(name="order", value=10**30, basis="chebyshev")
 @example(name="breaks", value=10**9, basis="pieces")
 def test_entries_of_a_problem_and_of_a_study(name: str, value: object, basis: str) -> None:

@@ -273,6 +273,8 @@ FIELDS: tuple[Field, ...] = (
     ),
 )
 
+_WRITTEN = sorted(FIELDS, key=lambda field: field.optional)
+
 ENTRIES: dict[str, Entry] = {entry.name: entry for field in FIELDS for entry in field.entries}
 
 #: the constants that have an entry of their own
@@ -301,8 +303,7 @@ def from_entries(data: Mapping[str, Any]) -> dict[str, Any]:
         raise InputError(checks.NO_ORDER)
     given = {}
     for field in FIELDS:
-        entries = {entry.name: data[entry.name] for entry in field.entries if entry.name in data}
-        if entries:
+        if entries := {entry.name: data[entry.name] for entry in field.entries if entry.name in data}:
             given[field.name] = field.joined(**entries)
     return given
 
@@ -310,8 +311,8 @@ def from_entries(data: Mapping[str, Any]) -> dict[str, Any]:
 def to_entries(problem: object) -> dict[str, Any]:
     """The entries of a problem, plain and JSON-able: those that every problem has, then those that ask something."""
     entries: dict[str, Any] = {}
-    for field in sorted(FIELDS, key=lambda one: one.optional):
-        entries |= field.plain(getattr(problem, field.name))
+    for field in _WRITTEN:
+        entries.update(field.plain(getattr(problem, field.name)))
     return entries
 
 
