@@ -305,7 +305,9 @@ def _charge(found: Model, certificate: Certificate, total: _Sum, claim: float) -
             beyond += slope[place] * max(min(-least.get(name, 0.0), facing), 0.0)
     return beyond + min(
         (
-            _reach(_extension(found.space, nu), slope[:terms], total.blur) @ (mean + _base_moments(found.space, nu))
+            float(
+                _reach(_extension(found.space, nu), slope[:terms], total.blur) @ (mean + _base_moments(found.space, nu))
+            )
             for nu, mean in _means(certificate, found.space, greatest)
         ),
         default=0.0 if not slope[:terms].any() and not total.blur.any() else inf,
