@@ -17,7 +17,7 @@ from math import inf, isfinite
 from flint import arb, arb_mat, ctx
 
 from optlaws.synthesis.families.names import VariableName
-from optlaws.synthesis.problem.constants import Peak
+from optlaws.synthesis.problem.constants import Peak, Power
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate, Contact
@@ -28,6 +28,8 @@ Vector = list[arb]
 
 _WIDE = 2.0**-80
 _TRIES = 3
+#: what makes up for the rounding of a few operations in doubles
+_ROUNDED = 1.0 + 2.0**-40
 #: how readily moments take part, beside the squares of the multipliers
 _READINESS = (2.0**-60, 1.0)
 #: how far from a contact its neighbours are, and how much of its multiplier each takes
@@ -64,7 +66,7 @@ def prove(certificate: Certificate) -> Proof:
     Raises
     ------
     InputError
-        If the laws are of an unknown kind, or a constant that is minimised or bounded is no peak, power or RMS.
+        If the laws are of an unknown kind, or a constant that is minimised or bounded is none that is known.
 
     Examples
     --------
@@ -272,8 +274,8 @@ def greatest_values(certificate: Certificate, rows: ExactRows, claim: float) -> 
         asked = problem.range(name)
         if asked is not None:
             found[name] = min(found.get(name, inf), asked.high)
-    if isfinite(found.get("D", inf)):
-        found[VariableName.POWER_ROOT] = up(upper(ball(found["D"]).sqrt()))
+    if rows.power is not None and isfinite(found.get(rows.power.name, inf)):
+        found[VariableName.POWER_ROOT] = up(upper(ball(found[rows.power.name]).sqrt()))
     start = rows.space.bounds.start_velocity
     if "B" in rows.names and not isfinite(found.get("B", inf)) and start is not None:
         # b is b(0) and the integral of c
@@ -288,9 +290,9 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
     start, change, stroke = rows.space.bounds
     found: dict[int, list[arb]] = {}
 
-    def known(nu: int, name: str, factor: int = 1, extra: arb | None = None) -> None:
+    def known(nu: int, name: str, factor: float = 1.0, extra: arb | None = None) -> None:
         if isfinite(greatest.get(name, inf)):
-            size = factor * ball(max(greatest[name], 0.0))
+            size = ball(factor) * ball(max(greatest[name], 0.0))
             found.setdefault(nu, []).append(size + (arb(0) if extra is None else extra))
 
     for nu, name in ((2, "C"), (2, "rms_c"), (3, "J"), (3, "rms_j"), (4, "jounce")):
@@ -302,7 +304,14 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
     known(1, "B", 2, -ball(stroke))
     if problem.monotone:
         found.setdefault(1, []).append(ball(stroke))
-    if start is not None and change is not None and start == 0 and start + change == 0:
+    for one in problem.constants:
+        for nu, factor in one.curbs():
+            name = VariableName.POWER_ROOT if one == rows.power else one.name
+            # the factor is rounded
+            if name == VariableName.POWER_ROOT or not isinstance(one, Power):
+                known(nu, name, factor * _ROUNDED)
+    plain = rows.power is not None and not rows.power.curbs()
+    if plain and start is not None and change is not None and start == 0 and start + change == 0:
         # b² <= 2 D k
         known(1, VariableName.POWER_ROOT)
     return {nu: ball(min(map(upper, several))) for nu, several in found.items()}

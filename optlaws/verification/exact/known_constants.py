@@ -5,19 +5,23 @@ from __future__ import annotations
 from fractions import Fraction
 
 from optlaws.errors import InputError
+from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import Peak, PeakJerk, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Term
+from optlaws.synthesis.problem.named_constants import is_named
 
-Known = Peak | Power | RootMeanSquare
+Known = Peak | Power | RootMeanSquare | CombinedPeak
+
+_OF_CAMS = tuple(f"{name}_cam(" for name in ("B", "C", "C_plus", "C_minus", "D", "J"))
 
 
 def known(term: Term) -> Known:
-    """The constant, if it is a peak, the power or an RMS.
+    """The constant, if it is a peak, the power or an RMS of a law, or a peak or the power of its cam.
 
     Raises
     ------
     InputError
-        If it is of any other class: what a subclass means, nobody has put into exact arithmetic.
+        If it is any other: what a subclass means, nobody has put into exact arithmetic.
 
     Examples
     --------
@@ -29,7 +33,9 @@ def known(term: Term) -> Known:
         return term
     if type(term) is Power and tuple(term.weights) == (Fraction(1),):
         return term
+    if isinstance(term, CombinedPeak | CombinedPower) and repr(term).startswith(_OF_CAMS) and is_named(term):
+        return term
     raise InputError(
-        f"exact verification knows peaks, power and RMS of derivatives as optlaws defines them, not {term!r}: "
-        "what bounds it is checked with numpy alone, by Certificate.bound"
+        "exact verification knows peaks, power and RMS of derivatives and the constants of cams as optlaws defines "
+        f"them, not {term!r}: what bounds it is checked with numpy alone, by Certificate.bound"
     )

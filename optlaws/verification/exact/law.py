@@ -13,11 +13,12 @@ from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
-from optlaws.synthesis.problem.constants import Power, RootMeanSquare
+from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
+from optlaws.synthesis.problem.constants import Peak, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.verification.exact.ball_pieces import PowerPiece, SinePiece
 from optlaws.verification.exact.balls import ball, enclosed, rational
-from optlaws.verification.exact.known_constants import known
+from optlaws.verification.exact.known_constants import Known, known
 from optlaws.verification.exact.pieces import ExactPiece, Extremes, PolynomialPiece, least_and_greatest
 
 
@@ -132,22 +133,62 @@ class ExactLaw:
         peaks = {"B": self.peak(1), "C": self.peak(2), "D": self.power(), "J": self.peak(3)}
         return {**peaks, "rms_c": self.rms(2)}
 
+    def combined_peak(self, constant: CombinedPeak) -> arb:
+        """A ball that holds the peak of a combination of derivatives.
+
+        Raises
+        ------
+        InputError
+            If a piece is no polynomial.
+        """
+        nu, weights = constant.nu, constant.weights
+        if self._impulses(nu + len(weights) - 1):
+            return arb.pos_inf()
+        with ctx.workprec(self.precision):
+            found = [one for piece in self.polynomials for one in piece.combined(nu, weights)]
+            least, greatest = least_and_greatest(found)
+            return reduce(arb.max, (greatest if sign > 0 else -least for sign in constant.signs))
+
+    def combined_power(self, constant: CombinedPower) -> arb:
+        """A ball that holds the peak of the power of a combination of derivatives.
+
+        Raises
+        ------
+        InputError
+            If a piece is no polynomial.
+        """
+        weights = constant.weights
+        if self._impulses(len(weights) + 1):
+            return arb.pos_inf()
+        with ctx.workprec(self.precision):
+            products = [one for piece in self.polynomials for one in piece.combined_power(weights)]
+            return self.magnitude(least_and_greatest(products))
+
     def term(self, term: Term) -> arb:
         """A ball that holds the value of a constant or a maximum.
 
         Raises
         ------
         InputError
-            If it is neither a peak, the power, an RMS nor a maximum of sums of these.
+            If it is no constant that exact arithmetic knows, nor a maximum of sums of these.
         """
         if isinstance(term, Maximum):
             with ctx.workprec(self.precision):
                 return reduce(arb.max, map(self.sum, term.parts))
-        one = known(term)
+        return self._constant(known(term))
+
+    def _constant(self, one: Known) -> arb:
+        if isinstance(one, CombinedPeak):
+            return self.combined_peak(one)
+        if isinstance(one, CombinedPower):
+            return self.combined_power(one)
         if isinstance(one, Power):
             return self.power()
         if isinstance(one, RootMeanSquare):
             return self.rms(one.nu)
+        return self._signed_peak(one)
+
+    def _signed_peak(self, one: Peak) -> arb:
         if len(one.signs) == 2 or self._impulses(one.nu):
             return self.peak(one.nu)
         least, greatest = self.extremes(one.nu)

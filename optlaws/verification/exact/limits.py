@@ -10,15 +10,18 @@ from optlaws.synthesis.limits.closed_forms import back_velocity
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.verification.exact.balls import ball, lower
+from optlaws.verification.exact.known_constants import known
 
 _BITS = 192
+#: a cam moves from rest to rest too, with whatever B
+_LEAST_OF_CAMS = {"C_cam(": Fraction(4), "D_cam(": Fraction(9, 4)}
 _SLIGHTLY_LESS = 1 - Fraction(1, 10**13)
 
 
 def exact_limit(problem: Problem) -> Fraction | None:
     """A number that no law of the problem beats; None where the closed forms say nothing of the objective.
 
-    Only C and D count; every other constant is at least 0.
+    Only C and D count, the law's and its cam's; every other constant is at least 0.
 
     Examples
     --------
@@ -39,6 +42,9 @@ def _term(problem: Problem, term: Term) -> Fraction:
     if isinstance(term, Maximum):
         return max(_sum(problem, part) for part in term.parts)
     name = repr(term)
+    if name.startswith(tuple(_LEAST_OF_CAMS)):
+        known(term)
+        return _LEAST_OF_CAMS[name[: name.index("(") + 1]]
     wanted = problem.range("B")
     if name not in {"C", "D"}:
         return Fraction(0)

@@ -96,7 +96,19 @@ class PolynomialPiece(ExactPiece):
 
     def power(self) -> Extremes:
         """By the product's stationary points."""
-        return between(self.derivative(1) * self.derivative(2), fmpq(-1), fmpq(1))
+        return self.combined_power((Fraction(1),))
+
+    def combination(self, nu: int, weights: tuple[Fraction, ...]) -> fmpq_poly:
+        """The sum w0 a^(nu) + w1 a^(nu+1) + ..., as a polynomial in y."""
+        return sum((rational(w) * self.derivative(nu + i) for i, w in enumerate(weights)), fmpq_poly([0]))
+
+    def combined(self, nu: int, weights: tuple[Fraction, ...]) -> Extremes:
+        """Balls that hold the least and the greatest value of a combination."""
+        return between(self.combination(nu, weights), fmpq(-1), fmpq(1))
+
+    def combined_power(self, weights: tuple[Fraction, ...]) -> Extremes:
+        """Balls that hold the least and the greatest product of w0 b + w1 c + ... and its derivative."""
+        return between(self.combination(1, weights) * self.combination(2, weights), fmpq(-1), fmpq(1))
 
     def square(self, nu: int) -> arb:
         """Exact."""

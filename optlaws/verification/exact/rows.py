@@ -15,12 +15,15 @@ from flint import arb
 from optlaws.errors import InputError
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName
+from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import B, Functional, Peak, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.program.writer import relaxed_power
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate, Contact
+from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.verification.exact.balls import ball
 from optlaws.verification.exact.known_constants import known
 from optlaws.verification.exact.of_basis import exact_space
@@ -70,7 +73,7 @@ class ExactRows:
     Raises
     ------
     InputError
-        If the laws are of an unknown kind, or a constant that is minimised or bounded is no peak, power or RMS.
+        If the laws are of an unknown kind, or a constant that is minimised or bounded is none that is known.
     """
 
     def __init__(self, certificate: Certificate) -> None:
@@ -78,6 +81,8 @@ class ExactRows:
         self.space = exact_space(problem)
         self.tangent = ball(certificate.tangent)
         self.relaxed = certificate.program == RELAXED
+        #: the one power whose root is a variable
+        self.power = relaxed_power(problem) if self.relaxed else None
         self.names: list[str] = []
         self.cost: dict[str, float] = {}
         self._makers: dict[tuple[str, float], list[Maker]] = {}
@@ -86,7 +91,7 @@ class ExactRows:
             self._objective(problem.objective)
         if problem.peak_is_variable:
             self.names.append("B")
-        if self.relaxed and _bounds_power(problem):
+        if self.power is not None and _is_bounded(self.power, problem):
             self.names.append(VariableName.POWER_ROOT)
         self.names = list(dict.fromkeys(self.names))
         self._constraints()
@@ -119,14 +124,21 @@ class ExactRows:
     def _bounded(self, leaf: Functional, slack: Names, high: float) -> None:
         """Rows of `leaf <= -slack + high`."""
         one = known(leaf)
-        if isinstance(one, RootMeanSquare):
+        if isinstance(one, CombinedPeak | CombinedPower):
+            one.check(space_of(self.problem.basis, self.problem.conditions, symmetric=self.problem.symmetric))
+        if isinstance(one, CombinedPeak):
+            for name, weights, sides in one.sides(symmetric=self.problem.symmetric):
+                self._everywhere(name, partial(self.space.combination, one.nu, weights), sides, slack, high)
+        elif isinstance(one, RootMeanSquare):
             self._add(one.name, lambda contact, _: self._norm(one.nu, contact, slack, high))
         elif isinstance(one, Peak):
             # one sign of a derivative that is odd about 1/2 is, over the whole interval, both signs over the half
             signs = (1.0, -1.0) if self.problem.symmetric and one.nu % 2 == 0 else one.signs
             self._everywhere(one.name, partial(self.space.values, one.nu), signs, slack, high)
-        elif self.relaxed:
-            self._power(slack, high)
+        elif one == self.power:
+            self._power(one, slack, high)
+        elif self.relaxed and slack:
+            self._single(names.at_least(one.name), slack, 0.0)
 
     def _everywhere(self, name: str, values: Place, signs: tuple[float, ...], slack: Names, high: float = 0.0) -> None:
         def make(contact: Contact, k: Fraction) -> Row:
@@ -138,22 +150,33 @@ class ExactRows:
         nothing = [arb(0)] * (self.space.terms + 1)
         self._add(name, lambda _, __: Row(nothing, constants, -arb(high)))
 
-    def _power(self, slack: Names, high: float) -> None:
-        """b² <= 2 D k wherever b(0) = 0, b² <= 2 D (1-k) wherever b(1) = 0; 2 t r - t² <= D for r the root of D."""
+    def _power(self, power: Power, slack: Names, high: float) -> None:
+        """b² <= 2 D k wherever b(0) = 0, b² <= 2 D (1-k) wherever b(1) = 0; 2 t r - t² <= D for r the root of D.
+
+        For the power of a combination b is the combination; where it is not symmetric though the law is, the rows of
+        its second half are those of its mirror image on the first.
+        """
         start, change, _ = self.space.bounds
-
-        def from_end(contact: Contact, k: Fraction, way: Fraction) -> Row:
-            found = self.space.values(1, k)
-            left = ball(2 * way).sqrt()
-            return Row([one * contact.sign / left if way else arb(0) for one in found], {VariableName.POWER_ROOT: -1.0})
-
+        weights = power.weights
+        facing = tuple(-w if i % 2 else w for i, w in enumerate(weights))
         if start is not None and change is not None and start == 0:
-            self._add(RowName.FROM_START, lambda one, k: from_end(one, k, k), (1.0, -1.0))
-        if start is not None and change is not None and start + change == 0:
-            self._add(RowName.FROM_END, lambda one, k: from_end(one, k, 1 - k), (1.0, -1.0))
+            self._from_rest(RowName.FROM_START, weights, lambda k: k)
+        if self.problem.symmetric and facing != weights:
+            self._from_rest(RowName.FROM_END, facing, lambda k: k)
+        elif start is not None and change is not None and start + change == 0:
+            self._from_rest(RowName.FROM_END, weights, lambda k: 1 - k)
         self._single(
             RowName.TANGENT, {VariableName.POWER_ROOT: 2 * self.tangent, **slack}, ball(high) + self.tangent**2
         )
+
+    def _from_rest(self, name: str, weights: tuple[Fraction, ...], way: Callable[[Fraction], Fraction]) -> None:
+        def make(contact: Contact, k: Fraction) -> Row:
+            found = self.space.combination(1, weights, k)
+            left = ball(2 * way(k)).sqrt()
+            row = [one * contact.sign / left if way(k) else arb(0) for one in found]
+            return Row(row, {VariableName.POWER_ROOT: -1.0})
+
+        self._add(name, make, (1.0, -1.0))
 
     def _norm(self, nu: int, contact: Contact, slack: Names, high: float) -> Row:
         """A direction times the values at Gauss points, each by the root of its weight: at most the norm (Cauchy)."""
@@ -263,10 +286,10 @@ def parts(window: Window, *, symmetric: bool) -> Iterator[Part]:
     yield Part(window.order, low, high, 1 - stop, 1 - max(start, half))
 
 
-def _bounds_power(problem: Problem) -> bool:
-    """Whether D is bounded from above, by the objective or by a number: only then do rows have its root."""
+def _is_bounded(power: Power, problem: Problem) -> bool:
+    """Whether it is bounded from above, by the objective or by a number: only then do rows have its root."""
     high = (one for one, wanted in problem.bounded if isfinite(wanted.high))
-    return any(isinstance(one, Power) for one in (*(leaf for _, leaf in leaves(problem.objective)), *high))
+    return any(one == power for one in (*(leaf for _, leaf in leaves(problem.objective)), *high))
 
 
 def _maxima(expression: Expression) -> Iterator[Maximum]:

@@ -83,6 +83,11 @@ class ExactSpace:
         """Values of the derivatives of order nu at k."""
         return values(self.derivative(nu)[self.piece(k)], x_of(k))
 
+    def combination(self, nu: int, weights: tuple[Fraction, ...], k: Fraction) -> list[arb]:
+        """Values of w0 a^(nu) + w1 a^(nu+1) + ... at k."""
+        terms = [[ball(w) * one for one in self.values(nu + i, k)] for i, w in enumerate(weights) if w]
+        return [sum(column, arb(0)) for column in zip(*terms, strict=True)]
+
     def chord(self, peak: Fraction, k: Fraction) -> list[arb]:
         """(b - b(peak)) / w of laws with c = 0 at the peak, w > 0: (x - x of the peak)² on the piece with the peak.
 
