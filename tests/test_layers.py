@@ -69,7 +69,12 @@ SEVERAL = {
     "tables",
 }
 #: what finds a law or a proof: no part of what checks a proof again
-FINDERS = ("optlaws.synthesis.method", "optlaws.synthesis.solve", "optlaws.synthesis.proof.make")
+FINDERS = (
+    "optlaws.synthesis.method",
+    "optlaws.synthesis.search",
+    "optlaws.synthesis.solve",
+    "optlaws.synthesis.proof.make",
+)
 CHECKERS = (
     "optlaws.verification",
     "optlaws.synthesis.proof.certificate",

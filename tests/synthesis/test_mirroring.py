@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from time import perf_counter
 from typing import Any
 
 import numpy as np
 import pytest
 
 from optlaws import BSplines, Chebyshev, Pieces, Problem, at_least, at_most, between, synthesize
-from optlaws.synthesis import solve
 from optlaws.synthesis.program.writer import model_of
+from optlaws.synthesis.search import Search, from_symmetric
 from optlaws.verification import verify
 
 KINDS: list[dict[str, Any]] = [
@@ -30,7 +29,7 @@ KINDS: list[dict[str, Any]] = [
 @pytest.mark.parametrize("kind", KINDS, ids=str)
 def test_the_unfolded_optimum_is_proven_for_all_laws(kind: dict[str, Any]) -> None:
     problem = Problem(**{"order": 3, "basis": Chebyshev(9), **kind}, symmetric=False)
-    unfolded = solve._from_symmetric(problem, model_of(problem), perf_counter())
+    unfolded = from_symmetric(Search(model_of(problem)))
     assert unfolded is not None
     assert unfolded.problem == unfolded.certificate.problem == problem
     assert unfolded.status == "optimal"
@@ -41,7 +40,7 @@ def test_the_unfolded_optimum_is_proven_for_all_laws(kind: dict[str, Any]) -> No
 
 def test_what_the_symmetric_problem_does_not_prove_is_not_claimed() -> None:
     problem = Problem(order=3, B=1.5, minimise="D", symmetric=False)
-    unfolded = solve._from_symmetric(problem, model_of(problem), perf_counter())
+    unfolded = from_symmetric(Search(model_of(problem)))
     assert unfolded is not None
     assert unfolded.status == "local"
     assert unfolded.lower_bound < unfolded.objective

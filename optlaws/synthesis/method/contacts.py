@@ -10,7 +10,8 @@ from numpy.typing import NDArray
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 
-VIOLATION = 1e-10
+#: of a right side, or 1: a residual beyond this is an excess
+EXCESS = 1e-10
 _PULL = 1e-10
 _SAME = 1e-6
 
@@ -41,7 +42,7 @@ def _without(state: ActiveSet, contact: int) -> ActiveSet:
 
 
 def completed(program: Program, state: ActiveSet) -> ActiveSet:
-    """Add the extrema that stick out by more than VIOLATION of the right side; the same object if none does.
+    """Add the extrema that stick out by more than EXCESS of the right side; the same object if none does.
 
     Where the nearest contact is pinned to an end, its residual grows inward and it is let go instead.
     """
@@ -51,7 +52,7 @@ def completed(program: Program, state: ActiveSet) -> ActiveSet:
             continue
         u, s, residual = family.extremes(state.x)
         low, high = family.domain
-        for j in np.flatnonzero(residual > VIOLATION * max(1.0, abs(family.room(state.x)))):
+        for j in np.flatnonzero(residual > EXCESS * max(1.0, abs(family.room(state.x)))):
             mine = (better.family == i) & (better.s == s[j])
             if np.any(mine & (np.abs(better.u - u[j]) < _SAME)):
                 continue

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Points, ProductFamily, Program
-from optlaws.synthesis.method.contacts import VIOLATION, completed, settled
+from optlaws.synthesis.method.contacts import EXCESS, completed, settled
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.method.newton import newton
 from optlaws.synthesis.method.on_points.conic import conic
@@ -220,7 +220,7 @@ def _vanishing(program: Program) -> ActiveSet | None:
     # what is minimised is to be nothing
     held[:, costs] = 0.0
     x = np.linalg.lstsq(held, right, rcond=None)[0]
-    if np.abs(held @ x - right).max() > _VANISHED or program.violation(x) > VIOLATION:
+    if np.abs(held @ x - right).max() > _VANISHED or program.violation(x) > EXCESS:
         return None
     nothing, equations = np.empty(0), np.zeros(len(program.right))
     places = np.empty(0, dtype=np.intp)

@@ -32,24 +32,24 @@ _ROOM = 1e-11
 _NO_EQUATIONS = 1e-12
 
 
-def narrowed(problem: Problem, found: Model) -> Iterator[tuple[ActiveSet, Array]]:
+def narrowed(model: Model) -> Iterator[tuple[ActiveSet, Array]]:
     """Optima with the bounds loosened less and less, whose contacts prove, each with a law that keeps the bounds.
 
     None where the constraints contradict each other, or where they are not convex.
     """
+    problem = model.problem
     bounded = [asked for _, asked in problem.bounded if isfinite(asked.high)]
     if not bounded or not all(one.convex for one, _ in problem.bounded):
         return
-    terms = found.space.terms
 
     def excess(coordinates: Array) -> float:
-        return worth(problem, found.space.law(coordinates)).excess
+        return worth(problem, model.space.law(coordinates)).excess
 
     elastic = least_violation(problem)
     anchor = solve(elastic.program).optimum
     if anchor is None:
         return
-    roomy = on_equations(elastic.program, anchor.x)[:terms]
+    roomy = model.coordinates(on_equations(elastic.program, anchor.x))
     if excess(roomy) > _ROOM:
         return
     state: ActiveSet | None = None
@@ -57,7 +57,7 @@ def narrowed(problem: Problem, found: Model) -> Iterator[tuple[ActiveSet, Array]
         program = model_of(_loosened(problem, share)).program
         state = solve(program, None if state is None else _closer(program, state, roomy)).optimum
         if state is not None:
-            near = on_equations(found.program, state.x)[:terms]
+            near = model.coordinates(on_equations(model.program, state.x))
             yield state, _inward(near, roomy, excess)
 
 

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Points, Program
-from optlaws.synthesis.method.contacts import VIOLATION
+from optlaws.synthesis.method.contacts import EXCESS
 from optlaws.synthesis.method.on_points.conic import conic, optimum_on_points
 from optlaws.synthesis.method.on_points.flat import Table
 from optlaws.synthesis.method.on_points.grids import exchanged
@@ -98,7 +98,7 @@ class _Exchange:
         points = [exchanged(family, mine, answer.x) for family, mine in families]
         known = all(len(new.u) == len(old.u) for new, old in zip(points, self.points, strict=True))
         last = known and (self.near is not None or self.program.curved)
-        if self.excess <= VIOLATION or last or self.least <= self.excess <= _SLACK * VIOLATION:
+        if self.excess <= EXCESS or last or self.least <= self.excess <= _SLACK * EXCESS:
             return True
         self.points, self.least = points, min(self.least, self.excess)
         if self.excess <= _FINE:
@@ -125,7 +125,7 @@ def _exact(program: Program, points: list[Points], answer: Answer, excess: float
     weights = np.concatenate(answer.multipliers[:-1]) * table.length
     binding = weights > 0.0
     x = table.held(binding, answer.x)
-    if x is None or _excess(program, x) > max(VIOLATION, excess):
+    if x is None or _excess(program, x) > max(EXCESS, excess):
         x = table.held(np.zeros_like(binding), answer.x)
     balanced = table.balanced(binding, weights, answer.multipliers[-1])
     if balanced is not None:

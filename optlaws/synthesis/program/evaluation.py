@@ -10,6 +10,9 @@ from optlaws.synthesis.problem.constants import B, Functional
 from optlaws.synthesis.problem.expression import Expression, Maximum
 from optlaws.synthesis.problem.problem import Problem
 
+#: of a bound: by so much a law may break a constraint and still keep it
+_ALLOWED = 1e-9
+#: of a lower bound: a constant that is short by more is too small
 _SHORT = 1e-9
 
 
@@ -20,16 +23,21 @@ class Worth:
     objective: float
     excess: float
 
+    @property
+    def sound(self) -> bool:
+        """Whether the law keeps its constraints and its objective is a number."""
+        return self.excess <= _ALLOWED and isfinite(self.objective)
+
 
 def worth(problem: Problem, law: MotionLaw) -> Worth:
     """Objective and greatest excess over the constraints."""
     values: dict[str, float] = {}
     objective = _total(problem.objective, law, values)
     excess = _velocity_excess(problem, law)
-    for constant, asked in problem.bounded:
-        if isfinite(asked.high):
+    for constant, limits in problem.bounded:
+        if isfinite(limits.high):
             value = values[constant.name] if constant.name in values else constant.value(law)
-            excess = max(excess, value / asked.high - 1.0)
+            excess = max(excess, value / limits.high - 1.0)
     for window in problem.windows:
         lowest, highest = law.extrema(window.order, within=(window.start, window.stop))
         excess = max(excess, highest.value - window.high, window.low - lowest.value)
@@ -37,20 +45,20 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
 
 
 def _velocity_excess(problem: Problem, law: MotionLaw) -> float:
-    wanted, peak = problem.range("B"), problem.peak_at
-    if wanted is None and peak is None and not problem.monotone:
+    velocity, peak = problem.range("B"), problem.peak_at
+    if velocity is None and peak is None and not problem.monotone:
         return 0.0
     lowest, highest = law.extrema(1)
     greatest = max(highest.value, -lowest.value)
     excess = max(-lowest.value, 0.0) if problem.monotone else 0.0
-    if wanted is not None and isfinite(wanted.high):
-        excess = max(excess, greatest / wanted.high - 1.0)
+    if velocity is not None and isfinite(velocity.high):
+        excess = max(excess, greatest / velocity.high - 1.0)
     if peak is not None:
         # b at the peak may be 0 or negative: what is above it is measured by the law's speed
         at_peak = float(law.b(peak))
         excess = max(excess, (highest.value - at_peak) / max(greatest, 1.0))
-        if wanted is not None and wanted.low > 0.0:
-            excess = max(excess, 1.0 - at_peak / wanted.low, (greatest - at_peak) / max(greatest, 1.0))
+        if velocity is not None and velocity.low > 0.0:
+            excess = max(excess, 1.0 - at_peak / velocity.low, (greatest - at_peak) / max(greatest, 1.0))
     return excess
 
 
@@ -58,11 +66,11 @@ def shortfalls(problem: Problem, law: MotionLaw) -> dict[Functional, float]:
     """Constants that are below their lower bound, with that bound: a peak can be held down by rows, but not up."""
     # where the place of the peak is asked rows hold it up
     velocity = problem.range("B") if problem.peak_at is None else None
-    asked = [*problem.bounded, *([] if velocity is None else [(B, velocity)])]
+    ranges = [*problem.bounded, *([] if velocity is None else [(B, velocity)])]
     return {
-        constant: wanted.low
-        for constant, wanted in asked
-        if wanted.low > 0.0 and constant.value(law) < wanted.low * (1.0 - _SHORT)
+        constant: limits.low
+        for constant, limits in ranges
+        if limits.low > 0.0 and constant.value(law) < limits.low * (1.0 - _SHORT)
     }
 
 

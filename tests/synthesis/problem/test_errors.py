@@ -40,7 +40,7 @@ from optlaws import (
     synthesize,
     via,
 )
-from optlaws.synthesis import basis, solve
+from optlaws.synthesis import basis, search
 from optlaws.synthesis.families.family import Points, Program
 from optlaws.synthesis.method import exchange, vertices
 from optlaws.synthesis.method.on_points import ipopt
@@ -318,7 +318,7 @@ def test_a_law_without_a_meeting_bound_is_not_called_optimal(monkeypatch: pytest
         found = honest(*args)
         return replace(found, contacts=found.contacts[:-1])
 
-    monkeypatch.setattr(solve, "certify", poor)
+    monkeypatch.setattr(search, "certify", poor)
     solution = synthesize(problem())
     assert solution.status.value == "inaccurate"
     assert solution.gap > 1e-8

@@ -1,0 +1,280 @@
+"""The search for the best law of a problem: starts, the best of them, a tight bound, lower bounds, and its proof."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field, replace
+from time import perf_counter
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.laws import MotionLaw
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.limits.of_problem import known_limit
+from optlaws.synthesis.method import starts
+from optlaws.synthesis.method.exchange import Outcome, solve
+from optlaws.synthesis.method.lower_bounds import raised
+from optlaws.synthesis.method.narrow import narrowed, on_equations
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.evaluation import Worth, shortfalls, worth
+from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.proof import mirroring
+from optlaws.synthesis.proof.infeasible import failure
+from optlaws.synthesis.proof.make import certify, lower_bound
+from optlaws.synthesis.proof.power.certificate import PowerCertificate
+from optlaws.synthesis.proof.power.search import tightened
+from optlaws.synthesis.solution import NOTHING, Solution, Status
+
+Array = NDArray[np.float64]
+
+#: what a bound may leave of the objective and still be said to meet it
+GAP = 1e-8
+#: of an objective: two starts that differ by less led to the same law
+_SAME_OBJECTIVE = 1e-9
+# what passes without a look at the divided rows, in which a contact pinned to the middle may hide a larger excess
+_ROUNDING = 1e-13
+# an objective that is better than what is proven by more than this share belongs to a law that breaks a bound
+_BEYOND_PROOF = 1e-12
+
+
+@dataclass(eq=False)
+class Attempt:
+    """One start: how it ended, and the law recomputed over the whole interval; None where that breaks a constraint."""
+
+    outcome: Outcome
+    law: MotionLaw | None = None
+    objective: float = np.inf
+
+
+@dataclass(eq=False)
+class Search:
+    """What is known of the best law of a problem so far.
+
+    Attributes
+    ----------
+    model
+        The program of the problem.
+    tight
+        Whether to search for a tight bound where the problem is not convex.
+    warm
+        The optimum of a neighbouring problem.
+    attempts
+        Where the starts led.
+    power
+        The proof of a tight bound.
+    began
+        When the search began, by `time.perf_counter`.
+    """
+
+    model: Model
+    tight: bool = False
+    warm: ActiveSet | None = None
+    attempts: list[Attempt] = field(default_factory=list)
+    power: PowerCertificate | None = None
+    began: float = field(default_factory=perf_counter)
+
+    @property
+    def problem(self) -> Problem:
+        """What is solved."""
+        return self.model.problem
+
+    @property
+    def sound(self) -> list[Attempt]:
+        """The attempts that led to a law, the best first."""
+        return sorted((one for one in self.attempts if one.law is not None), key=lambda attempt: attempt.objective)
+
+    def answer(self) -> Solution | None:
+        """The best law that the starts lead to, with its proof; None where they lead to none."""
+        self._try_starts()
+        if not self.sound:
+            return None
+        plain = self._tightened(self.sound[0])
+        return self.certified(plain, self._held_up(plain))
+
+    def error(self) -> InfeasibleProblem | SolverFailure:
+        """Why there is no law."""
+        return failure(self.problem, self.attempts[0].outcome)
+
+    def _try_starts(self) -> None:
+        """The default start or a neighbour's optimum; where several optima may be, others until two agree."""
+        self.attempts.append(attempt(self.model, self.warm, None))
+        if self.problem.convex or self.warm is not None:
+            return
+        for point in starts.points(self.model):
+            self.attempts.append(attempt(self.model, None, point))
+            if _agree(self.attempts[0], self.attempts[-1]):
+                return
+
+    def _tightened(self, best: Attempt) -> Attempt:
+        """The best law that the search for a tight bound comes upon; notes its proof."""
+        if not self.tight or self.problem.convex:
+            return best
+        better = [best]
+
+        def explore(x: Array) -> bool:
+            tried = attempt(self.model, None, x)
+            if tried.law is not None and tried.objective < better[-1].objective * (1.0 - GAP):
+                better.append(tried)
+                return True
+            return False
+
+        while True:
+            best = better[-1]
+            optimum = best.outcome.optimum
+            self.power = None if optimum is None else tightened(self.problem, best.objective, optimum.x, explore)
+            if best is better[-1]:
+                return best
+
+    def _held_up(self, plain: Attempt) -> Attempt:
+        """The attempt itself, or, where a constant is below its lower bound, the best one in which it is held up."""
+        optimum = plain.outcome.optimum
+        short = {} if plain.law is None else shortfalls(self.problem, plain.law)
+        if not short or plain.law is None:
+            return plain
+        candidates = [] if optimum is None else raised(self.model, optimum)
+        held = [one for one in (_held(self.model, plain, state) for state in candidates) if one is not None]
+        if held:
+            return min(held, key=lambda tried: tried.objective)
+        constant, low = next(iter(short.items()))
+        raise SolverFailure(
+            f"no law with {constant!r} at least {low:g} was found; without that, its {constant!r} is "
+            f"{constant.value(plain.law):.7g}",
+            problem=self.problem,
+            tried="every extremum was held up, step by step, and the peak was asked at one place after the other",
+        )
+
+    def certified(self, plain: Attempt, best: Attempt) -> Solution:
+        """The best attempt without lower bounds of constants, which bounds the objective, and the one with them."""
+        problem, optimum, bounding = self.problem, best.outcome.optimum, plain.outcome.optimum
+        if best.law is None or optimum is None or bounding is None:
+            raise SolverFailure("no start led to a law", problem=problem)
+        limit = known_limit(problem)
+        proof = certify(self.model, bounding, best.objective, limit)
+        bound = max(lower_bound(proof, limit), -np.inf if self.power is None else self.power.bound)
+        held_up = best is not plain and plain.law is not None and bool(shortfalls(problem, plain.law))
+        several = not problem.convex and best in self.sound[:1]
+        return Solution(
+            problem=problem,
+            law=best.law,
+            z_series=tuple(self.model.space.z_series(self.model.coordinates(optimum.x)).tolist()),
+            objective=best.objective,
+            certificate=proof,
+            lower_bound=bound,
+            limit=limit,
+            status=_status(best.objective, bound, proven=problem.convex and not held_up),
+            iterations=sum(one.outcome.iterations for one in self.attempts),
+            seconds=perf_counter() - self.began,
+            starts=tuple(one.objective for one in self.sound) if several else (),
+            power_certificate=self.power,
+            active_set=bounding,
+        )
+
+
+def closest(search: Search) -> Solution | None:
+    """The answer of the problem itself or, where that is none, unproven or too good, that of a way around it."""
+    solution, problem = search.answer(), search.problem
+    if solution is None:
+        unfolded = from_symmetric(search) if problem.mirrored else None
+        return unfolded or (with_hardly_any_room(search) if problem.convex else None)
+    if problem.convex and _beyond_proof(solution):
+        return with_hardly_any_room(search) or solution
+    if problem.mirrored and solution.status is Status.INACCURATE:
+        unfolded = from_symmetric(search)
+        return solution if unfolded is None or unfolded.gap >= solution.gap else unfolded
+    return solution
+
+
+def from_symmetric(search: Search) -> Solution | None:
+    """The best symmetric law, which is one of the problem's, with what its contacts prove of all laws.
+
+    Among unsymmetric laws the optimum may be flat, so that no active set shows there.
+    """
+    model, half = search.model, model_of(replace(search.problem, symmetric=True))
+    try:
+        symmetric = closest(Search(half))
+    except SolverFailure:
+        return None
+    if symmetric is None:
+        return None
+    optimum = mirroring.unfolded(model, half, symmetric.active_set)
+    at_best = optimum.x.copy()
+    at_best[: model.space.terms] = mirroring.coordinates(model, symmetric.law)
+    plain, best = (
+        _measured(model, Outcome(state, symmetric.iterations, 0, "from the symmetric law"))
+        for state in (optimum, replace(optimum, x=at_best))
+    )
+    if best.law is None or shortfalls(search.problem, best.law):
+        return None
+    return Search(model, attempts=[plain], began=search.began).certified(plain, best)
+
+
+def with_hardly_any_room(search: Search) -> Solution | None:
+    """The best of the laws that keep bounds which leave hardly any room, and what is proven of them."""
+    best: Solution | None = None
+    for optimum, coordinates in narrowed(search.model):
+        x = np.concatenate([coordinates, optimum.x[len(coordinates) :]])
+        moved = _measured(search.model, Outcome(optimum.at(x), 0, 0, "with bounds loosened"))
+        if moved.law is not None and not shortfalls(search.problem, moved.law):
+            plain = replace(moved, outcome=replace(moved.outcome, optimum=optimum))
+            solution = Search(search.model, began=search.began).certified(plain, moved)
+            if best is None or _beyond_proof(best) or (not _beyond_proof(solution) and solution.gap < best.gap):
+                best = solution
+    return best
+
+
+def attempt(model: Model, warm: ActiveSet | None, point: Array | None) -> Attempt:
+    """Where a neighbour's optimum or a start leads."""
+    problem, claim = model.problem, model.program.objective * model.unit
+    measured: list[tuple[Array, MotionLaw, Worth]] = []
+
+    def measure(x: Array) -> tuple[MotionLaw, Worth]:
+        law = model.law(x)
+        measured[:] = [(x, law, worth(problem, law))]
+        return law, measured[0][2]
+
+    def holds(x: Array) -> bool:
+        law, value = measure(x)
+        kept = value.excess <= _ROUNDING and value.objective <= float(claim @ x) * (1.0 + _ROUNDING)
+        # a constant that is minimised is a variable, which may have to be above the law's own
+        return kept and not shortfalls(problem, law)
+
+    outcome = solve(model.program, warm, start=point, holds=holds)
+    if outcome.optimum is None:
+        return Attempt(outcome)
+    optimum = outcome.optimum.at(on_equations(model.program, outcome.optimum.x))
+    known = bool(measured) and measured[0][0] is optimum.x
+    law, value = measured[0][1:] if known else measure(optimum.x)
+    return Attempt(replace(outcome, optimum=optimum), law if value.sound else None, value.objective)
+
+
+def _measured(model: Model, outcome: Outcome) -> Attempt:
+    if outcome.optimum is None:
+        return Attempt(outcome)
+    law = model.law(outcome.optimum.x)
+    value = worth(model.problem, law)
+    return Attempt(outcome, law if value.sound else None, value.objective)
+
+
+def _held(model: Model, plain: Attempt, state: ActiveSet) -> Attempt | None:
+    """A candidate as an attempt; None where it breaks a constraint or a lower bound."""
+    tried = _measured(model, replace(plain.outcome, optimum=state))
+    return None if tried.law is None or shortfalls(model.problem, tried.law) else tried
+
+
+def _beyond_proof(solution: Solution) -> bool:
+    """Whether the law is better than any law is, so that it breaks a bound by more than rounding."""
+    return solution.objective < solution.lower_bound - _BEYOND_PROOF * abs(solution.lower_bound)
+
+
+def _agree(first: Attempt, last: Attempt) -> bool:
+    """Whether two starts led to the same objective."""
+    same = abs(first.objective - last.objective) <= _SAME_OBJECTIVE * abs(first.objective)
+    return first.law is not None and last.law is not None and same
+
+
+def _status(objective: float, bound: float, *, proven: bool) -> Status:
+    """`proven` says that the bound would meet the objective but for rounding."""
+    if abs(objective - bound) <= GAP * (objective if objective > NOTHING else 1.0):
+        return Status.OPTIMAL
+    return Status.INACCURATE if proven else Status.LOCAL
