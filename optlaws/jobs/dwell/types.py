@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import partial
 from itertools import product
 from math import degrees
 from pathlib import Path
@@ -13,15 +14,15 @@ import msgspec
 import numpy as np
 
 from optlaws import drawing
-from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import Degrees, Positive, Text, convert
 from optlaws.jobs.dwell import figure_map
 from optlaws.jobs.pages.page import Page
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.mechanisms.angles import deg
+from optlaws.mechanisms.dwell.choice import buildable
 from optlaws.mechanisms.dwell.clutch import Clutch
-from optlaws.mechanisms.dwell.mechanism import KINDS, DwellMechanism, dwell_mechanism
+from optlaws.mechanisms.dwell.mechanism import DwellMechanism, dwell_mechanism
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -66,23 +67,20 @@ class Types(msgspec.Struct, forbid_unknown_fields=True):
 
     def types(self, scenario: Scenario, swing: float, clutch_angle: float, dwell: float) -> dict[str, DwellMechanism]:
         """The types that these angles, in degrees, allow; type I is always among them."""
-        found = {}
-        for kind in KINDS:
-            try:
-                found[kind] = dwell_mechanism(
-                    kind,
-                    law=catalogue[self.law].law,
-                    dwell=deg(dwell),
-                    rise=deg(scenario.angle(dwell)),
-                    clutch_angle=deg(clutch_angle),
-                    swing=deg(swing),
-                    radius_ratio=self.radius_over_length / deg(swing),
-                    inertia_ratio=self.inertia_ratio,
-                )
-            except InputError:
-                if kind == "I":
-                    raise
-        return found
+        make = partial(
+            dwell_mechanism,
+            law=catalogue[self.law].law,
+            dwell=deg(dwell),
+            rise=deg(scenario.angle(dwell)),
+            clutch_angle=deg(clutch_angle),
+            swing=deg(swing),
+            radius_ratio=self.radius_over_length / deg(swing),
+            inertia_ratio=self.inertia_ratio,
+        )
+        made, refused = buildable(make)
+        if "I" in refused:
+            raise refused["I"]
+        return made
 
 
 @dataclass(frozen=True)

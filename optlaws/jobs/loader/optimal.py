@@ -24,6 +24,7 @@ from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.mechanisms.loader.limits import loader_acceleration_limit
 from optlaws.mechanisms.loader.loader import Loader, loader
 from optlaws.mechanisms.loader.optimal import BalancedLaw, balanced_law
+from optlaws.numbers import bounded
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.spaces.bases import Chebyshev
 
@@ -148,7 +149,7 @@ def _least(rows: Sequence[Row]) -> list[list[tables.Cell]]:
             row.code,
             row.B,
             row.C,
-            _finite(row.one.C),
+            bounded(row.one.C),
             *(one.objective for one in row.least.values()),
             loader_acceleration_limit(row.B),
             _better(row.best.objective, row.one.C),
@@ -163,7 +164,7 @@ RIVALS = ("law", "order", "rival", "C", "C_l", "B_l", "printed C", "printed C_l"
 def _rivals(rows: Sequence[Row]) -> list[list[tables.Cell]]:
     found: list[list[tables.Cell]] = []
     for row in rows:
-        own = [row.C, _finite(row.one.C), row.one.B]
+        own = [row.C, bounded(row.one.C), row.one.B]
         for kind in KINDS:
             one = row.rivals[kind]
             if one is None:
@@ -174,10 +175,6 @@ def _rivals(rows: Sequence[Row]) -> list[list[tables.Cell]]:
             gap = max(0.0, round(one.gap, 6))
             found.append([row.code, row.order, kind, *peaks, *own, better, gap])
     return found
-
-
-def _finite(value: float) -> float | None:
-    return value if isfinite(value) else None
 
 
 def _better(found: float, own: float) -> float | None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
+from functools import partial
 from math import degrees, inf, isfinite, pi
 
 from optlaws.echo import shortened
@@ -89,36 +90,59 @@ def compare_dwell_mechanisms(
     >>> found.reasons["II"]
     'no: b = 1.98 exceeds 0.5'
     """
+    make = partial(
+        dwell_mechanism,
+        law=law,
+        dwell=dwell,
+        rise=rise,
+        clutch_angle=clutch_angle,
+        swing=swing,
+        radius_ratio=radius_ratio,
+        inertia_ratio=inertia_ratio,
+        law_1=law_1,
+        law_2=law_2,
+        lower_dwell=lower_dwell,
+    )
+    return _compared(make, most_torque, most_size, _by_rule(dwell, dwell if lower_dwell is None else lower_dwell))
+
+
+def buildable(make: Callable[[str], DwellMechanism]) -> tuple[dict[str, DwellMechanism], dict[str, InputError]]:
+    """The types that can be made of the same data, and why the others cannot.
+
+    Examples
+    --------
+    >>> from optlaws import catalogue, deg
+    >>> data = dict(law=catalogue["K"].law, dwell=deg(90), rise=deg(90), swing=deg(20), lower_dwell=0.0)
+    >>> made, refused = buildable(partial(dwell_mechanism, radius_ratio=1.0, inertia_ratio=0.1, **data))
+    >>> [*made], [*refused]
+    (['II'], ['I', 'III'])
+    """
+    made: dict[str, DwellMechanism] = {}
+    refused: dict[str, InputError] = {}
+    for kind in KINDS:
+        try:
+            made[kind] = make(kind)
+        except InputError as error:
+            refused[kind] = error
+    return made, refused
+
+
+def _compared(
+    make: Callable[[str], DwellMechanism], most_torque: float, most_size: float, by_rule: str
+) -> DwellComparison:
     for name, limit in (("most_torque", most_torque), ("most_size", most_size)):
         if not limit > 0.0:
             raise InputError(f"{name} must be positive, got {shortened(limit)}")
-    mechanisms: dict[str, DwellMechanism] = {}
-    reasons: dict[str, str] = {}
-    for kind in KINDS:
-        try:
-            one = dwell_mechanism(
-                kind,
-                law=law,
-                dwell=dwell,
-                rise=rise,
-                clutch_angle=clutch_angle,
-                swing=swing,
-                radius_ratio=radius_ratio,
-                inertia_ratio=inertia_ratio,
-                law_1=law_1,
-                law_2=law_2,
-                lower_dwell=lower_dwell,
-            )
-        except InputError as error:
-            reasons[kind] = f"cannot be built: {error}"
-            if len(reasons) == len(KINDS) and not mechanisms:
-                raise
-            continue
-        mechanisms[kind] = one
-        reasons[kind] = _reason(one, most_torque, most_size)
-    usable = [one for kind, one in mechanisms.items() if reasons[kind].startswith("yes")]
+    made, refused = buildable(make)
+    if not made:
+        raise refused[KINDS[-1]]
+    reasons = {
+        kind: _reason(made[kind], most_torque, most_size) if kind in made else f"cannot be built: {refused[kind]}"
+        for kind in KINDS
+    }
+    usable = [one for kind, one in made.items() if reasons[kind].startswith("yes")]
     chosen = min(usable, key=lambda one: (one.a, one.b)).kind if usable else None
-    return DwellComparison(mechanisms, reasons, chosen, _by_rule(dwell, dwell if lower_dwell is None else lower_dwell))
+    return DwellComparison(made, reasons, chosen, by_rule)
 
 
 def least_dwell(mechanism: DwellMechanism, most_torque: float, *, half_turn: bool = True) -> float:

@@ -21,7 +21,12 @@ POSITIVE = ("dwell", "rise", "return_angle", "swing", "radius_ratio", "inertia_r
 NOT_NEGATIVE = ("clutch_angle", "lower_dwell", "standstill")
 ANGLES = ("dwell", "rise", "return_angle", "lower_dwell", "clutch_angle", "standstill", "swing")
 RATIOS = ("radius_ratio", "inertia_ratio", "reverse_share")
+#: what stands for a quantity that is not given
+INSTEAD = {"law_1": "law", "law_2": "law", "return_law": "law", "return_angle": "rise", "lower_dwell": "dwell"}
 FOUND = ("speed", "phi1", "phi2", "S_sp", "S1", "S2", "a", "b")
+
+
+_UNLESS_GIVEN: Any = None  # in no mechanism that was made: there INSTEAD stands for it
 
 
 @dataclass(frozen=True, repr=False, kw_only=True)
@@ -51,19 +56,22 @@ class DwellMechanism:
     law: MotionLaw
     dwell: float
     rise: float
-    clutch_angle: float
     swing: float
     radius_ratio: float
     inertia_ratio: float
-    law_1: MotionLaw
-    law_2: MotionLaw
-    return_angle: float
-    return_law: MotionLaw
-    lower_dwell: float
-    standstill: float
-    reverse_share: float
+    clutch_angle: float = 0.0
+    law_1: MotionLaw = _UNLESS_GIVEN
+    law_2: MotionLaw = _UNLESS_GIVEN
+    return_angle: float = _UNLESS_GIVEN
+    return_law: MotionLaw = _UNLESS_GIVEN
+    lower_dwell: float = _UNLESS_GIVEN
+    standstill: float = 0.0
+    reverse_share: float = 0.5
 
     def __post_init__(self) -> None:
+        for name, other in INSTEAD.items():
+            if getattr(self, name) is None:
+                object.__setattr__(self, name, getattr(self, other))
         _check(self)
 
     @property
@@ -325,6 +333,13 @@ def dwell_mechanism(
     DwellMechanism(II, a=1, b=1.9827, S1=0.333333, S2=0.856932)
     DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667)
     """
+    optional: dict[str, Any] = {
+        "law_1": law_1,
+        "law_2": law_2,
+        "return_angle": return_angle,
+        "return_law": return_law,
+        "lower_dwell": lower_dwell,
+    }
     return DwellMechanism(
         kind=kind,
         law=law,
@@ -334,11 +349,7 @@ def dwell_mechanism(
         swing=swing,
         radius_ratio=radius_ratio,
         inertia_ratio=inertia_ratio,
-        law_1=law if law_1 is None else law_1,
-        law_2=law if law_2 is None else law_2,
-        return_angle=rise if return_angle is None else return_angle,
-        return_law=law if return_law is None else return_law,
-        lower_dwell=dwell if lower_dwell is None else lower_dwell,
         standstill=standstill,
         reverse_share=reverse_share,
+        **optional,
     )

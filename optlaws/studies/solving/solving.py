@@ -5,7 +5,6 @@ from __future__ import annotations
 import importlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
-from math import isfinite
 from time import perf_counter
 from typing import Any
 
@@ -13,6 +12,7 @@ import msgspec
 
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.numbers import bounded
 from optlaws.studies.points.points import key
 from optlaws.studies.points.study_file import entries
 from optlaws.synthesis import Problem, Solution, synthesize
@@ -107,18 +107,14 @@ def _without(status: str, error: str, began: float) -> Row:
 
 def _row(solution: Solution) -> Row:
     constants = solution.constants
-    row: Row = {name: _finite(getattr(constants, name).value) for name in _CONSTANTS}
+    row: Row = {name: bounded(getattr(constants, name).value) for name in _CONSTANTS}
     return row | {
         "status": solution.status.value,
         "objective": solution.objective,
-        "lower_bound": _finite(solution.lower_bound),
-        "gap": _finite(solution.gap),
+        "lower_bound": bounded(solution.lower_bound),
+        "gap": bounded(solution.gap),
         "limit": solution.limit,
-        "rms_c": _finite(constants.rms_c),
+        "rms_c": bounded(constants.rms_c),
         "iterations": solution.iterations,
         "law": solution.law.to_dict(),
     }
-
-
-def _finite(value: float) -> float | None:
-    return value if isfinite(value) else None

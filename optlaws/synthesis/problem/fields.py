@@ -12,6 +12,7 @@ from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.numbers import bounded
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem import checks
 from optlaws.synthesis.problem.ranges import Range
@@ -157,7 +158,7 @@ def _any(_first: object, _second: object) -> bool:
 
 
 def _plain_range(asked: Any) -> Any:  # noqa: ANN401 - a number, a range or None
-    return [asked.low, asked.high if isfinite(asked.high) else None] if isinstance(asked, Range) else asked
+    return [asked.low, bounded(asked.high)] if isinstance(asked, Range) else asked
 
 
 def _plain_bounds(bounds: Mapping[Any, Range]) -> dict[str, Any] | None:

@@ -10,7 +10,7 @@ from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.numbers import finite, real
+from optlaws.numbers import bounded, finite, real
 from optlaws.suggest import unknown_key
 
 QUANTITIES = {"a": 0, "b": 1, "c": 2, "j": 3}
@@ -121,7 +121,7 @@ class Window:
         >>> Window.from_dict(Window("b", high=1.5).to_dict()) == Window("b", high=1.5)
         True
         """
-        ends = {name: value if isfinite(value) else None for name, value in (("low", self.low), ("high", self.high))}
+        ends = {"low": bounded(self.low), "high": bounded(self.high)}
         return {"quantity": self.quantity, **ends, "start": self.start, "stop": self.stop}
 
     @classmethod

@@ -225,3 +225,13 @@ def test_the_motion_is_stored() -> None:
     motion = example("III", law=smoothstep(3)).motion
     assert MotionLaw.from_json(motion.to_json()) == motion
     assert json.loads(json.dumps(example("II").to_dict()))["type"] == "II"
+
+
+def test_what_is_not_given_is_as_what_stands_for_it() -> None:
+    law = catalogue["K"].law
+    data = {"kind": "III", "law": law, "dwell": 1.5, "rise": 1.4, "swing": 0.35, "radius_ratio": 1.0}
+    made = DwellMechanism(inertia_ratio=0.1, **data)  # type: ignore[arg-type] # a dict of all kinds
+    assert (made.law_1, made.law_2, made.return_law) == (law, law, law)
+    assert (made.return_angle, made.lower_dwell) == (1.4, 1.5)
+    other = replace(made, kind="II", lower_dwell=0.0)
+    assert (other.lower_dwell, other.return_angle) == (0.0, 1.4)
