@@ -18,7 +18,7 @@ from optlaws.synthesis.solution import NOTHING
 from optlaws.verification.conditions import excesses
 from optlaws.verification.exact.balls import down, enclosed, up
 from optlaws.verification.exact.bound import Proof, never_negative, prove
-from optlaws.verification.exact.law import ExactLaw, enclosures
+from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.limits import exact_limit
 from optlaws.verification.exact.power import prove_power
 from optlaws.verification.places import NO_FILE, Entry, check_keys, entries, is_entry
@@ -73,7 +73,7 @@ def _alone(data: Mapping[str, Any]) -> Verification:
 
 def _law_alone(data: Mapping[str, Any]) -> Verification:
     law = built(lambda one: ExactLaw(MotionLaw.from_dict(one)), data["law"], "law")
-    constants = enclosures(law.law)
+    constants = law.enclosures()
     return Verification(problem=None, bound=None, constants=constants, claims=tuple(stated_constants(data, law)))
 
 
@@ -126,7 +126,7 @@ def _solution(data: Mapping[str, Any]) -> Verification:
     gap = None
     if bound is not None and objective[1] < inf:
         gap = up((Fraction(objective[1]) - bound) / (Fraction(objective[1]) if objective[1] > NOTHING else 1))
-    constants = enclosures(law.law)
+    constants = law.enclosures()
     found = excesses(problem, law)
     claims = [
         *(Claim(e.name, e.holds, f"off by at most {max(e.by, 0.0):.1e}, {e.allowed:.1e} is allowed") for e in found),

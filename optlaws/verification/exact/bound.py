@@ -145,8 +145,9 @@ class _System:
         """The best proof, and whether a higher precision could hardly better it."""
         best = self._corrected([], 1.0)
         claim = self._claim()
-        for readiness in _READINESS if isfinite(claim) else ():
-            for helpers in self._helpers(claim):
+        joining = list(self._helpers(claim)) if isfinite(claim) else []
+        for readiness in _READINESS:
+            for helpers in joining:
                 found = self._corrected(helpers, readiness, claim)
                 value = found[0].value if found else None
                 if value is not None and (best is None or best[0].value is None or value > best[0].value):

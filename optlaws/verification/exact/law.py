@@ -9,6 +9,7 @@ from itertools import pairwise
 from flint import arb, ctx, fmpq
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
@@ -62,6 +63,7 @@ class ExactLaw:
             places = zip(segments, pairwise(self.breaks), strict=True)
             self.pieces = [_piece(segment, low, high) for segment, (low, high) in places]
         self._raise()
+        self._extremes: dict[tuple[int, Fraction, Fraction], Extremes] = {}
 
     def _raise(self) -> None:
         """Let each polynomial begin where the one before ends."""
@@ -98,16 +100,22 @@ class ExactLaw:
 
     def extremes(self, nu: int, start: Fraction = Fraction(0), stop: Fraction = Fraction(1)) -> Extremes:
         """Balls that hold the least and the greatest value of the derivative of order nu between two k."""
-        with ctx.workprec(self.precision):
-            if start == stop:
-                value = arb(self.value(nu, start))
-                return value, value
-            found: list[arb] = []
-            for one in self.pieces:
-                low, high = max(start, one.start), min(stop, one.stop)
-                if low < high:
-                    found += one.extremes(nu, low, high)
-            return least_and_greatest(found)
+        asked = (nu, start, stop)
+        if asked not in self._extremes:
+            with ctx.workprec(self.precision):
+                self._extremes[asked] = self._enclosed(nu, start, stop)
+        return self._extremes[asked]
+
+    def _enclosed(self, nu: int, start: Fraction, stop: Fraction) -> Extremes:
+        if start == stop:
+            value = arb(self.value(nu, start))
+            return value, value
+        found: list[arb] = []
+        for one in self.pieces:
+            low, high = max(start, one.start), min(stop, one.stop)
+            if low < high:
+                found += one.extremes(nu, low, high)
+        return least_and_greatest(found)
 
     def peak(self, nu: int) -> arb:
         """A ball that holds the peak of the magnitude of the derivative of order nu."""
@@ -115,6 +123,10 @@ class ExactLaw:
 
     def power(self) -> arb:
         """A ball that holds the peak of |b c|."""
+        return self._power
+
+    @kept_property
+    def _power(self) -> arb:
         if self._impulses(2):
             return arb.pos_inf()
         with ctx.workprec(self.precision):
@@ -163,6 +175,10 @@ class ExactLaw:
         with ctx.workprec(self.precision):
             products = [one for piece in self.polynomials for one in piece.combined_power(weights)]
             return self.magnitude(least_and_greatest(products))
+
+    def enclosures(self) -> dict[str, tuple[float, float]]:
+        """Floats below and above these."""
+        return {name: enclosed(value) for name, value in self.constants().items()}
 
     def term(self, term: Term) -> arb:
         """A ball that holds the value of a constant or a maximum.
@@ -227,4 +243,4 @@ def _piece(segment: Segment, start: Fraction, stop: Fraction) -> ExactPiece:
 
 def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
     """Floats below and above B, C, D, J and rms_c."""
-    return {name: enclosed(value) for name, value in ExactLaw(law).constants().items()}
+    return ExactLaw(law).enclosures()

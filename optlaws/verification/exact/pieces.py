@@ -120,11 +120,8 @@ def between(polynomial: fmpq_poly, start: fmpq, stop: fmpq) -> Extremes:
     """Balls that hold the least and the greatest value of a polynomial between two places."""
     ends = [ball(start), ball(stop)]
     found = [at(polynomial, x) for x in ends]
-    slope = polynomial.derivative()
-    roots: Any = slope.numer().complex_roots() if slope.degree() > 0 else ()
-    for root, _ in roots:
-        x = acb(root).real
-        if not acb(root).imag.contains(0) or x < ends[0] or x > ends[1]:
+    for x in real_roots(polynomial.derivative()):
+        if x < ends[0] or x > ends[1]:
             continue
         value = at(polynomial, x)
         # a root that may lie beyond an end says no more than that end
@@ -133,6 +130,30 @@ def between(polynomial: fmpq_poly, start: fmpq, stop: fmpq) -> Extremes:
                 value = value.union(held)
         found.append(value)
     return least_and_greatest(found)
+
+
+def real_roots(polynomial: fmpq_poly) -> list[arb]:
+    """Balls that hold all real roots of a polynomial, perhaps among others; an even or odd one is one of y²."""
+    numerator = polynomial.numer()
+    first, *others = [n for n, value in enumerate(numerator.coeffs()) if value != 0] or [0]
+    if not others:
+        return [arb(0)] if first else []
+    roots = [arb(0)] if first else []
+    if any((n - first) % 2 for n in others):
+        return roots + _real(fmpz_poly(numerator.coeffs()[first:]))
+    for square in _real(fmpz_poly(numerator.coeffs()[first::2])):
+        if square > 0:
+            root = square.sqrt()
+            roots += [-root, root]
+        elif not square < 0:
+            roots.append(arb(0, (abs(square)).upper().sqrt().upper()))
+    return roots
+
+
+def _real(polynomial: fmpz_poly) -> list[arb]:
+    """Balls that hold the real roots of a polynomial that does not vanish at 0."""
+    roots: Any = polynomial.complex_roots()
+    return [acb(root).real for root, _ in roots if acb(root).imag.contains(0)]
 
 
 def least_and_greatest(balls: list[arb]) -> Extremes:

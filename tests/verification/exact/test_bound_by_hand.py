@@ -32,7 +32,8 @@ MOVING = {"boundary": BoundaryConditions((0, 0.5), (1, -1)), "symmetric": False}
 
 
 def small(**asked: Any) -> Problem:  # noqa: ANN401
-    return Problem(**{"order": 0 if "boundary" in asked else 2, "basis": Chebyshev(1), **asked})
+    order: dict[str, Any] = {} if "boundary" in asked else {"order": 2}
+    return Problem(**{**order, "basis": Chebyshev(1), **asked})
 
 
 def c_at(x: float, multiplier: float) -> Contact:
