@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from optlaws.errors import InputError
-from optlaws.files import writing
+from optlaws.files import tables, writing
 from optlaws.jobs import job
 from tests.jobs.examples import EXAMPLES
 
@@ -70,6 +70,28 @@ def test_a_job_writes_sealed_files_and_the_same_again(
     monkeypatch.setattr(writing, "is_current", lambda *_, **__: False)
     assert sorted(done(tmp_path, name)) == sorted(first)
     assert {file: file.read_bytes() for file in (tmp_path / "out").iterdir()} == first
+
+
+@pytest.mark.parametrize("name", ["savin families", "lever drawing"])
+def test_what_another_machine_rounds_otherwise_changes_no_file(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
+) -> None:
+    def noisy(noise: float) -> None:
+        monkeypatch.setattr(
+            tables,
+            "_text",
+            lambda cell, digits: shown(cell * (1.0 + noise) if isinstance(cell, float) else cell, digits),
+        )
+
+    shown = tables._text
+    first = {file: file.read_bytes() for file in done(tmp_path, name)}
+    # a unit in the tenth digit, which the page shows
+    noisy(3e-11)
+    assert {file: file.read_bytes() for file in done(tmp_path, name)} == first
+    noisy(3e-6)
+    page = next(file for file in first if file.suffix == ".md")
+    assert {file: file.read_bytes() for file in done(tmp_path, name)}[page] != first[page]
+    assert sorted((tmp_path / "out").iterdir()) == sorted(first)
 
 
 @pytest.mark.parametrize(("name", "old", "new", "said"), WRONG)

@@ -182,7 +182,7 @@ _LEAST = 2e-3
 
 
 def draw(title: str, found: Sequence[Sequence[Compared]], between: tuple[float, float]) -> Figure:
-    """The figure."""
+    """Residual accelerations over nu and accelerations over k, two panels for each damping."""
     with drawing.style():
         figure = drawing.figure(9.6, 3.9 * len(found) + 1.1)
         panels = figure.subplots(len(found), 2, squeeze=False, width_ratios=(3, 2))

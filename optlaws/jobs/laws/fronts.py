@@ -240,7 +240,7 @@ _MARGIN = 0.06
 
 
 def draw(picture: Picture, fronts: Sequence[Front]) -> Figure:
-    """The figure."""
+    """Fronts of two constants, with known laws beside them and the limits of all laws below."""
     x, y = (_window(picture, fronts, axis) for axis in (0, 1))
     with drawing.style():
         figure = drawing.figure(8.6, 5.0)

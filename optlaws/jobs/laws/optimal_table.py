@@ -311,7 +311,7 @@ _FEWEST = 5  # coefficients of Z: a cubic, or one of degree 4 that has no more o
 
 
 def draw(spec: Table, rows: Sequence[Row], curves: Curves) -> Figure:
-    """The figure."""
+    """C over B: optima by degree of Z, the printed laws, and what no law is below."""
     with drawing.style():
         figure = drawing.figure(8.0, 5.2)
         axes = figure.subplots()

@@ -101,7 +101,7 @@ _MARKS: dict[str, Any] = {"marker": "o", "markersize": 4.5, "linestyle": "", "zo
 
 
 def draw(title: str, families: Sequence[SavinFamily], points: int) -> Figure:
-    """The figure."""
+    """The start, B, C and D of each family over alpha, with its base law and its best members."""
     with drawing.style():
         figure = drawing.figure(9.2, 6.6)
         panels = figure.subplots(2, 2, sharex=True)

@@ -199,7 +199,7 @@ def _labels(axes: Axes, lever: TorsionLever) -> None:
 
 
 def draw_motion(lever: TorsionLever) -> Figure:
-    """The figure."""
+    """The moment of the bars over the angle, b and c over k, exact and asymptotic."""
     exact, asymptotic = lever.exact, lever.asymptotic
     chi = np.linspace(exact.chi02, exact.chi01, 201)
     k = np.linspace(0.0, 1.0, 401)

@@ -86,7 +86,7 @@ _PANELS = (
 
 
 def draw(title: str, headings: Sequence[str], rows: Sequence[Sequence[float]]) -> Figure:
-    """The figure."""
+    """Y and the peaks of the loader over e13, a curve for each gamma_w."""
     values = np.array(rows)
     column = {name: values[:, i] for i, name in enumerate(headings)}
     from matplotlib import colormaps

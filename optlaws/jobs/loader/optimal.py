@@ -190,7 +190,7 @@ def _page(
 
 
 def draw(title: str, rows: Sequence[Row], shown: Row) -> Figure:
-    """The figure."""
+    """C of the loader over B, and one printed law beside its rival."""
     with drawing.style():
         figure = drawing.figure(10.6, 4.8)
         left, right = figure.subplots(1, 2)
