@@ -14,7 +14,7 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method import starts
 from optlaws.synthesis.method.exchange import Outcome, solve
-from optlaws.synthesis.method.lower_bounds import raised
+from optlaws.synthesis.method.lower_bounds import raised, raised_at
 from optlaws.synthesis.method.narrow import narrowed, on_equations
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import Worth, shortfalls, worth
@@ -22,6 +22,9 @@ from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof import mirroring
 from optlaws.synthesis.proof.infeasible import failure
 from optlaws.synthesis.proof.make import certify, lower_bound
+from optlaws.synthesis.proof.peaks import search as places
+from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
+from optlaws.synthesis.proof.peaks.rows import peak_of
 from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.proof.power.search import tightened
 from optlaws.synthesis.solution import NOTHING, Solution, Status
@@ -30,6 +33,8 @@ Array = NDArray[np.float64]
 
 #: what a bound may leave of the objective and still be said to meet it
 GAP = 1e-8
+#: of the gap, what the search over the places of a peak leaves
+_LEFT = 0.9
 #: of an objective: two starts that differ by less led to the same law
 _SAME_OBJECTIVE = 1e-9
 # what passes without a look at the divided rows, in which a contact pinned to the middle may hide a larger excess
@@ -61,8 +66,8 @@ class Search:
         The optimum of a neighbouring problem.
     attempts
         Where the starts led.
-    power
-        The proof of a tight bound.
+    power, peaks
+        The proof of a tight bound: with D, or over the places of a peak bounded from below.
     began
         When the search began, by `time.perf_counter`.
     """
@@ -72,6 +77,7 @@ class Search:
     warm: ActiveSet | None = None
     attempts: list[Attempt] = field(default_factory=list)
     power: PowerCertificate | None = None
+    peaks: PeakCertificate | None = None
     began: float = field(default_factory=perf_counter)
 
     @property
@@ -90,7 +96,8 @@ class Search:
         if not self.sound:
             return None
         plain = self._tightened(self.sound[0])
-        return self.certified(plain, self._held_up(plain))
+        best = self._held_up(plain)
+        return self.certified(plain, self._placed(plain, best) if self.tight and best is not plain else best)
 
     def error(self) -> InfeasibleProblem | SolverFailure:
         """Why there is no law."""
@@ -144,6 +151,26 @@ class Search:
             tried="every extremum was held up, step by step, and the peak was asked at one place after the other",
         )
 
+    def _placed(self, plain: Attempt, best: Attempt) -> Attempt:
+        """The best law that the search over the places of a peak held up comes upon; notes its proof."""
+        short = {} if plain.law is None else shortfalls(self.problem, plain.law)
+        for constant, low in short.items():
+            peak = peak_of(self.problem, constant.name)
+            while peak is not None and plain.outcome.optimum is not None and best.objective > NOTHING:
+                ended = places.search(self.problem, peak, best.objective * (1.0 - _LEFT * GAP))
+                self.peaks = ended.certificate
+                if self.peaks is not None:
+                    return best
+                if ended.better_at is None:
+                    break
+                candidates = raised_at(self.model, plain.outcome.optimum, constant, low, ended.better_at)
+                tried = [one for one in (_held(self.model, plain, state) for state in candidates) if one is not None]
+                better = min(tried, key=lambda one: one.objective, default=best)
+                if better.objective >= best.objective * (1.0 - GAP):
+                    break
+                best = better
+        return best
+
     def certified(self, plain: Attempt, best: Attempt) -> Solution:
         """The best attempt without lower bounds of constants, which bounds the objective, and the one with them."""
         problem, optimum, bounding = self.problem, best.outcome.optimum, plain.outcome.optimum
@@ -151,7 +178,8 @@ class Search:
             raise SolverFailure("no start led to a law", problem=problem)
         limit = known_limit(problem)
         proof = certify(self.model, bounding, best.objective, limit)
-        bound = max(lower_bound(proof, limit), -np.inf if self.power is None else self.power.bound)
+        searched = [one.bound for one in (self.power, self.peaks) if one is not None]
+        bound = max([lower_bound(proof, limit), *searched])
         held_up = best is not plain and plain.law is not None and bool(shortfalls(problem, plain.law))
         several = not problem.convex and best in self.sound[:1]
         return Solution(
@@ -167,6 +195,7 @@ class Search:
             seconds=perf_counter() - self.began,
             starts=tuple(one.objective for one in self.sound) if several else (),
             power_certificate=self.power,
+            peak_certificate=self.peaks,
             active_set=bounding,
         )
 

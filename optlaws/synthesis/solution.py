@@ -15,6 +15,7 @@ from optlaws.numbers import bounded
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
 from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
@@ -66,6 +67,8 @@ class Solution:
         Contacts and multipliers; `certificate.bound` is a lower bound, by numpy alone.
     power_certificate
         Where D is in the problem and the bound was asked to be tight: the proof that closes the gap.
+    peak_certificate
+        Where a peak is bounded from below and the bound was asked to be tight: the proof that no place is better.
     lower_bound
         The best proven lower bound of the objective over all laws of the problem: a certificate's or the limit.
     limit
@@ -99,6 +102,7 @@ class Solution:
     seconds: float = field(compare=False)
     starts: tuple[float, ...] = ()
     power_certificate: PowerCertificate | None = field(default=None, repr=False)
+    peak_certificate: PeakCertificate | None = field(default=None, repr=False)
     active_set: ActiveSet = field(repr=False, kw_only=True, compare=False)
 
     @property
@@ -134,7 +138,8 @@ class Solution:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: the command line's `--json`, with the problem and the certificate beside it."""
-        return {
+        placed = {} if self.peak_certificate is None else {"peak_certificate": self.peak_certificate.to_dict()}
+        return placed | {
             "status": self.status.value,
             "objective": self.objective,
             "lower_bound": bounded(self.lower_bound),

@@ -9,10 +9,12 @@ from math import inf
 from pathlib import Path
 from typing import Any
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
+from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
 from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.solution import NOTHING
 from optlaws.verification.conditions import excesses
@@ -136,6 +138,7 @@ def _solution(data: Mapping[str, Any]) -> Verification:
         *_certificate(proof, certificate, accurate=data.get("status") != "inaccurate"),
         *_bound(proof, certificate, data["certificate"]),
         *power_claims,
+        *_of_places(data.get("peak_certificate"), problem),
     ]
     if data.get("lower_bound") is not None:
         claims.append(at_most("the lower bound", number(data, "lower_bound"), bound, source))
@@ -205,6 +208,19 @@ def _beside(data: object, problem: Problem) -> tuple[Fraction | None, list[Claim
     same = certificate.problem == problem
     claims = [_same("the power certificate's problem", certificate.problem, problem)]
     return proven if same else None, [*claims, *_of_power(certificate, proven, data)]
+
+
+def _of_places(data: object, problem: Problem) -> Iterator[Claim]:
+    """What is said of a proof over the places of a peak, which is not checked in exact arithmetic."""
+    if data is None:
+        return
+    if not isinstance(data, Mapping):
+        raise InputError(f"peak_certificate must be an object, got {shortened(data)}")
+    certificate = built(PeakCertificate.from_dict, data, "the peak certificate")
+    yield _same("the peak certificate's problem", certificate.problem, problem)
+    held = "holds" if certificate.proven else "does not hold"
+    detail = f"it {held} in double precision; proofs over the places of a peak are not checked in exact arithmetic yet"
+    yield Claim("the peak certificate", proven=False, detail=detail)
 
 
 def _same(name: str, one: Problem, other: Problem) -> Claim:

@@ -34,6 +34,7 @@ class SolutionFile(msgspec.Struct, forbid_unknown_fields=True):
     constants: Any = None
     z: Any = None
     power_certificate: Any = None
+    peak_certificate: Any = None
     iterations: int = 0
     seconds: float = 0.0
     starts: list[float] = []

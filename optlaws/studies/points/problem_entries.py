@@ -139,5 +139,7 @@ def record(solution: Solution) -> dict[str, Any]:
     kept = ["status", "objective", "lower_bound", "limit", "constants", "z", "law", "problem", "certificate"]
     if solution.power_certificate is not None:
         kept.append("power_certificate")
+    if solution.peak_certificate is not None:
+        kept.append("peak_certificate")
     whole = solution.to_dict()
     return {name: whole[name] for name in kept}

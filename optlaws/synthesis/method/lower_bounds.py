@@ -68,6 +68,13 @@ def raised(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
     return led or list(islice(between(model, optimum, constant, low), 1 if alone else None))
 
 
+def raised_at(model: Model, optimum: ActiveSet, constant: Functional, low: float, k: float) -> list[ActiveSet]:
+    """Candidates in which the peak is asked at k, and let go to where it is best nearby."""
+    family = family_of(model, constant)
+    ways = _asked(model.program, family, optimum, (constant.name, low), family.u(np.array([k])))
+    return [one for program, state in ways for one in raised(replace(model, program=program), state)]
+
+
 def _reached(model: Model, state: ActiveSet, constant: Functional, low: float) -> bool:
     return constant.value(model.law(state.x)) >= low * (1.0 - _SHORT)
 

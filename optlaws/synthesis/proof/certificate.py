@@ -172,11 +172,33 @@ def _excess(certificate: Certificate) -> float:
     program = found.program
     lines = [(max(one.multiplier, 0.0), *row_of(program, one)) for one in certificate.contacts]
     equations = zip(certificate.equations, program.equalities, program.right.tolist(), strict=False)
-    total = _summed(found, [one for one in (*lines, *equations) if one[0] != 0.0])
-    plain = float(found.unit * (total.value - _charge(found, certificate, total, found.unit * total.value)))
+    plain = float(found.unit * sum_of_rows(found, certificate, [*lines, *equations]))
     if certificate.program != VIOLATION or plain > 0.0:
         return plain
     return max(plain, _surplus(certificate, program))
+
+
+def sum_of_rows(
+    found: Model, certificate: Certificate, lines: list[tuple[float, Array, float]], claim: float | None = None
+) -> float:
+    """What the program's objective cannot be below by weighted rows, in laws of an objective up to the claim.
+
+    Without a claim it is what the sum itself says.
+    """
+    total = _summed(found, [one for one in lines if one[0] != 0.0])
+    return total.value - _charge(found, certificate, total, found.unit * total.value if claim is None else claim)
+
+
+def moments_below(found: Model, certificate: Certificate, claim: float) -> list[tuple[Array, Array]]:
+    """Bounds of the moments of a derivative in laws below the claim, but for the base law, for each derivative known.
+
+    Beside each the matrix from a functional's values on the free functions to weights of these moments.
+    """
+    greatest = _greatest(certificate, found, claim)
+    return [
+        (mean + _base_moments(found.space, nu), _extension(found.space, nu))
+        for nu, mean in _means(certificate, found.space, greatest)
+    ]
 
 
 @dataclass(frozen=True, eq=False)

@@ -57,6 +57,27 @@ class StatedPowerCertificate(msgspec.Struct, forbid_unknown_fields=True):
     about: str = ""
 
 
+class StatedCell(msgspec.Struct, forbid_unknown_fields=True):
+    """What `Cell` holds."""
+
+    k: float
+    reach: float
+    sign: float
+    contacts: list[StatedContact]
+    equations: tuple[float, ...]
+
+
+class StatedPeakCertificate(msgspec.Struct, forbid_unknown_fields=True):
+    """What `PeakCertificate.to_dict` writes."""
+
+    problem: dict[str, Any]
+    constant: str
+    claim: float
+    cells: list[StatedCell]
+    bound: float | None = None
+    about: str = ""
+
+
 def stated(data: object, kind: type[Stated], name: str) -> Stated:
     """Plain data as a value of which every key is known and of its type; `name` is what an error calls it.
 

@@ -1,0 +1,166 @@
+"""Peaks bounded from below, proven over every place that they may have: what is claimed, and what is not accepted."""
+
+import json
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws import BoundaryConditions, Chebyshev, InputError, Pieces, Problem, Solution, at_least, at_most, synthesize
+from optlaws.synthesis.problem.constants import B, J
+from optlaws.synthesis.proof.peaks.certificate import Cell, PeakCertificate, excluded
+from optlaws.synthesis.proof.peaks.rows import PeakRows
+from optlaws.verification import verify
+from tests.synthesis.judge import Judged, judge
+
+FAST = Problem(B=at_least(2.2), order=3, minimise="rms_c")
+EARLY = Problem(B=at_least(2.2), order=2, basis=Chebyshev(7), minimise="J", symmetric=False)
+ENDS = BoundaryConditions((0, 0, 0), (1, 1.0, 0))
+
+
+@pytest.fixture(scope="module")
+def fast() -> Solution:
+    return synthesize(FAST, bound="tight")
+
+
+@pytest.fixture(scope="module")
+def certificate(fast: Solution) -> PeakCertificate:
+    assert fast.peak_certificate is not None
+    return fast.peak_certificate
+
+
+@pytest.mark.parametrize(
+    "problem",
+    [
+        EARLY,
+        Problem(order=3, basis=Chebyshev(7), minimise="rms_c", J=at_least(600)),
+        Problem(order=3, basis=Chebyshev(7), B=1.7, minimise="rms_c", C=at_least(7.5)),
+        Problem(order=3, basis=Chebyshev(5), minimise="C", B=2.4, symmetric=False, boundary=ENDS),
+    ],
+    ids=repr,
+)
+def test_a_tight_bound_meets_the_objective(problem: Problem) -> None:
+    quick, solution = synthesize(problem), synthesize(problem, bound="tight")
+    assert (quick.status, solution.status) == ("local", "optimal")
+    assert quick.peak_certificate is None
+    judge_tight(solution)
+    assert solution.objective == pytest.approx(quick.objective, rel=1e-8)
+    assert solution.lower_bound > quick.lower_bound
+
+
+def judge_tight(solution: Solution) -> None:
+    found = solution.peak_certificate
+    assert found is not None
+    assert found.bound == solution.lower_bound
+    # what a solution without that certificate claims
+    plain = max(solution.certificate.bound, -np.inf if solution.limit is None else solution.limit)
+    judge(replace(solution, lower_bound=plain, status=type(solution.status).LOCAL))
+
+
+def test_no_law_with_its_peak_at_a_place_is_better(fast: Solution) -> None:
+    assert fast.constants.B.k == pytest.approx(0.5)
+    places = [synthesize(replace(FAST, symmetric=False, inflexion=k)).objective for k in (0.2, 0.35, 0.45, 0.5)]
+    assert places == sorted(places, reverse=True)
+    assert places[-1] == pytest.approx(fast.objective, rel=1e-8)
+
+
+def test_it_survives_json(certificate: PeakCertificate) -> None:
+    again = PeakCertificate.from_dict(json.loads(json.dumps(certificate.to_dict())))
+    assert again == certificate
+    assert again.bound == certificate.claim
+
+
+def test_a_claim_above_what_a_law_has_is_not_proven(certificate: PeakCertificate, fast: Solution) -> None:
+    assert not replace(certificate, claim=fast.objective * (1.0 + 1e-7)).proven
+    assert replace(certificate, claim=0.9 * certificate.claim).proven
+
+
+def test_every_cell_is_needed(certificate: PeakCertificate) -> None:
+    generator = np.random.default_rng(3)
+    for i in generator.choice(len(certificate.cells), 12, replace=False):
+        fewer = (*certificate.cells[:i], *certificate.cells[i + 1 :])
+        assert replace(certificate, cells=fewer).bound == -np.inf
+
+
+@pytest.mark.parametrize(
+    "change",
+    [
+        lambda cell: replace(cell, reach=3.0 * cell.reach),
+        lambda cell: replace(cell, contacts=()),
+        lambda cell: replace(
+            cell, equations=tuple(2.0 * one + 1.0 for one in cell.equations), contacts=cell.contacts[1:]
+        ),
+    ],
+)
+def test_a_cell_that_says_too_much_is_refused(certificate: PeakCertificate, change: Any) -> None:  # noqa: ANN401
+    # the narrowest is where the law has its peak
+    narrow = min((one for one in certificate.cells if one.reach > 0.0), key=lambda one: one.reach)
+    cells = tuple(change(one) if one == narrow else one for one in certificate.cells)
+    assert not replace(certificate, cells=cells).proven
+
+
+def test_what_is_asked_of_another_problem_is_not_proven(certificate: PeakCertificate) -> None:
+    assert not replace(certificate, constant="J").proven
+    assert not replace(certificate, constant="rms_c").proven
+    assert not replace(certificate, problem=replace(FAST, B=at_least(2.1))).proven
+    assert not replace(certificate, problem=replace(FAST, B=at_most(2.2))).proven
+    assert not replace(certificate, problem=replace(FAST, symmetric=False, basis=Pieces(4, 6, 4))).proven
+
+
+@pytest.mark.parametrize("nu_and_k", [(B, 0.3), (J, 0.0), (J, 0.11)], ids=repr)
+def test_values_and_peaks_of_laws_below_the_claim_are_within_the_bounds(nu_and_k: Any) -> None:  # noqa: ANN401
+    peak, k = nu_and_k
+    problem = Problem(order=3, basis=Chebyshev(7), minimise="rms_c", bounds={peak: at_least(2.0)})
+    best = synthesize(Problem(order=3, basis=Chebyshev(7), minimise="rms_c"))
+    rows = PeakRows(problem, peak, 1.3 * best.objective)
+    others = [synthesize(replace(best.problem, minimise=one)) for one in ("C", "J", "rms_j")]
+    for law in (best.law, *(one.law for one in others)):
+        one = Judged(law)
+        assert one.rms(2) < rows.claim
+        curve = one.derivatives[peak.nu]
+        second = curve.slope().slope()
+        for reach in (0.01, 0.1):
+            places = np.linspace(max(k - reach, 0.0), k + reach, 101)
+            assert rows.remainder(k, reach) >= reach**2 / 2.0 * np.abs(second(places)).max()
+        # without contacts there is what the claim alone says
+        for sign in (1.0, -1.0):
+            assert rows.upper(k, sign, (), ()) >= sign * float(curve(k))
+    assert rows.remainder(k, 0.0) == 0.0
+
+
+def test_an_end_that_is_free_is_a_place_of_its_own() -> None:
+    problem = Problem(order=3, basis=Chebyshev(7), minimise="rms_c", J=at_least(600.0))
+    solution = synthesize(problem, bound="tight")
+    assert solution.constants.J.k == 0.0
+    assert solution.peak_certificate is not None
+    inner = tuple(one for one in solution.peak_certificate.cells if one.reach > 0.0)
+    assert not replace(solution.peak_certificate, cells=inner).proven
+    at_end = Cell(0.0, 0.0, 1.0, (), ())
+    assert not excluded(PeakRows(problem, J, solution.objective), at_end)
+
+
+@pytest.mark.parametrize(
+    "wrong", [{"claim": -1.0}, {"claim": float("nan")}, {"cells": [{"k": 2.0}]}, {"more": 1}, {"constant": 5}], ids=str
+)
+def test_what_is_no_certificate_is_refused(certificate: PeakCertificate, wrong: dict[str, Any]) -> None:
+    with pytest.raises(InputError):
+        PeakCertificate.from_dict(certificate.to_dict() | wrong)
+
+
+def test_verify_says_that_it_does_not_check_places_exactly_yet(fast: Solution) -> None:
+    found = verify(json.loads(json.dumps(fast.to_dict())))
+    assert not found.proven
+    (claim,) = [one for one in found.claims if one.name == "the peak certificate"]
+    assert not claim.proven
+    assert "holds in double precision" in claim.detail
+    assert verify(synthesize(FAST).to_dict()).proven
+
+
+def test_one_of_two_peaks_may_prove_alone() -> None:
+    problem = Problem(B=1.7, order=4, minimise="rms_c", C=at_least(6.5), J=at_least(120.0))
+    solution = synthesize(problem, bound="tight")
+    assert solution.lower_bound <= solution.objective
+    judge_tight(solution)
+    assert solution.peak_certificate is not None
+    assert solution.peak_certificate.constant == "C"
