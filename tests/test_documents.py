@@ -1,3 +1,4 @@
+import pkgutil
 import re
 import sys
 from pathlib import Path
@@ -10,7 +11,28 @@ from tests.documents import PROGRAMS, ROOT, Command, commands, failure
 # What is executed or parsed (tests/documents.py), and what has nothing to execute.
 LANGUAGES = {"python", "pycon", "console", "toml", "text", "csv", "bibtex"}
 PAGES = sorted([*ROOT.glob("README.md"), *(ROOT / "docs").rglob("*.md")])
+LAYERS = "|".join(sorted(path.name for path in (ROOT / "optlaws").iterdir() if (path / "__init__.py").is_file()))
+#: files and folders of the repository, those of the package with or without its name, and dotted names
+PATH = re.compile(rf"(?<![\w/.-])((?:optlaws|tests|docs|\.ci|{LAYERS})/[\w./-]*(?:\.\w+|/))(?![\w*<{{])")
+DOTTED = re.compile(r"(?<![\w./-])((?:optlaws|tests)(?:\.[A-Za-z_]\w*)+)")
 FENCE = re.compile(r"^[ \t>]*(`{3,}|~{3,})(?P<info>[^`\n]*)$", re.MULTILINE)
+
+
+def missing(page: str) -> list[str]:
+    """Paths and dotted names on a page that stand for nothing."""
+    paths = [
+        name for name in PATH.findall(page) if not any((root / name).exists() for root in (ROOT, ROOT / "optlaws"))
+    ]
+    return paths + [name for name in DOTTED.findall(page) if not is_there(name)]
+
+
+def is_there(name: str) -> bool:
+    """Whether a dotted name is a module, or what one has."""
+    try:
+        pkgutil.resolve_name(name)
+    except (AttributeError, ImportError):
+        return False
+    return True
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.relative_to(ROOT).as_posix())
@@ -22,6 +44,28 @@ def test_every_fenced_block_has_a_language_that_is_executed_or_needs_no_executio
 def test_the_architecture_shows_the_tree_as_it_is() -> None:
     page = PAGE.read_text("utf-8")
     assert page == page_with_tree(page), "run python docs/_ext/module_tree.py"
+
+
+def test_every_path_and_module_that_a_document_names_is_there() -> None:
+    pages = [*PAGES, ROOT / "CHANGELOG.md"]
+    assert [f"{page.name}: {name}" for page in pages for name in missing(page.read_text("utf-8"))] == []
+
+
+@pytest.mark.parametrize(
+    ("page", "names"),
+    [
+        (
+            "`optlaws/laws/law.py`, `laws/law.py`, `tests/jobs/`, `optlaws.laws`, `python -m tests.contracts.faces`",
+            [],
+        ),
+        ("`optlaws.synthesize`, `optlaws.errors.InputError`, `optlaws.catalogue.search`, `out/law.json`", []),
+        ("`optlaws/export/csv.py` and `synthesis/exchange.py`", ["optlaws/export/csv.py", "synthesis/exchange.py"]),
+        ("from optlaws.studies.sweeps import sweep", ["optlaws.studies.sweeps"]),
+        ("`python -m tests.frozen`, `studies/sweeps/`", ["tests.frozen", "studies/sweeps/"]),
+    ],
+)
+def test_a_path_or_module_that_is_not_there_is_seen(page: str, names: list[str]) -> None:
+    assert sorted(missing(page)) == sorted(names)
 
 
 def test_a_console_block_is_split_into_commands_and_their_output() -> None:
