@@ -11,8 +11,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import asdict, dataclass, replace
-from fractions import Fraction
-from math import fsum, inf, isfinite, nan
+from math import fsum, inf, isfinite
 from typing import Any
 
 import numpy as np
@@ -25,7 +24,6 @@ from optlaws.numbers import bounded
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
 from optlaws.synthesis.families.names import VariableName
-from optlaws.synthesis.limits.rounding import rounded_down
 from optlaws.synthesis.problem.constants import Peak, Power
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
 from optlaws.synthesis.problem.problem import Problem
@@ -214,14 +212,15 @@ class _Sum:
 
 
 def _summed(found: Model, lines: list[tuple[float, Array, float]]) -> _Sum:
-    weights, rights = np.array([one[0] for one in lines]), np.array([one[2] for one in lines])
-    rows = np.vstack([np.empty((0, found.program.size)), *(one[1] for one in lines)])
-    slope = _weighted(weights, rows, found.program.objective)
-    for place in found.places.values():
-        slope[place] = _exact_sum(float(found.program.objective[place]), weights, rows[:, place])
-    value = -float(_weighted(weights, rights[:, None], np.zeros(1))[0])
-    hidden = _UNIT * (np.abs(weights) @ np.abs(np.column_stack([rows[:, : found.space.terms], rights])))
-    return _Sum(slope, value - float(hidden[-1]), hidden[:-1])
+    weights = np.array([one[0] for one in lines])
+    rows = np.array([[*row, -right] for _, row, right in lines]).reshape(-1, found.program.size + 1)
+    total = _weighted(weights, rows, np.append(found.program.objective, 0.0))
+    hidden = _UNIT * (np.abs(weights) @ np.abs(rows))
+    slope = total[:-1]
+    variables = list(found.places.values())
+    # the entries of the variables are exact, and so is a sum that is zero
+    slope[variables] = np.where(slope[variables] == 0.0, 0.0, np.nextafter(slope[variables], -inf))
+    return _Sum(slope, float(total[-1] - hidden[-1]), hidden[: found.space.terms])
 
 
 def _weighted(weights: Array, rows: Array, start: Array) -> Array:
@@ -240,15 +239,6 @@ def _halves(values: Array) -> tuple[Array, Array]:
     scaled = _SPLIT * values
     high = scaled - (scaled - values)
     return high, values - high
-
-
-def _exact_sum(start: float, weights: Array, column: Array) -> float:
-    """Start + weights . column, rounded down."""
-    if not (np.isfinite(weights).all() and np.isfinite(column).all()):
-        return nan
-    acting = np.flatnonzero(column)
-    total = sum((Fraction(weights[i]) * Fraction(column[i]) for i in acting), Fraction(start))
-    return rounded_down(total)
 
 
 def _surplus(certificate: Certificate, program: Program) -> float:

@@ -32,6 +32,8 @@ def turned(found: Model, proof: Certificate) -> Certificate:
     proof
         A certificate, whose multipliers nearly balance.
     """
+    if not any(contact.direction for contact in proof.contacts):
+        return proof
     images = [_image(found, contact) for contact in proof.contacts]
     slope = _slope(found, proof)
     if all(image is None for image in images) or np.abs(slope).max(initial=0.0) <= _BALANCED:
