@@ -4,10 +4,12 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields, replace
+from functools import lru_cache
 from typing import Any
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.numbers import MOST_ORDER
 from optlaws.synthesis.problem.checks import NotGiven, constant_of_bounds, order_with
 from optlaws.synthesis.problem.constants import FUNCTIONALS, C_minus, C_plus, Functional
 from optlaws.synthesis.problem.expression import Expression, Term, leaves
@@ -118,7 +120,7 @@ class Problem:
     @property
     def conditions(self) -> BoundaryConditions:
         """The end conditions."""
-        return self.boundary if self.boundary is not None else BoundaryConditions.rest(self.order)
+        return self.boundary if self.boundary is not None else _at_rest(self.order)
 
     @kept_property
     def convex(self) -> bool:
@@ -211,3 +213,8 @@ def _fixed_above_mean(wanted: Range | None) -> bool:
 
 def _given(problem: Problem, one: Any) -> bool:  # noqa: ANN401 - a dataclass field
     return bool(getattr(problem, one.name) != one.default)
+
+
+@lru_cache(maxsize=MOST_ORDER)
+def _at_rest(order: int) -> BoundaryConditions:
+    return BoundaryConditions.rest(order)
