@@ -17,7 +17,8 @@ def print_json(data: object) -> None:
     """Print one line of JSON; it has no infinity, so what has no bound is null."""
     import msgspec
 
-    print(msgspec.json.encode(data, enc_hook=_plain).decode())  # noqa: T201
+    line = msgspec.json.format(msgspec.json.encode(data, enc_hook=_plain), indent=0)  # one line, blanks between items
+    print(line.decode())  # noqa: T201
 
 
 def _plain(value: Any) -> object:  # noqa: ANN401 - a number of numpy
