@@ -80,6 +80,7 @@ CHECKERS = (
     "optlaws.synthesis.proof.certificate",
     "optlaws.synthesis.proof.data",
     "optlaws.synthesis.proof.farkas",
+    "optlaws.synthesis.proof.peaks.certificate",
     "optlaws.synthesis.proof.power.certificate",
 )
 MUST_NOT_IMPORT = {
