@@ -114,18 +114,21 @@ def _highest(y: Array, y1: Array, y2: Array) -> Array:
     )
     samples = np.stack([np.polynomial.polynomial.polyval(t, series, tensor=False) for t in SAMPLES], axis=2)
     rows = np.arange(len(y))
-    table = np.abs(samples.reshape(len(y), -1))
-    best = np.maximum(table.max(axis=1), np.abs(y[:, -1]))
+    table = np.abs(np.hstack([samples.reshape(len(y), -1), y[:, -1:]]))
+    best = table.max(axis=1)
     # a parabola through three samples tells which lobe is highest, Newton on the interpolant how high
     left, middle, right = table[:, :-2], table[:, 1:-1], table[:, 2:]
     bent = left - 2.0 * middle + right
     top = middle - np.where(bent < 0.0, (right - left) ** 2 / (8.0 * np.where(bent < 0.0, bent, -1.0)), 0.0)
     place = np.argmax(np.where((middle >= left) & (middle >= right), top, 0.0), axis=1) + 1
     panel, part = np.divmod(place, len(SAMPLES))
-    # an interior sample on a panel's edge has its top on either side
+    first, last = np.zeros_like(panel), np.full_like(panel, a[0].shape[1] - 1)
+    # an interior sample on a panel's edge has its top on either side, and a lobe may begin or end with the piece
     for chosen, at in (
         (panel, SAMPLES[part]),
         (np.maximum(panel - (part == 0), 0), np.where(part == 0, 1.0, SAMPLES[part])),
+        (first, np.zeros(len(y))),
+        (last, np.ones(len(y))),
     ):
         one = series[:, rows, chosen]
         t = _polished(one, at)
