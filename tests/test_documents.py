@@ -6,6 +6,8 @@ from pathlib import Path
 import pytest
 
 from docs._ext.module_tree import PAGE, page_with_tree
+from optlaws.cli.app import COMMANDS
+from optlaws.jobs.job import JOBS
 from tests.documents import PROGRAMS, ROOT, Command, commands, failure
 
 # What is executed or parsed (tests/documents.py), and what has nothing to execute.
@@ -66,6 +68,17 @@ def test_every_path_and_module_that_a_document_names_is_there() -> None:
 )
 def test_a_path_or_module_that_is_not_there_is_seen(page: str, names: list[str]) -> None:
     assert sorted(missing(page)) == sorted(names)
+
+
+def sections(page: str) -> list[str]:
+    """The jobs or commands that the headings of a page of the reference name."""
+    headings = re.findall(r"^## (.*)", (ROOT / "docs" / "reference" / page).read_text("utf-8"), re.MULTILINE)
+    return sorted(name for line in headings for name in re.findall(r'(?:"|^optlaws )(\w[\w ]*)(?:"|$)', line))
+
+
+def test_every_job_and_every_command_has_a_section() -> None:
+    assert sections("problem-files.md") == sorted(JOBS)
+    assert sections("command-line.md") == sorted(file.rpartition(".")[2] for file in COMMANDS)
 
 
 def test_a_console_block_is_split_into_commands_and_their_output() -> None:
