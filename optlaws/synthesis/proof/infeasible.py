@@ -10,7 +10,7 @@ import numpy as np
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.family import Points
+from optlaws.synthesis.families.family import LinearFamily, Points
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method.equations import contradiction
@@ -27,6 +27,7 @@ from optlaws.synthesis.spaces.bases import Basis, PolynomialBasis
 _WEIGHTLESS = 1e-9
 _ROUNDING = 1e-12
 _ROUNDS = 6
+_DEEP = 1e5  # beyond what laws of the field have
 _PLAIN = 2  # so few equations contradict each other whatever freedom the law has
 _MORE_FREEDOM = {
     PolynomialBasis: "A higher degree of Z",
@@ -79,8 +80,26 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
             proof=least,
             tried=tried,
         )
+    if _falls_for_ever(problem):
+        msg = (
+            f"{problem.minimise} has no least value: there are laws with {-_DEEP:.0f} and less. A bound on C, J or B "
+            "from above, or end conditions of a higher order, help"
+        )
+        return SolverFailure(msg, problem=problem, tried=tried)
     msg = "no law was found, and none was shown not to exist; try a degree higher or lower by 2, or other numbers"
     return SolverFailure(msg, problem=problem, tried=tried)
+
+
+def _falls_for_ever(problem: Problem) -> bool:
+    """Whether the objective, which peaks of one sign may make negative, is held by nothing but a row that says so."""
+    if not problem.convex:
+        return False
+    model = model_of(problem)
+    program, depth = model.program, _DEEP / model.unit
+    row = np.append(-program.objective, 0.0)[None, :]
+    ground = LinearFamily("objective at least", np.zeros(program.size), depth, (1.0,), (1.0, 1.0), series=row)
+    deepest = solve(replace(program, families=(*program.families, ground))).optimum
+    return deepest is not None and program.worth(deepest.x) < -0.99 * depth
 
 
 def _convex_part(problem: Problem) -> Problem:

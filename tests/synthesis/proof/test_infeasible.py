@@ -3,6 +3,7 @@
 import pickle
 import subprocess
 import sys
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -12,8 +13,11 @@ from optlaws import (
     Chebyshev,
     InfeasibleProblem,
     Pieces,
+    Powers,
     Problem,
+    SolverFailure,
     Window,
+    at_most,
     synthesize,
     via,
 )
@@ -173,3 +177,12 @@ assert outcome.optimum is None and outcome.iterations == 0, outcome
 """
     ended = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=False, timeout=100)
     assert (ended.returncode, ended.stdout, ended.stderr) == (0, "", "")
+
+
+@pytest.mark.parametrize("minimise", ["C_plus", "C_minus", "0.001*C_plus + 0.0005*C_plus"])
+def test_an_objective_without_a_least_value_is_said_to_have_none(minimise: str) -> None:
+    problem = Problem(order=1, basis=Powers(6), minimise=minimise, symmetric=False)
+    with pytest.raises(SolverFailure, match="has no least value: there are laws with -100000 and less"):
+        synthesize(problem)
+    least = synthesize(replace(problem, C=at_most(4.0))).objective
+    assert least == pytest.approx(-4.0 if "+" not in minimise else -0.006)
