@@ -10,6 +10,7 @@ coincide) moments of a derivative join in, which the claim itself bounds: they a
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from fractions import Fraction
 from math import inf, isfinite
@@ -130,16 +131,32 @@ class _System:
 
     def _take(self, contact: Contact, row: Row) -> None:
         weight = Fraction(contact.multiplier)
-        k = Fraction(contact.k)
-        if self.beside and _NEAR < k < 1 - _NEAR and not contact.direction:
-            for near in (k - _NEAR, k + _NEAR):
-                moved = self.rows.row(contact, near)
-                if moved is not None and self.rows.space.piece(near) == self.rows.space.piece(k):
-                    self.vectors.append(moved.vector(self.rows.names))
-                    self.multipliers.append(ball(Fraction(contact.multiplier) * _SHARE))
-                    weight -= Fraction(contact.multiplier) * _SHARE
+        for near, k in self._neighbours(contact) if self.beside else ():
+            moved = self.rows.row(near, k)
+            if moved is not None:
+                self.vectors.append(moved.vector(self.rows.names))
+                self.multipliers.append(ball(Fraction(contact.multiplier) * _SHARE))
+                weight -= Fraction(contact.multiplier) * _SHARE
         self.vectors.append(row.vector(self.rows.names))
         self.multipliers.append(ball(weight))
+
+    def _neighbours(self, contact: Contact) -> Iterator[tuple[Contact, Fraction]]:
+        """What stands for the place of a contact, and for the direction of a complex number."""
+        k, cone = Fraction(contact.k), contact.constraint in self.rows.cones
+        if cone and len(contact.direction) == 2:
+            real, imaginary = contact.direction
+            for turn in (float(_NEAR), -float(_NEAR)):
+                yield replace(contact, direction=(real - turn * imaginary, imaginary + turn * real)), k
+        if _NEAR < k < 1 - _NEAR and (cone or not contact.direction):
+            for near in (k - _NEAR, k + _NEAR):
+                if cone or self._share_a_piece(near, k):
+                    yield contact, near
+
+    def _share_a_piece(self, near: Fraction, k: Fraction) -> bool:
+        piece = self.rows.space.piece
+        with suppress(LookupError):
+            return piece(near) == piece(k)
+        return False
 
     def best(self) -> tuple[Proof, bool]:
         """The best proof, and whether a higher precision could hardly better it."""

@@ -9,14 +9,15 @@ from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import Peak, PeakJerk, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Term
 from optlaws.synthesis.problem.named_constants import is_named
+from optlaws.verification.exact.residuals import ResidualConstant
 
-Known = Peak | Power | RootMeanSquare | CombinedPeak
+Known = Peak | Power | RootMeanSquare | CombinedPeak | ResidualConstant
 
 _OF_CAMS = tuple(f"{name}_cam(" for name in ("B", "C", "C_plus", "C_minus", "D", "J"))
 
 
 def known(term: Term) -> Known:
-    """The constant, if it is a peak, the power or an RMS of a law, or a peak or the power of its cam.
+    """The constant, if it is a peak, the power or an RMS of a law, a peak or the power of its cam, or a residual.
 
     Raises
     ------
@@ -35,7 +36,9 @@ def known(term: Term) -> Known:
         return term
     if isinstance(term, CombinedPeak | CombinedPower) and repr(term).startswith(_OF_CAMS) and is_named(term):
         return term
+    if isinstance(term, ResidualConstant) and repr(term).startswith("residual(") and is_named(term):
+        return term
     raise InputError(
-        "exact verification knows peaks, power and RMS of derivatives and the constants of cams as optlaws defines "
-        f"them, not {term!r}: what bounds it is checked with numpy alone, by Certificate.bound"
+        "exact verification knows peaks, power and RMS of derivatives, constants of cams and residuals as optlaws "
+        f"defines them, not {term!r}: what bounds it is checked with numpy alone, by Certificate.bound"
     )

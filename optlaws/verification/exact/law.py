@@ -21,6 +21,7 @@ from optlaws.verification.exact.ball_pieces import PowerPiece, SinePiece
 from optlaws.verification.exact.balls import ball, enclosed, rational
 from optlaws.verification.exact.known_constants import Known, known
 from optlaws.verification.exact.pieces import ExactPiece, Extremes, PolynomialPiece, least_and_greatest
+from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
 
 
 class ExactLaw:
@@ -180,6 +181,17 @@ class ExactLaw:
         """Floats below and above these."""
         return {name: enclosed(value) for name, value in self.constants().items()}
 
+    def residual(self, constant: ResidualConstant) -> arb:
+        """A ball that holds the greatest residual over an interval of frequencies.
+
+        Raises
+        ------
+        InputError
+            If a piece is no polynomial.
+        """
+        with ctx.workprec(2 * self.precision):
+            return ExactResidual(constant).peak(self.polynomials)
+
     def term(self, term: Term) -> arb:
         """A ball that holds the value of a constant or a maximum.
 
@@ -198,6 +210,8 @@ class ExactLaw:
             return self.combined_peak(one)
         if isinstance(one, CombinedPower):
             return self.combined_power(one)
+        if isinstance(one, ResidualConstant):
+            return self.residual(one)
         if isinstance(one, Power):
             return self.power()
         if isinstance(one, RootMeanSquare):

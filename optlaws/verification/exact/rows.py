@@ -10,7 +10,7 @@ from functools import partial
 from math import isfinite
 from operator import mul
 
-from flint import arb
+from flint import acb, arb
 
 from optlaws.errors import InputError
 from optlaws.synthesis.families import names
@@ -27,6 +27,7 @@ from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.verification.exact.balls import ball
 from optlaws.verification.exact.known_constants import known
 from optlaws.verification.exact.of_basis import exact_space
+from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
 
 _NEAR = Fraction(1, 10**9)
 
@@ -83,6 +84,8 @@ class ExactRows:
         self.relaxed = certificate.program == RELAXED
         #: the one power whose root is a variable
         self.power = relaxed_power(problem) if self.relaxed else None
+        #: constants that are magnitudes of complex numbers, whose contacts' k is no place of the law
+        self.cones: set[str] = set()
         self.names: list[str] = []
         self.cost: dict[str, float] = {}
         self._makers: dict[tuple[str, float], list[Maker]] = {}
@@ -129,6 +132,8 @@ class ExactRows:
         if isinstance(one, CombinedPeak):
             for name, weights, sides in one.sides(symmetric=self.problem.symmetric):
                 self._everywhere(name, partial(self.space.combination, one.nu, weights), sides, slack, high)
+        elif isinstance(one, ResidualConstant):
+            self._residual(one, slack, high)
         elif isinstance(one, RootMeanSquare):
             self._add(one.name, lambda contact, _: self._norm(one.nu, contact, slack, high))
         elif isinstance(one, Peak):
@@ -186,6 +191,24 @@ class ExactRows:
         weights = [one * weight.sqrt() / length for one, (_, weight) in zip(direction, rule, strict=True)]
         columns = zip(*(column for column, _ in rule), strict=True)
         return Row([sum(map(mul, weights, column), arb(0)) for column in columns], slack, -ball(high))
+
+    def _residual(self, constant: ResidualConstant, slack: Names, high: float) -> None:
+        """A direction times the complex amplitude is at most its magnitude; in units of the bound."""
+        exact, unit = ExactResidual(constant), ball(high or 1.0)
+        kept: dict[Fraction, list[acb]] = {}
+
+        def make(contact: Contact, k: Fraction) -> Row:
+            if len(contact.direction) != 2:
+                raise LookupError
+            if k not in kept:
+                kept[k] = exact.rows(self.space, k)
+            real, imaginary = (ball(value) for value in contact.direction)
+            length = (real**2 + imaginary**2).sqrt().max(arb(1)) * unit
+            row = [(one.real * real + one.imag * imaginary) / length for one in kept[k]]
+            return Row(row, slack, -ball(high) / unit)
+
+        self.cones.add(constant.name)
+        self._add(constant.name, make)
 
     def _constraints(self) -> None:
         problem = self.problem

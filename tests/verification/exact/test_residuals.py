@@ -1,0 +1,101 @@
+"""Residual vibration in complex balls, against integrals by mpmath, and claims that are tampered with."""
+
+from dataclasses import replace
+from fractions import Fraction
+from functools import cache
+from typing import Any
+
+import mpmath  # type: ignore[import-untyped] # ships no types
+import pytest
+
+from optlaws import Chebyshev, Pieces, Problem, Solution, at_most, residual, synthesize
+from optlaws.laws import smoothstep
+from optlaws.synthesis.proof.certificate import Certificate, Contact
+from optlaws.verification import exact_bound, verify
+from optlaws.verification.exact.balls import enclosed
+from optlaws.verification.exact.law import ExactLaw
+from optlaws.verification.exact.rows import ExactRows
+
+INTERVAL = "residual(nu=(9, 12), damping=0.03)"
+
+
+@cache
+def robust() -> Solution:
+    return synthesize(Problem(order=4, minimise=INTERVAL, B=1.8, C=at_most(7), basis=Chebyshev(7)))
+
+
+def velocity(k: mpmath.mpf) -> mpmath.mpf:
+    return 140 * k**3 * (1 - k) ** 3
+
+
+def amplitude(nu: float, damping: float, design: float | None = None, design_damping: float = 0.0) -> mpmath.mpf:
+    """Of 35 k^4 - 84 k^5 + 70 k^6 - 20 k^7, by Duhamel's integral."""
+    n, ratio = mpmath.mpf(damping) * nu, mpmath.mpf(damping)
+    w = mpmath.mpc(-n, nu * mpmath.sqrt(1 - ratio**2))
+    size = nu**2 * abs(w) / w.imag * abs(mpmath.quad(lambda k: mpmath.exp(w * (1 - k)) * velocity(k), [0, 0.5, 1]))
+    if design is None:
+        return size
+    n0 = mpmath.mpf(design_damping) * design
+    return size * abs(1 - (nu / mpmath.mpf(design)) ** 2 + 2 * (n0 - n) * w / mpmath.mpf(design) ** 2)
+
+
+@pytest.mark.parametrize(
+    "asked",
+    [
+        {"nu": 18.0, "damping": 0.0},
+        {"nu": 7.5, "damping": 0.25},
+        {"nu": 12.0, "damping": 0.0625, "design": 10.0, "design_damping": 0.125},
+    ],
+)
+def test_a_residual_is_that_by_hand(asked: dict[str, Any]) -> None:
+    with mpmath.workdps(40):
+        low, high = enclosed(ExactLaw(smoothstep(4)).term(residual(**asked)))
+        assert low <= amplitude(**asked) <= high
+        assert high - low < 1e-14 * high
+
+
+def test_the_greatest_over_an_interval_is_that_by_hand() -> None:
+    # between two frequencies that leave nothing
+    with mpmath.workdps(30):
+        nu = mpmath.findroot(lambda nu: mpmath.diff(lambda x: amplitude(x, 0.0) ** 2, nu), 24)
+        low, high = enclosed(ExactLaw(smoothstep(4)).term(residual(nu=(22.0, 26.0))))
+        wanted = max(amplitude(place, 0.0) for place in (22.0, 26.0, nu))
+        assert low <= wanted <= high
+        assert high - low < 1e-11 * high
+
+
+def test_rows_of_all_bases_give_the_amplitude_of_their_base_law() -> None:
+    contact = Contact("residual(nu=(9.0, 12.0), damping=0.03)", 1.0, 0.25, 1.0, (0.6, 0.8))
+    for symmetric in (True, False):
+        pieces = Problem(order=4, minimise=INTERVAL, symmetric=symmetric, basis=Pieces([0, 0.5, 1], 7, 3))
+        whole = replace(pieces, basis=Chebyshev(3))
+        first, second = (ExactRows(Certificate(one, (), ())).row(contact) for one in (whole, pieces))
+        assert first is not None
+        assert second is not None
+        # k^4, k^5, k^6 and k^7 with the weights of the smoothstep, then nothing from the middle on
+        weights = [35, -84, 70, -20]
+        of_pieces = sum((w * one for w, one in zip(weights, second.functions, strict=False)), second.functions[-1])
+        if not symmetric:
+            assert first.functions[-1].overlaps(of_pieces)
+        assert float(first.functions[-1].rad()) < 1e-10
+
+
+def test_tampered_claims_are_refused() -> None:
+    data = robust().to_dict()
+    assert verify(data).proven
+    for key, change in (("objective", 1e-8), ("objective", -1e-8), ("lower_bound", 1e-7)):
+        assert not verify({**data, key: data[key] + change}).proven, key
+    other = {**data["problem"], "minimise": "residual(nu=(9, 12.001), damping=0.03)"}
+    assert not verify({**data, "problem": other}).proven
+    assert not verify({**data, "problem": other, "certificate": {**data["certificate"], "problem": other}}).proven
+
+
+@pytest.mark.parametrize("stretch", [0.5, 3.0])
+def test_no_longer_direction_proves_more(stretch: float) -> None:
+    solution = robust()
+    longer = tuple(
+        replace(one, direction=tuple(stretch * value for value in one.direction))
+        for one in solution.certificate.contacts
+    )
+    bound = exact_bound(replace(solution.certificate, contacts=longer))
+    assert bound is None or bound <= Fraction(solution.objective) * (1 + Fraction(1, 10**10))
