@@ -48,7 +48,7 @@ nitpick_ignore_regex = [("py:.*", r"(?!optlaws\.).*"), ("py:.*", r"optlaws\.(.*\
 nitpick_ignore = [
     ("py:class", "optlaws.synthesis.families.active_set.ActiveSet"),
     ("py:class", "optlaws.synthesis.families.cone.ConeFamily"),
-    ("py:class", "optlaws.synthesis.proof.peaks.certificate.PeakCertificate"),
+    ("py:class", "optlaws.synthesis.proof.peaks.certificate.Cell"),
     ("py:class", "optlaws.synthesis.proof.power.certificate.Cut"),
     ("py:class", "optlaws.synthesis.proof.power.certificate.Step"),
     ("py:class", "optlaws.synthesis.spaces.space.LawSpace"),

@@ -49,6 +49,7 @@ _load, __dir__, __all__ = face(
         "optlaws.synthesis.problem.ranges": "Range at_least at_most between",
         "optlaws.synthesis.problem.windows": "Window via",
         "optlaws.synthesis.proof.certificate": "Certificate Contact",
+        "optlaws.synthesis.proof.peaks.certificate": "PeakCertificate",
         "optlaws.synthesis.proof.power.certificate": "PowerCertificate",
         "optlaws.synthesis.solution": "Solution Status",
         "optlaws.synthesis.solve": "sweep synthesize",

@@ -75,6 +75,7 @@ from optlaws.synthesis.problem.windows import Window as Window
 from optlaws.synthesis.problem.windows import via as via
 from optlaws.synthesis.proof.certificate import Certificate as Certificate
 from optlaws.synthesis.proof.certificate import Contact as Contact
+from optlaws.synthesis.proof.peaks.certificate import PeakCertificate as PeakCertificate
 from optlaws.synthesis.proof.power.certificate import PowerCertificate as PowerCertificate
 from optlaws.synthesis.solution import Solution as Solution
 from optlaws.synthesis.solution import Status as Status
@@ -122,6 +123,7 @@ __all__ = [
     "NotNormalised",
     "OptlawsError",
     "Peak",
+    "PeakCertificate",
     "Pieces",
     "PiecewiseLaw",
     "PolynomialLaw",
