@@ -126,7 +126,7 @@ class _Curve:
         for above in _ABOVE[1:]:
             # so near to its least value the constant leaves the solver no room: the contacts are continued instead
             nearer = _tried(self._asked(least * (1.0 + above)), found)
-            if nearer is None:
+            if nearer is None or nearer.status is Status.INACCURATE:
                 break
             value, found = least * (1.0 + above), nearer
         return value, found
