@@ -305,9 +305,9 @@ def judge(solution: Solution) -> None:
     assert found == [], f"{found}: {problem!r}"
     worth = Judged(solution.law).worth(problem.objective)
     # an objective that is 0 but for rounding is judged absolutely
-    nothing = 0.0 if worth > 1e-6 else 1e-9
-    assert abs(worth - solution.objective) <= 1e-9 * worth + nothing, f"{worth!r} is not {solution.objective!r}"
-    assert solution.lower_bound <= solution.objective * (1.0 + 1e-11), problem
+    nothing = 0.0 if abs(worth) > 1e-6 else 1e-9
+    assert abs(worth - solution.objective) <= 1e-9 * abs(worth) + nothing, f"{worth!r} is not {solution.objective!r}"
+    assert solution.lower_bound <= solution.objective + 1e-11 * abs(solution.objective), problem
     assert solution.lower_bound == max(
         solution.certificate.bound, -inf if solution.limit is None else solution.limit
     ), problem

@@ -6,7 +6,18 @@ import numpy as np
 import pytest
 from scipy.optimize import linprog
 
-from optlaws import BoundaryConditions, Chebyshev, InputError, Pieces, Problem, Status, limit, limit_law, synthesize
+from optlaws import (
+    BoundaryConditions,
+    Chebyshev,
+    InputError,
+    Pieces,
+    Problem,
+    Status,
+    Window,
+    limit,
+    limit_law,
+    synthesize,
+)
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 
 LIMIT_C = limit_law("C", 1.859).breaks
@@ -167,3 +178,17 @@ def test_an_rms_beside_a_peak_is_proven_with_many_pieces(B: float | None, order:
     assert solution.status == "optimal"
     constants = solution.law.constants
     assert solution.objective == pytest.approx(0.3 * constants.rms_c / 3.5 + 0.7 * constants.C.value / 4.0, rel=1e-12)
+
+
+def test_a_window_between_the_nodes_is_kept() -> None:
+    window = Window("b", low=0.6, start=0.282, stop=0.312)
+    problem = Problem(order=3, basis=Pieces(2, 7, 3), minimise="max(rms_c/8, rms_j/40)", windows=(window,))
+    solution = synthesize(problem)
+    assert solution.status == "optimal"
+    assert solution.law.b([0.282, 0.297, 0.312]).min() >= 0.6 - 1e-9
+
+
+def test_pieces_of_order_1_may_move_uniformly_whatever_is_minimised() -> None:
+    solution = synthesize(Problem(order=1, basis=Pieces(10, 7, 5), minimise="D"))
+    assert solution.status == "optimal"
+    assert solution.objective < 1e-12

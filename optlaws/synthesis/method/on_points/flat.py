@@ -92,8 +92,8 @@ class Table:
         self.rows = rows / self.length[:, None]
         self.right = np.concatenate([np.empty(0), *(right for _, right in parts)]) / self.length
         self.family = np.repeat(np.arange(len(families)), [len(mine.u) for mine in points])
-        self.u = np.concatenate([mine.u for mine in points])
-        self.s = np.concatenate([mine.s for mine in points])
+        self.u = np.concatenate([np.empty(0), *(mine.u for mine in points)])
+        self.s = np.concatenate([np.empty(0), *(mine.s for mine in points)])
 
     def residuals(self, x: Array) -> Array:
         """Rows . x - right: negative where a row has room."""

@@ -24,6 +24,8 @@ def _points(family: Family, size: int, even_share: float) -> Points:
         return Points(np.repeat([low], len(family.signs)), np.array(family.signs))
     own = family.nodes()
     if own is not None:
+        if not len(own):
+            own = np.array([low, high])  # a window between the nodes
         return Points(np.tile(own, len(family.signs)), np.repeat(family.signs, len(own)))
     u, s = [], []
     for i, sign in enumerate(family.signs):
