@@ -11,7 +11,6 @@ from optlaws import (
     BoundaryConditions,
     Chebyshev,
     InfeasibleProblem,
-    InputError,
     Powers,
     Problem,
     construct,
@@ -73,26 +72,6 @@ def test_z_powers_are_z_in_powers_of_k(B: float, order: int, degree: int) -> Non
     # odd about 1/2
     z = np.polynomial.Polynomial(z_powers_of(solution))
     assert z(K) == pytest.approx(-z(1.0 - K), abs=1e-9 * float(np.abs(z_powers_of(solution)).sum()))
-
-
-@pytest.mark.parametrize("basis", [Powers(4), Chebyshev(4), Chebyshev(0), Powers(11)], ids=repr)
-def test_a_basis_converts_there_and_back(basis: PolynomialBasis) -> None:
-    z = tuple(float(value) for value in np.random.default_rng(3).integers(-50, 50, basis.size))
-    assert basis.coefficients(basis.series(z)) == pytest.approx(z, rel=1e-12, abs=1e-12)
-    series = np.polynomial.Chebyshev(basis.series(z), domain=(0.0, 1.0))
-    wanted = (
-        np.polynomial.Polynomial(z)(K) if isinstance(basis, Powers) else np.polynomial.chebyshev.chebval(2 * K - 1, z)
-    )
-    assert series(K) == pytest.approx(wanted, rel=1e-12, abs=1e-9)
-
-
-@pytest.mark.parametrize("basis", [Powers(3), Chebyshev(3)], ids=repr)
-@pytest.mark.parametrize("z", [[], [1.0], [1.0] * 5])
-def test_z_of_another_length_is_refused(basis: PolynomialBasis, z: list[float]) -> None:
-    with pytest.raises(InputError, match="4 coefficients"):
-        basis.series(z)
-    with pytest.raises(InputError, match="4 coefficients"):
-        construct(BoundaryConditions.rest(2), z, basis)
 
 
 def test_a_new_basis_is_one_class() -> None:

@@ -1,0 +1,272 @@
+"""What every family of rows keeps: derivatives are those of differences, and no point of a grid is above the extrema.
+
+A new kind is a line in EXAMPLES.
+"""
+
+from collections.abc import Callable
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces
+from optlaws.mechanisms.spectrum.robust import residual
+from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.family import Family, ProductFamily
+from optlaws.synthesis.spaces.bases import Basis
+from optlaws.synthesis.spaces.of_basis import space_of
+from optlaws.synthesis.spaces.space import LawSpace
+from tests.contracts.kinds import kinds
+
+Array = NDArray[np.float64]
+
+BOUND = 0.7
+STEPS = (-6e-4, -3e-4, 3e-4, 6e-4)
+BESIDE = 2.0**-50
+WEIGHTS = np.array([0.3, 1.0, 0.2, 0.7])
+SPLINES, PIECES = BSplines((0.0, 0.125, 0.5, 0.875, 1.0), 4, 2), Pieces(4, 5, 3)
+
+
+def space(basis: Basis, *, symmetric: bool = False) -> LawSpace:
+    """Laws from rest to rest."""
+    return space_of(basis, BoundaryConditions.rest(4), symmetric=symmetric)
+
+
+def slack(laws: LawSpace) -> Array:
+    """A right side of two variables beyond the coordinates."""
+    found = np.zeros(laws.terms + 2)
+    found[-2:] = 1.0, -0.3
+    return found
+
+
+def random_cone(seed: int) -> ConeFamily:
+    """Over four coordinates and one variable that bounds it."""
+    numbers = np.random.default_rng(seed)
+    series = numbers.normal(size=(7, 6)) + 1j * numbers.normal(size=(7, 6))
+    series[:, 4] = 0.0
+    return ConeFamily("cone", np.eye(5)[4], 0.5, series=series)
+
+
+def vibration(laws: LawSpace) -> Family:
+    """The rows of a residual vibration."""
+    return residual(nu=(11, 14), damping=0.02).families(laws, slack(laws), BOUND)[0]
+
+
+SPACES = {
+    "polynomials": space(Chebyshev(6)),
+    "symmetric polynomials": space(Chebyshev(7), symmetric=True),
+    "splines": space(SPLINES),
+    "symmetric splines": space(SPLINES, symmetric=True),
+    "pieces": space(PIECES),
+    "symmetric pieces": space(PIECES, symmetric=True),
+}
+MAKERS: dict[str, Callable[[LawSpace, Array], Family]] = {
+    "B": lambda laws, room: laws.derivative(1, "B", room, BOUND),
+    "j upward": lambda laws, room: laws.derivative(3, "J", room, BOUND, (1.0,)),
+    "cam": lambda laws, room: laws.combination(1, (1.0, 0.1, 0.02), "cam", room, BOUND),
+    "backward": lambda laws, room: laws.backward(room, BOUND),
+    "power": lambda laws, room: laws.power("D", room, BOUND),
+    "norm": lambda laws, room: laws.norm(2, "rms_c", room, BOUND),
+    "below the peak": lambda laws, room: laws.below(room),
+    "forward": lambda laws, room: laws.forward(room),
+    "from rest": lambda laws, room: laws.from_rest("b / sqrt(2k)", room),
+    "to rest": lambda laws, room: laws.from_rest("b / sqrt(2 - 2k)", room, backward=True),
+    "vibration": lambda laws, _: vibration(laws),
+}
+
+
+def examples() -> dict[str, Family]:
+    """A family of every kind, of whole laws and of halves, with jumps and without."""
+    found: dict[str, Family] = {f"a random cone, {seed}": random_cone(seed) for seed in range(8)}
+    for where, laws in SPACES.items():
+        # the other half of symmetric laws has no rows of its own
+        asked = [what for what in MAKERS if what != "to rest" or not laws.symmetric]
+        found |= {f"{what} of {where}": MAKERS[what](laws, slack(laws)) for what in asked}
+    return found
+
+
+EXAMPLES = examples()
+LAWS = {family: SPACES[where] for name, family in EXAMPLES.items() if (where := name.partition(" of ")[2])}
+KINDS = sorted({type(family).__name__ for family in EXAMPLES.values()})
+
+
+def every_family(test: Callable[[Family], None]) -> Callable[[str], None]:
+    """A test for each kind, which holds all its examples to it."""
+
+    @pytest.mark.parametrize("kind", KINDS)
+    def of_kind(kind: str) -> None:
+        for name, family in EXAMPLES.items():
+            if type(family).__name__ == kind:
+                try:
+                    test(family)
+                except AssertionError as error:
+                    error.add_note(f"{kind}: {name}")
+                    raise
+
+    return of_kind
+
+
+def point(family: Family, seed: int = 0) -> Array:
+    """Random variables, the coordinates such that the law keeps its end conditions."""
+    found = np.random.default_rng(seed).normal(size=len(family.slack))
+    if family in LAWS:
+        found[: LAWS[family].terms] = coordinates(LAWS[family], found)
+    return found
+
+
+def coordinates(laws: LawSpace, x: Array) -> Array:
+    """The nearest ones that keep the equations."""
+    found: Array = x[: laws.terms]
+    if equations := laws.equations():
+        rows, right = np.array([one.row for one in equations]), np.array([one.right for one in equations])
+        found = found - np.linalg.lstsq(rows, rows @ found - right)[0]
+    return found
+
+
+def grid(family: Family, count: int = 4001) -> Array:
+    """The domain."""
+    return np.linspace(*family.domain, count)
+
+
+def corners(family: Family) -> Array:
+    """Points at which nothing is smooth: the ends and the pinned ones."""
+    _, low = family.domain
+    nodes = family.nodes()
+    pinned = np.empty(0) if nodes is None else nodes[family.pinned(nodes)]
+    return np.concatenate([[-1.0, 1.0, low], pinned])
+
+
+def inside(family: Family, count: int = 4, reach: float = 2e-3) -> Array:
+    """Random points of the domain about which the family is smooth."""
+    low, high = family.domain
+    if low == high:
+        return np.full(count, low)
+    u = low + (high - low) * np.random.default_rng(5).random(400)
+    away = np.abs(u[:, None] - corners(family)).min(axis=1) > 5 * reach
+    return u[away][:count]
+
+
+def slope(values: list[Array]) -> Array:
+    """The derivative by differences of order four, of values at the steps."""
+    before, left, right, after = values
+    found: Array = (8.0 * (right - left) - (after - before)) / (12.0 * STEPS[2])
+    return found
+
+
+def test_every_kind_is_here() -> None:
+    assert {type(family) for family in EXAMPLES.values()} == kinds(Family)
+
+
+@every_family
+def test_derivatives_by_the_place_are_those_of_differences(family: Family) -> None:
+    x, u = point(family), inside(family)
+    if family.domain[0] == family.domain[1]:
+        assert not family.jet(x, u, np.ones(len(u))).slope.any()
+        return
+    for s in family.signs:
+        signs = np.full(len(u), s)
+        jet, around = family.jet(x, u, signs), {h: family.jet(x, u + h, signs) for h in STEPS}
+        for of, got in (("value", jet.slope), ("slope", jet.curvature), ("gradient", jet.slope_gradient)):
+            moved = slope([getattr(around[h], of) for h in STEPS])
+            assert got == pytest.approx(moved, rel=1e-6, abs=1e-7 * (1.0 + np.abs(got).max()))
+
+
+@every_family
+def test_derivatives_by_the_variables_are_those_of_differences(family: Family) -> None:
+    x, u = point(family), inside(family)
+    signs = np.resize(family.signs, len(u))
+    jet, hessian = family.jet(x, u, signs), family.hessian(x, u, WEIGHTS * signs)
+    assert jet.value == pytest.approx(signs * family.value(x, u) - family.room(x), rel=1e-11, abs=1e-11)
+    curved = np.zeros((len(x), len(x))) if hessian is None else hessian
+    for i, direction in enumerate(np.eye(len(x))):
+        around = [family.jet(x + h * direction, u, signs) for h in STEPS]
+        value = slope([one.value for one in around])
+        assert jet.gradient[:, i] == pytest.approx(value, rel=1e-7, abs=1e-8 * (1.0 + np.abs(value).max()))
+        wanted = WEIGHTS @ slope([one.gradient for one in around])
+        assert curved[i] == pytest.approx(wanted, rel=1e-7, abs=1e-8 * (1.0 + np.abs(wanted).max()))
+
+
+@every_family
+def test_no_point_of_a_grid_is_above_the_extrema(family: Family) -> None:
+    for seed in range(3):
+        x, u = point(family, seed), grid(family)
+        places, signs, residuals = family.extremes(x)
+        assert set(family.domain) <= set(places)
+        assert places.min() == family.domain[0]
+        assert places.max() == family.domain[1]
+        assert residuals == pytest.approx(family.jet(x, places, signs).value, rel=1e-9, abs=1e-9)
+        value, room = family.value(x, u), family.room(x)
+        for s in family.signs:
+            sampled, greatest = float((s * value).max()), float(residuals[signs == s].max()) + room
+            assert sampled <= greatest + 1e-10 * (1.0 + abs(greatest))
+            assert greatest <= sampled + np.abs(np.diff(value)).max() + 1e-12 * (1.0 + abs(sampled))
+
+
+@every_family
+def test_extrema_are_ends_places_without_slope_or_pinned(family: Family) -> None:
+    low, high = family.domain
+    x = point(family)
+    places, signs, residuals = family.extremes(x)
+    for s in family.signs:
+        best = np.flatnonzero(signs == s)[[int(np.argmax(residuals[signs == s]))]]
+        u = places[best]
+        jet = family.jet(x, u, signs[best])
+        above = jet.value[0] - residuals[(signs == s) & np.isin(places, family.domain)].max()
+        if not family.pinned(u)[0] and above > 1e-9 * (1.0 + abs(jet.value[0])):
+            assert low < u[0] < high
+            assert abs(jet.slope[0]) <= 1e-6 * (1.0 + abs(jet.value[0]) + abs(jet.curvature[0]))
+            assert jet.curvature[0] <= 1e-6 * (1.0 + abs(jet.value[0]))
+
+
+@every_family
+def test_contacts_at_breaks_stay_where_they_are_and_no_others(family: Family) -> None:
+    name = next(name for name, one in EXAMPLES.items() if one is family)
+    low, high = family.domain
+    if low < high:
+        assert not family.pinned(inside(family)).any()
+    pieces = name.endswith(("splines", "pieces")) and not name.startswith(("norm", "vibration"))
+    breaks = 1.0 - 2.0 * np.array(PIECES.breaks if name.endswith("pieces") else SPLINES.breaks)[1:-1]
+    # where the function leaps, the places are beside the break
+    beside = [family.pinned(breaks + way) for way in (-BESIDE, 0.0, BESIDE)]
+    there = (breaks >= low) & (breaks <= high) & (low < high)
+    assert (np.any(beside, axis=0)[there] == pieces).all()
+
+
+@every_family
+def test_places_are_numbers_k_and_back(family: Family) -> None:
+    u = grid(family, 41)
+    k = family.k(u)
+    assert ((k >= 0.0) & (k <= 1.0)).all()
+    assert family.u(k) == pytest.approx(u, abs=1e-14)
+    nodes = family.nodes()
+    assert nodes is None or (np.abs(nodes) <= 1.0).all()
+
+
+@every_family
+def test_other_units_change_nothing(family: Family) -> None:
+    x, u, unit = point(family), inside(family), 2.5
+    units = np.random.default_rng(8).uniform(0.2, 5.0, len(x))
+    other = family.in_units(units, unit)
+    divisor = unit * unit if isinstance(family, ProductFamily) else unit
+    assert other.room(x / units) * divisor == pytest.approx(family.room(x), rel=1e-12)
+    assert other.value(x / units, u) * divisor == pytest.approx(family.value(x, u), rel=1e-10)
+    greatest = other.extremes(x / units)[2].max() * divisor
+    assert greatest == pytest.approx(family.extremes(x)[2].max(), rel=1e-10, abs=1e-11)
+
+
+def test_values_are_those_of_the_law() -> None:
+    for where in ("polynomials", "splines", "pieces"):
+        laws = SPACES[where]
+        x = point(EXAMPLES[f"B of {where}"])[: laws.terms]
+        law, u = laws.law(x), np.linspace(-0.99, 0.99, 25)
+        k, nothing = (1.0 - u) / 2.0, np.zeros(laws.terms)
+        wanted = {
+            laws.derivative(2, "C", nothing): law.c(k),
+            laws.combination(1, (1.0, 0.1), "cam", nothing): law.b(k) + 0.1 * law.c(k),
+            laws.power("D", nothing): law.d(k),
+            laws.from_rest("b / sqrt(2k)", nothing): law.b(k) / np.sqrt(2 * k),
+            laws.from_rest("b / sqrt(2 - 2k)", nothing, backward=True): law.b(1 - k) / np.sqrt(2 * k),
+            laws.norm(2, "rms_c", nothing): np.full(25, law.rms(2)),
+        }
+        for family, values in wanted.items():
+            assert family.value(x, u) == pytest.approx(values, rel=1e-9, abs=1e-9)
