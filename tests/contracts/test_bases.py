@@ -57,7 +57,7 @@ K = np.linspace(0.0, 1.0, 61)
 #: Z by others' hands, of the polynomial bases
 FUNCTIONS: dict[str, Callable[[Array], Array]] = {
     "powers": lambda z: np.polynomial.Polynomial(z)(K),
-    "chebyshev": lambda z: np.polynomial.chebyshev.chebval(2 * K - 1, z),
+    "chebyshev": lambda z: np.asarray(np.polynomial.chebyshev.chebval(2 * K - 1, z), dtype=float),
     "bernstein": lambda z: BPoly(z[:, None], [0.0, 1.0])(K),
 }
 

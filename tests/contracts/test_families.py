@@ -119,7 +119,7 @@ def coordinates(laws: LawSpace, x: Array) -> Array:
     found: Array = x[: laws.terms]
     if equations := laws.equations():
         rows, right = np.array([one.row for one in equations]), np.array([one.right for one in equations])
-        found = found - np.linalg.lstsq(rows, rows @ found - right)[0]
+        found = found - np.asarray(np.linalg.lstsq(rows, rows @ found - right)[0])
     return found
 
 
@@ -143,7 +143,8 @@ def inside(family: Family, count: int = 4, reach: float = 2e-3) -> Array:
         return np.full(count, low)
     u = low + (high - low) * np.random.default_rng(5).random(400)
     away = np.abs(u[:, None] - corners(family)).min(axis=1) > 5 * reach
-    return u[away][:count]
+    found: Array = u[away][:count]
+    return found
 
 
 def slope(values: list[Array]) -> Array:

@@ -27,6 +27,8 @@ if TYPE_CHECKING:
 class LoaderPeak(Functional):
     """Peak of the inertial loader that balances a law.
 
+    Not convex in the law; B of the loader is among laws of one peak velocity, as `balanced_law` seeks them.
+
     Examples
     --------
     >>> from optlaws.laws import smoothstep
@@ -46,7 +48,7 @@ class LoaderPeak(Functional):
 
 
 C_loader = LoaderPeak("C_loader", 4.0, convex=False, of="C")
-B_loader = LoaderPeak("B_loader", 1.0, convex=True, of="B")
+B_loader = LoaderPeak("B_loader", 1.0, convex=False, of="B")
 
 NAMES: Mapping[str, Functional] = {one.name: one for one in (C, C_loader, B_loader)}
 
