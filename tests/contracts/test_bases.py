@@ -85,8 +85,11 @@ def point(space: LawSpace, seed: int = 0) -> Array:
 def test_every_kind_is_here_and_has_a_name() -> None:
     found = kinds(Basis)
     assert {type(basis) for basis in EXAMPLES} == found
-    assert dict(Basis.kinds) == {kind.name: kind for kind in found if issubclass(kind, Basis)}
-    assert REFUSED.keys() == Basis.kinds.keys()
+    named = {kind.name: kind for kind in found if issubclass(kind, Basis)}
+    # other tests may have bases of their own
+    assert dict(Basis.kinds).items() >= named.items()
+    assert len(named) == len(found)
+    assert REFUSED.keys() == named.keys()
 
 
 @every_basis
