@@ -13,7 +13,7 @@ import pytest
 
 from optlaws import BoundaryConditions, Certificate, Chebyshev, Contact, Problem, at_least, at_most
 from optlaws.synthesis.problem.named_constants import expression
-from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _greatest, _means, _model, spread
+from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _greatest, _means, _model, least_values, spread
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 #: roots of P3 and of P3'
@@ -221,3 +221,25 @@ def test_a_contradiction_is_worth_what_the_base_law_breaks(x: float) -> None:
     assert proof.proves_infeasible == (x == -GAUSS)
     assert not Certificate(small(C=at_most(4.7)), proof.contacts, (), VIOLATION).proves_infeasible
     assert not Certificate(small(C=at_least(4.0)), proof.contacts, (), VIOLATION).proves_infeasible
+
+
+@pytest.mark.parametrize(
+    ("minimise", "least"),
+    [
+        # the mean of c is the change of velocity, -2: c is above it somewhere, and below it somewhere
+        ("C_plus", {"C_plus": -2.0}),
+        ("C_minus", {"C_minus": 2.0}),
+        ("C + J", {"C": 0.0, "J": 0.0}),
+        (
+            "max(3.0*C_plus, 0.5*C_minus)",
+            {"C_plus": -2.0, "C_minus": 2.0, "max(3.0*C_plus, 0.5*C_minus)": 1.0},
+        ),
+        ("max(3.0*C_plus, 0.5*C_plus)", {"C_plus": -2.0, "max(3.0*C_plus, 0.5*C_plus)": -1.0}),
+    ],
+)
+def test_what_constants_are_at_least_where_the_velocity_changes(minimise: str, least: dict[str, float]) -> None:
+    slowing = Problem(
+        boundary=BoundaryConditions((0, 2), (1, 0)), symmetric=False, basis=Chebyshev(1), minimise=minimise
+    )
+    space = _model(Certificate(slowing, (), ())).space
+    assert least_values(slowing, space) == pytest.approx(least)
