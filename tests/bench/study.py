@@ -78,7 +78,7 @@ def watched(points: int, degree: int, workers: int) -> Stopwatch:
 PARTS = {
     "IPOPT": ("optlaws.synthesis.method.exchange.solve_on_points",),
     "Newton": ("optlaws.synthesis.method.exchange.newton",),
-    "proof": ("optlaws.synthesis.solve.certify", "optlaws.synthesis.solve.lower_bound"),
+    "proof": ("optlaws.synthesis.search.certify", "optlaws.synthesis.search.lower_bound"),
     "synthesis": ("optlaws.studies.solving.solving.synthesize",),
     "constants": ("optlaws.studies.solving.solving._row",),
 }
