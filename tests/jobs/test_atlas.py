@@ -3,15 +3,17 @@
 import csv
 import json
 import sys
+from math import inf
 from pathlib import Path
+from typing import Any
 
 import pytest
 
-from optlaws import Chebyshev, InputError, Problem, synthesize
+from optlaws import Chebyshev, InfeasibleProblem, InputError, Problem, Solution, at_most, sweep, synthesize
 from optlaws.cli.app import exit_code
 from optlaws.jobs.job import run
 from optlaws.jobs.laws.atlas import COLUMNS
-from optlaws.jobs.laws.atlas_lookup import look_up, read
+from optlaws.jobs.laws.atlas_lookup import best_law, look_up, read
 from optlaws.studies.points.study_file import read_study
 from tests.documents import ROOT
 from tests.jobs import examples
@@ -59,6 +61,61 @@ def test_a_law_is_looked_up_by_B_or_by_its_bounds() -> None:
     assert best.constants["D"] <= 6.0
     others = [p for p in read(ATLAS) if (p.minimise, p.order) == ("C", 4) and p.constants["D"] <= 6.0]
     assert best.constants["C"] == min(p.constants["C"] for p in others)
+
+
+@pytest.mark.parametrize(
+    ("minimise", "order", "B", "most"),
+    [
+        ("C", 4, None, {"D": 5.0}),
+        ("C", 4, None, {"D": 3.4}),
+        ("C", 5, None, {"B": 1.7, "J": 300.0}),
+        ("D", 4, None, {"C": 5.0}),
+        ("D", 2, None, {"J": 1720.0}),
+        ("D", 5, 2.3, {"J": 58.0}),
+        ("J", 3, 1.375, {"D": 3.85, "J": 380.0}),
+        ("J", 4, None, {"rms_c": 3.7, "C": 6.0}),
+        ("rms_c", 4, None, {"D": 3.36}),
+        ("rms_c", 3, 1.75, {"J": 255.0}),
+    ],
+)
+def test_no_law_of_the_atlas_that_keeps_the_limits_is_better(
+    minimise: str, order: int, B: float | None, most: dict[str, float]
+) -> None:
+    asked: dict[str, Any] = {"minimise": minimise, "order": order, "B": B, "most": most}
+    rivals = [
+        point.constants[minimise]
+        for point in read(ATLAS)
+        if point.order == order
+        and minimise in point.constants
+        and (B is None or point.B == B)
+        and all(point.constants.get(name, inf) <= value for name, value in most.items())
+    ]
+    point, best = look_up(ATLAS, **asked), best_law(ATLAS, **asked)
+    assert point.constants[minimise] == min(rivals)
+    assert all(point.constants[name] <= value for name, value in most.items())
+    # the table has eight digits
+    assert best.objective <= min(rivals) * (1.0 + 1e-7)
+    constants = {name: getattr(best.constants, name) for name in most}
+    values = {name: one if isinstance(one, float) else one.value for name, one in constants.items()}
+    assert all(values[name] <= value * (1.0 + 1e-9) for name, value in most.items())
+    for degree in (5, 9, 15):
+        bounds = {name: at_most(value) for name, value in most.items()}
+        problem = Problem(B=B, order=order, basis=Chebyshev(degree), minimise=minimise, bounds=bounds)
+        (other,) = sweep([problem], errors="return")
+        assert not isinstance(other, Solution) or best.objective <= other.objective * (1.0 + 1e-9)
+
+
+def test_the_best_degree_is_sought_among_all() -> None:
+    best = best_law(ATLAS, minimise="C", order=4, most={"D": 5.0})
+    assert best.problem.basis == Chebyshev(15)
+    assert best.objective == pytest.approx(4.531553, abs=1e-6)
+
+
+def test_where_no_degree_has_a_law_the_proof_is_of_the_greatest() -> None:
+    with pytest.raises(InfeasibleProblem) as told:
+        best_law(ATLAS, minimise="C", order=4, B=2.2, most={"D": 4.0})
+    assert isinstance(told.value.problem, Problem)
+    assert told.value.problem.basis == Chebyshev(15)
 
 
 @pytest.mark.parametrize(

@@ -33,15 +33,16 @@ def atlas(
     as_json
         Print one JSON object on stdout and nothing else.
     """
-    from optlaws.jobs.laws.atlas_lookup import look_up, problem
+    from optlaws.jobs.laws.atlas_lookup import best_law, look_up
 
-    B, most = entries.get("B"), _greatest(entries)
-    point = look_up(file, minimise=entries["minimise"], order=entries["order"], B=B, most=most)
-    solution = optlaws.synthesize(problem(point, B=B, most=most))
+    asked: dict[str, Any] = {name: entries[name] for name in ("minimise", "order")}
+    asked |= {"B": entries.get("B"), "most": _greatest(entries)}
+    point = look_up(file, **asked)
+    solution = best_law(file, **asked)
     exact = {name: getattr(solution.constants, name).value for name in ("B", "C", "D", "J")}
     exact["rms_c"] = solution.constants.rms_c
     if as_json:
-        near = {"B": point.B, "degree": point.degree, "constants": dict(point.constants)}
+        near = {"minimise": point.minimise, "B": point.B, "degree": point.degree, "constants": dict(point.constants)}
         law = solution.law.to_dict()
         print_json({"nearest": near, "status": solution.status.value, "constants": exact, "law": law})
         return

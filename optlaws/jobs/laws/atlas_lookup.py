@@ -1,4 +1,4 @@
-"""Looking a law up in the atlas: the nearest point that keeps what is asked, and its problem as asked."""
+"""Looking a law up in the atlas: the nearest point that keeps what is asked, and the best law that does."""
 
 from __future__ import annotations
 
@@ -8,11 +8,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from optlaws.errors import InputError
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.files import reading
 from optlaws.jobs.laws.atlas import COLUMNS, CONSTANTS
 from optlaws.suggest import unknown_key
-from optlaws.synthesis import Chebyshev, Problem, at_most
+from optlaws.synthesis import Chebyshev, Problem, Solution, Status, at_most, synthesize
 
 
 @dataclass(frozen=True)
@@ -30,6 +30,8 @@ def look_up(
     file: Path, *, minimise: str, order: int, B: float | None = None, most: Mapping[str, float] | None = None
 ) -> AtlasPoint:
     """The point with the nearest B or, where B is free, the best one; among equals the one with the least objective.
+
+    Laws that were made for another objective count too: with a limit they may be the better ones.
 
     Parameters
     ----------
@@ -56,7 +58,7 @@ def look_up(
         known = sorted({getattr(point, name) for point in points})
         if value not in known:
             raise InputError(f"the atlas has {name} = {', '.join(map(str, known))}, not {value}")
-    some = [point for point in points if (point.minimise, point.order) == (minimise, order)]
+    some = [point for point in points if point.order == order and minimise in point.constants]
     if B is not None:
         low, high = min(point.B for point in some), max(point.B for point in some)
         if not low <= B <= high:
@@ -65,16 +67,46 @@ def look_up(
     if not kept:
         least = {name: min(p.constants.get(name, float("inf")) for p in some) for name in asked}
         wanted = ", ".join(f"{name} <= {value:g} (the least there is {least[name]:g})" for name, value in asked.items())
-        raise InputError(f"no law of order {order} with the least {minimise} in the atlas keeps {wanted}")
+        raise InputError(f"no law of order {order} in the atlas keeps {wanted}; optlaws solve may find one between")
     return min(kept, key=lambda p: (0.0 if B is None else abs(p.B - B), p.constants[minimise]))
 
 
-def problem(point: AtlasPoint, *, B: float | None = None, most: Mapping[str, float] | None = None) -> Problem:
-    """The problem as asked, with the degree of a point of the atlas."""
-    bounds: dict[str, Any] = {name: at_most(value) for name, value in (most or {}).items()}
+def best_law(
+    file: Path, *, minimise: str, order: int, B: float | None = None, most: Mapping[str, float] | None = None
+) -> Solution:
+    """The best law as asked, of whichever degree the atlas has; the arguments are those of `look_up`.
+
+    A point of the atlas says nothing of the best degree under a limit: its law keeps to it by chance. So every degree
+    is asked, but where the greatest, among whose laws are those of all others, has answered for them with proof.
+
+    Raises
+    ------
+    InfeasibleProblem, SolverFailure
+        If no law of the greatest degree exists or none of any degree is found.
+    """
+    degrees = sorted({point.degree for point in read(file) if point.order == order}, reverse=True)
+    found: list[Solution] = []
+    failed: list[SolverFailure] = []
+    for degree in degrees:
+        try:
+            found.append(synthesize(_problem(degree, minimise, order, B, most or {})))
+        except InfeasibleProblem:
+            if not found and not failed:
+                raise
+        except SolverFailure as error:
+            failed.append(error)
+        if found and found[0].status is Status.OPTIMAL:
+            break
+    if not found:
+        raise failed[0]
+    return min(found, key=lambda solution: solution.objective)
+
+
+def _problem(degree: int, minimise: str, order: int, B: float | None, most: Mapping[str, float]) -> Problem:
+    bounds: dict[str, Any] = {name: at_most(value) for name, value in most.items()}
     if B is not None:
         bounds.pop("B", None)
-    return Problem(B=B, order=point.order, basis=Chebyshev(point.degree), minimise=point.minimise, bounds=bounds)
+    return Problem(B=B, order=order, basis=Chebyshev(degree), minimise=minimise, bounds=bounds)
 
 
 def read(file: Path) -> list[AtlasPoint]:

@@ -191,7 +191,7 @@ def test_a_start_that_is_no_solution_is_refused(wrong: Any) -> None:  # noqa: AN
         lambda: construct(BoundaryConditions.rest(2), zz=[1.0]),  # type: ignore[call-overload]
         lambda: acceleration_limit(2.0, monoton=True),  # type: ignore[call-arg]
         lambda: synthesize(Problem(B=1.5, order=2), strat=None),  # type: ignore[call-arg]
-        lambda: sweep(problem=[]),  # type: ignore[call-arg]
+        lambda: sweep(problem=[]),  # type: ignore[call-overload]
         lambda: Contact("C", 1.0, 0.1, weight=1.0),  # type: ignore[call-arg]
         lambda: Certificate(problem(), contact=(), equations=()),  # type: ignore[call-arg]
         lambda: optlaws.savin("I", alfa=1.0),  # type: ignore[call-arg]

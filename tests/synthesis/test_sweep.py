@@ -1,0 +1,58 @@
+"""Sweeps: problems one after the other, and what becomes of those without an answer."""
+
+from collections.abc import Iterator
+from dataclasses import replace
+from typing import Any
+
+import pytest
+
+from optlaws import Chebyshev, InfeasibleProblem, InputError, Problem, Solution, sweep, synthesize
+
+FIRST = Problem(B=1.6, order=4, basis=Chebyshev(5))
+
+
+def test_errors_are_raised_unless_asked_for() -> None:
+    found = sweep(replace(FIRST, B=B) for B in (1.6, 1.1, 1.7))
+    assert next(found).problem.B == 1.6
+    with pytest.raises(InfeasibleProblem):
+        next(found)
+
+
+def test_errors_are_results_where_that_is_asked() -> None:
+    problems = [replace(FIRST, B=B) for B in (1.1, 1.6, 1.2, 1.7)]
+    found = list(sweep(problems, errors="return"))
+    assert [type(one) for one in found] == [InfeasibleProblem, Solution, InfeasibleProblem, Solution]
+    for one, problem in zip(found, problems, strict=True):
+        if isinstance(one, Solution):
+            assert one.problem == problem
+            assert one.objective == pytest.approx(synthesize(problem).objective, rel=1e-11)
+        else:
+            assert isinstance(one, InfeasibleProblem)
+            assert one.problem == problem
+            assert one.proof is not None
+            assert one.__traceback__ is None
+
+
+def test_what_is_no_problem_spoils_its_own_place_only() -> None:
+    wrong: list[Any] = [FIRST, None, FIRST]
+    found = list(sweep(wrong, errors="return"))
+    assert [type(one) for one in found] == [Solution, InputError, Solution]
+    assert "takes a Problem, got NoneType" in str(found[1])
+
+
+def test_the_option_is_checked_at_once() -> None:
+    with pytest.raises(InputError, match="did you mean 'return'"):
+        sweep([], errors="returns")  # type: ignore[call-overload] # the wrong one is the point
+
+
+def test_problems_are_taken_one_by_one() -> None:
+    taken = []
+
+    def problems() -> Iterator[Problem]:
+        for B in (1.6, 1.7, 1.8):
+            taken.append(B)
+            yield replace(FIRST, B=B)
+
+    found = sweep(problems())
+    next(found)
+    assert taken == [1.6]
