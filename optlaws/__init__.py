@@ -10,6 +10,7 @@ _load, __dir__, __all__ = face(
     {
         "optlaws.errors": "InfeasibleProblem InputError NotNormalised OptlawsError SolverFailure",
         "optlaws.laws.catalogue.catalogue": "catalogue",
+        "optlaws.laws.constants": "Constants",
         "optlaws.laws.law": "MotionLaw",
         "optlaws.laws.making.multiplier": "multiplied",
         "optlaws.laws.making.transform": "mirrored_law reversed_law with_end_velocity",
@@ -36,7 +37,7 @@ _load, __dir__, __all__ = face(
         "optlaws.mechanisms.spectrum.residual": "residual_functional residual_phasor",
         "optlaws.mechanisms.spectrum.robust": "residual",
         "optlaws.mechanisms.spectrum.spectrum": "ResponseSpectrum response_spectrum",
-        "optlaws.series.peaks": "Constants Peak",
+        "optlaws.series.peaks": "Peak",
         "optlaws.studies.run": "run_study",
         "optlaws.studies.study": "open_study",
         "optlaws.synthesis.front": "Front",

@@ -8,6 +8,7 @@ from optlaws.errors import NotNormalised as NotNormalised
 from optlaws.errors import OptlawsError as OptlawsError
 from optlaws.errors import SolverFailure as SolverFailure
 from optlaws.laws.catalogue.catalogue import catalogue as catalogue
+from optlaws.laws.constants import Constants as Constants
 from optlaws.laws.law import MotionLaw as MotionLaw
 from optlaws.laws.making.multiplier import multiplied as multiplied
 from optlaws.laws.making.transform import mirrored_law as mirrored_law
@@ -44,7 +45,6 @@ from optlaws.mechanisms.spectrum.residual import residual_phasor as residual_pha
 from optlaws.mechanisms.spectrum.robust import residual as residual
 from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum as ResponseSpectrum
 from optlaws.mechanisms.spectrum.spectrum import response_spectrum as response_spectrum
-from optlaws.series.peaks import Constants as Constants
 from optlaws.series.peaks import Peak as Peak
 from optlaws.studies.run import run_study as run_study
 from optlaws.studies.study import open_study as open_study

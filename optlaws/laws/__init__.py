@@ -5,8 +5,9 @@ from optlaws.lazy import face
 __getattr__, __dir__, __all__ = face(
     __name__,
     {
+        "optlaws.laws.constants": "Constants",
         "optlaws.laws.law": "MotionLaw",
         "optlaws.laws.polynomial": "PolynomialLaw smoothstep",
-        "optlaws.series.peaks": "Constants Peak",
+        "optlaws.series.peaks": "Peak",
     },
 )

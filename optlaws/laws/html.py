@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 
-from optlaws.series.peaks import Constants
+from optlaws.laws.constants import Constants
 
 WIDTH = 150
 HEIGHT = 60

@@ -10,11 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.laws.constants import Constants
 from optlaws.laws.html import page
 from optlaws.laws.storage import Stored
 from optlaws.numbers import derivative, times
 from optlaws.series import peaks
-from optlaws.series.peaks import Constants, Peak
+from optlaws.series.peaks import Peak
 
 Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[Any]

@@ -44,50 +44,6 @@ class Peak:
         return {"value": bounded(self.value), "k": self.k}
 
 
-@dataclass(frozen=True, slots=True)
-class Constants:
-    """The constants of a law, dimensionless.
-
-    Attributes
-    ----------
-    B, C, D, J
-        Peaks of |b|, |c|, |d|, |j| over the whole interval.
-    rms_c
-        Root mean square of c.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> smoothstep(2).constants.C
-    Peak(value=6.0, k=0.0)
-    """
-
-    B: Peak
-    C: Peak
-    D: Peak
-    J: Peak
-    rms_c: float
-
-    def to_dict(self, *, rms: bool = False) -> dict[str, dict[str, float | None] | float | None]:
-        """B, C, D, J as {"value": ..., "k": ...}; rms_c too where `rms`; None where a value has no bound.
-
-        Examples
-        --------
-        >>> from optlaws.laws import smoothstep
-        >>> smoothstep(2).constants.to_dict()["B"]
-        {'value': 1.5, 'k': 0.5}
-        """
-        table: dict[str, dict[str, float | None] | float | None] = {
-            "B": self.B.to_dict(),
-            "C": self.C.to_dict(),
-            "D": self.D.to_dict(),
-            "J": self.J.to_dict(),
-        }
-        if rms:
-            table["rms_c"] = bounded(self.rms_c)
-        return table
-
-
 def highest(k: Array, values: Array, tie: float) -> Peak:
     """The largest of `values`, with the smallest k whose value is within `tie` of it.
 

@@ -1,7 +1,6 @@
 """Peaks that lie between all nodes: polished by Newton steps, compared with mpmath."""
 
 from collections.abc import Callable, Sequence
-from dataclasses import FrozenInstanceError
 
 import mpmath  # type: ignore[import-untyped] # ships no types
 import numpy as np
@@ -9,7 +8,7 @@ import pytest
 from numpy.typing import NDArray
 
 from optlaws import Chebyshev, PolynomialLaw, Problem, synthesize
-from optlaws.series.peaks import POLISH_REACH, Constants, Peak, extremes, highest, peak, polished
+from optlaws.series.peaks import POLISH_REACH, Peak, extremes, highest, peak, polished
 
 Array = NDArray[np.float64]
 Residual = Callable[[Array], tuple[Array, Array]]
@@ -106,25 +105,10 @@ def test_a_tie_is_relative_to_the_size() -> None:
     assert peak(k, np.array([-1000.0 + 5e-7, 0.0, 1000.0])) == Peak(1000.0, 1.0)
 
 
-def test_peaks_are_values() -> None:
-    one, again = (Constants(Peak(1.0, 0.1), Peak(2.0, 0.2), Peak(3.0, 0.3), Peak(4.0, 0.4), 2.0) for _ in range(2))
-    assert {one: one.B}[again] == Peak(1.0, 0.1)
-    with pytest.raises(FrozenInstanceError):
-        one.rms_c = 3.0  # type: ignore[misc]
-
-
 def test_extremes_of_nothing_are_plain_zeros() -> None:
     lowest, top = extremes(np.array([0.0, 1.0]), np.zeros(2))
     assert (str(lowest.value), str(top.value)) == ("0.0", "0.0")
     assert extremes(np.array([0.0, 1.0]), np.array([2.0, 3.0])) == (Peak(2.0, 0.0), Peak(3.0, 1.0))
-
-
-def test_constants_as_plain_data() -> None:
-    one = Constants(Peak(1.0, 0.1), Peak(2.0, 0.2), Peak(3.0, 0.3), Peak(np.inf, 0.4), np.inf)
-    plain = {"B": {"value": 1.0, "k": 0.1}, "C": {"value": 2.0, "k": 0.2}, "D": {"value": 3.0, "k": 0.3}}
-    assert one.to_dict() == plain | {"J": {"value": None, "k": 0.4}}
-    assert one.to_dict(rms=True) == plain | {"J": {"value": None, "k": 0.4}, "rms_c": None}
-    assert Constants(one.B, one.C, one.D, one.J, 2.5).to_dict(rms=True)["rms_c"] == 2.5
 
 
 def derivative(law: PolynomialLaw, nu: int) -> Callable[[mpmath.mpf], mpmath.mpf]:

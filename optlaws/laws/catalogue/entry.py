@@ -12,13 +12,13 @@ import numpy as np
 
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.tyr_codes import coded
+from optlaws.laws.constants import Constants
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.making.trapezoids import scca, trapezoid
 from optlaws.laws.polynomial import smoothstep
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
-from optlaws.series.peaks import Constants
 
 SMOOTH = 1e-9  # a derivative at an end below this share of its size is zero
 HIGHEST = 9
