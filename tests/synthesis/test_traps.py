@@ -10,8 +10,8 @@ import pytest
 
 from optlaws import Chebyshev, Problem, Solution, Status, smoothstep, synthesize
 from optlaws.synthesis.families.family import LinearFamily, Points, Program
-from optlaws.synthesis.method import exchange
 from optlaws.synthesis.method.on_points import ipopt
+from optlaws.synthesis.method.ways import interior_points
 from tests.synthesis.independent import acceleration_of, check_solution, extremes, velocity_of, z_of
 
 SHAPES = [
@@ -91,7 +91,7 @@ def test_an_answer_of_ipopt_is_only_a_start(monkeypatch: pytest.MonkeyPatch, noi
         x = answer.x * (1.0 + noise * numbers.normal(size=len(answer.x)))
         return replace(answer, x=x, success=False, status="Solved_To_Acceptable_Level")
 
-    monkeypatch.setattr(exchange, "solve_on_points", rough)
+    monkeypatch.setattr(interior_points, "solve_on_points", rough)
     solution = synthesize(problem)
     check_solution(solution)
     assert solution.objective == pytest.approx(true.objective, rel=1e-12)

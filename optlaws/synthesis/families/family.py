@@ -85,6 +85,11 @@ class Family(ABC):
         """Whether a contact at u is a kink that stays where it is."""
         return np.zeros(len(u), dtype=np.bool_)
 
+    def movable(self, u: Array) -> NDArray[np.bool_]:
+        """Whether a contact at u may move: it is neither at an end nor pinned."""
+        low, high = self.domain
+        return (low < u) & (u < high) & ~self.pinned(u)
+
     def k(self, u: Array) -> Array:
         """The k in [0, 1] that belongs to u = 1 - 2k."""
         places: Array = (1.0 - u) / 2.0

@@ -5,11 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.method.tolerances import EMPTY_ROW
+
 Array = NDArray[np.float64]
 
 #: rows of length 1 that are nearer to depending on each other are taken to do so
 _RANK = 1e-11
-_EMPTY = 1e-13
 _OFF = 1e-9
 _WEIGHTLESS = 1e-12
 
@@ -31,7 +32,7 @@ def contradiction(rows: Array, right: Array) -> Array | None:
     [1.0, -0.5]
     """
     length = np.linalg.norm(rows, axis=1)
-    empty = length < _EMPTY
+    empty = length < EMPTY_ROW
     for i in np.flatnonzero(empty & (np.abs(right) > _OFF)):
         return _unit(len(right), int(i), -float(np.sign(right[i])))
     length[empty] = 1.0
@@ -60,7 +61,7 @@ def independent(rows: Array) -> NDArray[np.bool_]:
     directions = np.empty((0, rows.shape[1]))
     for i, row in enumerate(rows):
         size = float(np.linalg.norm(row))
-        if size < _EMPTY:
+        if size < EMPTY_ROW:
             continue
         left = row / size
         for _ in range(2):
@@ -78,7 +79,7 @@ def _of_one_value(rows: Array, right: Array) -> Array | None:
         for j in range(i):
             for sign in (1.0, -1.0):
                 off = right[i] - sign * right[j]
-                same = np.abs(rows[i] - sign * rows[j]).max(initial=0.0) < _EMPTY
+                same = np.abs(rows[i] - sign * rows[j]).max(initial=0.0) < EMPTY_ROW
                 if same and abs(off) > _OFF * max(1.0, abs(right[i])):
                     size = float(np.sign(off))
                     return _unit(len(right), j, size * sign) + _unit(len(right), i, -size)

@@ -23,10 +23,11 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Family, NormFamily, Program
 from optlaws.synthesis.families.names import at_least
 from optlaws.synthesis.method.aligned import aligned
-from optlaws.synthesis.method.exchange import polished, solve
+from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.middle import asked_in_the_middle
 from optlaws.synthesis.method.on_points.grids import first_points
 from optlaws.synthesis.method.on_points.highs import vertex_on_points
+from optlaws.synthesis.method.ways.contacts import polished
 from optlaws.synthesis.problem.constants import B, Functional, RootMeanSquare
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
@@ -192,7 +193,7 @@ def _with(program: Program, family: Family) -> Program:
 
 
 def _inside(family: Family, u: float) -> bool:
-    return family.domain[0] < u < family.domain[1] and not family.pinned(np.array([u]))[0]
+    return bool(family.movable(np.array([u]))[0])
 
 
 _PLACES = 5

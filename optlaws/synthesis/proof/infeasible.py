@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
+from dataclasses import dataclass, replace
 from math import ceil, floor
 
 import numpy as np
@@ -14,9 +14,11 @@ from optlaws.synthesis.families.family import LinearFamily, Points
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method.equations import contradiction
-from optlaws.synthesis.method.exchange import Outcome, as_answered, solve
-from optlaws.synthesis.method.on_points.grids import exchanged, first_points
+from optlaws.synthesis.method.exchange import Outcome, solve
+from optlaws.synthesis.method.on_points.grids import first_points, with_extrema
 from optlaws.synthesis.method.on_points.highs import vertex_on_points
+from optlaws.synthesis.method.ways.identified import as_answered
+from optlaws.synthesis.method.ways.way import Way, in_rounds
 from optlaws.synthesis.problem.constants import C
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of
@@ -172,18 +174,28 @@ def _at_vertices(elastic: Model) -> Certificate | None:
     if program.curved:
         return None
     points = [
-        mine.joined(Points(np.tile(family.domain, len(family.signs)), np.repeat(family.signs, 2)))
-        for family, mine in zip(program.families, first_points(program), strict=True)
+        inner.joined(Points(np.tile(family.domain, len(family.signs)), np.repeat(family.signs, 2)))
+        for family, inner in zip(program.families, first_points(program), strict=True)
     ]
-    for _ in range(_ROUNDS):
-        answer = vertex_on_points(program, points)
-        if answer is None:
-            return None
-        proof = violation_certificate(elastic, as_answered(points, answer))
+    return in_rounds(_Contradicting(elastic), points)[0]
+
+
+@dataclass(frozen=True)
+class _Contradicting(Way[list[Points], Certificate]):
+    """Vertices of the least violation, whose rows may contradict each other before they are all that bind."""
+
+    elastic: Model
+    rounds: int = _ROUNDS
+
+    def answered(self, held: list[Points]) -> tuple[Certificate | None, list[Points] | None]:
+        """The proof, or the points with the vertex's extrema."""
+        vertex = vertex_on_points(self.elastic.program, held)
+        if vertex is None:
+            return None, None
+        proof = violation_certificate(self.elastic, as_answered(held, vertex))
         if proof.proves_infeasible:
-            return proof
-        points = [exchanged(family, mine, answer.x) for family, mine in zip(program.families, points, strict=True)]
-    return None
+            return proof, None
+        return None, with_extrema(self.elastic.program, held, vertex.x)
 
 
 def _disagreeing(problem: Problem, proof: Certificate, elastic: Model) -> str:

@@ -12,6 +12,7 @@ from optlaws.synthesis.method.on_points.flat import sharpened
 from optlaws.synthesis.method.on_points.grids import first_points
 from optlaws.synthesis.method.on_points.highs import vertex_on_points
 from optlaws.synthesis.method.on_points.ipopt import Answer
+from optlaws.synthesis.method.ways import identified
 from optlaws.synthesis.program.writer import model_of
 from optlaws.verification.exact.bound import prove
 from tests.synthesis.judge import judge
@@ -99,7 +100,7 @@ def test_what_does_not_show_the_binding_rows_is_refused(monkeypatch: pytest.Monk
         seen.append(sharpened(program, points, spoilt))
         return sharpened(program, points, answer)
 
-    monkeypatch.setattr(exchange, "sharpened", watched)
+    monkeypatch.setattr(identified, "sharpened", watched)
     outcome = exchange.solve(model_of(Problem(order=2, minimise="J")).program)
     assert outcome.optimum is not None
     assert seen

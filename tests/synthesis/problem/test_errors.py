@@ -42,8 +42,8 @@ from optlaws import (
 )
 from optlaws.synthesis import basis, search
 from optlaws.synthesis.families.family import Points, Program
-from optlaws.synthesis.method import exchange, vertices
 from optlaws.synthesis.method.on_points import ipopt
+from optlaws.synthesis.method.ways import interior_points, vertices
 from optlaws.synthesis.proof import make
 
 GOOD: dict[str, Any] = {"B": 1.859, "order": 4}
@@ -279,7 +279,7 @@ def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) ->
             np.full(program.size, nan), weights, success=False, status="Restoration_Failed", iterations=7
         )
 
-    monkeypatch.setattr(exchange, "solve_on_points", failed)
+    monkeypatch.setattr(interior_points, "solve_on_points", failed)
     one = problem(B=1.7001)
     # where IPOPT fails the simplex method ends a linear program
     assert synthesize(one).status == "optimal"
@@ -302,7 +302,7 @@ def test_multipliers_that_are_wrong_give_no_false_claim(monkeypatch: pytest.Monk
         wrong = [weights * (1.0 + shift) for weights in answer.multipliers]
         return replace(answer, x=answer.x + shift, multipliers=wrong)
 
-    monkeypatch.setattr(exchange, "solve_on_points", lying)
+    monkeypatch.setattr(interior_points, "solve_on_points", lying)
     try:
         solution = synthesize(one)
     except SolverFailure:

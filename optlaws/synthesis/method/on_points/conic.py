@@ -15,11 +15,11 @@ from numpy.typing import NDArray
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Points, Program
 from optlaws.synthesis.method.on_points.ipopt import Answer
+from optlaws.synthesis.method.tolerances import EMPTY_ROW
 
 Array = NDArray[np.float64]
 
 _TOLERANCE = 1e-12
-_EMPTY = 1e-13
 _USABLE = ("Solved", "AlmostSolved")
 
 
@@ -108,14 +108,14 @@ def _block(family: Family, points: Points) -> _Block:
     room = np.broadcast_to(np.append(family.slack, family.bound), (len(parts), 1, parts.shape[2]))
     stacked = np.concatenate([room, parts], axis=1)
     # a cone stays one if all its rows are multiplied alike
-    scale = 1.0 / np.sqrt(np.maximum((stacked[:, :, :-1] ** 2).sum(axis=2).max(axis=1), _EMPTY**2))
+    scale = 1.0 / np.sqrt(np.maximum((stacked[:, :, :-1] ** 2).sum(axis=2).max(axis=1), EMPTY_ROW**2))
     flat = (stacked * scale[:, None, None]).reshape(-1, parts.shape[2])
     return _Block(-flat[:, :-1], flat[:, -1], scale, linear=False)
 
 
 def _length(rows: Array) -> Array:
     length = np.linalg.norm(rows, axis=1)
-    return np.where(length < _EMPTY, 1.0, length)
+    return np.where(length < EMPTY_ROW, 1.0, length)
 
 
 def _on_equations(program: Program, x: Array) -> Array:

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.family import EvenFamily, Family, Points, Program
+from optlaws.synthesis.method.tolerances import NEARLY_BINDING
 
 Array = NDArray[np.float64]
 
@@ -43,11 +44,15 @@ def _points(family: Family, size: int, even_share: float) -> Points:
     return Points(np.concatenate(u), np.concatenate(s))
 
 
-def exchanged(family: Family, points: Points, x: Array) -> Points:
-    """The points, and those extrema at x that bind or nearly do."""
+def with_extrema(program: Program, points: list[Points], x: Array) -> list[Points]:
+    """The points of every family, and those of its extrema at x that bind or nearly do."""
+    return [_joined(family, held, x) for family, held in zip(program.families, points, strict=True)]
+
+
+def _joined(family: Family, points: Points, x: Array) -> Points:
     if family.domain[0] == family.domain[1]:
         return points
     u, s, residual = family.extremes(x)
-    near = residual > -1e-2 * max(1.0, abs(family.room(x)))
+    near = residual > -NEARLY_BINDING * max(1.0, abs(family.room(x)))
     known = np.any((points.u == u[:, None]) & (points.s == s[:, None]), axis=1)
     return points.joined(Points(u[near & ~known], s[near & ~known]))

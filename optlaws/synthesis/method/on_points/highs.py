@@ -46,7 +46,7 @@ def vertex_on_points(program: Program, points: list[Points], near: Array | None 
         equation_right = _MAGNIFIED * (equation_right - table.equations @ near)
     equations = {"A_eq": table.equations, "b_eq": equation_right} if len(program.right) else {}
     for method, presolve, tolerance in _WAYS:
-        found = solve(
+        optimum = solve(
             program.objective,
             A_ub=table.rows,
             b_ub=right,
@@ -59,17 +59,21 @@ def vertex_on_points(program: Program, points: list[Points], near: Array | None 
             },
             **equations,
         )
-        if found.status == _OPTIMAL:
-            x = np.asarray(found.x) if near is None else near + np.asarray(found.x) / _MAGNIFIED
-            return _answer(table, points, x, found)
-        if found.status == _INFEASIBLE:
+        if optimum.status == _OPTIMAL:
+            x = np.asarray(optimum.x) if near is None else near + np.asarray(optimum.x) / _MAGNIFIED
+            return _answer(table, points, x, optimum)
+        if optimum.status == _INFEASIBLE:
             return None
     return None
 
 
-def _answer(table: Table, points: list[Points], x: Array, found: Any) -> Answer:  # noqa: ANN401 - scipy's OptimizeResult
-    weights = np.maximum(-found.ineqlin.marginals, 0.0) / table.length
-    ends = np.cumsum([len(mine.u) for mine in points])[:-1]
-    equations = -np.asarray(found.eqlin.marginals, dtype=np.float64) / table.equation_length
-    status = str(found.message)
-    return Answer(x, [*np.split(weights, ends), equations], success=True, status=status, iterations=0)
+def by_family(values: Array, points: list[Points]) -> list[Array]:
+    """Values of all rows, those of each family apart."""
+    return np.split(values, np.cumsum([len(held.u) for held in points])[:-1])
+
+
+def _answer(table: Table, points: list[Points], x: Array, optimum: Any) -> Answer:  # noqa: ANN401 - scipy's OptimizeResult
+    weights = np.maximum(-optimum.ineqlin.marginals, 0.0) / table.length
+    equations = -np.asarray(optimum.eqlin.marginals, dtype=np.float64) / table.equation_length
+    status = str(optimum.message)
+    return Answer(x, [*by_family(weights, points), equations], success=True, status=status, iterations=0)

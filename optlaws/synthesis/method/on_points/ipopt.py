@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 from optlaws.locks import process_lock
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Points, ProductFamily, Program
+from optlaws.synthesis.method.tolerances import EMPTY_ROW
 
 Array = NDArray[np.float64]
 
 # keeps the norm's slope finite where it vanishes; Newton's method on the exact active set goes without it
 _SMOOTH = 1e-12
-_EMPTY = 1e-13
 _QUIET = {"print_time": False, "show_eval_warnings": False, "ipopt.print_level": 0, "ipopt.sb": "yes"}
 # nobody asks how the optimum depends on the parameters, which are all the rows
 _LEAN = {"calc_lam_p": False}
@@ -104,9 +104,9 @@ def solve_on_points(
     right = np.concatenate([*(h for _, h in linear), program.right])
     length = np.linalg.norm(rows, axis=1)
     # a row such as b >= 0 at rest says nothing, and IPOPT would have no room to say it in
-    empty = length < _EMPTY
+    empty = length < EMPTY_ROW
     empty[len(rows) - len(program.right) :] = False
-    length[length < _EMPTY] = 1.0
+    length[length < EMPTY_ROW] = 1.0
     right = np.where(empty, np.inf, right)
 
     products = [(f, p) for f, p in pairs if isinstance(f, ProductFamily)]

@@ -1,0 +1,75 @@
+"""Where a curved program is begun without a neighbour: laws that need no solver, and a start that leaves room."""
+
+from __future__ import annotations
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.family import NormFamily, Points, Program
+from optlaws.synthesis.method.tolerances import EXCESS, VANISHED
+
+Array = NDArray[np.float64]
+
+#: by how much the room of a start exceeds what its base law needs
+_AMPLE = 1.2
+
+
+def vanishing(program: Program) -> ActiveSet | None:
+    """A law in which all amplitudes that are minimised vanish: many may have none, and then no contact shows one."""
+    minimised = [family for family in program.families if (program.objective * family.slack).any()]
+    cones = [family for family in minimised if isinstance(family, ConeFamily) and family.domain[0] == family.domain[1]]
+    costs = np.flatnonzero(program.objective)
+    bounded = all(sum(cone.slack[i] for cone in cones) for i in costs)
+    if not cones or len(cones) < len(minimised) or not bounded:
+        return None
+    columns = [cone.columns(np.array(cone.domain[:1]))[0, 0] for cone in cones]
+    rows = np.vstack([np.array([column.real, column.imag]) for column in columns])
+    held = np.concatenate([rows[:, :-1], program.equalities])
+    right = np.concatenate([-rows[:, -1], program.right])
+    # what is minimised is to be nothing
+    held[:, costs] = 0.0
+    x = np.linalg.lstsq(held, right, rcond=None)[0]
+    if np.abs(held @ x - right).max() > VANISHED or program.violation(x) > EXCESS:
+        return None
+    nothing, equations = np.empty(0), np.zeros(len(program.right))
+    places = np.empty(0, dtype=np.intp)
+    return ActiveSet(x, places, nothing, nothing, places.astype(np.bool_), nothing, equations)
+
+
+def lifted(program: Program, points: list[Points]) -> Array:
+    """The base law with room for its own constants: from below them curved programs are hard to enter."""
+    x = np.zeros(program.size)
+    for family, held in zip(program.families, points, strict=True):
+        needed = float((held.s * family.value(np.zeros(program.size), held.u)).max()) - family.bound
+        if isinstance(family, ConeFamily):
+            needed = max(needed, 1.0)  # a cone's rows need room
+        raised = family.slack > 0.0
+        x[raised] = np.maximum(x[raised], _AMPLE * needed / family.slack[raised])
+    return x
+
+
+def norms_only(program: Program, x: Array) -> ActiveSet | None:
+    """A guess in which RMS alone bind, where they alone are minimised: it may need no IPOPT, which dislikes norms."""
+    norms = {i: family for i, family in enumerate(program.families) if isinstance(family, NormFamily)}
+    bounded = {int(variable) for family in norms.values() for variable in np.flatnonzero(family.slack)}
+    if bounded != set(np.flatnonzero(program.objective).tolist()):
+        return None
+    numbers = np.array(list(norms), dtype=np.intp)
+    ones = np.ones(len(numbers))
+    x = x + _least_squares(program, list(norms.values()))
+    free = np.zeros(len(numbers), dtype=np.bool_)
+    return ActiveSet(x, numbers, ones, ones, free, ones, np.zeros(len(program.right)))
+
+
+def _least_squares(program: Program, norms: list[NormFamily]) -> Array:
+    """Coordinates that make the sum of the squares of the norms least under the equations."""
+    if not norms:
+        return np.zeros(program.size)
+    matrix = np.vstack([norm.matrix for norm in norms])
+    square = matrix[:, :-1].T @ matrix[:, :-1]
+    count = len(program.right)
+    system = np.block([[square, program.equalities.T], [program.equalities, np.zeros((count, count))]])
+    right = np.concatenate([-matrix[:, :-1].T @ matrix[:, -1], program.right])
+    return np.asarray(np.linalg.lstsq(system, right, rcond=None)[0][: program.size], dtype=np.float64)

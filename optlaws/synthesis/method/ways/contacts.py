@@ -1,0 +1,111 @@
+"""Newton's method on the contacts: a guess of them, corrected by what each answer on it says."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.family import Program
+from optlaws.synthesis.method.newton import newton
+from optlaws.synthesis.method.tolerances import EXCESS, PULLING, SAME_PLACE
+from optlaws.synthesis.method.ways.way import Way, in_rounds
+
+Array = NDArray[np.float64]
+
+_CORRECTIONS = 8
+
+
+@dataclass(frozen=True, eq=False)
+class ByContacts(Way[ActiveSet, ActiveSet]):
+    """Newton's method on a guess of the contacts.
+
+    Attributes
+    ----------
+    program
+        What is solved.
+    holds
+        May tell from x alone, and more quickly than the families do, whether every constraint holds.
+    """
+
+    program: Program
+    holds: Callable[[Array], bool] | None = None
+    rounds: int = _CORRECTIONS
+
+    def answered(self, held: ActiveSet) -> tuple[ActiveSet | None, ActiveSet | None]:
+        """The optimum, if its contacts are all there are, or the guess that it leads to."""
+        optimum = newton(self.program, held)
+        if optimum is None:
+            optimum = newton(self.program, held, deficient=True)
+        if optimum is None:
+            return None, None
+        guess = settled(self.program, optimum)
+        if guess is optimum and (self.holds is None or not self.holds(optimum.x)):
+            guess = completed(self.program, optimum)
+        return (optimum, None) if guess is optimum else (None, guess)
+
+
+def polished(program: Program, guess: ActiveSet, holds: Callable[[Array], bool] | None) -> ActiveSet | None:
+    """The optimum that a guess of its contacts leads to; None where Newton's method does not find it."""
+    return in_rounds(ByContacts(program, holds), guess)[0]
+
+
+def settled(program: Program, state: ActiveSet) -> ActiveSet:
+    """Drop the contact that pulls most, or put contacts that left the interval on its end; the same object if none."""
+    held = np.array([program.families[i].held for i in state.family], dtype=np.bool_)
+    pushing = np.where(held, 0.0, state.multipliers)
+    if np.any(pushing < -PULLING * np.abs(state.multipliers).max(initial=0.0)):
+        return _without(state, int(np.argmin(pushing)))
+    low, high = np.array([program.families[i].domain for i in state.family]).reshape(-1, 2).T
+    outside = (state.u < low) | (state.u > high)
+    if outside.any():
+        return replace(state, u=np.clip(state.u, low, high), free=state.free & ~outside)
+    return state
+
+
+def _without(state: ActiveSet, contact: int) -> ActiveSet:
+    kept = np.arange(len(state.u)) != contact
+    return replace(
+        state,
+        family=state.family[kept],
+        u=state.u[kept],
+        s=state.s[kept],
+        free=state.free[kept],
+        multipliers=state.multipliers[kept],
+    )
+
+
+def completed(program: Program, state: ActiveSet) -> ActiveSet:
+    """Add the extrema that stick out by more than EXCESS of the right side; the same object if none does.
+
+    Where the nearest contact is pinned to an end, its residual grows inward and it is let go instead.
+    """
+    better = state
+    for i, family in enumerate(program.families):
+        if family.held:
+            continue
+        u, s, residual = family.extremes(state.x)
+        for j in np.flatnonzero(residual > EXCESS * max(1.0, abs(family.room(state.x)))):
+            alike = (better.family == i) & (better.s == s[j])
+            if np.any(alike & (np.abs(better.u - u[j]) < SAME_PLACE)):
+                continue
+            pinned = np.flatnonzero(alike & ~better.free & _nothing_between(better, alike, float(u[j])))
+            if len(pinned):
+                better = better.moved(int(pinned[0]), float(u[j]))
+            else:
+                free = bool(family.movable(u[j : j + 1])[0])
+                better = better.joined(i, float(u[j]), float(s[j]), free=free)
+    return better
+
+
+def _nothing_between(state: ActiveSet, alike: NDArray[np.bool_], u: float) -> NDArray[np.bool_]:
+    # the contacts of `alike` that are neighbours of u: no other lies between
+    distance = np.where(alike, np.abs(state.u - u), np.inf)
+    same_side = [
+        bool(alike[i]) and not np.any(alike & ((state.u - u) * (state.u[i] - u) > 0) & (distance < distance[i]))
+        for i in range(len(state.u))
+    ]
+    return np.array(same_side, dtype=np.bool_)

@@ -1,0 +1,110 @@
+"""From an answer on points to the optimum: its multipliers show which constraints bind."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.family import Family, Points, ProductFamily, Program
+from optlaws.synthesis.method.newton import newton
+from optlaws.synthesis.method.on_points.flat import sharpened
+from optlaws.synthesis.method.on_points.ipopt import Answer
+from optlaws.synthesis.method.tolerances import SAME_HEIGHT, SAME_PLACE, WEIGHTLESS, WEIGHTLESS_AT_VERTEX
+from optlaws.synthesis.method.ways.contacts import completed, polished
+
+Array = NDArray[np.float64]
+
+
+def optimum_near(
+    program: Program, holds: Callable[[Array], bool] | None, points: list[Points], answer: Answer
+) -> ActiveSet | None:
+    """The optimum that an answer is near to; None where the contacts are not plain yet."""
+    optimum = polished(program, _identified(program, points, answer), holds)
+    sharp = _sharpened(program, points, answer) if optimum is None else None
+    return sharp if sharp is not None and completed(program, sharp) is sharp else optimum
+
+
+def as_answered(points: list[Points], answer: Answer) -> ActiveSet:
+    """IPOPT's own contacts, for optima that are flat somewhere, where no exact active set exists."""
+    return _contacts(
+        points, answer, [WEIGHTLESS * max(1.0, float(w.max(initial=0.0))) for w in answer.multipliers[:-1]]
+    )
+
+
+def of_vertex(points: list[Points], answer: Answer) -> ActiveSet:
+    """The contacts of a vertex: what has a multiplier, however small."""
+    return _contacts(points, answer, [WEIGHTLESS_AT_VERTEX * w.max(initial=0.0) for w in answer.multipliers[:-1]])
+
+
+def _contacts(points: list[Points], answer: Answer, least: list[float]) -> ActiveSet:
+    """Those points of each family as contacts whose multipliers exceed the least for it; none may move."""
+    weights, equations = answer.multipliers[:-1], answer.multipliers[-1]
+    kept = [np.flatnonzero(w > low) for w, low in zip(weights, least, strict=True)]
+    return ActiveSet(
+        x=answer.x,
+        family=np.repeat(np.arange(len(kept), dtype=np.intp), [len(rows) for rows in kept]),
+        u=np.concatenate([held.u[rows] for held, rows in zip(points, kept, strict=True)]),
+        s=np.concatenate([held.s[rows] for held, rows in zip(points, kept, strict=True)]),
+        free=np.zeros(sum(map(len, kept)), dtype=np.bool_),
+        multipliers=np.concatenate([w[rows] for w, rows in zip(weights, kept, strict=True)]),
+        equality_multipliers=equations,
+    )
+
+
+def _identified(program: Program, points: list[Points], answer: Answer) -> ActiveSet:
+    """Give each point's multiplier to the extremum that its hill leads to; those are the contacts."""
+    contacts: list[tuple[int, float, float, bool, float]] = []
+    for i, (family, held) in enumerate(zip(program.families, points, strict=True)):
+        weights = answer.multipliers[i]
+        u, s, residual = family.extremes(answer.x)
+        jet = family.jet(answer.x, held.u, held.s)
+        gathered = np.zeros(len(u))
+        for j in np.flatnonzero(_binding(jet.gradient, weights, jet.value)):
+            higher = (s == held.s[j]) & (residual >= jet.value[j] - SAME_HEIGHT)
+            distance = np.where(higher, np.abs(u - held.u[j]), np.inf)
+            gathered[np.argmin(distance)] += weights[j]
+        _merge(family, u, s, gathered)
+        movable = family.movable(u)
+        contacts += [(i, u[j], s[j], movable[j], gathered[j]) for j in np.flatnonzero(gathered)]
+    family_of, places, signs, free, multipliers = zip(*contacts, strict=True) if contacts else ((),) * 5
+    return ActiveSet(
+        x=answer.x,
+        family=np.asarray(family_of, dtype=np.intp),
+        u=np.asarray(places, dtype=np.float64),
+        s=np.asarray(signs, dtype=np.float64),
+        free=np.asarray(free, dtype=np.bool_),
+        multipliers=np.asarray(multipliers, dtype=np.float64),
+        equality_multipliers=answer.multipliers[-1],
+    )
+
+
+def _merge(family: Family, u: Array, s: Array, gathered: Array) -> None:
+    """Give an end what belongs to an extremum that IPOPT's tolerance alone sets apart from it."""
+    for end in np.flatnonzero(np.isin(u, family.domain)):
+        same = (s == s[end]) & (np.abs(u - u[end]) < SAME_PLACE)
+        total = gathered[same].sum()
+        gathered[same] = 0.0
+        gathered[end] = total
+
+
+def _binding(rows: Array, weights: Array, residual: Array) -> NDArray[np.bool_]:
+    # complementarity, in units in which each row has length 1: a contact's multiplier exceeds its distance
+    length = np.linalg.norm(rows, axis=1)
+    sizes = weights * length
+    greatest = max(1.0, float(sizes.max(initial=0.0)))
+    binding: NDArray[np.bool_] = (sizes * length > -residual * greatest) & (sizes > WEIGHTLESS * greatest)
+    return binding
+
+
+def _sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveSet | None:
+    """The optimum on the points; None where it is not convex there or the answer does not show it."""
+    if not program.curved:
+        return sharpened(program, points, answer)
+    products = [isinstance(family, ProductFamily) for family in program.families]
+    if any((w > WEIGHTLESS).any() for w, curved in zip(answer.multipliers, products, strict=False) if curved):
+        return None
+    optimum = newton(program, as_answered(points, answer), deficient=True)
+    return optimum if optimum is not None and (optimum.multipliers >= 0.0).all() else None

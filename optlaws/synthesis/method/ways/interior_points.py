@@ -1,0 +1,108 @@
+"""Few points by an interior-point method, IPOPT, then the exact active set by Newton; else the true extrema join them.
+
+A linear or conic program that this does not end is ended by vertices.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.family import LinearFamily, Points, Program
+from optlaws.synthesis.method.on_points.conic import conic
+from optlaws.synthesis.method.on_points.grids import with_extrema
+from optlaws.synthesis.method.on_points.ipopt import Answer, solve_on_points
+from optlaws.synthesis.method.tolerances import LOST
+from optlaws.synthesis.method.ways.identified import as_answered, optimum_near
+from optlaws.synthesis.method.ways.vertices import ByVertices
+from optlaws.synthesis.method.ways.way import Way, in_rounds
+
+Array = NDArray[np.float64]
+
+_LINEAR_ROUNDS = 6
+#: beyond so many variables a round of IPOPT costs more than all vertices together
+_LARGE = 24
+
+
+@dataclass(eq=False)
+class ByInteriorPoints(Way[list[Points], ActiveSet]):
+    """IPOPT's optimum on the points, round by round.
+
+    Attributes
+    ----------
+    program
+        What is solved.
+    start
+        Where IPOPT begins; None leaves that to it.
+    holds
+        May tell from x alone, and more quickly than the families do, whether every constraint holds.
+    rounds
+        How many at most; a linear program is given fewer.
+    count, iterations, status
+        The rounds so far, those of vertices included where they ended it, IPOPT's iterations, and its last word.
+    """
+
+    program: Program
+    start: Array | None
+    holds: Callable[[Array], bool] | None
+    rounds: int
+    count: int = 0
+    iterations: int = 0
+    status: str = ""
+
+    def __post_init__(self) -> None:
+        if not self.program.curved:
+            self.rounds = min(self.rounds, _LINEAR_ROUNDS)
+
+    def answered(self, held: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
+        """The optimum, or the points with the extrema of IPOPT's answer; neither where IPOPT has lost its way."""
+        self.count += 1
+        answer = self._answer(held)
+        lost = _lost(answer)
+        optimum = None if lost else optimum_near(self.program, self.holds, held, answer)
+        if optimum is None and self._vertices_help(lost=lost):
+            optimum = self._by_vertices(held)
+        if optimum is not None or lost:
+            return optimum, None
+        if self.count == self.rounds:
+            # an optimum may be so flat that no exact active set shows: IPOPT's own contacts are then an answer
+            return (as_answered(held, answer) if _only_cones(self.program) else None), None
+        return None, with_extrema(self.program, held, answer.x)
+
+    def _answer(self, points: list[Points]) -> Answer:
+        """IPOPT's answer; where a fine one is not usable, the usual."""
+        fine = self.count > 1 and _only_cones(self.program)
+        answer = self._asked(points, fine=fine)
+        return self._asked(points, fine=False) if fine and not answer.usable else answer
+
+    def _asked(self, points: list[Points], *, fine: bool) -> Answer:
+        answer = solve_on_points(self.program, points, self.start, fine=fine)
+        self.iterations += answer.iterations
+        self.status = answer.status
+        return answer
+
+    def _vertices_help(self, *, lost: bool) -> bool:
+        """Whether vertices are asked about the same points."""
+        large = not self.program.curved and self.program.size > _LARGE
+        return (not self.program.curved or conic(self.program)) and (large or lost or self.count == self.rounds)
+
+    def _by_vertices(self, points: list[Points]) -> ActiveSet | None:
+        optimum, count = in_rounds(ByVertices(self.program, self.holds), points)
+        if optimum is not None:
+            self.count += count
+            self.status = "vertices"
+        return optimum
+
+
+def _only_cones(program: Program) -> bool:
+    """Whether nothing but cones, if that, is not affine."""
+    return all(isinstance(family, LinearFamily | ConeFamily) for family in program.families)
+
+
+def _lost(answer: Answer) -> bool:
+    return not answer.usable or not np.isfinite(answer.x).all() or float(np.abs(answer.x).max()) > LOST

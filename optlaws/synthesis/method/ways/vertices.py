@@ -1,0 +1,141 @@
+"""Programs with many pieces, by vertices alone: the true extrema of each join the points of the next.
+
+With many pieces an optimum is flat somewhere: c is constant on some pieces and free on others, so no exact active set
+exists. The values of the vertices rise to the optimum's, each a bound of its own, and their laws keep the constraints
+better each time; what is left is under the tolerance after some 15 of them.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.family import Points, Program
+from optlaws.synthesis.method.on_points.conic import conic, optimum_on_points
+from optlaws.synthesis.method.on_points.flat import Table
+from optlaws.synthesis.method.on_points.grids import with_extrema
+from optlaws.synthesis.method.on_points.highs import by_family, vertex_on_points
+from optlaws.synthesis.method.on_points.ipopt import Answer
+from optlaws.synthesis.method.tolerances import EXCESS
+from optlaws.synthesis.method.ways.identified import of_vertex, optimum_near
+from optlaws.synthesis.method.ways.way import Way
+from optlaws.synthesis.spaces.pieces.rows import PieceFamily
+
+Array = NDArray[np.float64]
+
+_ROUNDS = 40
+_PIECES = 12
+#: the excess under which a vertex may show the optimum's contacts, and how many times less it must be at the next try
+_NEAR, _CLOSER = 1e-3, 30.0
+#: beyond so many variables a try costs more than the vertices that are left: there is one
+_SMALL = 60
+#: the excess under which the next vertex is sought from this one, as the solver's tolerance then counts
+_FINE = 1e-6
+#: what a vertex may exceed that does not get better any more, in EXCESS
+_SLACK = 10.0
+
+
+def many_pieces(program: Program) -> bool:
+    """Whether a program is linear or conic and has so many pieces that its optimum is flat."""
+    counts = [len(family.pieces.breaks) - 1 for family in program.families if isinstance(family, PieceFamily)]
+    return (not program.curved or conic(program)) and max(counts, default=0) >= _PIECES
+
+
+@dataclass(eq=False)
+class ByVertices(Way[list[Points], ActiveSet]):
+    """The optimum on the points, exact, round by round.
+
+    Attributes
+    ----------
+    program
+        A program that is linear or conic.
+    holds
+        May tell from x alone, and more quickly than the families do, whether every constraint holds.
+    excess, least
+        What the last vertex exceeds between the points, and the least of that before.
+    promising
+        The excess under which a vertex may show the contacts of the optimum.
+    near
+        A vertex near the optimum.
+    """
+
+    program: Program
+    holds: Callable[[Array], bool] | None = None
+    rounds: int = _ROUNDS
+    excess: float = np.inf
+    least: float = np.inf
+    promising: float = _NEAR
+    near: Array | None = None
+
+    def answered(self, held: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
+        """The optimum, or the points with the vertex's extrema."""
+        vertex = self._vertex(held)
+        if vertex is None:
+            return None, None
+        optimum = self._shown(held, vertex)
+        if optimum is not None:
+            return optimum, None
+        onward = with_extrema(self.program, held, vertex.x)
+        known = all(len(new.u) == len(old.u) for new, old in zip(onward, held, strict=True))
+        if self._ended(known=known):
+            return of_vertex(held, vertex), None
+        self.least = min(self.least, self.excess)
+        if self.excess <= _FINE:
+            self.near = vertex.x
+        return None, onward
+
+    def _vertex(self, points: list[Points]) -> Answer | None:
+        """The vertex on the points, exact where it is near the optimum."""
+        if self.program.curved:
+            vertex = optimum_on_points(self.program, points)
+        else:
+            vertex = vertex_on_points(self.program, points, self.near)
+        if vertex is not None:
+            self.excess = _excess(self.program, vertex.x)
+            if self.excess <= _FINE and not self.program.curved:
+                vertex, self.excess = _exact(self.program, points, vertex, self.excess)
+        return vertex
+
+    def _shown(self, points: list[Points], vertex: Answer) -> ActiveSet | None:
+        """The optimum by its contacts, where a vertex near it shows them."""
+        if self.excess > self.promising:
+            return None
+        self.promising = self.excess / _CLOSER if self.program.size <= _SMALL else 0.0
+        return optimum_near(self.program, self.holds, points, vertex)
+
+    def _ended(self, *, known: bool) -> bool:
+        """Whether the vertex is the optimum: it exceeds nothing, or it gets no better; `known` are all its extrema."""
+        last = known and (self.near is not None or self.program.curved)
+        return self.excess <= EXCESS or last or self.least <= self.excess <= _SLACK * EXCESS
+
+
+def _excess(program: Program, x: Array) -> float:
+    """The greatest residual over all places, in the units of each family's right side."""
+    sizes = (
+        float(family.extremes(x)[2].max()) / max(1.0, abs(family.room(x)))
+        for family in program.families
+        if not family.held
+    )
+    return max(sizes, default=0.0)
+
+
+def _exact(program: Program, points: list[Points], vertex: Answer, excess: float) -> tuple[Answer, float]:
+    """The vertex with what binds and the equations held, and the multipliers balanced, as exactly as numbers do.
+
+    The solver's tolerance is one of rows of length 1: in a jounce it is far from what the law needs.
+    """
+    table = Table(program, points)
+    weights = np.concatenate(vertex.multipliers[:-1]) * table.length
+    binding = weights > 0.0
+    x = table.held(binding, vertex.x)
+    if x is None or _excess(program, x) > max(EXCESS, excess):
+        x = table.held(np.zeros_like(binding), vertex.x)
+    balanced = table.balanced(binding, weights, vertex.multipliers[-1])
+    if balanced is not None:
+        weights[binding], equations = balanced
+        vertex = replace(vertex, multipliers=[*by_family(weights / table.length, points), equations])
+    return (vertex, excess) if x is None else (replace(vertex, x=x), _excess(program, x))
