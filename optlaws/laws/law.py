@@ -3,34 +3,45 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Sequence
-from typing import Any, overload
+from math import inf
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws.constants import Constants
+from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.html import page
 from optlaws.laws.storage import Stored
 from optlaws.numbers import derivative, times
-from optlaws.series import peaks
 from optlaws.series.peaks import Peak
 
 Array = NDArray[np.float64]
-Many = NDArray[Any] | Sequence[Any]
+Jumps = tuple[tuple[float, float], ...]
+
+JUMP = 1e-9  # a difference at a break below this share of the derivative's size is rounding, not a jump
+UNSEEN = 1e-13  # and so is one below this share of the size of a lower derivative: uniform motion has c = 0 but for it
+HIGHEST = 9
+
+_NINE = np.linspace(0.0, 1.0, 9)
 
 
-class MotionLaw(Stored):
+class MotionLaw(Curve, Stored):
     """Displacement a(k) of k in [0, 1] with its derivatives; dimensionless (eq. 1).
 
     Velocity b = a', acceleration c = a'', jerk j = a''', kinetic power d = b c. With stroke h and duration T
     the motion is h a and its derivatives are (h/T) b, (h/T²) c, (h/T³) j. Laws are immutable, hashable, and
     equal where type and contents are equal.
 
+    At a break a derivative takes its right-hand value, at k = 1 the left-hand one; peaks and extrema look at both
+    sides of every break. Where a derivative jumps inside (0, 1), those of higher order are impulses: J is inf at
+    the first k where c jumps, C (and D) where b jumps, and `jumps` tells how much. What happens at k = 0 and k = 1
+    is not counted: rest before and after the motion is no part of it.
+
     A new representation is one subclass, a frozen dataclass declared with its kind, for example
-    ``class SplineLaw(MotionLaw, kind="spline")``, that supplies the abstract methods; storage, peaks and
-    drawings follow.
+    ``class SplineLaw(MotionLaw, kind="spline")``, that supplies the abstract methods and, if it has breaks, `_breaks`
+    and `_before_breaks`; storage, peaks, jumps and drawings follow.
 
     Examples
     --------
@@ -40,77 +51,8 @@ class MotionLaw(Stored):
     (0.5, 1.875, [0.0, 0.0])
     """
 
-    @overload
-    def __call__(self, k: float, nu: int = 0) -> float: ...
-    @overload
-    def __call__(self, k: Many, nu: int = 0) -> Array: ...
-    def __call__(self, k: float | Many, nu: int = 0) -> float | Array:
-        """Derivative of order `nu` of a at `k`.
-
-        Parameters
-        ----------
-        k
-            Dimensionless time in [0, 1]; a number or an array of any shape.
-        nu
-            Order of the derivative, at least 0.
-
-        Returns
-        -------
-        A float for a number (or an array of shape ()), else an array of the shape of `k`.
-
-        Raises
-        ------
-        InputError
-            If `k` is outside [0, 1] or not a number, or `nu` is not an integer of at least 0.
-
-        Examples
-        --------
-        >>> from optlaws.laws import smoothstep
-        >>> smoothstep(3)([0.0, 0.5, 1.0], nu=1).tolist()
-        [0.0, 1.875, 0.0]
-        """
-        return _plain(self._derivative(times(k), derivative(nu)))
-
-    @overload
-    def a(self, k: float) -> float: ...
-    @overload
-    def a(self, k: Many) -> Array: ...
-    def a(self, k: float | Many) -> float | Array:
-        """Displacement at k."""
-        return _plain(self._derivative(times(k), 0))
-
-    @overload
-    def b(self, k: float) -> float: ...
-    @overload
-    def b(self, k: Many) -> Array: ...
-    def b(self, k: float | Many) -> float | Array:
-        """Velocity a' at k."""
-        return _plain(self._derivative(times(k), 1))
-
-    @overload
-    def c(self, k: float) -> float: ...
-    @overload
-    def c(self, k: Many) -> Array: ...
-    def c(self, k: float | Many) -> float | Array:
-        """Acceleration a'' at k."""
-        return _plain(self._derivative(times(k), 2))
-
-    @overload
-    def j(self, k: float) -> float: ...
-    @overload
-    def j(self, k: Many) -> Array: ...
-    def j(self, k: float | Many) -> float | Array:
-        """Jerk a''' at k."""
-        return _plain(self._derivative(times(k), 3))
-
-    @overload
-    def d(self, k: float) -> float: ...
-    @overload
-    def d(self, k: Many) -> Array: ...
-    def d(self, k: float | Many) -> float | Array:
-        """Kinetic power b c at k."""
-        inside = times(k)
-        return _plain(self._derivative(inside, 1) * self._derivative(inside, 2))
+    def extrema(self, nu: int, within: tuple[float, float] | None = (0.0, 1.0)) -> tuple[Peak, Peak]:  # noqa: D102
+        return super().extrema(nu, within)
 
     def boundary_values(self, count: int) -> tuple[tuple[float, ...], tuple[float, ...]]:
         """The first `count` of a, b, c, c', ... at k = 0, and the same at k = 1.
@@ -130,8 +72,10 @@ class MotionLaw(Stored):
         pairs = [self._derivative(ends, nu).tolist() for nu in range(derivative(count, "count"))]
         return tuple(pair[0] for pair in pairs), tuple(pair[1] for pair in pairs)
 
-    def peak(self, nu: int) -> Peak:
-        """Peak of |derivative of order nu| over the whole interval, at the smallest k where several tie.
+    def jumps(self, nu: int) -> Jumps:
+        """Breaks k inside (0, 1) where the derivative of order nu jumps, each with right-hand less left-hand value.
+
+        Differences below 1e-9 of the derivative's size, or 1e-13 of that of a lower one, are taken for rounding.
 
         Raises
         ------
@@ -140,67 +84,33 @@ class MotionLaw(Stored):
 
         Examples
         --------
-        >>> from optlaws.laws import smoothstep
-        >>> smoothstep(2).peak(2)
-        Peak(value=6.0, k=0.0)
+        >>> from optlaws.laws.segments import PolynomialSegment
+        >>> from optlaws.laws.segments.piecewise import PiecewiseLaw
+        >>> PiecewiseLaw([0, 0.5, 1], [PolynomialSegment([], b0=b) for b in (0.5, 1.5)]).jumps(1)
+        ((0.5, 1.0),)
         """
-        return peaks.peak(*self._candidate_values(nu))
+        order = derivative(nu)
+        if order == 0 or len(self.breaks) == 2:
+            return ()
+        if order not in self._known_jumps:
+            self._known_jumps[order] = self._jumps(order)
+        return self._known_jumps[order]
 
-    def extrema(self, nu: int, within: tuple[float, float] = (0.0, 1.0)) -> tuple[Peak, Peak]:
-        """Minimum and maximum, signed, of the derivative of order nu over the whole interval or a part of it.
-
-        Parameters
-        ----------
-        nu
-            Order of the derivative.
-        within
-            The part: its first and its last k.
-
-        Raises
-        ------
-        InputError
-            If `nu` is not an integer of at least 0, or the part is not in [0, 1].
+    @property
+    def continuity(self) -> int:
+        """The highest nu, up to 9, such that all derivatives up to order nu are finite and continuous on [0, 1].
 
         Examples
         --------
         >>> from optlaws.laws import smoothstep
-        >>> smoothstep(2).extrema(2)
-        (Peak(value=-6.0, k=1.0), Peak(value=6.0, k=0.0))
+        >>> from optlaws.laws.making.trapezoids import scca
+        >>> smoothstep(2).continuity, scca(0.25, 0.5, 0.25).continuity
+        (9, 2)
         """
-        if within == (0.0, 1.0):
-            return peaks.extremes(*self._candidate_values(nu))
-        ends = times(within)
-        k = self._candidates(derivative(nu))
-        k = np.concatenate([ends, k[(k > ends[0]) & (k < ends[1])]])
-        return peaks.extremes(k, self._derivative(k, nu))
-
-    def power_peak(self) -> Peak:
-        """Peak of |d| over the whole interval, d = b c.
-
-        Examples
-        --------
-        >>> from optlaws.laws import smoothstep
-        >>> round(smoothstep(2).power_peak().value, 6)
-        3.464102
-        """
-        k = self._power_candidates()
-        return peaks.peak(k, self._derivative(k, 1) * self._derivative(k, 2))
-
-    def rms(self, nu: int) -> float:
-        """Root mean square of the derivative of order nu over the interval.
-
-        Raises
-        ------
-        InputError
-            If `nu` is not an integer of at least 0.
-
-        Examples
-        --------
-        >>> from optlaws.laws import smoothstep
-        >>> round(smoothstep(2).rms(2) ** 2, 12)
-        12.0
-        """
-        return float(np.sqrt(self._mean_square(derivative(nu))))
+        for nu in range(1, HIGHEST + 1):
+            if self.jumps(nu) or not self._is_finite(nu):
+                return nu - 1
+        return HIGHEST
 
     @kept_property
     def constants(self) -> Constants:
@@ -227,34 +137,59 @@ class MotionLaw(Stored):
 
     def _repr_html_(self) -> str:
         k = np.linspace(0.0, 1.0, 121)
-        curves = {name: self._derivative(k, nu).tolist() for nu, name in enumerate("abc")}
+        curves = {name: _clipped(self._derivative(k, nu)).tolist() for nu, name in enumerate("abc")}
         return page(f"{type(self).__name__}, {self._summary()}", self.constants, curves)
 
-    def _candidate_values(self, nu: int) -> tuple[Array, Array]:
-        order = derivative(nu)
-        k = self._candidates(order)
-        return k, self._derivative(k, order)
+    def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
+        return times(k)
 
-    @abstractmethod
-    def _derivative(self, k: Array, nu: int) -> Array:
-        """Derivative of order `nu` at valid `k` of any shape."""
+    @kept_property
+    def _known_jumps(self) -> dict[int, Jumps]:
+        return {}
 
-    @abstractmethod
-    def _candidates(self, nu: int) -> Array:
-        """Points where the derivative of order `nu` may be extreme: stationary, breaks and both ends."""
+    def _jumps(self, nu: int) -> Jumps:
+        inner = self.breaks[1:-1]
+        left, right = self._before_breaks(nu), self._derivative(np.array(inner), nu)
+        rounding = JUMP * self._size(nu)
+        leaps = tuple(
+            (k, after - before)
+            for k, before, after in zip(inner, left.tolist(), right.tolist(), strict=True)
+            if before != after and not abs(after - before) <= rounding
+        )
+        unseen = max((UNSEEN * self._size(lower) for lower in range(1, nu)), default=0.0) if leaps else 0.0
+        return tuple((k, height) for k, height in leaps if not abs(height) <= unseen)
 
-    @abstractmethod
-    def _power_candidates(self) -> Array:
-        """Points where d may be extreme."""
+    def _size(self, nu: int) -> float:
+        """The greatest finite magnitude of a derivative at nine places of every piece."""
+        breaks = np.array(self.breaks)
+        k = np.append((breaks[:-1, None] + np.diff(breaks)[:, None] * _NINE[:-1]).ravel(), 1.0)
+        known = np.abs(np.append(self._derivative(k, nu), self._before_breaks(nu)))
+        return float(known[np.isfinite(known)].max(initial=0.0))
 
-    @abstractmethod
-    def _mean_square(self, nu: int) -> float:
-        """Integral over [0, 1] of the square of the derivative of order `nu`."""
+    def _is_finite(self, nu: int) -> bool:
+        """Whether the derivative of order nu is bounded; no kind of law grows without limit but at its breaks."""
+        sides = np.append(self._derivative(np.array(self.breaks), nu), self._before_breaks(nu))
+        return bool(np.isfinite(sides).all())
+
+    def _impulses(self, nu: int) -> Sides:
+        if len(self.breaks) == 2:
+            return super()._impulses(nu)
+        leaps = [(place, height * inf) for place, height in self.jumps(nu - 1)] if nu > 1 else []
+        # the derivative of an impulse has both signs
+        leaps += [(place, side) for lower in range(1, nu - 1) for place, _ in self.jumps(lower) for side in (inf, -inf)]
+        places, heights = np.array(leaps).reshape(-1, 2).T
+        return places, heights
+
+    def _whole_power(self) -> Sides:
+        k, values = self._power_sides()
+        leaps = [place for place, _ in self.jumps(1)]
+        return np.append(k, leaps), np.append(values, np.full(len(leaps), inf))
 
     @abstractmethod
     def _summary(self) -> str:
         """What the repr says besides the constants."""
 
 
-def _plain(values: Array) -> float | Array:
-    return values if np.ndim(values) else float(values)
+def _clipped(values: Array) -> Array:
+    known = values[np.isfinite(values)]
+    return np.clip(values, known.min(), known.max())

@@ -12,7 +12,6 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws.law import MotionLaw
 from optlaws.numbers import MAGNITUDE_LIMIT, MOST_ORDER, MOST_TERMS, fractions, whole
@@ -167,6 +166,14 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
 
         return _with_ends(polished(chebyshev.real_parts_of_roots(slope), residual))
 
+    def _sides(self, nu: int) -> tuple[Array, Array]:
+        k = self._candidates(nu)
+        return k, self._derivative(k, nu)
+
+    def _power_sides(self) -> tuple[Array, Array]:
+        k = self._power_candidates()
+        return k, self._power(k)
+
     def _power_candidates(self) -> Array:
         b, c, j = (self._series(nu) for nu in (1, 2, 3))
         slope = chebyshev.product(b, j)
@@ -192,19 +199,6 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
 
     def _summary(self) -> str:
         return f"degree={self.degree}"
-
-    def _fields(self) -> dict[str, Any]:
-        return {"acceleration": list(self.acceleration), "a0": self.a0, "b0": self.b0}
-
-    @classmethod
-    def _from_fields(cls, fields: dict[str, Any]) -> Self:
-        expected = ("acceleration", "a0", "b0")
-        if problems := [f"{key!r} is unknown" for key in fields if key not in expected] + [
-            f"{key!r} is missing" for key in expected if key not in fields
-        ]:
-            msg = f"a polynomial law has the keys {', '.join(expected)}; {', '.join(problems)}"
-            raise InputError(msg)
-        return cls(**fields)
 
 
 def smoothstep(order: int) -> PolynomialLaw:

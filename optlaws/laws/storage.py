@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import dataclasses
 import json
-from abc import ABC, abstractmethod
+from abc import ABC
 from collections.abc import Mapping
 from typing import Any, ClassVar, Self
 
@@ -43,7 +44,7 @@ class Stored(ABC):
         >>> smoothstep(1).to_dict()
         {'format': 1, 'kind': 'polynomial', 'acceleration': [], 'a0': 0.0, 'b0': 1.0}
         """
-        return {"format": FORMAT, "kind": self.kind, **self._fields()}
+        return {"format": FORMAT, "kind": self.kind, **contents(self)}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:
@@ -66,7 +67,7 @@ class Stored(ABC):
         if law is None or not issubclass(law, cls):
             known = sorted(name for name, one in cls.kinds.items() if issubclass(one, cls))
             raise InputError(f"kind of law {shortened(kind)} is unknown; known are {', '.join(known)}")
-        return law._from_fields(fields)  # noqa: SLF001
+        return law._read(known_fields(law, fields, f"a {kind} law"))  # noqa: SLF001
 
     def to_json(self) -> str:
         """`to_dict` as JSON text."""
@@ -89,14 +90,51 @@ class Stored(ABC):
         """
         return cls.from_dict(json_text(text, "a law"))
 
-    @abstractmethod
-    def _fields(self) -> dict[str, Any]:
-        """Contents as plain data, without format and kind."""
-
     @classmethod
-    @abstractmethod
-    def _from_fields(cls, fields: dict[str, Any]) -> Self:
-        """The value of these contents; InputError for missing or unknown keys."""
+    def _read(cls, fields: dict[str, Any]) -> Self:
+        """The value of these contents; all its keys are there, and no other."""
+        return cls(**fields)
+
+
+def contents(value: Any) -> dict[str, Any]:  # noqa: ANN401 - any frozen dataclass
+    """The fields of a dataclass as plain data: tuples as lists, what is stored itself as its own dict.
+
+    Examples
+    --------
+    >>> from optlaws.laws.segments import PolynomialSegment
+    >>> contents(PolynomialSegment((1.0, 2.0)))
+    {'acceleration': [1.0, 2.0], 'b0': 0.0}
+    """
+    return {one.name: _plain(getattr(value, one.name)) for one in dataclasses.fields(value)}
+
+
+def known_fields(kind: type, fields: Mapping[str, Any], what: str) -> dict[str, Any]:
+    """Contents whose keys are the fields of a dataclass; `what` is what an error calls it.
+
+    Raises
+    ------
+    InputError
+        If a key is unknown or missing.
+
+    Examples
+    --------
+    >>> from optlaws.laws.segments import PowerSegment
+    >>> known_fields(PowerSegment, {"b0": 0.0, "b2": 1.0}, "a power segment")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: a power segment has the keys b0, b1; 'b2' is unknown, 'b1' is missing
+    """
+    expected = [one.name for one in dataclasses.fields(kind)]
+    problems = [f"{shortened(key)} is unknown" for key in fields if key not in expected]
+    problems += [f"{key!r} is missing" for key in expected if key not in fields]
+    if problems:
+        raise InputError(f"{what} has the keys {', '.join(expected)}; {', '.join(problems)}")
+    return dict(fields)
+
+
+def _plain(value: Any) -> Any:  # noqa: ANN401
+    if isinstance(value, tuple):
+        return [_plain(one) for one in value]
+    return value.to_dict() if hasattr(value, "to_dict") else value
 
 
 def _opened(data: Any) -> dict[str, Any]:  # noqa: ANN401

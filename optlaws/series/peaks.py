@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from math import inf
 
 import numpy as np
 from numpy.typing import NDArray
@@ -57,20 +58,20 @@ def highest(k: Array, values: Array, tie: float) -> Peak:
 
 
 def extremes(k: Array, values: Array) -> tuple[Peak, Peak]:
-    """Minimum and maximum, signed, of values at candidate points.
+    """Minimum and maximum, signed, of values at candidate points; infinite where a value is.
 
     Examples
     --------
     >>> extremes(np.array([0.0, 1.0]), np.array([-6.0, 6.0]))
     (Peak(value=-6.0, k=0.0), Peak(value=6.0, k=1.0))
     """
-    tie = TIE * float(np.abs(values).max())
+    tie = _tie(np.abs(values))
     lowest = highest(k, -values, tie)
     return Peak(-lowest.value if lowest.value else 0.0, lowest.k), highest(k, values, tie)
 
 
 def peak(k: Array, values: Array) -> Peak:
-    """Peak magnitude of values at candidate points.
+    """Peak magnitude of values at candidate points; infinite where a value is.
 
     Examples
     --------
@@ -78,7 +79,12 @@ def peak(k: Array, values: Array) -> Peak:
     Peak(value=6.0, k=0.0)
     """
     size = np.abs(values)
-    return highest(k, size, TIE * float(size.max()))
+    return highest(k, size, _tie(size))
+
+
+def _tie(size: Array) -> float:
+    top = float(size.max())
+    return TIE * (top if top < inf else float(size[np.isfinite(size)].max(initial=0.0)))
 
 
 def polished(x: Array, residual: Callable[[Array], tuple[Array, Array]]) -> Array:

@@ -13,7 +13,7 @@ import numpy as np
 from optlaws.kept import kept_property
 from optlaws.laws.catalogue.tyr_codes import coded
 from optlaws.laws.constants import Constants
-from optlaws.laws.law import MotionLaw
+from optlaws.laws.law import HIGHEST, MotionLaw
 from optlaws.laws.making.trapezoids import scca, trapezoid
 from optlaws.laws.polynomial import smoothstep
 from optlaws.laws.segments.piecewise import PiecewiseLaw
@@ -21,7 +21,6 @@ from optlaws.laws.segments.segment import Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
 
 SMOOTH = 1e-9  # a derivative at an end below this share of its size is zero
-HIGHEST = 9
 BUILDERS = ("smoothstep", "sines", "cosines", "scca", "trapezoid", "code")
 
 
@@ -124,7 +123,7 @@ class Entry:
         0 is a, 1 is b, 2 is c, 3 is j; c that is not continuous is a jerk without bound.
         """
         law = self.law
-        inside = law.continuity if isinstance(law, PiecewiseLaw) else HIGHEST
+        inside = law.continuity
         start, end = law.boundary_values(HIGHEST + 1)
         for nu in range(1, inside + 1):
             size = float(np.abs(law(np.linspace(0.0, 1.0, 65), nu)).max())

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws.polynomial import PolynomialLaw
+from optlaws.laws.storage import contents, known_fields
 from optlaws.lazy import Registry
 from optlaws.numbers import finite, numbers
 
@@ -64,11 +65,7 @@ class Segment(ABC):
 
     def to_dict(self) -> dict[str, Any]:
         """The segment as plain data, from which `from_dict` makes an equal one."""
-        contents = {one.name: getattr(self, one.name) for one in fields(self)}  # type: ignore[arg-type]
-        return {
-            "kind": self.kind,
-            **{name: list(value) if isinstance(value, tuple) else value for name, value in contents.items()},
-        }
+        return {"kind": self.kind, **contents(self)}
 
     @staticmethod
     def from_dict(data: Mapping[str, Any]) -> Segment:
@@ -81,19 +78,14 @@ class Segment(ABC):
         """
         if not isinstance(data, Mapping):
             raise InputError(f"a segment must be a dict, got {shortened(data)}")
-        contents = dict(data)
-        kind = contents.pop("kind", None)
+        given = dict(data)
+        kind = given.pop("kind", None)
         if not isinstance(kind, str) or kind not in Segment.kinds:
             raise InputError(
                 f"kind of segment {shortened(kind)} is unknown; known are {', '.join(sorted(Segment.kinds))}"
             )
         made = Segment.kinds[kind]
-        expected = [one.name for one in fields(made)]  # type: ignore[arg-type]
-        if problems := [f"{key!r} is unknown" for key in contents if key not in expected] + [
-            f"{key!r} is missing" for key in expected if key not in contents
-        ]:
-            raise InputError(f"a {kind} segment has the keys {', '.join(expected)}; {', '.join(problems)}")
-        return made(**contents)
+        return made(**known_fields(made, given, f"a {kind} segment"))
 
     def _check(self) -> None:
         """Turn every field into floats."""

@@ -6,7 +6,6 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.laws.segments.piecewise import PiecewiseLaw
 
 SMOOTH = 1e-9  # a derivative at an end below this share of its peak is rounding
 
@@ -45,7 +44,7 @@ def check_mass_law(law: MotionLaw) -> None:
                     f"the mass law has {name} {letter}({k:g}) = {value:.6g}, so the {cam} of the cam would jump there; "
                     f"{_REMEDY}"
                 )
-        if isinstance(law, PiecewiseLaw) and (leaps := law.jumps(order)):
+        if leaps := law.jumps(order):
             k, height = leaps[0]
             raise InputError(
                 f"the mass law has a jump of its {name} {letter} by {height:.6g} at k = {k:.6g}, so the {cam} of the "

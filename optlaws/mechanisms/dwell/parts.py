@@ -48,10 +48,6 @@ class PartSegment(Segment, kind="part"):
         if not isinstance(given, MotionLaw):
             object.__setattr__(self, "law", MotionLaw.from_dict(given))
 
-    def to_dict(self) -> dict[str, Any]:
-        """The segment as plain data, the law within."""
-        return {**super().to_dict(), "law": self.law.to_dict()}
-
     def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
         span = self.end - self.start
         k = np.clip(self.start + span * u, self.start, self.end)

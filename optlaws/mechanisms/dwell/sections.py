@@ -12,7 +12,6 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.mechanisms.dwell.parts import PartSegment
-from optlaws.mechanisms.loader.tops import breaks
 
 Pair = tuple[float, float]
 
@@ -113,7 +112,7 @@ def composed(sections: Sequence[Section]) -> PiecewiseLaw:
 def _segments(section: Section, whole: float) -> list[tuple[float, Segment]]:
     if section.law is None:
         return [(1.0, PolynomialSegment((), section.travel * whole / section.angle))]
-    inside = [k for k in breaks(section.law) if section.start < k < section.end]
+    inside = [k for k in section.law.breaks if section.start < k < section.end]
     span = section.end - section.start
     return [
         ((end - start) / span, PartSegment(section.law, start, end, section.scale))

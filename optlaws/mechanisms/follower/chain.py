@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from math import ceil, log2
 
@@ -22,6 +22,7 @@ State = tuple[float, float]
 RESOLVED = (
     1e-9  # what a series misses by, relative to the whole motion, where roots are looked for; Newton does the rest
 )
+EXACT = 1e-14  # and where squares are integrated, relative to the stretch
 DEEPEST = 5
 MANY = 64
 COUNT = 41
@@ -78,6 +79,18 @@ class Motion:
         return starts, (u, v)
 
     @property
+    def breaks(self) -> tuple[float, ...]:
+        """Where one forcing ends and the next begins, both ends of the chain included."""
+        last = self.forcings[-1]
+        return (*(one.start for one in self.forcings), last.start + last.length)
+
+    def before_breaks(self, order: int) -> Array:
+        """The derivative of order `order` of a_m just before every break inside."""
+        pairs = zip(self.stretches, self.stretches[1:], strict=False)
+        last = [i for i, (one, after) in enumerate(pairs) if after.forcing is not one.forcing]
+        return np.array([float(self._values(i, np.array([self.stretches[i].length]), order)[0]) for i in last])
+
+    @property
     def off_at_end(self) -> State:
         """Displacement and velocity of the mass relative to the cam at the end."""
         return self._joints[1]
@@ -102,14 +115,55 @@ class Motion:
 
     def candidates(self, order: int) -> tuple[Array, Array]:
         """Times, and values there, among which the extremes of the derivative of order `order` are."""
-        times, values = [], []
-        slopes = [self._values(i, one.length * SAMPLES, order + 1) for i, one in enumerate(self.stretches)]
-        size = float(max(np.abs(slope).max() for slope in slopes))
+        return self._gathered(
+            lambda i, s: self._values(i, s, order),
+            lambda i, s: (self._values(i, s, order + 1), self._values(i, s, order + 2)),
+        )
+
+    def power_candidates(self) -> tuple[Array, Array]:
+        """Times, and values there, among which the extremes of the kinetic power d = b c are."""
+
+        def slope(i: int, s: Array) -> tuple[Array, Array]:
+            b, c, j, jounce = (self._values(i, s, order) for order in (1, 2, 3, 4))
+            return c * c + b * j, 3.0 * c * j + b * jounce
+
+        return self._gathered(lambda i, s: self._values(i, s, 1) * self._values(i, s, 2), slope)
+
+    def mean_square(self, order: int) -> float:
+        """Mean of the square of the derivative of order `order` over the chain."""
+        total = sum(self._square(i, one.length, order) for i, one in enumerate(self.stretches))
+        return total / sum(one.length for one in self.stretches)
+
+    def _square(self, i: int, length: float, order: int) -> float:
+        """Integral over a stretch, halved until the product of its series is known to rounding."""
+        x = interpolation.points(COUNT)
+        count, deepest = self._panels(length)
+        waiting = [(part / count * length, length / count, 0) for part in range(count)]
+        negligible = EXACT * float(np.abs(self._values(i, length * SAMPLES, order)).max())
+        total = 0.0
+        while waiting:
+            start, span, depth = waiting.pop()
+            s = np.clip(start + 0.5 * span * (x + 1.0), 0.0, length)
+            series = interpolation.transformed(self._values(i, s, order))
+            if np.abs(series[-3:]).max() > negligible and depth < deepest:
+                half = 0.5 * span
+                waiting += [(start, half, depth + 1), (start + half, half, depth + 1)]
+                continue
+            total += span * chebyshev.mean_product(series, series)
+        return total
+
+    def _gathered(
+        self, values: Callable[[int, Array], Array], slope: Callable[[int, Array], tuple[Array, Array]]
+    ) -> tuple[Array, Array]:
+        """Both ends of every stretch and its roots of a slope, given with its derivative, with the values there."""
+        slopes = [slope(i, one.length * SAMPLES)[0] for i, one in enumerate(self.stretches)]
+        negligible = RESOLVED * float(max(np.abs(one).max() for one in slopes))
+        times, found = [], []
         for i, one in enumerate(self.stretches):
-            s = np.concatenate([[0.0], self._stops(i, order, RESOLVED * size), [one.length]])
+            s = np.concatenate([[0.0], self._stops(i, slope, negligible), [one.length]])
             times.append(one.start + s)
-            values.append(self._values(i, s, order))
-        return np.concatenate(times), np.concatenate(values)
+            found.append(values(i, s))
+        return np.concatenate(times), np.concatenate(found)
 
     def _values(self, i: int, s: Array, order: int) -> Array:
         """a + u where u is small beside a; else, from a_m'' on, the equation of motion, which cancels less."""
@@ -126,22 +180,19 @@ class Motion:
             value = -twice * value - square * off(m)
         return value
 
-    def _stops(self, i: int, order: int, negligible: float) -> Array:
-        """Points of a stretch where the derivative of order + 1 is zero, each found by a Chebyshev series there."""
+    def _stops(self, i: int, slope: Callable[[int, Array], tuple[Array, Array]], negligible: float) -> Array:
+        """Points of a stretch where a slope is zero, each found by a Chebyshev series there."""
         one = self.stretches[i]
         x = interpolation.points(COUNT)
-        count = max(1, ceil(self.oscillator.fastest * one.length / RADIANS))
-        deepest = DEEPEST
-        if count > MANY:  # a vibration that has died out needs no short panels
-            count, deepest = 1, DEEPEST + ceil(log2(count))
+        count, deepest = self._panels(one.length)
         waiting = [(part / count * one.length, one.length / count, 0) for part in range(count)]
         found = [np.empty(0)]
         while waiting:
             start, length, depth = waiting.pop()
 
             def residual(x: Array, start: float = start, length: float = length) -> tuple[Array, Array]:
-                s = np.clip(start + 0.5 * length * (x + 1.0), 0.0, one.length)
-                return self._values(i, s, order + 1), 0.5 * length * self._values(i, s, order + 2)
+                value, curvature = slope(i, np.clip(start + 0.5 * length * (x + 1.0), 0.0, one.length))
+                return value, 0.5 * length * curvature
 
             coefficients = interpolation.transformed(residual(x)[0])
             if np.abs(coefficients[-3:]).max() > negligible and depth < deepest:
@@ -151,3 +202,10 @@ class Motion:
             roots = polished(chebyshev.real_parts_of_roots(coefficients), residual)
             found.append(np.clip(start + 0.5 * length * (roots + 1.0), 0.0, one.length))
         return np.concatenate(found)
+
+    def _panels(self, length: float) -> tuple[int, int]:
+        """How many panels a stretch is cut in at first, and how often each may be halved."""
+        count = max(1, ceil(self.oscillator.fastest * length / RADIANS))
+        if count <= MANY:
+            return count, DEEPEST
+        return 1, DEEPEST + ceil(log2(count))  # a vibration that has died out needs no short panels

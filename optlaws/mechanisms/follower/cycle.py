@@ -27,7 +27,8 @@ BRIEF = 1e-12  # a dwell shorter than this is none
 class CycleResponse(MassMotion):
     """Periodic motion of the mass under a periodic cam; made by `Follower.cycle`.
 
-    Call it like a law, at any k; time is in durations of the rise. Peaks and extrema are those of the whole cycle.
+    Call it like a law, at any k; time is in durations of the rise. Peaks, extrema, root mean squares and samples are
+    those of the whole cycle.
 
     Parameters
     ----------
@@ -64,6 +65,11 @@ class CycleResponse(MassMotion):
     def period(self) -> float:
         """Duration of the cycle, in durations of the rise."""
         return 1.0 + self.dwell + self.fall_duration + self.rest
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The whole cycle."""
+        return 0.0, self.period
 
     def __repr__(self) -> str:
         return (
@@ -106,8 +112,5 @@ class CycleResponse(MassMotion):
     def _motion(self) -> Motion:
         return Motion(Oscillator(self.nu, self.damping), self._forcings, self._initial)
 
-    def _derivative(self, k: Array, order: int) -> Array:
-        return self._motion.derivative(np.mod(k, self.period), order)
-
-    def _candidates(self, order: int) -> tuple[Array, Array]:
-        return self._motion.candidates(order)
+    def _derivative(self, k: Array, nu: int) -> Array:
+        return self._motion.derivative(np.mod(k, self.period), nu)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import inf
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,8 +27,8 @@ Array = NDArray[np.float64]
 class Response(MassMotion):
     """Motion of the mass during the rise, 0 <= k <= 1, and in the dwell after it, k > 1; made by a `Follower`.
 
-    Call it like a law: ``response(k, nu=2)``, ``response.c(k)``. `peak` and `extrema` look at the rise, the greatest
-    of its whole length; `dwell_peak` at all that follows.
+    Call it like a law: ``response(k, nu=2)``, ``response.c(k)``. Its interval is the rise: `peak`, `extrema`,
+    `power_peak`, `rms` and `samples` look at its whole length, `dwell_peak` at all that follows.
 
     Parameters
     ----------
@@ -141,15 +142,16 @@ class Response(MassMotion):
         off = self._motion.off_at_end
         return off[0], off[1] + velocity
 
-    def _derivative(self, k: Array, order: int) -> Array:
-        if (k < 0.0).any():
-            raise InputError(f"k must be at least 0, got {float(k.min())!r}")
-        found = self._motion.derivative(np.minimum(k, 1.0), order)
+    def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
+        times = super()._times(k)
+        if (times < 0.0).any():
+            raise InputError(f"k must be at least 0, got {float(times.min())!r}")
+        return times
+
+    def _derivative(self, k: Array, nu: int) -> Array:
+        found = self._motion.derivative(np.minimum(k, 1.0), nu)
         after = k > 1.0
         if after.any():
-            free = self._oscillator.motion(*self._off, k[after] - 1.0, order)
-            found[after] = free + (float(self.law.a(1.0)) if order == 0 else 0.0)
+            free = self._oscillator.motion(*self._off, k[after] - 1.0, nu)
+            found[after] = free + (float(self.law.a(1.0)) if nu == 0 else 0.0)
         return found
-
-    def _candidates(self, order: int) -> tuple[Array, Array]:
-        return self._motion.candidates(order)

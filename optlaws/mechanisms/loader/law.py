@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from itertools import pairwise
-from typing import Any, Self, overload
+from typing import Any, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.laws import MotionLaw, Peak
-from optlaws.laws.law import Many
+from optlaws.laws import MotionLaw
+from optlaws.laws.curve import Sides
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
 from optlaws.mechanisms.loader.segment import LoaderSegment
-from optlaws.mechanisms.loader.tops import breaks, tops
+from optlaws.mechanisms.loader.tops import tops
 
 Array = NDArray[np.float64]
 
@@ -69,49 +69,6 @@ class LoaderLaw(MotionLaw, kind="loader"):
             swing += travel if end <= turn else -travel
         return 1.0 / swing
 
-    @property
-    def breaks(self) -> tuple[float, ...]:
-        """Where the executive law breaks or its velocity has a top, 0 and 1 included."""
-        return self._pieces.breaks
-
-    def jumps(self, nu: int) -> tuple[tuple[float, float], ...]:
-        """Breaks inside (0, 1) where the derivative of order nu jumps, with right-hand less left-hand value.
-
-        Raises
-        ------
-        InputError
-            If `nu` is not an integer of at least 0.
-        """
-        return self._pieces.jumps(nu)
-
-    @property
-    def continuity(self) -> int:
-        """The highest nu, up to 9, such that all derivatives up to order nu are finite and continuous."""
-        return self._pieces.continuity
-
-    @overload
-    def d(self, k: float) -> float: ...
-    @overload
-    def d(self, k: Many) -> Array: ...
-    def d(self, k: float | Many) -> float | Array:
-        """Kinetic power b c at k, which is -Y² times that of the executive law; finite where c is not."""
-        c = np.asarray(self.c(k))
-        known = np.isfinite(c)
-        values = np.asarray(self.b(k)) * np.where(known, c, 0.0)
-        if not known.all():
-            values = np.where(known, values, -(self.Y**2) * np.asarray(self.executive.d(k)))
-        return values if np.ndim(values) else float(values)
-
-    def peak(self, nu: int) -> Peak:  # noqa: D102
-        return self._pieces.peak(nu)
-
-    def extrema(self, nu: int, within: tuple[float, float] = (0.0, 1.0)) -> tuple[Peak, Peak]:  # noqa: D102
-        return self._pieces.extrema(nu, within)
-
-    def power_peak(self) -> Peak:  # noqa: D102
-        found = self.executive.power_peak()
-        return Peak(self.Y**2 * found.value, found.k)
-
     @kept_property
     def _tops(self) -> Any:  # noqa: ANN401
         return tops(self.executive)
@@ -119,7 +76,7 @@ class LoaderLaw(MotionLaw, kind="loader"):
     @kept_property
     def _stretches(self) -> tuple[list[float], list[str]]:
         """Places that bound the stretches, and for each stretch which of its ends is a top, "flat" where both are."""
-        places = {0.0, 1.0, *breaks(self.executive)}
+        places = {0.0, 1.0, *self.executive.breaks}
         for one in self._tops:
             places |= {one.first, one.last}
             places -= {k for k in places if one.first < k < one.last}
@@ -163,29 +120,37 @@ class LoaderLaw(MotionLaw, kind="loader"):
     def _pieces(self) -> PiecewiseLaw:
         return PiecewiseLaw(self._stretches[0], self._segments(self.Y))
 
+    @property
+    def _breaks(self) -> tuple[float, ...]:
+        return self._pieces.breaks
+
+    # each hook is that of the pieces, but for d, which is -Y² times that of the executive law and finite where c is not
+
+    def _before_breaks(self, nu: int) -> Array:
+        return self._pieces._before_breaks(nu)  # noqa: SLF001
+
     def _derivative(self, k: Array, nu: int) -> Array:
         return np.asarray(self._pieces(k, nu))
 
-    def _candidates(self, nu: int) -> Array:
-        low, high = self.extrema(nu)
-        return np.array([0.0, low.k, high.k, 1.0])
+    def _power(self, k: Array) -> Array:
+        c = self._derivative(k, 2)
+        known = np.isfinite(c)
+        values = self._derivative(k, 1) * np.where(known, c, 0.0)
+        return values if known.all() else np.where(known, values, -(self.Y**2) * np.asarray(self.executive.d(k)))
 
-    def _power_candidates(self) -> Array:
-        return np.array([0.0, self.power_peak().k, 1.0])
+    def _sides(self, nu: int) -> Sides:
+        return self._pieces._sides(nu)  # noqa: SLF001
+
+    def _power_sides(self) -> Sides:
+        k, values = self.executive._whole_power()  # noqa: SLF001
+        return k, -(self.Y**2) * values
 
     def _mean_square(self, nu: int) -> float:
-        return self._pieces.rms(nu) ** 2
+        return self._pieces._mean_square(nu)  # noqa: SLF001
 
     def _summary(self) -> str:
         return f"Y={self.Y:g}"
 
-    def _fields(self) -> dict[str, Any]:
-        return {"executive": self.executive.to_dict()}
-
     @classmethod
-    def _from_fields(cls, fields: dict[str, Any]) -> Self:
-        if problems := [f"{key!r} is unknown" for key in fields if key != "executive"] + [
-            "'executive' is missing" for _ in range("executive" not in fields)
-        ]:
-            raise InputError(f"a loader's law has the key executive; {', '.join(problems)}")
+    def _read(cls, fields: dict[str, Any]) -> Self:
         return cls(MotionLaw.from_dict(fields["executive"]))

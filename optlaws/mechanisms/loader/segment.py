@@ -50,10 +50,6 @@ class LoaderSegment(Segment, kind="loader"):
         if not isinstance(given, MotionLaw):
             object.__setattr__(self, "executive", MotionLaw.from_dict(given))
 
-    def to_dict(self) -> dict[str, Any]:
-        """The segment as plain data, the executive law within."""
-        return {**super().to_dict(), "executive": self.executive.to_dict()}
-
     def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: ARG002, D102
         flat = np.atleast_1d(u)
         if nu == 0:

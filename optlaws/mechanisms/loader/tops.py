@@ -27,18 +27,6 @@ class Top:
     last: float
 
 
-def breaks(law: MotionLaw) -> tuple[float, ...]:
-    """Where a law is put together from pieces, 0 and 1 included.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> breaks(smoothstep(2))
-    (0.0, 1.0)
-    """
-    return tuple(getattr(law, "breaks", (0.0, 1.0)))
-
-
 def is_symmetric(law: MotionLaw) -> bool:
     """Whether b(1 - k) = b(k), to rounding.
 
@@ -134,7 +122,7 @@ def _narrowed(law: MotionLaw, B: float, low: float, high: float) -> Top:
 
 def _end_of_flat(law: MotionLaw, B: float, first: float) -> float:
     last = first
-    for start, end in pairwise([first, *(k for k in breaks(law) if k > first)]):
+    for start, end in pairwise([first, *(k for k in law.breaks if k > first)]):
         inside = np.abs(law.b(np.linspace(start, end, 11)[1:-1]))
         if (inside < B * (1.0 - 1e-14)).any():
             break

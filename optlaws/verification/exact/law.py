@@ -239,8 +239,7 @@ class ExactLaw:
             return (-extremes[0]).max(extremes[1])
 
     def _impulses(self, nu: int) -> bool:
-        law = self.law
-        return isinstance(law, PiecewiseLaw) and any(law.jumps(lower) for lower in range(1, nu))
+        return any(self.law.jumps(lower) for lower in range(1, nu))
 
 
 def _piece(segment: Segment, start: Fraction, stop: Fraction) -> ExactPiece:

@@ -84,10 +84,10 @@ def test_pieces_are_the_law(name: str) -> None:
         def _derivative(self, k: np.ndarray, nu: int) -> np.ndarray:
             return np.asarray(self.law(k, nu))
 
-        def _candidates(self, nu: int) -> np.ndarray:
+        def _sides(self, nu: int) -> tuple[np.ndarray, np.ndarray]:
             raise NotImplementedError(nu)
 
-        def _power_candidates(self) -> np.ndarray:
+        def _power_sides(self) -> tuple[np.ndarray, np.ndarray]:
             raise NotImplementedError
 
         def _mean_square(self, nu: int) -> float:
@@ -95,13 +95,6 @@ def test_pieces_are_the_law(name: str) -> None:
 
         def _summary(self) -> str:
             return ""
-
-        def _fields(self) -> dict[str, object]:
-            return {}
-
-        @classmethod
-        def _from_fields(cls, fields: dict[str, object]) -> "Disguised":
-            raise NotImplementedError(fields)
 
     law = catalogue[name].law
     known, unknown = (Follower(25.0, 0.02).response(one) for one in (law, Disguised(law)))

@@ -150,7 +150,7 @@ def test_peaks_are_seen_from_both_sides_of_a_break() -> None:
     wanted = one.least([(one.rows(3), None), (-one.rows(3), None)])
     assert wanted is not None
     assert wanted <= solution.objective <= wanted * (1 + 1e-6)
-    assert len(solution.law.jumps(3)) > 0  # type: ignore[attr-defined] # it is piecewise
+    assert len(solution.law.jumps(3)) > 0
     rough = synthesize(Problem(B=1.7, order=2, basis=BSplines(8, 3, 1)))
     law = rough.law
     assert isinstance(law, PiecewiseLaw)
@@ -201,7 +201,7 @@ def test_splines_that_make_no_sense_are_refused(arguments: tuple[object, ...], t
 def test_symmetric_laws_need_symmetric_breaks_but_no_break_in_the_middle() -> None:
     with pytest.raises(InputError, match="symmetric about 1/2"):
         Problem(B=1.7, order=3, basis=BSplines((0.0, 0.3, 1.0)))
-    assert len(synthesize(Problem(B=1.7, order=3, basis=BSplines(5))).law.breaks) == 6  # type: ignore[attr-defined]
+    assert len(synthesize(Problem(B=1.7, order=3, basis=BSplines(5))).law.breaks) == 6
     with pytest.raises(InputError, match="takes 7 coefficients"):
         construct(BoundaryConditions.rest(3), [1.0], BSplines(4))
 

@@ -1,0 +1,279 @@
+"""What laws of motion and motions of a mass have in common: values, derivatives, peaks with places, samples."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from math import inf
+from typing import Any, overload
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.numbers import MOST_VALUES, derivative, whole
+from optlaws.series import peaks
+from optlaws.series.peaks import Peak
+
+Array = NDArray[np.float64]
+Many = NDArray[Any] | Sequence[Any]
+Sides = tuple[Array, Array]
+
+
+class Curve(ABC):
+    """Displacement a(k) with its derivatives, dimensionless; velocity b, acceleration c, jerk j, kinetic power d = b c.
+
+    Peaks, root mean squares and samples are those of its `interval`; values there may be beyond it too.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> isinstance(smoothstep(3), Curve), smoothstep(3).interval
+    (True, (0.0, 1.0))
+    """
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The first and the last k of what peaks, root mean squares and samples look at."""
+        return 0.0, 1.0
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Where the curve is put together from pieces, both ends of the interval included."""
+        return self._breaks
+
+    @overload
+    def __call__(self, k: float, nu: int = 0) -> float: ...
+    @overload
+    def __call__(self, k: Many, nu: int = 0) -> Array: ...
+    def __call__(self, k: float | Many, nu: int = 0) -> float | Array:
+        """Derivative of order `nu` of a at `k`.
+
+        Parameters
+        ----------
+        k
+            Dimensionless time; a number or an array of any shape.
+        nu
+            Order of the derivative, at least 0.
+
+        Returns
+        -------
+        A float for a number (or an array of shape ()), else an array of the shape of `k`.
+
+        Raises
+        ------
+        InputError
+            If there is no value at `k`, or it is no number, or `nu` is not an integer of at least 0.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> smoothstep(3)([0.0, 0.5, 1.0], nu=1).tolist()
+        [0.0, 1.875, 0.0]
+        """
+        return _plain(self._derivative(self._times(k), derivative(nu)))
+
+    @overload
+    def a(self, k: float) -> float: ...
+    @overload
+    def a(self, k: Many) -> Array: ...
+    def a(self, k: float | Many) -> float | Array:
+        """Displacement at k."""
+        return _plain(self._derivative(self._times(k), 0))
+
+    @overload
+    def b(self, k: float) -> float: ...
+    @overload
+    def b(self, k: Many) -> Array: ...
+    def b(self, k: float | Many) -> float | Array:
+        """Velocity a' at k."""
+        return _plain(self._derivative(self._times(k), 1))
+
+    @overload
+    def c(self, k: float) -> float: ...
+    @overload
+    def c(self, k: Many) -> Array: ...
+    def c(self, k: float | Many) -> float | Array:
+        """Acceleration a'' at k."""
+        return _plain(self._derivative(self._times(k), 2))
+
+    @overload
+    def j(self, k: float) -> float: ...
+    @overload
+    def j(self, k: Many) -> Array: ...
+    def j(self, k: float | Many) -> float | Array:
+        """Jerk a''' at k."""
+        return _plain(self._derivative(self._times(k), 3))
+
+    @overload
+    def d(self, k: float) -> float: ...
+    @overload
+    def d(self, k: Many) -> Array: ...
+    def d(self, k: float | Many) -> float | Array:
+        """Kinetic power b c at k; finite where c grows without limit and b is zero."""
+        return _plain(self._power(self._times(k)))
+
+    def peak(self, nu: int) -> Peak:
+        """Peak of |derivative of order nu| over the whole interval, at the smallest k where several tie.
+
+        Raises
+        ------
+        InputError
+            If `nu` is not an integer of at least 0.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> smoothstep(2).peak(2)
+        Peak(value=6.0, k=0.0)
+        """
+        return peaks.peak(*self._whole(derivative(nu)))
+
+    def extrema(self, nu: int, within: tuple[float, float] | None = None) -> tuple[Peak, Peak]:
+        """Minimum and maximum, signed, of the derivative of order nu over the whole interval or a part of it.
+
+        Parameters
+        ----------
+        nu
+            Order of the derivative.
+        within
+            The part: its first and its last k.
+
+        Raises
+        ------
+        InputError
+            If `nu` is not an integer of at least 0, or the part is not in the interval.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> smoothstep(2).extrema(2)
+        (Peak(value=-6.0, k=1.0), Peak(value=6.0, k=0.0))
+        """
+        k, values = self._whole(derivative(nu))
+        if within is not None and within != self.interval:
+            ends = self._part(within)
+            inside = (k >= ends[0]) & (k <= ends[1])
+            k = np.concatenate([ends, k[inside]])
+            values = np.concatenate([self._derivative(ends, nu), values[inside]])
+        return peaks.extremes(k, values)
+
+    def power_peak(self) -> Peak:
+        """Peak of |d| over the whole interval, d = b c.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> round(smoothstep(2).power_peak().value, 6)
+        3.464102
+        """
+        return peaks.peak(*self._whole_power())
+
+    def rms(self, nu: int) -> float:
+        """Root mean square of the derivative of order nu over the interval.
+
+        Raises
+        ------
+        InputError
+            If `nu` is not an integer of at least 0.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> round(smoothstep(2).rms(2) ** 2, 12)
+        12.0
+        """
+        order = derivative(nu)
+        return inf if self._impulses(order)[0].size else float(np.sqrt(self._mean_square(order)))
+
+    def samples(self, count: int = 201, nu: int = 0) -> tuple[Array, Array]:
+        """Equally spaced k over the interval with the derivative of order nu there, to draw or to write down.
+
+        Every break inside comes twice more, with the values on its two sides, so that a jump is drawn upright.
+
+        Parameters
+        ----------
+        count
+            Number of equally spaced k, at least 2.
+        nu
+            Order of the derivative.
+
+        Raises
+        ------
+        InputError
+            If `count` is not an integer of at least 2, or `nu` not one of at least 0.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> [one.tolist() for one in smoothstep(2).samples(3, nu=1)]
+        [[0.0, 0.5, 1.0], [0.0, 1.5, 0.0]]
+        """
+        order = derivative(nu)
+        even = np.linspace(*self.interval, whole(count, "count", least=2, most=MOST_VALUES))
+        inner = np.array(self.breaks[1:-1])
+        k = np.concatenate([inner, even, inner])
+        values = np.concatenate([self._before_breaks(order), self._derivative(k[len(inner) :], order)])
+        after = np.arange(len(k)) >= len(inner)
+        ordered = np.lexsort((after, k))
+        return k[ordered], values[ordered]
+
+    def _whole(self, nu: int) -> Sides:
+        """Places with values among which the extremes of the derivative of order nu are, infinite ones included."""
+        (k, values), (places, heights) = self._sides(nu), self._impulses(nu)
+        return (np.append(k, places), np.append(values, heights)) if places.size else (k, values)
+
+    def _whole_power(self) -> Sides:
+        """Places with values among which the extremes of d are, infinite ones included."""
+        return self._power_sides()
+
+    def _part(self, within: tuple[float, float]) -> Array:
+        ends = self._times(within)
+        low, high = self.interval
+        if ends.shape != (2,) or not low <= ends[0] <= ends[1] <= high:
+            raise InputError(f"within must be two k, {low:g} <= first <= last <= {high:g}, got {shortened(within)}")
+        return ends
+
+    @property
+    def _breaks(self) -> tuple[float, ...]:
+        return self.interval
+
+    def _before_breaks(self, nu: int) -> Array:
+        """The derivative of order nu just before every break inside the interval; after it, it has its value there."""
+        return self._derivative(np.array(self.breaks[1:-1]), nu)
+
+    def _impulses(self, nu: int) -> Sides:  # noqa: ARG002 - none unless an heir has jumps
+        """Places where the derivative of order nu is an impulse, each with the infinite value of its sign."""
+        return np.empty(0), np.empty(0)
+
+    def _power(self, k: Array) -> Array:
+        """Kinetic power d at valid `k` of any shape."""
+        return self._derivative(k, 1) * self._derivative(k, 2)
+
+    @abstractmethod
+    def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
+        """The k at which values are asked, as floats; InputError where there are none."""
+
+    @abstractmethod
+    def _derivative(self, k: Array, nu: int) -> Array:
+        """Derivative of order `nu` at valid `k` of any shape; at a break inside, just after it."""
+
+    @abstractmethod
+    def _sides(self, nu: int) -> Sides:
+        """Places with values among which the finite extremes of the derivative of order `nu` are.
+
+        Stationary points, both ends, and every break twice, with the value on either side of it.
+        """
+
+    @abstractmethod
+    def _power_sides(self) -> Sides:
+        """Places with values among which the finite extremes of d are, breaks twice."""
+
+    @abstractmethod
+    def _mean_square(self, nu: int) -> float:
+        """Mean over the interval of the square of the derivative of order `nu`, which has no impulse."""
+
+
+def _plain(values: Array) -> float | Array:
+    return values if np.ndim(values) else float(values)
