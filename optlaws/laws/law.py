@@ -105,7 +105,7 @@ class MotionLaw(Curve, Stored):
         >>> from optlaws.laws import smoothstep
         >>> from optlaws.laws.making.trapezoids import scca
         >>> smoothstep(2).continuity, scca(0.25, 0.5, 0.25).continuity
-        (9, 2)
+        (9, 3)
         """
         for nu in range(1, HIGHEST + 1):
             if self.jumps(nu) or not self._is_finite(nu):
@@ -183,7 +183,7 @@ class MotionLaw(Curve, Stored):
     def _whole_power(self) -> Sides:
         k, values = self._power_sides()
         leaps = [place for place, _ in self.jumps(1)]
-        return np.append(k, leaps), np.append(values, np.full(len(leaps), inf))
+        return (np.append(k, leaps), np.append(values, np.full(len(leaps), inf))) if leaps else (k, values)
 
     @abstractmethod
     def _summary(self) -> str:
