@@ -88,7 +88,8 @@ class Search:
     @property
     def sound(self) -> list[Attempt]:
         """The attempts that led to a law, the best first."""
-        return sorted((one for one in self.attempts if one.law is not None), key=lambda attempt: attempt.objective)
+        laws = (attempt for attempt in self.attempts if attempt.law is not None)
+        return sorted(laws, key=lambda attempt: attempt.objective)
 
     def answer(self) -> Solution | None:
         """The best law that the starts lead to, with its proof; None where they lead to none."""
@@ -139,10 +140,9 @@ class Search:
         short = {} if plain.law is None else shortfalls(self.problem, plain.law)
         if not short or plain.law is None:
             return plain
-        candidates = [] if optimum is None else raised(self.model, optimum)
-        held = [one for one in (_held(self.model, plain, state) for state in candidates) if one is not None]
-        if held:
-            return min(held, key=lambda tried: tried.objective)
+        best = None if optimum is None else self._best_of(plain, raised(self.model, optimum))
+        if best is not None:
+            return best
         constant, low = next(iter(short.items()))
         raise SolverFailure(
             f"no law with {constant!r} at least {low:g} was found; without that, its {constant!r} is "
@@ -163,13 +163,18 @@ class Search:
                     return best
                 if ended.better_at is None:
                     break
-                candidates = raised_at(self.model, plain.outcome.optimum, constant, low, ended.better_at)
-                tried = [one for one in (_held(self.model, plain, state) for state in candidates) if one is not None]
-                better = min(tried, key=lambda one: one.objective, default=best)
-                if better.objective >= best.objective * (1.0 - GAP):
+                states = raised_at(self.model, plain.outcome.optimum, constant, low, ended.better_at)
+                better = self._best_of(plain, states)
+                if better is None or better.objective >= best.objective * (1.0 - GAP):
                     break
                 best = better
         return best
+
+    def _best_of(self, plain: Attempt, states: list[ActiveSet]) -> Attempt | None:
+        """The best of the candidates that keep every constraint and every lower bound; None where none does."""
+        candidates = (_kept(self.model, replace(plain.outcome, optimum=state)) for state in states)
+        kept = [candidate for candidate in candidates if candidate is not None]
+        return min(kept, key=lambda candidate: candidate.objective, default=None)
 
     def certified(self, plain: Attempt, best: Attempt) -> Solution:
         """The best attempt without lower bounds of constants, which bounds the objective, and the one with them."""
@@ -178,7 +183,7 @@ class Search:
             raise SolverFailure("no start led to a law", problem=problem)
         limit = known_limit(problem)
         proof = certify(self.model, bounding, best.objective, limit)
-        searched = [one.bound for one in (self.power, self.peaks) if one is not None]
+        searched = [tight.bound for tight in (self.power, self.peaks) if tight is not None]
         bound = max([lower_bound(proof, limit), *searched])
         held_up = best is not plain and plain.law is not None and bool(shortfalls(problem, plain.law))
         several = not problem.convex and best in self.sound[:1]
@@ -191,9 +196,9 @@ class Search:
             lower_bound=bound,
             limit=limit,
             status=_status(best.objective, bound, proven=problem.convex and not held_up),
-            iterations=sum(one.outcome.iterations for one in self.attempts),
+            iterations=sum(attempt.outcome.iterations for attempt in self.attempts),
             seconds=perf_counter() - self.began,
-            starts=tuple(one.objective for one in self.sound) if several else (),
+            starts=tuple(attempt.objective for attempt in self.sound) if several else (),
             power_certificate=self.power,
             peak_certificate=self.peaks,
             active_set=bounding,
@@ -229,12 +234,11 @@ def from_symmetric(search: Search) -> Solution | None:
     optimum = mirroring.unfolded(model, half, symmetric.active_set)
     at_best = optimum.x.copy()
     at_best[: model.space.terms] = mirroring.coordinates(model, symmetric.law)
-    plain, best = (
-        _measured(model, Outcome(state, symmetric.iterations, 0, "from the symmetric law"))
-        for state in (optimum, replace(optimum, x=at_best))
-    )
-    if best.law is None or shortfalls(search.problem, best.law):
+    outcome = Outcome(optimum, symmetric.iterations, 0, "from the symmetric law")
+    best = _kept(model, replace(outcome, optimum=replace(optimum, x=at_best)))
+    if best is None:
         return None
+    plain = _measured(_Laws(model), outcome)
     return Search(model, attempts=[plain], began=search.began).certified(plain, best)
 
 
@@ -243,8 +247,8 @@ def with_hardly_any_room(search: Search) -> Solution | None:
     best: Solution | None = None
     for optimum, coordinates in narrowed(search.model):
         x = np.concatenate([coordinates, optimum.x[len(coordinates) :]])
-        moved = _measured(search.model, Outcome(optimum.at(x), 0, 0, "with bounds loosened"))
-        if moved.law is not None and not shortfalls(search.problem, moved.law):
+        moved = _kept(search.model, Outcome(optimum.at(x), 0, 0, "with bounds loosened"))
+        if moved is not None:
             plain = replace(moved, outcome=replace(moved.outcome, optimum=optimum))
             solution = Search(search.model, began=search.began).certified(plain, moved)
             if best is None or _beyond_proof(best) or (not _beyond_proof(solution) and solution.gap < best.gap):
@@ -252,43 +256,50 @@ def with_hardly_any_room(search: Search) -> Solution | None:
     return best
 
 
+class _Laws:
+    """The laws of a model, measured; the last one is remembered, for the optimum often is the one seen last."""
+
+    def __init__(self, model: Model) -> None:
+        self._model = model
+        self._last: tuple[Array, MotionLaw, Worth] | None = None
+
+    def at(self, x: Array) -> tuple[MotionLaw, Worth]:
+        """The law of some variables, and what it is worth."""
+        if self._last is None or self._last[0] is not x:
+            law = self._model.law(x)
+            self._last = (x, law, worth(self._model.problem, law))
+        return self._last[1:]
+
+
 def attempt(model: Model, warm: ActiveSet | None, point: Array | None) -> Attempt:
     """Where a neighbour's optimum or a start leads."""
-    problem, claim = model.problem, model.program.objective * model.unit
-    measured: list[tuple[Array, MotionLaw, Worth]] = []
-
-    def measure(x: Array) -> tuple[MotionLaw, Worth]:
-        law = model.law(x)
-        measured[:] = [(x, law, worth(problem, law))]
-        return law, measured[0][2]
+    claim, laws = model.program.objective * model.unit, _Laws(model)
 
     def holds(x: Array) -> bool:
-        law, value = measure(x)
+        law, value = laws.at(x)
         kept = value.excess <= _ROUNDING and value.objective <= float(claim @ x) * (1.0 + _ROUNDING)
         # a constant that is minimised is a variable, which may have to be above the law's own
-        return kept and not shortfalls(problem, law)
+        return kept and not shortfalls(model.problem, law)
 
     outcome = solve(model.program, warm, start=point, holds=holds)
-    if outcome.optimum is None:
-        return Attempt(outcome)
-    optimum = outcome.optimum.at(on_equations(model.program, outcome.optimum.x))
-    known = bool(measured) and measured[0][0] is optimum.x
-    law, value = measured[0][1:] if known else measure(optimum.x)
-    return Attempt(replace(outcome, optimum=optimum), law if value.sound else None, value.objective)
+    if outcome.optimum is not None:
+        optimum = outcome.optimum.at(on_equations(model.program, outcome.optimum.x))
+        outcome = replace(outcome, optimum=optimum)
+    return _measured(laws, outcome)
 
 
-def _measured(model: Model, outcome: Outcome) -> Attempt:
+def _measured(laws: _Laws, outcome: Outcome) -> Attempt:
+    """What a program ended with as an attempt: its law, if it has one that keeps every constraint."""
     if outcome.optimum is None:
         return Attempt(outcome)
-    law = model.law(outcome.optimum.x)
-    value = worth(model.problem, law)
+    law, value = laws.at(outcome.optimum.x)
     return Attempt(outcome, law if value.sound else None, value.objective)
 
 
-def _held(model: Model, plain: Attempt, state: ActiveSet) -> Attempt | None:
-    """A candidate as an attempt; None where it breaks a constraint or a lower bound."""
-    tried = _measured(model, replace(plain.outcome, optimum=state))
-    return None if tried.law is None or shortfalls(model.problem, tried.law) else tried
+def _kept(model: Model, outcome: Outcome) -> Attempt | None:
+    """The same; None where the law breaks a constraint or a lower bound."""
+    kept = _measured(_Laws(model), outcome)
+    return None if kept.law is None or shortfalls(model.problem, kept.law) else kept
 
 
 def _beyond_proof(solution: Solution) -> bool:

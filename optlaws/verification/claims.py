@@ -12,13 +12,14 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
+from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
 from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.solution import NOTHING
 from optlaws.verification.conditions import excesses
-from optlaws.verification.exact.balls import down, enclosed, up
+from optlaws.verification.exact.balls import enclosed
 from optlaws.verification.exact.bound import Proof, never_negative, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.limits import exact_limit
@@ -81,7 +82,7 @@ def _law_alone(data: Mapping[str, Any]) -> Verification:
 
 def _power_alone(certificate: PowerCertificate, data: Mapping[str, Any]) -> Verification:
     proven = _power(certificate)
-    bound = None if proven is None else down(proven)
+    bound = None if proven is None else rounded_down(proven)
     return Verification(problem=certificate.problem, bound=bound, claims=tuple(_of_power(certificate, proven, data)))
 
 
@@ -127,7 +128,7 @@ def _solution(data: Mapping[str, Any]) -> Verification:
     bound, source = _best(proof.value if same else None, power, exact_limit(problem))
     gap = None
     if bound is not None and objective[1] < inf:
-        gap = up((Fraction(objective[1]) - bound) / (Fraction(objective[1]) if objective[1] > NOTHING else 1))
+        gap = rounded_up((Fraction(objective[1]) - bound) / (Fraction(objective[1]) if objective[1] > NOTHING else 1))
     constants = law.enclosures()
     found = excesses(problem, law)
     claims = [
@@ -148,7 +149,7 @@ def _solution(data: Mapping[str, Any]) -> Verification:
         certificate,
         proof,
         claims,
-        bound=None if bound is None else down(bound),
+        bound=None if bound is None else rounded_down(bound),
         objective=objective,
         gap=gap,
         constants=constants,
@@ -164,7 +165,7 @@ def _verification(
     **known: Any,  # noqa: ANN401
 ) -> Verification:
     contradiction = certificate.program == VIOLATION
-    known.setdefault("bound", None if contradiction or proof.value is None else down(proof.value))
+    known.setdefault("bound", None if contradiction or proof.value is None else rounded_down(proof.value))
     return Verification(
         problem=problem,
         infeasible=contradiction and proof.value is not None and proof.value > 0,

@@ -11,10 +11,11 @@ from math import inf, isfinite
 from flint import arb, ctx, fmpq_poly, fmpz_poly
 
 from optlaws.synthesis.families import names
+from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
-from optlaws.verification.exact.balls import ball, rational, up, upper
+from optlaws.verification.exact.balls import ball, rational, upper
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.pieces import PolynomialPiece, between, least_and_greatest
 from optlaws.verification.law_shape import shape_of
@@ -54,7 +55,7 @@ def excesses(problem: Problem, law: ExactLaw) -> list[Excess]:
 
 
 def _of(name: str, value: arb, scale: float = 1.0, tolerance: float = _TOLERANCE) -> Excess:
-    by = up(upper(value)) + 0.0 if value.is_finite() else inf
+    by = rounded_up(upper(value)) + 0.0 if value.is_finite() else inf
     return Excess(name, by, tolerance * max(1.0, scale))
 
 
@@ -133,7 +134,7 @@ def _velocity(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     if problem.peak_at is not None:
         peak = Fraction(problem.peak_at)
         reached = arb(law.value(1, peak))
-        scale = max(1.0, up(upper(speed)))
+        scale = max(1.0, rounded_up(upper(speed)))
         yield _of(f"b <= {names.at('b', problem.peak_at)}", greatest - reached, scale)
         if problem.inflexion is not None and not problem.symmetric:
             yield _of(names.acceleration_at_peak(problem.peak_at), arb(abs(law.value(2, peak))), scale)

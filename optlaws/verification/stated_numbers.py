@@ -12,10 +12,11 @@ from flint import arb, ctx, fmpq, fmpq_poly
 
 from optlaws.errors import InputError
 from optlaws.synthesis.limits.of_problem import known_limit
+from optlaws.synthesis.limits.rounding import rounded_down
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-from optlaws.verification.exact.balls import at, down, enclosed, rational
+from optlaws.verification.exact.balls import at, enclosed, rational
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.pieces import between, least_and_greatest
 from optlaws.verification.reading import number
@@ -34,7 +35,7 @@ def at_most(name: str, stated: float, proven: Fraction | None, source: str = "")
     if proven is None:
         return Claim(name, proven=False, detail=f"{stated!r} stated, nothing proven")
     holds = Fraction(stated) <= proven + Fraction(_BOUND) * max(Fraction(1), abs(proven))
-    return Claim(name, holds, f"{stated!r} stated, {down(proven)!r} proven{source}")
+    return Claim(name, holds, f"{stated!r} stated, {rounded_down(proven)!r} proven{source}")
 
 
 def stated_numbers(

@@ -1,4 +1,4 @@
-"""Doubles that are never above the number they stand for: lower bounds are rounded outward, and tested exactly."""
+"""Doubles on one side of the number they stand for: bounds are rounded outward, and tested exactly."""
 
 from __future__ import annotations
 
@@ -23,6 +23,17 @@ def rounded_down(value: Fraction) -> float:
     return not_above(nearest, lambda x: x <= value)
 
 
+def rounded_up(value: Fraction) -> float:
+    """The least double that is not below an exact number.
+
+    Examples
+    --------
+    >>> rounded_up(Fraction(9, 4)), rounded_up(Fraction(2, 3)) >= Fraction(2, 3)
+    (2.25, True)
+    """
+    return -rounded_down(-value)
+
+
 def not_above(value: float, below: Callable[[Fraction], bool]) -> float:
     """A computed value, lowered by as little as makes it true that it is `below` the exact one.
 
@@ -33,10 +44,8 @@ def not_above(value: float, below: Callable[[Fraction], bool]) -> float:
     below
         Whether a rational number is not above the exact one, decided without rounding.
     """
-    if not isfinite(value):
-        return value
     steps = 1.0
-    while not below(Fraction(value)):
+    while isfinite(value) and not below(Fraction(value)):
         value = min(nextafter(value, -inf), value - steps * ulp(value))
         steps *= 2.0
     return value

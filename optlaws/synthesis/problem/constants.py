@@ -6,7 +6,7 @@ One more constant is one class: say how it reads off a law (`value`), which rows
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from fractions import Fraction
@@ -29,7 +29,7 @@ _NO_ACCELERATION = 3  # the order from which laws begin and end without accelera
 
 
 @dataclass(frozen=True, repr=False)
-class Functional(Term):
+class Functional(Term, ABC):
     """A constant of a law, at least 0 (dimensionless).
 
     Attributes

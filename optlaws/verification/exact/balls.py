@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from fractions import Fraction
-from math import ceil, floor, inf, nextafter
-from sys import float_info
+from math import ceil, floor, inf
 
 from flint import arb, ctx, fmpq, fmpq_poly
 
+from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
+
 _PLACES, _EXACT = 128, 4096
-_GREATEST = float_info.max
 
 
 def rational(value: float | Fraction) -> fmpq:
@@ -41,28 +41,9 @@ def upper(value: arb) -> Fraction:
     return Fraction(ceil(Fraction(mantissa) * Fraction(2) ** (exponent + _PLACES)), 2**_PLACES)
 
 
-def down(value: Fraction) -> float:
-    """The greatest float that is not above the value.
-
-    Examples
-    --------
-    >>> down(Fraction(1, 10)) <= Fraction(1, 10) < down(Fraction(1, 10)) + 1e-16
-    True
-    """
-    if abs(value) > _GREATEST:
-        return _GREATEST if value > 0 else -inf
-    near = float(value)
-    return near if Fraction(near) <= value else nextafter(near, -inf)
-
-
-def up(value: Fraction) -> float:
-    """The least float that is not below the value."""
-    return -down(-value)
-
-
 def enclosure(value: arb) -> tuple[float, float]:
     """Floats below and above the ball."""
-    return down(lower(value)), up(upper(value))
+    return rounded_down(lower(value)), rounded_up(upper(value))
 
 
 def enclosed(value: arb) -> tuple[float, float]:

@@ -18,11 +18,12 @@ from math import inf, isfinite
 from flint import arb, arb_mat, ctx
 
 from optlaws.synthesis.families.names import VariableName
+from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import Peak, Power
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate, Contact
-from optlaws.verification.exact.balls import ball, down, lower, up, upper
+from optlaws.verification.exact.balls import ball, lower, upper
 from optlaws.verification.exact.rows import ExactRows, Row
 
 Vector = list[arb]
@@ -173,7 +174,7 @@ class _System:
 
     def _claim(self) -> float:
         total = sum((m * one[-1] for m, one in zip(self.multipliers, self.vectors, strict=True)), arb(0))
-        return up(upper(total)) if total.is_finite() else inf
+        return rounded_up(upper(total)) if total.is_finite() else inf
 
     def _corrected(self, helpers: list[_Helper], readiness: float, claim: float = inf) -> tuple[Proof, bool] | None:
         vectors = self.vectors + [one.vector for one in helpers]
@@ -194,11 +195,11 @@ class _System:
         if not value.is_finite() or not charge.is_finite():
             return None
         total = lower(value - charge)
-        greatest = max((up(upper(abs(m))) for m in self.multipliers), default=0.0) or 1.0
-        moved = max((up(upper(abs(c))) for c in changes[: len(self.vectors)]), default=0.0)
+        greatest = max((rounded_up(upper(abs(m))) for m in self.multipliers), default=0.0) or 1.0
+        moved = max((rounded_up(upper(abs(c))) for c in changes[: len(self.vectors)]), default=0.0)
         # a law either contradicts the claim, and then the helpers are bounded, or it does not
         proven = min(total, Fraction(claim)) if helpers else total
-        proof = Proof(proven, up(upper(charge)) + 0.0, moved / greatest, self.negative, self.unknown)
+        proof = Proof(proven, rounded_up(upper(charge)) + 0.0, moved / greatest, self.negative, self.unknown)
         return proof, bool(value.rad() < _WIDE)
 
     def _slopes(self) -> Vector:
@@ -293,13 +294,13 @@ def greatest_values(certificate: Certificate, rows: ExactRows, claim: float) -> 
         if asked is not None:
             found[name] = min(found.get(name, inf), asked.high)
     if rows.power is not None and isfinite(found.get(rows.power.name, inf)):
-        found[VariableName.POWER_ROOT] = up(upper(ball(found[rows.power.name]).sqrt()))
+        found[VariableName.POWER_ROOT] = rounded_up(upper(ball(found[rows.power.name]).sqrt()))
     start = rows.space.bounds.start_velocity
     if "B" in rows.names and not isfinite(found.get("B", inf)) and start is not None:
         # b is b(0) and the integral of c
         mean = min(found.get(name, inf) for name in ("C", "rms_c"))
         if isfinite(mean):
-            found["B"] = up(upper(abs(ball(start)) + ball(mean)))
+            found["B"] = rounded_up(upper(abs(ball(start)) + ball(mean)))
     return found
 
 
@@ -344,7 +345,7 @@ def _spread(
         others = sum([*lowest[:i], *lowest[i + 1 :]], Fraction(0))
         if isinstance(others, float):
             continue
-        value = up((claim - others) / Fraction(weight))
+        value = rounded_up((claim - others) / Fraction(weight))
         found[repr(term)] = max(min(found.get(repr(term), inf), value), float(least.get(repr(term), 0)))
         if isinstance(term, Maximum):
             for part in term.parts:
@@ -354,8 +355,3 @@ def _spread(
 def exact_bound(certificate: Certificate) -> Fraction | None:
     """The proven lower bound; of a proof that no law exists, a number above 0 if it stands."""
     return prove(certificate).value
-
-
-def rounded_down(value: Fraction | None) -> float:
-    """As a float that is not above it; -inf where nothing is proven."""
-    return -inf if value is None else down(value)

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from fractions import Fraction
 from functools import partial
+from math import inf
+from sys import float_info
 from typing import Any
 
 import mpmath  # type: ignore[import-untyped]
@@ -13,7 +15,7 @@ import pytest
 from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces, Problem, at_least, at_most, synthesize
 from optlaws.synthesis.limits.closed_forms import acceleration_limit_at_jerk, limit
 from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down
+from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down, rounded_up
 from optlaws.verification.exact.bound import prove
 
 mpmath.mp.dps = 60
@@ -110,6 +112,14 @@ def test_exact_numbers_are_rounded_down() -> None:
     assert Fraction(rounded_down(Fraction(1, 3))) <= Fraction(1, 3) < Fraction(float(np.nextafter(1 / 3, 1)))
     assert root_rounded_down(Fraction(0), Fraction(1), Fraction(2)) ** 2 < 2.0000000000000001
     assert not_above(1.1, lambda x: x <= 1) <= 1.0
+
+
+@pytest.mark.parametrize("beyond", [1, 2**969, 2**970, 2**1100])
+def test_numbers_beyond_the_greatest_double_are_rounded_outward_too(beyond: int) -> None:
+    greatest = float_info.max
+    value = Fraction(greatest) + beyond
+    assert (rounded_down(value), rounded_up(value)) == (greatest, inf)
+    assert (rounded_down(-value), rounded_up(-value)) == (-inf, -greatest)
 
 
 def test_the_limit_of_a_sum_is_not_above_the_sum_of_the_limits() -> None:

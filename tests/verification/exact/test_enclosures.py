@@ -13,7 +13,8 @@ from optlaws.verification import enclosures
 
 flint = pytest.importorskip("flint")
 
-from optlaws.verification.exact.balls import down, enclosure, lower, up, upper  # noqa: E402
+from optlaws.synthesis.limits.rounding import rounded_down, rounded_up  # noqa: E402
+from optlaws.verification.exact.balls import enclosure, lower, upper  # noqa: E402
 from optlaws.verification.exact.law import ExactLaw  # noqa: E402
 
 
@@ -93,8 +94,8 @@ def test_no_value_is_outside_the_extremes(series: list[float], first: float, las
     least, greatest = ExactLaw(law).extremes(2, Fraction(start), Fraction(stop))
     values = np.atleast_1d(law.c(np.linspace(start, stop, 33)))
     size = 1e-13 * (1.0 + sum(map(abs, series)))
-    assert down(lower(least)) <= values.min() + size
-    assert up(upper(greatest)) >= values.max() - size
+    assert rounded_down(lower(least)) <= values.min() + size
+    assert rounded_up(upper(greatest)) >= values.max() - size
     inside = law.extrema(2, within=(start, stop))
     assert enclosure(least)[0] == pytest.approx(inside[0].value, abs=100.0 * size)
     assert enclosure(greatest)[1] == pytest.approx(inside[1].value, abs=100.0 * size)
@@ -103,5 +104,5 @@ def test_no_value_is_outside_the_extremes(series: list[float], first: float, las
 def test_rounding_goes_outward() -> None:
     third = flint.arb(1) / 3
     assert lower(third) < Fraction(1, 3) < upper(third)
-    assert down(Fraction(1, 3)) < Fraction(1, 3) < up(Fraction(1, 3))
-    assert down(Fraction(1, 4)) == up(Fraction(1, 4)) == 0.25
+    assert rounded_down(Fraction(1, 3)) < Fraction(1, 3) < rounded_up(Fraction(1, 3))
+    assert rounded_down(Fraction(1, 4)) == rounded_up(Fraction(1, 4)) == 0.25
