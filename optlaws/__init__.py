@@ -72,7 +72,8 @@ declare(
     "segment",
     {
         "optlaws.laws.segments.fractional": "fractional",
-        "optlaws.laws.segments.segment": "polynomial power",
+        "optlaws.laws.segments.constant_power": "power",
+        "optlaws.laws.segments.segment": "polynomial",
         "optlaws.laws.segments.sine": "harmonics sine",
         "optlaws.mechanisms.dwell.parts": "part",
         "optlaws.mechanisms.loader.segment": "loader",

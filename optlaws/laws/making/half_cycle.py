@@ -5,18 +5,13 @@ from __future__ import annotations
 from collections.abc import Sequence
 from itertools import accumulate
 
-import numpy as np
-
 from optlaws.errors import InputError
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
-from optlaws.laws.segments.transforms import backwards, scaled
 
 Piece = tuple[float, Segment]
 
 SHORTEST = 1e-12  # a shorter stretch is none: its ends would be one number, or nearly
-
-START, END = np.zeros(1), np.ones(1)
 
 
 def from_half(pieces: Sequence[Piece]) -> PiecewiseLaw:
@@ -48,25 +43,19 @@ def from_half(pieces: Sequence[Piece]) -> PiecewiseLaw:
     if places[-1] > 0.5 - SHORTEST:
         places[-1] = 0.5
     rise = _joined([(b - a, segment) for a, b, (_, segment) in zip(places, places[1:], kept, strict=False)])
-    top = _velocity(rise[-1], END)
+    top = rise[-1][1].velocity(rise[-1][0], last=True)
     coast: list[Piece] = [] if places[-1] == 0.5 else [(1.0 - 2.0 * places[-1], PolynomialSegment((), top))]
-    fall = [(length, backwards(segment, length)) for length, segment in rise[::-1]]
+    fall = [(length, segment.backwards(length)) for length, segment in rise[::-1]]
     unit = [*rise, *coast, *fall]
     breaks = places + ([] if places[-1] == 0.5 else [1.0 - places[-1]]) + [1.0 - place for place in places[-2::-1]]
     scale = 1.0 / PiecewiseLaw(breaks, [segment for _, segment in unit]).a(1.0)
-    return PiecewiseLaw(breaks, [scaled(segment, length, scale) for length, segment in unit])
+    return PiecewiseLaw(breaks, [segment.scaled(length, scale) for length, segment in unit])
 
 
 def _joined(pieces: Sequence[Piece]) -> list[Piece]:
     velocity = 0.0
     found: list[Piece] = []
-    for piece in pieces:
-        length, segment = piece
-        found.append((length, scaled(segment, length, 1.0, velocity - _velocity(piece, START))))
-        velocity = _velocity(found[-1], END)
+    for length, segment in pieces:
+        found.append((length, segment.scaled(length, 1.0, velocity - segment.velocity(length))))
+        velocity = found[-1][1].velocity(length, last=True)
     return found
-
-
-def _velocity(piece: Piece, u: np.ndarray) -> float:
-    length, segment = piece
-    return float(segment.derivative(u, length, 1)[0])

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
@@ -16,8 +15,6 @@ from optlaws.errors import InputError
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.making.transform import as_polynomial
 from optlaws.laws.polynomial import PolynomialLaw
-from optlaws.laws.segments import transforms
-from optlaws.laws.segments.fractional import FractionalSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import fractions
@@ -112,27 +109,17 @@ def _of_pieces(law: PiecewiseLaw, y: Array) -> PiecewiseLaw:
     velocity = 0.0
     for segment, (start, end) in zip(law.segments, pairs, strict=True):
         length = end - start
-        product = transforms.multiplied(segment, length, _restricted(y, start, end))
-        first = float(product.derivative(np.zeros(1), length, 1)[0])
-        segments.append(_at_rest(transforms.scaled(product, length, 1.0, velocity - first), length))
-        velocity = float(segments[-1].derivative(np.ones(1), length, 1)[0])
+        product = segment.times(length, _restricted(y, start, end))
+        joined = product.scaled(length, 1.0, velocity - product.velocity(length))
+        # a rest at infinite acceleration that rounding missed is a rest
+        segments.append(joined.at_rest(length, ROUNDING))
+        velocity = segments[-1].velocity(length, last=True)
     _check_still(velocity, law)
     swing = PiecewiseLaw(law.breaks, segments)
     b0 = law.b(0.0)
     scale = float(_scale(Fraction(law.a(1.0) - law.a0 - b0), Fraction(swing.a(1.0))))
-    changed = [
-        transforms.scaled(one, end - start, scale, b0) for one, (start, end) in zip(segments, pairs, strict=True)
-    ]
+    changed = [one.scaled(end - start, scale, b0) for one, (start, end) in zip(segments, pairs, strict=True)]
     return PiecewiseLaw(law.breaks, changed, law.a0)
-
-
-def _at_rest(segment: Segment, length: float) -> Segment:
-    """A rest at infinite acceleration that rounding missed is a rest: its power would else be infinite."""
-    if isinstance(segment, FractionalSegment) and segment.exponent < 0.0:
-        swing = float(np.abs(segment.derivative(np.array([0.0, 1.0]), length, 1)).max())
-        if abs(segment.steady) <= ROUNDING * swing:
-            return replace(segment, steady=0.0)
-    return segment
 
 
 def _restricted(y: Array, start: float, end: float) -> Array:

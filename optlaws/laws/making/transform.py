@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.polynomial import PolynomialLaw
-from optlaws.laws.segments import transforms
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.numbers import finite
 from optlaws.series import interpolation
@@ -72,7 +71,7 @@ def reversed_law(law: MotionLaw) -> MotionLaw:
         return PolynomialLaw(turned, law.a0, law.b(1.0))
     if isinstance(law, PiecewiseLaw):
         lengths = [end - start for start, end in pairwise(law.breaks)]
-        turned_pieces = [transforms.backwards(one, length) for one, length in zip(law.segments, lengths, strict=True)]
+        turned_pieces = [one.backwards(length) for one, length in zip(law.segments, lengths, strict=True)]
         return PiecewiseLaw([1.0 - k for k in law.breaks[::-1]], turned_pieces[::-1], law.a0)
     return reversed_law(as_polynomial(law))
 
@@ -131,8 +130,6 @@ def _scaled(law: MotionLaw, scale: float, drift: float) -> PolynomialLaw | Piece
         return PolynomialLaw(acceleration, scale * law.a0, scale * law.b0 + drift)
     if isinstance(law, PiecewiseLaw):
         lengths = [end - start for start, end in pairwise(law.breaks)]
-        segments = [
-            transforms.scaled(one, length, scale, drift) for one, length in zip(law.segments, lengths, strict=True)
-        ]
+        segments = [one.scaled(length, scale, drift) for one, length in zip(law.segments, lengths, strict=True)]
         return PiecewiseLaw(law.breaks, segments, scale * law.a0)
     return _scaled(as_polynomial(law), scale, drift)

@@ -6,7 +6,8 @@ __getattr__, __dir__, __all__ = face(
     __name__,
     {
         "optlaws.laws.segments.fractional": "FractionalSegment",
-        "optlaws.laws.segments.segment": "PolynomialSegment PowerSegment Segment",
+        "optlaws.laws.segments.constant_power": "PowerSegment",
+        "optlaws.laws.segments.segment": "PolynomialSegment Segment",
         "optlaws.laws.segments.sine": "HarmonicSegment SineSegment",
     },
 )

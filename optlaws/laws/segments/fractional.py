@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 
 import numpy as np
@@ -84,6 +84,28 @@ class FractionalSegment(Segment, kind="fractional"):
             return inf
         low, high = sorted((self.first, self.last))
         return real_powers.integral(real_powers.product(powers, powers), low, high) * length / (high - low)
+
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
+        coefficients = tuple(scale * one for one in self.coefficients)
+        return replace(self, coefficients=coefficients, steady=scale * self.steady + drift)
+
+    def backwards(self, length: float) -> Segment:  # noqa: ARG002, D102
+        return replace(self, first=self.last, last=self.first, coefficients=tuple(-one for one in self.coefficients))
+
+    def times(self, length: float, y: Array) -> Segment:  # noqa: ARG002, D102
+        # x = 2u - 1 is straight in v: x = (2v - first - last) / (last - first)
+        span = self.last - self.first
+        place = np.polynomial.Polynomial([-(self.first + self.last) / span, 2.0 / span])
+        factor = np.polynomial.Polynomial(np.polynomial.chebyshev.cheb2poly(y))(place)
+        changed = np.polynomial.Polynomial(self.coefficients) * factor
+        return replace(self, coefficients=tuple(changed.coef.tolist()))
+
+    def at_rest(self, length: float, share: float) -> Segment:  # noqa: D102
+        if self.exponent < 0.0:
+            swing = float(np.abs(self.derivative(np.array([0.0, 1.0]), length, 1)).max())
+            if abs(self.steady) <= share * swing:
+                return replace(self, steady=0.0)
+        return self
 
     def _v(self, u: Array) -> Array:
         return np.asarray(self.first * (1.0 - u) + self.last * u, dtype=np.float64)

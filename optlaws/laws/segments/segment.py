@@ -1,4 +1,4 @@
-"""Segments of piecewise laws: polynomials, constant power. A new kind is one class."""
+"""What a segment of a piecewise law is, and the kind that all others may become: polynomials."""
 
 from __future__ import annotations
 
@@ -6,8 +6,7 @@ from abc import ABC, abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from functools import lru_cache
-from math import inf, log, prod
-from typing import Any, ClassVar
+from typing import Any, ClassVar, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,8 +17,28 @@ from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.storage import contents, known_fields
 from optlaws.lazy import Registry
 from optlaws.numbers import finite, numbers
+from optlaws.series import chebyshev, interpolation
 
 Array = NDArray[np.float64]
+
+
+_START, _END = np.zeros(1), np.ones(1)
+
+
+class Wave(NamedTuple):
+    """The sine amplitude sin(frequency s + phase) of s = k - start."""
+
+    amplitude: float
+    frequency: float
+    phase: float
+
+
+class Waves(NamedTuple):
+    """An acceleration made of a Chebyshev series in 2u - 1 and of sines, with the velocity at its start."""
+
+    acceleration: tuple[float, ...]
+    b0: float
+    sines: tuple[Wave, ...] = ()
 
 
 class Segment(ABC):
@@ -27,7 +46,8 @@ class Segment(ABC):
 
     A kind is a frozen dataclass of numbers and tuples of numbers, declared with its name, for example
     ``class SplineSegment(Segment, kind="spline")``. Where it lies is known to the law alone, so every method is
-    told the length; derivatives are with respect to k.
+    told the length; derivatives are with respect to k. A kind supplies the abstract methods; storage follows, and by a
+    polynomial interpolant all that is made from segments, unless it has a closed form of its own for that.
 
     Examples
     --------
@@ -38,10 +58,11 @@ class Segment(ABC):
     kind: ClassVar[str]
     kinds: ClassVar[Registry[type[Segment]]] = Registry("segment")
 
-    def __init_subclass__(cls, *, kind: str, **kwargs: object) -> None:
+    def __init_subclass__(cls, *, kind: str | None = None, **kwargs: object) -> None:
         super().__init_subclass__(**kwargs)
-        cls.kind = kind
-        Segment.kinds[kind] = cls
+        if kind is not None:
+            cls.kind = kind
+            Segment.kinds[kind] = cls
 
     @abstractmethod
     def derivative(self, u: Array, length: float, nu: int) -> Array:
@@ -62,6 +83,102 @@ class Segment(ABC):
     def power(self, u: Array, length: float) -> Array:
         """Kinetic power d = b c at u."""
         return self.derivative(u, length, 1) * self.derivative(u, length, 2)
+
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:
+        """The segment whose velocity is scale b + drift; an interpolating polynomial unless the kind knows better.
+
+        Raises
+        ------
+        InputError
+            If it becomes a polynomial and its acceleration is not smooth.
+        """
+        return self.interpolated(length).scaled(length, scale, drift)
+
+    def backwards(self, length: float) -> Segment:
+        """The segment whose velocity is b(length - s); an interpolating polynomial unless the kind knows better.
+
+        Raises
+        ------
+        InputError
+            If it becomes a polynomial and its acceleration is not smooth.
+        """
+        return self.interpolated(length).backwards(length)
+
+    def times(self, length: float, y: Array) -> Segment:
+        """The segment whose acceleration is c times the Chebyshev series y in 2u - 1, with the same velocity at first.
+
+        An interpolating polynomial unless the kind knows better.
+
+        Raises
+        ------
+        InputError
+            If it becomes a polynomial and its acceleration is not smooth.
+        """
+
+        def c(x: Array) -> Array:
+            return self.derivative(0.5 * (x + 1.0), length, 2) * chebyshev.value(y, x)
+
+        series = interpolation.chebyshev_series(c, f"acceleration of the {self.kind} segment times y")
+        return PolynomialSegment(tuple(series.tolist()), self.velocity(length))
+
+    def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:
+        """The segment with displacement a + once b + twice c, for the cam of an elastic follower (1.27).
+
+        An interpolating polynomial unless the kind knows better.
+
+        Raises
+        ------
+        InputError
+            If it becomes a polynomial and its acceleration is not smooth.
+        """
+
+        def c(x: Array) -> Array:
+            u = 0.5 * (x + 1.0)
+            orders = ((2, 1.0), (3, once), (4, twice))
+            return np.asarray(sum(factor * self.derivative(u, length, order) for order, factor in orders))
+
+        series = interpolation.chebyshev_series(c, f"acceleration of the cam under the {self.kind} segment")
+        return PolynomialSegment(tuple(series.tolist()), self._velocity_plus(length, once, twice))
+
+    def at_rest(self, length: float, share: float) -> Segment:  # noqa: ARG002 - for kinds whose c may be infinite
+        """The segment with rest where rounding, below a share of its greatest velocity, has missed one.
+
+        It matters where c is infinite: d = b c would be, too.
+        """
+        return self
+
+    def waves(self, length: float) -> Waves | None:  # noqa: ARG002 - for kinds that are waves
+        """The acceleration as a polynomial and sines, where it is: a follower responds to these in closed form."""
+        return None
+
+    def interpolated(self, length: float) -> PolynomialSegment:
+        """The segment with its acceleration interpolated to machine accuracy.
+
+        Raises
+        ------
+        InputError
+            If the acceleration is not smooth on the segment.
+
+        Examples
+        --------
+        >>> from optlaws.laws.segments import SineSegment
+        >>> len(SineSegment(1.0, 3.0).interpolated(0.5).acceleration)
+        13
+        """
+
+        def c(x: Array) -> Array:
+            return self.derivative(0.5 * (x + 1.0), length, 2)
+
+        series = interpolation.chebyshev_series(c, f"acceleration of the {self.kind} segment")
+        return PolynomialSegment(tuple(series.tolist()), self.velocity(length))
+
+    def velocity(self, length: float, *, last: bool = False) -> float:
+        """Velocity at the segment's start, or at its end."""
+        return float(self.derivative(_END if last else _START, length, 1)[0])
+
+    def _velocity_plus(self, length: float, once: float, twice: float) -> float:
+        b, c, j = (float(self.derivative(_START, length, order)[0]) for order in (1, 2, 3))
+        return b + once * c + twice * j
 
     def to_dict(self) -> dict[str, Any]:
         """The segment as plain data, from which `from_dict` makes an equal one."""
@@ -123,79 +240,32 @@ class PolynomialSegment(Segment, kind="polynomial"):
     def square(self, length: float, nu: int) -> float:  # noqa: D102
         return length ** (5 - 2 * nu) * self._law(length).rms(nu) ** 2
 
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
+        return PolynomialSegment(tuple(scale * one for one in self.acceleration), scale * self.b0 + drift)
+
+    def backwards(self, length: float) -> Segment:  # noqa: D102
+        turned = (one if n % 2 else -one for n, one in enumerate(self.acceleration))
+        return PolynomialSegment(tuple(turned), self.velocity(length, last=True))
+
+    def times(self, length: float, y: Array) -> Segment:  # noqa: ARG002, D102
+        product = chebyshev.product(np.array(self.acceleration or (0.0,)), y)
+        return PolynomialSegment(tuple(product.tolist()), self.b0)
+
+    def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:  # noqa: D102
+        c = np.array(self.acceleration or (0.0,))
+        j = chebyshev.derivative(c) / length
+        s = chebyshev.derivative(j) / length
+        total = c.copy()
+        total[: len(j)] += once * j
+        total[: len(s)] += twice * s
+        return PolynomialSegment(tuple(total.tolist()), self._velocity_plus(length, once, twice))
+
+    def waves(self, length: float) -> Waves:  # noqa: ARG002, D102
+        return Waves(self.acceleration or (0.0,), self.b0)
+
     def _law(self, length: float) -> PolynomialLaw:
         # a = length² times this law in u, so that its acceleration is the segment's
         return _polynomial(self.acceleration, self.b0 / length)
-
-
-@dataclass(frozen=True)
-class PowerSegment(Segment, kind="power"):
-    """Constant kinetic power: b² runs straight from b0² to b1², so that d = (b1² - b0²) / (2 length) throughout.
-
-    This is b = sqrt(p + q s) with p = b0² and q = 2d, written so that a velocity of zero at either end is exact.
-    There c and all derivatives above are infinite, and given as such; the integral of c² is infinite too.
-
-    Parameters
-    ----------
-    b0, b1
-        Velocities at the two ends, not both zero and not of opposite signs.
-
-    Examples
-    --------
-    >>> segment = PowerSegment(0.0, 1.5)
-    >>> segment.derivative(np.array([0.0, 1.0]), 0.5, 2), segment.power(np.array([0.0, 1.0]), 0.5)
-    (array([inf, 1.5]), array([2.25, 2.25]))
-    """
-
-    b0: float
-    b1: float
-
-    def __post_init__(self) -> None:
-        self._check()
-        if self.b0 * self.b1 < 0.0 or self.b0 == self.b1 == 0.0:
-            raise InputError(f"velocities of a power segment must not differ in sign or both be zero, got {self}")
-
-    def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
-        sign = 1.0 if self.b0 + self.b1 > 0.0 else -1.0
-        square = self.b0**2 * (1.0 - u) + self.b1**2 * u
-        b = np.sqrt(square)
-        if nu == 0:
-            first = abs(self.b0)
-            total = np.where(b + first == 0.0, 1.0, b + first)
-            return sign * u * length * (2.0 / 3.0) * (first * first + first * b + square) / total
-        order = nu - 1
-        rate = 2.0 * self._power(length)
-        if order == 0 or rate == 0.0:
-            return sign * b if order == 0 else np.zeros_like(u)
-        factor = sign * prod((0.5 - i) * rate for i in range(order))
-        with np.errstate(divide="ignore", over="ignore"):
-            return np.asarray(factor * square ** (0.5 - order))
-
-    def power(self, u: Array, length: float) -> Array:
-        """Kinetic power d = b c at u, the same everywhere and finite where c is not."""
-        return np.full(np.shape(u), self._power(length))
-
-    def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002, D102
-        return np.empty(0)
-
-    def power_candidates(self, length: float) -> Array:  # noqa: ARG002, D102
-        return np.empty(0)
-
-    def square(self, length: float, nu: int) -> float:  # noqa: D102
-        # with v = b², v' = q constant: the derivative of order nu is q^m v^(1/2-m) times a number, m = nu - 1
-        m, q = nu - 1, 2.0 * self._power(length)
-        start, end = self.b0 * self.b0, self.b1 * self.b1
-        if m > 0 and (q == 0.0 or start * end == 0.0):
-            return 0.0 if q == 0.0 else inf
-        if m == 0:
-            return 0.5 * length * (start + end)
-        factor = prod(0.5 - i for i in range(m)) ** 2 * q ** (2 * m - 1)
-        if m == 1:
-            return factor * log(end / start)
-        return factor * (end ** (2 - 2 * m) - start ** (2 - 2 * m)) / (2 - 2 * m)
-
-    def _power(self, length: float) -> float:
-        return 0.5 * (self.b1 - self.b0) * (self.b1 + self.b0) / length
 
 
 @lru_cache(maxsize=256)

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from math import cos
+import cmath
+from dataclasses import dataclass, replace
+from math import cos, remainder, tau
 
 import numpy as np
 from numpy.polynomial.polynomial import polyval
@@ -11,7 +12,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.laws.segments.segment import Segment
+from optlaws.laws.segments.segment import Segment, Wave, Waves
 from optlaws.series.waves import wave_roots, wave_square
 
 Array = NDArray[np.float64]
@@ -62,6 +63,41 @@ class SineSegment(Segment, kind="sine"):
             swing = s * cos(self.phase) - 2.0 / w * np.cos(half + self.phase) * np.sin(half)
         start = self.b0 if nu else self.b0 * s
         return np.asarray(start + steady + self.amplitude / w * swing, dtype=np.float64)
+
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
+        powers = tuple(scale * one for one in self.powers)
+        return replace(self, amplitude=scale * self.amplitude, b0=scale * self.b0 + drift, powers=powers)
+
+    def backwards(self, length: float) -> Segment:  # noqa: D102
+        p0, p1, p2 = self._three_powers
+        powers = (-(p0 + p1 * length + p2 * length * length), p1 + 2.0 * p2 * length, -p2)
+        phase = _turned(self.frequency, self.phase, length)
+        return replace(self, phase=phase, b0=self.velocity(length, last=True), powers=powers if self.powers else ())
+
+    def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:  # noqa: D102
+        p0, p1, p2 = self._three_powers
+        powers = (p0 + once * p1 + 2.0 * twice * p2, p1 + 2.0 * once * p2, p2)
+        amplitude, phase = _transferred(self.amplitude, self.frequency, self.phase, (once, twice))
+        return replace(
+            self,
+            amplitude=amplitude,
+            phase=phase,
+            b0=self._velocity_plus(length, once, twice),
+            powers=powers if self.powers else (),
+        )
+
+    def waves(self, length: float) -> Waves:  # noqa: D102
+        wave = Wave(self.amplitude, self.frequency, self.phase)
+        if not self.powers:
+            return Waves((0.0,), self.b0, (wave,))
+        (p0, p1, p2), h = self._three_powers, 0.5 * length
+        steady = (p0 + p1 * h + 1.5 * p2 * h * h, p1 * h + 2.0 * p2 * h * h, 0.5 * p2 * h * h)
+        return Waves(steady, self.b0, (wave,))
+
+    @property
+    def _three_powers(self) -> tuple[float, float, float]:
+        p0, p1, p2 = (*self.powers, 0.0, 0.0, 0.0)[:3]
+        return p0, p1, p2
 
     @kept_property
     def _steady(self) -> tuple[Array, ...]:
@@ -126,6 +162,31 @@ class HarmonicSegment(Segment, kind="harmonics"):
     def square(self, length: float, nu: int) -> float:  # noqa: D102
         return wave_square(lambda u: self.derivative(u, length, nu), max(self.frequencies), length)
 
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
+        amplitudes = tuple(scale * one for one in self.amplitudes)
+        return replace(self, amplitudes=amplitudes, b0=scale * self.b0 + drift)
+
+    def backwards(self, length: float) -> Segment:  # noqa: D102
+        pairs = zip(self.frequencies, self.phases, strict=True)
+        phases = tuple(_turned(frequency, phase, length) for frequency, phase in pairs)
+        return replace(self, phases=phases, b0=self.velocity(length, last=True))
+
+    def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:  # noqa: D102
+        made = [_transferred(*wave, (once, twice)) for wave in self._waves]
+        return replace(
+            self,
+            amplitudes=tuple(amplitude for amplitude, _ in made),
+            phases=tuple(phase for _, phase in made),
+            b0=self._velocity_plus(length, once, twice),
+        )
+
+    def waves(self, length: float) -> Waves:  # noqa: ARG002, D102
+        return Waves((0.0,), self.b0, self._waves)
+
+    @property
+    def _waves(self) -> tuple[Wave, ...]:
+        return tuple(map(Wave, self.amplitudes, self.frequencies, self.phases))
+
 
 def candidates(wave: Segment, frequency: float, length: float, nu: int) -> Array:
     """Every u where the derivative of order nu of a segment that swings at most at a frequency may be extreme.
@@ -154,3 +215,17 @@ def power_candidates(wave: Segment, frequency: float, length: float) -> Array:
         return c * c + b * j, 3.0 * c * j + b * s
 
     return wave_roots(slope, frequency, length)
+
+
+def _turned(frequency: float, phase: float, length: float) -> float:
+    # -sin(w (L - s) + phi) = sin(w s - (w L + phi))
+    return remainder(-(frequency * length + phase), tau)
+
+
+def _transferred(amplitude: float, frequency: float, phase: float, factors: tuple[float, float]) -> tuple[float, float]:
+    """Amplitude and phase of a + once b + twice c where a is a sine."""
+    once, twice = factors
+    transfer = complex(1.0 - twice * frequency**2, once * frequency)
+    if once == 0.0:  # keep the sign in the amplitude, so that the phase stays exact
+        return amplitude * transfer.real, phase
+    return amplitude * abs(transfer), phase + cmath.phase(transfer)

@@ -12,7 +12,6 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.mechanisms.cam.segments import cam_segment
 from optlaws.mechanisms.cam.smoothness import check_mass_law
 from optlaws.mechanisms.checks import motion_law
 from optlaws.numbers import not_negative, positive
@@ -63,7 +62,7 @@ def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
     if isinstance(law, PiecewiseLaw):
         places = zip(law.segments, pairwise(law.breaks), strict=True)
         return PiecewiseLaw(
-            law.breaks, [cam_segment(one, high - low, once, twice) for one, (low, high) in places], law.a0
+            law.breaks, [one.plus_derivatives(high - low, once, twice) for one, (low, high) in places], law.a0
         )
 
     def c(x: Array) -> Array:

@@ -11,9 +11,8 @@ from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PolynomialSegment, Segment
-from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
-from optlaws.mechanisms.follower.cam_motion import Forcing, PolynomialForcing, SineForcing
+from optlaws.laws.segments.segment import Segment, Wave, Waves
+from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.series import chebyshev, interpolation
 
 Array = NDArray[np.float64]
@@ -61,36 +60,26 @@ class _Frame:
     def pieces(self) -> tuple[Forcing, ...]:
         law = self.law
         if isinstance(law, PolynomialLaw):
-            return (self._polynomial(law.acceleration, law.b0, 0.0, 1.0),)
+            return (self._forcing(Waves(law.acceleration or (0.0,), law.b0), 0.0, 1.0),)
         if isinstance(law, PiecewiseLaw):
             stretches = zip(law.segments, pairwise(law.breaks), strict=True)
             return tuple(piece for one, (low, high) in stretches for piece in self._segment(one, low, high))
         return tuple(self._interpolated(lambda k: np.asarray(law.b(k)), 0.0, 1.0))
 
     def _segment(self, segment: Segment, low: float, high: float) -> list[Forcing]:
-        if isinstance(segment, PolynomialSegment):
-            return [self._polynomial(segment.acceleration, segment.b0, low, high)]
-        if isinstance(segment, SineSegment | HarmonicSegment):
-            sines = (segment,) if isinstance(segment, SineSegment) else segment.sines
-            return [SineForcing(*self._place(low, high), tuple(self._sine(one) for one in sines))]
+        if (waves := segment.waves(high - low)) is not None:
+            return [self._forcing(waves, low, high)]
         return self._interpolated(lambda k: segment.derivative((k - low) / (high - low), high - low, 1), low, high)
 
     def _place(self, low: float, high: float) -> tuple[float, float, float]:
         a0 = self.a0 + self.stroke * (float(self.law.a(low)) - float(self.law.a(0.0)))
         return self.start + self.length * low, self.length * (high - low), a0
 
-    def _polynomial(self, acceleration: tuple[float, ...], b0: float, low: float, high: float) -> Forcing:
-        c = self.stroke / self.length**2 * np.array(acceleration or (0.0,))
-        return PolynomialForcing(*self._place(low, high), c, self.stroke / self.length * b0)
-
-    def _sine(self, sine: SineSegment) -> SineSegment:
-        return SineSegment(
-            amplitude=self.stroke / self.length**2 * sine.amplitude,
-            frequency=sine.frequency / self.length,
-            phase=sine.phase,
-            b0=self.stroke / self.length * sine.b0,
-            powers=tuple(self.stroke * power / self.length ** (2 + i) for i, power in enumerate(sine.powers)),
-        )
+    def _forcing(self, waves: Waves, low: float, high: float) -> Forcing:
+        scale = self.stroke / self.length**2
+        sines = (Wave(scale * one.amplitude, one.frequency / self.length, one.phase) for one in waves.sines)
+        c = scale * np.array(waves.acceleration)
+        return Forcing(*self._place(low, high), self.stroke / self.length * waves.b0, c, tuple(sines))
 
     def _interpolated(self, velocity: Callable[[Array], Array], low: float, high: float) -> list[Forcing]:
         x = interpolation.points(COUNT)
@@ -106,5 +95,5 @@ class _Frame:
                 waiting += [(middle, last), (first, middle)]
                 continue
             c = tuple((chebyshev.derivative(b) / (2.0 * half)).tolist())
-            found.append(self._polynomial(c, chebyshev.value(b, -1.0), first, last))
+            found.append(self._forcing(Waves(c, float(chebyshev.value(b, -1.0))), first, last))
         return found

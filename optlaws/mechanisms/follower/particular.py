@@ -17,7 +17,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.mechanisms.follower.cam_motion import Forcing, PolynomialForcing, SineForcing
+from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.vibration import Oscillator
 from optlaws.series import chebyshev, interpolation
 
@@ -117,17 +117,10 @@ def stretches(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
     >>> len(stretches(rise, Oscillator(60.0, 0.0))), len(stretches(rise, Oscillator(15.0, 0.0)))
     (1, 2)
     """
-    if isinstance(forcing, PolynomialForcing):
-        load = _load(forcing, oscillator)
-        closed = closed_form(load, oscillator, forcing.length)
-        if closed is not None:
-            return [Stretch(forcing, 0.0, forcing.length, closed, closed=True)]
-        return _solved(forcing, oscillator, len(load))
-    if isinstance(forcing, SineForcing):
-        wave = _sine(forcing, oscillator)
-        if wave is not None:
-            return [Stretch(forcing, 0.0, forcing.length, wave, closed=True)]
-    return _solved(forcing, oscillator, 0)
+    closed = _closed(forcing, oscillator)
+    if closed is not None:
+        return [Stretch(forcing, 0.0, forcing.length, closed, closed=True)]
+    return _solved(forcing, oscillator)
 
 
 def closed_form(load: Array, oscillator: Oscillator, length: float) -> PolynomialSolution | None:
@@ -156,36 +149,34 @@ def closed_form(load: Array, oscillator: Oscillator, length: float) -> Polynomia
     return PolynomialSolution(length, (u[:size], v[:size], w[:size]))
 
 
-def _load(forcing: PolynomialForcing, oscillator: Oscillator) -> Array:
-    load = 2.0 * oscillator.n * forcing.velocity
-    load[: len(forcing.acceleration)] += forcing.acceleration
+def _load(acceleration: Array, velocity: Array, oscillator: Oscillator) -> Array:
+    load = 2.0 * oscillator.n * velocity
+    load[: len(acceleration)] += acceleration
     return load
 
 
-def _sine(forcing: SineForcing, oscillator: Oscillator) -> SineSolution | None:
+def _closed(forcing: Forcing, oscillator: Oscillator) -> Particular | None:
     n, square = oscillator.n, oscillator.nu**2
     waves: list[tuple[complex, float]] = []
-    b0 = 0.0
+    b0 = forcing.b0
     for one in forcing.sines:
         w = one.frequency
         # c is the real part of amplitude exp(i w s) and a polynomial, and b its integral from b0
         amplitude = -1j * one.amplitude * cmath.exp(1j * one.phase)
         velocity = amplitude / (1j * w)
-        b0 += one.b0 - velocity.real
+        b0 -= velocity.real
         stiffness = complex(square - w * w, 2.0 * n * w)
         if abs(stiffness) * GROWTH < square:
             return None
         waves.append((-(amplitude + 2.0 * n * velocity) / stiffness, w))
-    polynomial = PolynomialForcing(0.0, forcing.length, 0.0, forcing.steady, b0)
-    steady = closed_form(_load(polynomial, oscillator), oscillator, forcing.length)
-    return None if steady is None else SineSolution(steady, tuple(waves))
+    velocities = chebyshev.integral(forcing.length * forcing.acceleration, b0)
+    steady = closed_form(_load(forcing.acceleration, velocities, oscillator), oscillator, forcing.length)
+    return SineSolution(steady, tuple(waves)) if steady is not None and waves else steady
 
 
-def _solved(forcing: Forcing, oscillator: Oscillator, terms: int) -> list[Stretch]:
-    fastest = oscillator.fastest
-    if isinstance(forcing, SineForcing):
-        fastest = max(fastest, *(one.frequency for one in forcing.sines))
-        terms = WAVE_TERMS
+def _solved(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
+    fastest = max(oscillator.fastest, *(one.frequency for one in forcing.sines), 0.0)
+    terms = max(len(forcing.acceleration) + 1, WAVE_TERMS if forcing.sines else 0)
     count = max(1, ceil(fastest * forcing.length / RADIANS))
     length = forcing.length / count
     size = terms + SPARE

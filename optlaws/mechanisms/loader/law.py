@@ -14,8 +14,9 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.curve import Sides
+from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
+from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.mechanisms.loader.segment import LoaderSegment
 from optlaws.mechanisms.loader.tops import tops
 

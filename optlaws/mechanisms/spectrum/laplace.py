@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law
-from optlaws.mechanisms.follower.cam_motion import Forcing, PolynomialForcing, SineForcing
+from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.spectrum.bessel import legendre_from_chebyshev, moments
 
@@ -45,10 +45,7 @@ def velocity_transform(law: MotionLaw, w: Complex) -> Complex:
 
 def _acceleration_transform(piece: Forcing, w: Complex) -> Complex:
     """Integral over the piece of exp(w (length - s)) c(s)."""
-    if isinstance(piece, PolynomialForcing):
-        return _polynomial(piece.acceleration, piece.length, w)
-    assert isinstance(piece, SineForcing)  # noqa: S101 - there is no third kind
-    found = _polynomial(piece.steady, piece.length, w)
+    found = _polynomial(piece.acceleration, piece.length, w)
     for one in piece.sines:
         wave = 1j * one.frequency
         for sign in (1.0, -1.0):

@@ -7,8 +7,9 @@ from itertools import pairwise
 from math import sqrt
 from typing import TypeVar
 
+from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
+from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.synthesis.limits.closed_forms import back_time, back_velocity, best_velocity, limit, run_in
 
 Pair = tuple[float, float]

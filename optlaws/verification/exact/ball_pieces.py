@@ -9,7 +9,7 @@ from typing import TypeVar
 
 from flint import acb, arb, ctx
 
-from optlaws.laws.segments.segment import PowerSegment
+from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.sine import SineSegment
 from optlaws.verification.exact.balls import ball
 from optlaws.verification.exact.pieces import ExactPiece, Extremes, least_and_greatest

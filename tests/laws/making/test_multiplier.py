@@ -18,8 +18,8 @@ from optlaws.laws.making.transform import with_end_velocity
 from optlaws.laws.making.trapezoids import scca, trapezoid
 from optlaws.laws.savin.family import SavinFamily
 from optlaws.laws.savin.savin import savin
+from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PowerSegment
 from tests.laws.examples import cut, random_law
 
 K = np.linspace(0.0, 1.0, 201)

@@ -13,8 +13,9 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, Peak, smoothstep
+from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
+from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import SineSegment
 from tests.laws.examples import cut, cut_power, cut_sine
 

@@ -22,7 +22,8 @@ from optlaws import (
     synthesize,
 )
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment
+from optlaws.laws.segments.constant_power import PowerSegment
+from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.laws.segments.sine import SineSegment
 from tests.laws.examples import cut
 from tests.mechanisms.response_cases import Case, integrated
@@ -95,11 +96,9 @@ def test_an_integrator_agrees() -> None:
 
 
 def test_a_sine_with_powers_keeps_its_form() -> None:
-    from optlaws.mechanisms.cam.segments import cam_segment
-
     (segment,) = sine_on_a_parabola().segments
     once, twice = 0.3, 0.07
-    made = cam_segment(segment, 0.8, once, twice)
+    made = segment.plus_derivatives(0.8, once, twice)
     assert isinstance(made, SineSegment)
     u = np.linspace(0.0, 1.0, 7)
     for order in (1, 2, 3):
@@ -108,10 +107,8 @@ def test_a_sine_with_powers_keeps_its_form() -> None:
 
 
 def test_a_kind_of_segment_that_is_unknown_becomes_a_polynomial() -> None:
-    from optlaws.mechanisms.cam.segments import cam_segment
-
     segment = PowerSegment(1.0, 1.5)
-    made = cam_segment(segment, 0.5, 0.3, 0.07)
+    made = segment.plus_derivatives(0.5, 0.3, 0.07)
     u = np.linspace(0.0, 1.0, 7)
     wanted = sum(f * segment.derivative(u, 0.5, 2 + i) for i, f in enumerate((1.0, 0.3, 0.07)))
     assert made.derivative(u, 0.5, 2) == pytest.approx(wanted, abs=1e-11)

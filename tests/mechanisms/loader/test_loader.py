@@ -13,7 +13,8 @@ from scipy.integrate import quad
 
 from optlaws import InputError, MotionLaw, PiecewiseLaw, PolynomialLaw, catalogue, smoothstep
 from optlaws.laws.making.transform import mirrored_law, reversed_law
-from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment
+from optlaws.laws.segments.constant_power import PowerSegment
+from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.mechanisms.loader.loader import Loader, loader
 from tests.laws.examples import free_function_law, random_law
 from tests.mechanisms.reference import rows

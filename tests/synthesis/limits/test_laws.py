@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
+from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PowerSegment
 from optlaws.synthesis.limits.closed_forms import jerk_limit, limit
 from optlaws.synthesis.limits.laws import limit_law
 

@@ -9,9 +9,10 @@ import pytest
 from mpmath import mp, mpf  # type: ignore[import-untyped]
 
 from optlaws import BSplines, InputError, Pieces, Problem, synthesize
+from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.fractional import FractionalSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.laws.segments.segment import PolynomialSegment, PowerSegment, Segment
+from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
 from optlaws.verification import enclosures
 
