@@ -79,6 +79,8 @@ CHECKERS = (
     "optlaws.verification",
     "optlaws.synthesis.proof.certificate",
     "optlaws.synthesis.proof.data",
+    "optlaws.synthesis.proof.below_claim",
+    "optlaws.synthesis.proof.duality",
     "optlaws.synthesis.proof.farkas",
     "optlaws.synthesis.proof.peaks.certificate",
     "optlaws.synthesis.proof.power.certificate",

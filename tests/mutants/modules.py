@@ -1,15 +1,15 @@
 """The modules whose mutants are tried, each with the tests that speak of it; its own doctests run too."""
 
+BOUNDS = ("tests/synthesis/proof/test_certificate_by_hand.py", "tests/synthesis/proof/test_certificate.py")
 LAWS = ("tests/laws/test_contract.py", "tests/laws/test_exactness.py")
 SERIES = ("tests/series", *LAWS)
 
 TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.synthesis.program.evaluation": ("tests/synthesis/program/test_evaluation.py",),
     "optlaws.series.peaks": ("tests/series/test_peaks.py", "tests/laws/test_exactness.py"),
-    "optlaws.synthesis.proof.certificate": (
-        "tests/synthesis/proof/test_certificate_by_hand.py",
-        "tests/synthesis/proof/test_certificate.py",
-    ),
+    "optlaws.synthesis.proof.certificate": BOUNDS,
+    "optlaws.synthesis.proof.duality": BOUNDS,
+    "optlaws.synthesis.proof.below_claim": BOUNDS,
     "optlaws.synthesis.proof.power.certificate": ("tests/synthesis/proof/power/test_certificate.py",),
     "optlaws.verification.exact.bound": (
         "tests/verification/exact/test_bound_by_hand.py",

@@ -9,9 +9,9 @@ their Legendre moments: a law that contradicts the claim has a small objective, 
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass, replace
-from math import fsum, inf, isfinite
+from math import inf, isfinite
 from typing import Any
 
 import numpy as np
@@ -23,25 +23,17 @@ from optlaws.kept import kept_property
 from optlaws.numbers import bounded
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
-from optlaws.synthesis.families.names import VariableName
-from optlaws.synthesis.problem.constants import Peak, Power
-from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.writer import Model, least_violation, maxima, model_of, relaxed, relaxed_power
+from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
 from optlaws.synthesis.proof.data import StatedCertificate, StatedContact, problem_of, stated
+from optlaws.synthesis.proof.duality import sum_of_rows
 from optlaws.synthesis.proof.farkas import surplus
-from optlaws.synthesis.spaces.space import LawSpace
 
 Array = NDArray[np.float64]
 
 OBJECTIVE, RELAXED, VIOLATION = "objective", "relaxed", "violation"
 #: how far from a contact its neighbours are, and how much of its multiplier each takes
 _NEAR, _SHARE = 2.0**-12, 2.0**-14
-_ACCELERATION = 2
-_FACING = {"C_plus": "C_minus", "C_minus": "C_plus"}
-#: roundings in a row before it is weighted, and of the sum
-_UNIT = 9 * 2.0**-53
-_SPLIT = 2.0**27 + 1.0
 
 
 @dataclass(frozen=True)
@@ -70,7 +62,7 @@ class Contact:
             )
 
 
-def contact_of(found: StatedContact) -> Contact:
+def contact_of(entries: StatedContact) -> Contact:
     """The contact that was stated.
 
     Raises
@@ -78,7 +70,7 @@ def contact_of(found: StatedContact) -> Contact:
     InputError
         If its k, sign, multiplier or direction is none.
     """
-    return Contact(found.constraint, found.sign, found.k, found.multiplier, found.direction)
+    return Contact(entries.constraint, entries.sign, entries.k, entries.multiplier, entries.direction)
 
 
 @dataclass(frozen=True)
@@ -149,9 +141,9 @@ class Certificate:
         InputError
             If an entry is missing or wrong.
         """
-        found = stated(data, StatedCertificate, "certificate")
-        contacts = tuple(contact_of(one) for one in found.contacts)
-        return cls(problem_of(found.problem), contacts, found.equations, found.program, found.tangent)
+        entries = stated(data, StatedCertificate, "certificate")
+        contacts = tuple(map(contact_of, entries.contacts))
+        return cls(problem_of(entries.problem), contacts, entries.equations, entries.program, entries.tangent)
 
 
 def excess(certificate: Certificate) -> float:
@@ -166,79 +158,21 @@ def excess(certificate: Certificate) -> float:
 
 
 def _excess(certificate: Certificate) -> float:
-    found = _model(certificate)
-    program = found.program
-    lines = [(max(one.multiplier, 0.0), *row_of(program, one)) for one in certificate.contacts]
-    equations = zip(certificate.equations, program.equalities, program.right.tolist(), strict=False)
-    plain = float(found.unit * sum_of_rows(found, certificate, [*lines, *equations]))
+    model = _model(certificate)
+    program = model.program
+    lines = lines_of(program, certificate.contacts, certificate.equations)
+    plain = float(model.unit * sum_of_rows(model, lines))
     if certificate.program != VIOLATION or plain > 0.0:
         return plain
     return max(plain, _surplus(certificate, program))
 
 
-def sum_of_rows(
-    found: Model, certificate: Certificate, lines: list[tuple[float, Array, float]], claim: float | None = None
-) -> float:
-    """What the program's objective cannot be below by weighted rows, in laws of an objective up to the claim.
-
-    Without a claim it is what the sum itself says.
-    """
-    total = _summed(found, [one for one in lines if one[0] != 0.0])
-    return total.value - _charge(found, certificate, total, found.unit * total.value if claim is None else claim)
-
-
-def moments_below(found: Model, certificate: Certificate, claim: float) -> list[tuple[Array, Array]]:
-    """Bounds of the moments of a derivative in laws below the claim, but for the base law, for each derivative known.
-
-    Beside each the matrix from a functional's values on the free functions to weights of these moments.
-    """
-    greatest = _greatest(certificate, found, claim)
-    return [
-        (mean + _base_moments(found.space, nu), _extension(found.space, nu))
-        for nu, mean in _means(certificate, found.space, greatest)
-    ]
-
-
-@dataclass(frozen=True, eq=False)
-class _Sum:
-    """The sum of weighted rows: its slope, exact in the variables beyond the coordinates, and what rounding hides.
-
-    `value` is rounded down, the slope by each coordinate is off by its `blur` at most.
-    """
-
-    slope: Array
-    value: float
-    blur: Array
-
-
-def _summed(found: Model, lines: list[tuple[float, Array, float]]) -> _Sum:
-    weights = np.array([one[0] for one in lines])
-    rows = np.array([[*row, -right] for _, row, right in lines]).reshape(-1, found.program.size + 1)
-    total = _weighted(weights, rows, np.append(found.program.objective, 0.0))
-    hidden = _UNIT * (np.abs(weights) @ np.abs(rows))
-    slope = total[:-1]
-    variables = list(found.places.values())
-    # the entries of the variables are exact, and so is a sum that is zero
-    slope[variables] = np.where(slope[variables] == 0.0, 0.0, np.nextafter(slope[variables], -inf))
-    return _Sum(slope, float(total[-1] - hidden[-1]), hidden[: found.space.terms])
-
-
-def _weighted(weights: Array, rows: Array, start: Array) -> Array:
-    """Start + weights . rows, rounded once: the great multipliers of laws at the edge of what exists cancel."""
-    products = weights[:, None] * rows
-    high, low = _halves(weights[:, None])
-    upper, lower = _halves(rows)
-    rest = low * lower - (((products - high * upper) - low * upper) - high * lower)
-    columns = np.vstack([start[None, :], products, rest])
-    # fsum refuses what overflows
-    return np.array([fsum(one) for one in columns.T.tolist()]) if np.isfinite(columns).all() else start * np.nan
-
-
-def _halves(values: Array) -> tuple[Array, Array]:
-    """Each value as a sum of two whose products are exact (Dekker 1971)."""
-    scaled = _SPLIT * values
-    high = scaled - (scaled - values)
-    return high, values - high
+def lines_of(
+    program: Program, contacts: Sequence[Contact], equations: Sequence[float]
+) -> list[tuple[float, Array, float]]:
+    """Contacts and the program's equations as weights, rows and right sides; negative multipliers of contacts are 0."""
+    lines = [(max(contact.multiplier, 0.0), *row_of(program, contact)) for contact in contacts]
+    return [*lines, *zip(equations, program.equalities, program.right.tolist(), strict=False)]
 
 
 def _surplus(certificate: Certificate, program: Program) -> float:
@@ -299,145 +233,3 @@ def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
             row = family.tangent(float(u[0]), direction / max(float(np.linalg.norm(direction)), 1.0))
             return row[:-1] - family.slack, family.bound - float(row[-1])
     return np.zeros(program.size), 0.0
-
-
-def _charge(found: Model, certificate: Certificate, total: _Sum, claim: float) -> float:
-    """Most that rounding in the slope can be worth, over all laws that contradict the claim."""
-    terms, slope = found.space.terms, total.slope
-    greatest = _greatest(certificate, found, max(claim, 0.0))
-    least = least_values(certificate.problem, found.space)
-    beyond = 0.0
-    for name, place in found.places.items():
-        # a positive slope can only help where the constant is at least 0
-        if slope[place] < 0.0:
-            beyond += -slope[place] * greatest.get(name, inf)
-        elif slope[place] > 0.0:
-            # of the two one-sided peaks one is at least the other's opposite
-            facing = greatest.get(_FACING.get(name, ""), inf)
-            beyond += slope[place] * max(min(-least.get(name, 0.0), facing), 0.0)
-    return beyond + min(
-        (
-            float(
-                _reach(_extension(found.space, nu), slope[:terms], total.blur) @ (mean + _base_moments(found.space, nu))
-            )
-            for nu, mean in _means(certificate, found.space, greatest)
-        ),
-        default=0.0 if not slope[:terms].any() and not total.blur.any() else inf,
-    )
-
-
-def _reach(extension: Array, slope: Array, blur: Array) -> Array:
-    """The greatest magnitudes of the slope's weights of moments, wherever it is within its blur."""
-    return np.asarray(np.abs(extension @ slope) + np.abs(extension) @ blur)
-
-
-def _greatest(certificate: Certificate, found: Model, claim: float) -> dict[str, float]:
-    """Greatest values of the program's variables in a law that contradicts the claim."""
-    bounds: dict[str, float] = {}
-    if certificate.program == VIOLATION:
-        bounds[VariableName.VIOLATION] = 0.0
-    else:
-        spread(certificate.problem.objective, claim, bounds, least_values(certificate.problem, found.space))
-    problem = certificate.problem
-    for name in ("B", *(one.name for one, _ in problem.bounded)):
-        asked = problem.range(name)
-        if asked is not None:
-            bounds[name] = min(bounds.get(name, inf), asked.high)
-    power = relaxed_power(problem)
-    if power is not None and power.name in bounds:
-        bounds[VariableName.POWER_ROOT] = bounds[power.name] ** 0.5
-    if "B" in found.places and not isfinite(bounds["B"]):
-        # b is nowhere further from its mean, the stroke, than the integral of |c|
-        curved = min(bounds.get(name, inf) for name in ("C", "rms_c"))
-        bounds["B"] = abs(found.space.stroke) + min(curved, *_from_one_sign(problem, found.space, bounds))
-    return bounds
-
-
-def _from_one_sign(problem: Problem, space: LawSpace, greatest: dict[str, float]) -> tuple[float, float]:
-    """Bounds of the integral of |c| from the peaks of one sign: what is above 0 less what is below is b(1) - b(0)."""
-    if problem.conditions.order == 1:
-        return (max(greatest.get("C_plus", inf), greatest.get("C_minus", inf)),) * 2
-    drop = abs(space.velocity_change)
-    return 2.0 * greatest.get("C_plus", inf) + drop, 2.0 * greatest.get("C_minus", inf) + drop
-
-
-def spread(expression: Expression, claim: float, bounds: dict[str, float], least: Mapping[str, float]) -> None:
-    """Note in `bounds` what the constants of an expression are at most, where its value is below the claim."""
-    for weight, term in expression.terms:
-        name = repr(term)
-        others = sum(one * least[repr(other)] for one, other in expression.terms if other is not term)
-        most = (claim - others) / weight
-        bounds[name] = min(bounds.get(name, inf), most)
-        if isinstance(term, Maximum):
-            for part in term.parts:
-                spread(part, most, bounds, least)
-
-
-def least_values(problem: Problem, space: LawSpace) -> dict[str, float]:
-    """What the constants and maxima of the objective are at least: 0, but for peaks of one sign.
-
-    The mean of c is the change of the velocity, which c exceeds somewhere, and is below somewhere; where the order
-    leaves it free, what is positive at a change of either sign is at least 0.
-    """
-    terms = [*(leaf for _, leaf in leaves(problem.objective)), *maxima(problem.objective)]
-    if problem.symmetric or problem.order > 1:
-        change = 0.0 if problem.symmetric else space.velocity_change
-        return {repr(term): _at_least(term, change) for term in terms}
-    lows = {repr(term): min(_at_least(term, 1.0), _at_least(term, -1.0)) for term in terms}
-    return {name: 0.0 if low >= 0.0 else -inf for name, low in lows.items()}
-
-
-def _at_least(term: Term, change: float) -> float:
-    """What a term is at least where the velocity changes by `change`."""
-    if isinstance(term, Maximum):
-        return max(sum(weight * _at_least(one, change) for weight, one in part.terms) for part in term.parts)
-    if not isinstance(term, Peak) or len(term.signs) != 1:
-        return 0.0
-    return term.signs[0] * change if term.nu == _ACCELERATION else -inf
-
-
-def _means(certificate: Certificate, space: LawSpace, greatest: dict[str, float]) -> list[tuple[int, float]]:
-    """Orders of derivatives whose mean magnitude is bounded, with the bound."""
-    means = [(2, greatest.get("C", inf)), (2, greatest.get("rms_c", inf)), (3, greatest.get("J", inf))]
-    means += [(2, mean) for mean in _from_one_sign(certificate.problem, space, greatest)]
-    means += [(3, greatest.get("rms_j", inf)), (4, greatest.get("jounce", inf))]
-    stroke = abs(space.stroke)
-    if "D" in greatest and certificate.problem.order > 1 and space.start_velocity == 0.0:
-        # b² <= 2 D k from rest
-        means += [(1, greatest["D"] ** 0.5)]
-    means += [(1, 2.0 * greatest.get("B", inf) + stroke)]
-    if certificate.problem.monotone:
-        means += [(1, stroke)]
-    for one in certificate.problem.constants:
-        size = greatest.get(one.name, inf)
-        means += [(nu, factor * (size**0.5 if isinstance(one, Power) else size)) for nu, factor in one.curbs()]
-    least: dict[int, float] = {}
-    for nu, mean in means:
-        if isfinite(mean):
-            least[nu] = min(least.get(nu, inf), mean)
-    return list(least.items())
-
-
-def _base_moments(space: LawSpace, nu: int) -> Array:
-    """Magnitudes of the base law's moments: coordinates say by how much the moments of a law differ from them."""
-
-    def computed() -> Array:
-        rule = space.quadrature(nu)
-        return np.asarray(np.abs(rule.moments.T @ (rule.weights * rule.values[:, -1])), dtype=np.float64)
-
-    return space.cached(("moments", nu), computed)
-
-
-def _extension(space: LawSpace, nu: int) -> Array:
-    """Matrix from a functional's values on the free functions to weights of moments of the derivative of order nu.
-
-    A moment is the integral of the derivative times a function that is nowhere above 1 in magnitude, so at most its
-    mean magnitude; for polynomials these are Legendre's.
-    """
-
-    def computed() -> Array:
-        rule = space.quadrature(nu)
-        moments = rule.moments.T @ (rule.weights[:, None] * rule.values[:, :-1])
-        return np.asarray(np.linalg.pinv(moments.T), dtype=np.float64)
-
-    return space.cached(("extension", nu), computed)

@@ -13,7 +13,8 @@ import pytest
 
 from optlaws import BoundaryConditions, Certificate, Chebyshev, Contact, Problem, at_least, at_most
 from optlaws.synthesis.problem.named_constants import expression
-from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _greatest, _means, _model, least_values, spread
+from optlaws.synthesis.proof.below_claim import greatest_values, least_values, means, spread
+from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 #: roots of P3 and of P3'
@@ -174,15 +175,15 @@ def test_the_greatest_constants_of_laws_that_contradict_a_claim(
     problem: Problem, claim: float, wanted: dict[str, float]
 ) -> None:
     certificate = Certificate(problem, (), ())
-    found = _greatest(certificate, _model(certificate), max(claim, 0.0))
+    found = greatest_values(_model(certificate), max(claim, 0.0))
     assert {name: size for name, size in found.items() if size < inf} == pytest.approx(wanted, rel=1e-15)
 
 
 def test_the_greatest_constants_of_other_programs() -> None:
     violated = Certificate(small(C=at_most(4.0)), (), (), VIOLATION)
-    assert _greatest(violated, _model(violated), 7.0) == {"t": 0.0, "C": 4.0}
+    assert greatest_values(_model(violated), 7.0) == {"t": 0.0, "C": 4.0}
     power = Certificate(small(B=1.6, minimise="2*D"), (), (), RELAXED, 1.0)
-    assert _greatest(power, _model(power), 18.0) == pytest.approx({"D": 9.0, "root of D": 3.0, "B": 1.6}, rel=1e-15)
+    assert greatest_values(_model(power), 18.0) == pytest.approx({"D": 9.0, "root of D": 3.0, "B": 1.6}, rel=1e-15)
 
 
 @pytest.mark.parametrize(
@@ -202,7 +203,7 @@ def test_the_greatest_constants_of_other_programs() -> None:
 )
 def test_the_mean_size_of_derivatives(problem: Problem, greatest: dict[str, float], wanted: dict[int, float]) -> None:
     certificate = Certificate(problem, (), ())
-    assert dict(_means(certificate, _model(certificate).space, greatest)) == pytest.approx(wanted, rel=1e-12)
+    assert dict(means(certificate.problem, _model(certificate).space, greatest)) == pytest.approx(wanted, rel=1e-12)
 
 
 def test_a_power_bounds_the_mean_velocity_only_from_rest() -> None:
@@ -210,7 +211,7 @@ def test_a_power_bounds_the_mean_velocity_only_from_rest() -> None:
     free = Problem(order=1, basis=Chebyshev(1))
     for problem in (moving, free):
         certificate = Certificate(problem, (), ())
-        assert 1 not in dict(_means(certificate, _model(certificate).space, {"D": 9.0}))
+        assert 1 not in dict(means(certificate.problem, _model(certificate).space, {"D": 9.0}))
 
 
 @pytest.mark.parametrize("x", [-GAUSS, -0.7, -0.9])

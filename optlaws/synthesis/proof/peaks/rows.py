@@ -12,7 +12,9 @@ from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Peak
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof.certificate import Certificate, Contact, moments_below, row_of, sum_of_rows
+from optlaws.synthesis.proof.below_claim import greatest_values, moments
+from optlaws.synthesis.proof.certificate import Contact, lines_of
+from optlaws.synthesis.proof.duality import sum_of_rows
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 
 Array = NDArray[np.float64]
@@ -53,8 +55,7 @@ class PeakRows:
         nothing = np.zeros(self.model.program.size)
         row = LinearFamily(CLAIM, nothing, most, (1.0,), (1.0, 1.0), series=objective)
         self._program = replace(self.model.program, families=(*self.model.program.families, row))
-        self._plain = Certificate(problem, (), ())
-        self._moments = moments_below(self.model, self._plain, claim)
+        self._moments = moments(self.model, greatest_values(self.model, claim))
         self._curvatures: dict[float, list[float]] = {}
 
     @property
@@ -88,13 +89,11 @@ class PeakRows:
         """Most that sign times the derivative at k can be in laws below the claim, by weak duality."""
         model, base = self.at(k, sign)
         program = model.program
-        lines = [(max(one.multiplier, 0.0), *row_of(program, one)) for one in contacts]
-        lines += list(zip(equations, program.equalities, program.right.tolist(), strict=False))
-        # as a row, its rounding is counted too
-        lines.append((1.0, program.objective, 0.0))
+        # as a row, the rounding of the objective is counted too
+        lines = [*lines_of(program, contacts, equations), (1.0, program.objective, 0.0)]
         nothing = replace(model, program=replace(program, objective=np.zeros(program.size)))
         with np.errstate(over="ignore", invalid="ignore"):
-            least = sum_of_rows(nothing, self._plain, lines, self.claim)
+            least = sum_of_rows(nothing, lines, self.claim)
         return base - least if np.isfinite(least) else inf
 
     def remainder(self, k: float, reach: float) -> float:

@@ -19,7 +19,8 @@ from optlaws.synthesis.problem.constants import Peak
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof.certificate import Contact, least_values, row_of, spread
+from optlaws.synthesis.proof.below_claim import asked_or_claimed
+from optlaws.synthesis.proof.certificate import Contact, row_of
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 
 Array = NDArray[np.float64]
@@ -64,13 +65,7 @@ def applies(problem: Problem) -> bool:
 
 def greatest(model: Model, claim: float) -> dict[str, float]:
     """Greatest values of the constants in a law whose objective is below the claim."""
-    problem = model.problem
-    bounds: dict[str, float] = {}
-    spread(problem.objective, claim, bounds, least_values(problem, model.space))
-    for name in ("B", *(one.name for one, _ in problem.bounded)):
-        asked = problem.range(name)
-        if asked is not None:
-            bounds[name] = min(bounds.get(name, inf), asked.high)
+    bounds = asked_or_claimed(model, claim)
     if "D" in bounds:
         ends = (model.space.start_velocity, model.space.start_velocity + model.space.velocity_change)
         bounds["B"] = min(bounds.get("B", inf), sqrt(max(map(abs, ends)) ** 2 + bounds["D"]))

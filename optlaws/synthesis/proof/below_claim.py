@@ -1,0 +1,154 @@
+"""How large a law can be whose objective is below a claim: its constants, and the moments of its derivatives.
+
+A law that contradicts the claim has a small objective, so small constants, and they bound its coordinates.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from math import inf, isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.names import VariableName
+from optlaws.synthesis.problem.constants import Peak, Power
+from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import Model, maxima, relaxed_power
+from optlaws.synthesis.spaces.space import LawSpace
+
+Array = NDArray[np.float64]
+
+_ACCELERATION = 2
+
+
+def asked_or_claimed(model: Model, claim: float) -> dict[str, float]:
+    """What the constants of the objective, and those that are bounded, are at most in laws below the claim."""
+    problem = model.problem
+    bounds: dict[str, float] = {}
+    if VariableName.VIOLATION not in model.places:
+        spread(problem.objective, claim, bounds, least_values(problem, model.space))
+    for name in ("B", *(constant.name for constant, _ in problem.bounded)):
+        limits = problem.range(name)
+        if limits is not None:
+            bounds[name] = min(bounds.get(name, inf), limits.high)
+    return bounds
+
+
+def greatest_values(model: Model, claim: float) -> dict[str, float]:
+    """Greatest values of the program's variables in a law that contradicts the claim."""
+    problem, space = model.problem, model.space
+    bounds = asked_or_claimed(model, claim)
+    if VariableName.VIOLATION in model.places:
+        bounds[VariableName.VIOLATION] = 0.0
+    power = relaxed_power(problem)
+    if power is not None and power.name in bounds:
+        bounds[VariableName.POWER_ROOT] = bounds[power.name] ** 0.5
+    if "B" in model.places and not isfinite(bounds["B"]):
+        # b is nowhere further from its mean, the stroke, than the integral of |c|
+        curved = min(bounds.get(name, inf) for name in ("C", "rms_c"))
+        bounds["B"] = abs(space.stroke) + min(curved, *_from_one_sign(problem, space, bounds))
+    return bounds
+
+
+def moments(model: Model, greatest: Mapping[str, float]) -> list[tuple[Array, Array]]:
+    """Bounds of the moments of a derivative in laws with such constants, but for the base law, for each one known.
+
+    Beside each the matrix from a functional's values on the free functions to weights of these moments.
+    """
+    space = model.space
+    return [
+        (mean + _base_moments(space, nu), _extension(space, nu)) for nu, mean in means(model.problem, space, greatest)
+    ]
+
+
+def _from_one_sign(problem: Problem, space: LawSpace, greatest: Mapping[str, float]) -> tuple[float, float]:
+    """Bounds of the integral of |c| from the peaks of one sign: what is above 0 less what is below is b(1) - b(0)."""
+    if problem.conditions.order == 1:
+        return (max(greatest.get("C_plus", inf), greatest.get("C_minus", inf)),) * 2
+    drop = abs(space.velocity_change)
+    return 2.0 * greatest.get("C_plus", inf) + drop, 2.0 * greatest.get("C_minus", inf) + drop
+
+
+def spread(expression: Expression, claim: float, bounds: dict[str, float], least: Mapping[str, float]) -> None:
+    """Note in `bounds` what the constants of an expression are at most, where its value is below the claim."""
+    for weight, term in expression.terms:
+        name = repr(term)
+        others = sum(share * least[repr(other)] for share, other in expression.terms if other is not term)
+        most = (claim - others) / weight
+        bounds[name] = min(bounds.get(name, inf), most)
+        if isinstance(term, Maximum):
+            for part in term.parts:
+                spread(part, most, bounds, least)
+
+
+def least_values(problem: Problem, space: LawSpace) -> dict[str, float]:
+    """What the constants and maxima of the objective are at least: 0, but for peaks of one sign.
+
+    The mean of c is the change of the velocity, which c exceeds somewhere, and is below somewhere; where the order
+    leaves it free, what is positive at a change of either sign is at least 0.
+    """
+    terms = [*(leaf for _, leaf in leaves(problem.objective)), *maxima(problem.objective)]
+    if problem.symmetric or problem.order > 1:
+        change = 0.0 if problem.symmetric else space.velocity_change
+        return {repr(term): _at_least(term, change) for term in terms}
+    lows = {repr(term): min(_at_least(term, 1.0), _at_least(term, -1.0)) for term in terms}
+    return {name: 0.0 if low >= 0.0 else -inf for name, low in lows.items()}
+
+
+def _at_least(term: Term, change: float) -> float:
+    """What a term is at least where the velocity changes by `change`."""
+    if isinstance(term, Maximum):
+        return max(sum(weight * _at_least(inner, change) for weight, inner in part.terms) for part in term.parts)
+    if not isinstance(term, Peak) or len(term.signs) != 1:
+        return 0.0
+    return term.signs[0] * change if term.nu == _ACCELERATION else -inf
+
+
+def means(problem: Problem, space: LawSpace, greatest: Mapping[str, float]) -> list[tuple[int, float]]:
+    """Orders of derivatives whose mean magnitude is bounded, with the bound."""
+    known = [(2, greatest.get("C", inf)), (2, greatest.get("rms_c", inf)), (3, greatest.get("J", inf))]
+    known += [(2, mean) for mean in _from_one_sign(problem, space, greatest)]
+    known += [(3, greatest.get("rms_j", inf)), (4, greatest.get("jounce", inf))]
+    stroke = abs(space.stroke)
+    if "D" in greatest and problem.order > 1 and space.start_velocity == 0.0:
+        # b² <= 2 D k from rest
+        known += [(1, greatest["D"] ** 0.5)]
+    known += [(1, 2.0 * greatest.get("B", inf) + stroke)]
+    if problem.monotone:
+        known += [(1, stroke)]
+    for constant in problem.constants:
+        size = greatest.get(constant.name, inf)
+        root = size**0.5 if isinstance(constant, Power) else size
+        known += [(nu, factor * root) for nu, factor in constant.curbs()]
+    least: dict[int, float] = {}
+    for nu, mean in known:
+        if isfinite(mean):
+            least[nu] = min(least.get(nu, inf), mean)
+    return list(least.items())
+
+
+def _base_moments(space: LawSpace, nu: int) -> Array:
+    """Magnitudes of the base law's moments: coordinates say by how much the moments of a law differ from them."""
+
+    def computed() -> Array:
+        rule = space.quadrature(nu)
+        return np.asarray(np.abs(rule.moments.T @ (rule.weights * rule.values[:, -1])), dtype=np.float64)
+
+    return space.cached(("moments", nu), computed)
+
+
+def _extension(space: LawSpace, nu: int) -> Array:
+    """Matrix from a functional's values on the free functions to weights of moments of the derivative of order nu.
+
+    A moment is the integral of the derivative times a function that is nowhere above 1 in magnitude, so at most its
+    mean magnitude; for polynomials these are Legendre's.
+    """
+
+    def computed() -> Array:
+        rule = space.quadrature(nu)
+        moments = rule.moments.T @ (rule.weights[:, None] * rule.values[:, :-1])
+        return np.asarray(np.linalg.pinv(moments.T), dtype=np.float64)
+
+    return space.cached(("extension", nu), computed)
