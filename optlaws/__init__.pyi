@@ -48,6 +48,8 @@ from optlaws.mechanisms.spectrum.spectrum import response_spectrum as response_s
 from optlaws.series.peaks import Peak as Peak
 from optlaws.studies.run import run_study as run_study
 from optlaws.studies.study import open_study as open_study
+from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
+from optlaws.synthesis.arrays.problems import each as each
 from optlaws.synthesis.front import Front as Front
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
 from optlaws.synthesis.limits.closed_forms import limit as limit
@@ -79,8 +81,11 @@ from optlaws.synthesis.proof.peaks.certificate import PeakCertificate as PeakCer
 from optlaws.synthesis.proof.power.certificate import PowerCertificate as PowerCertificate
 from optlaws.synthesis.solution import Solution as Solution
 from optlaws.synthesis.solution import Status as Status
+from optlaws.synthesis.solution_array import SolutionArray as SolutionArray
 from optlaws.synthesis.solve import sweep as sweep
 from optlaws.synthesis.solve import synthesize as synthesize
+from optlaws.synthesis.solve_array import synthesize_array as synthesize_array
+from optlaws.synthesis.solve_array import synthesize_chunks as synthesize_chunks
 from optlaws.synthesis.spaces.bases import Basis as Basis
 from optlaws.synthesis.spaces.bases import Bernstein as Bernstein
 from optlaws.synthesis.spaces.bases import Chebyshev as Chebyshev
@@ -130,11 +135,13 @@ __all__ = [
     "PowerCertificate",
     "Powers",
     "Problem",
+    "ProblemArray",
     "Range",
     "Response",
     "ResponseSpectrum",
     "SavinFamily",
     "Solution",
+    "SolutionArray",
     "SolverFailure",
     "Status",
     "TorsionLever",
@@ -151,6 +158,7 @@ __all__ = [
     "construct",
     "deg",
     "dwell_mechanism",
+    "each",
     "find_torsion_levers",
     "jounce",
     "limit",
@@ -177,6 +185,8 @@ __all__ = [
     "smoothstep",
     "sweep",
     "synthesize",
+    "synthesize_array",
+    "synthesize_chunks",
     "trapezoid",
     "via",
     "with_end_velocity",

@@ -5,6 +5,7 @@ from optlaws.lazy import face
 __getattr__, __dir__, __all__ = face(
     __name__,
     {
+        "optlaws.synthesis.arrays.problems": "ProblemArray each",
         "optlaws.synthesis.front": "Front",
         "optlaws.synthesis.limits.closed_forms": "acceleration_limit limit",
         "optlaws.synthesis.limits.laws": "limit_law",
@@ -19,6 +20,8 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.synthesis.proof.power.certificate": "PowerCertificate",
         "optlaws.synthesis.solution": "Solution Status",
         "optlaws.synthesis.solve": "sweep synthesize",
+        "optlaws.synthesis.solution_array": "SolutionArray",
+        "optlaws.synthesis.solve_array": "synthesize_array synthesize_chunks",
         "optlaws.synthesis.spaces.bases": "Basis Bernstein Chebyshev Pieces PolynomialBasis Powers basis",
         "optlaws.synthesis.spaces.end_conditions": "BoundaryConditions construct",
         "optlaws.synthesis.spaces.splines": "BSplines PiecewiseBasis",

@@ -1,4 +1,6 @@
 # made by tests/contracts/faces.py from the table in __init__.py
+from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
+from optlaws.synthesis.arrays.problems import each as each
 from optlaws.synthesis.front import Front as Front
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
 from optlaws.synthesis.limits.closed_forms import limit as limit
@@ -32,8 +34,11 @@ from optlaws.synthesis.proof.peaks.certificate import PeakCertificate as PeakCer
 from optlaws.synthesis.proof.power.certificate import PowerCertificate as PowerCertificate
 from optlaws.synthesis.solution import Solution as Solution
 from optlaws.synthesis.solution import Status as Status
+from optlaws.synthesis.solution_array import SolutionArray as SolutionArray
 from optlaws.synthesis.solve import sweep as sweep
 from optlaws.synthesis.solve import synthesize as synthesize
+from optlaws.synthesis.solve_array import synthesize_array as synthesize_array
+from optlaws.synthesis.solve_array import synthesize_chunks as synthesize_chunks
 from optlaws.synthesis.spaces.bases import Basis as Basis
 from optlaws.synthesis.spaces.bases import Bernstein as Bernstein
 from optlaws.synthesis.spaces.bases import Chebyshev as Chebyshev
@@ -72,8 +77,10 @@ __all__ = [
     "PowerCertificate",
     "Powers",
     "Problem",
+    "ProblemArray",
     "Range",
     "Solution",
+    "SolutionArray",
     "Status",
     "Term",
     "Window",
@@ -83,6 +90,7 @@ __all__ = [
     "basis",
     "between",
     "construct",
+    "each",
     "jounce",
     "limit",
     "limit_law",
@@ -92,5 +100,7 @@ __all__ = [
     "rms_j",
     "sweep",
     "synthesize",
+    "synthesize_array",
+    "synthesize_chunks",
     "via",
 ]

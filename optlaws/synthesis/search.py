@@ -195,7 +195,7 @@ class Search:
             certificate=proof,
             lower_bound=bound,
             limit=limit,
-            status=_status(best.objective, bound, proven=problem.convex and not held_up),
+            status=status_of(best.objective, bound, proven=problem.convex and not held_up),
             iterations=sum(attempt.outcome.iterations for attempt in self.attempts),
             seconds=perf_counter() - self.began,
             starts=tuple(attempt.objective for attempt in self.sound) if several else (),
@@ -313,7 +313,7 @@ def _agree(first: Attempt, last: Attempt) -> bool:
     return first.law is not None and last.law is not None and same
 
 
-def _status(objective: float, bound: float, *, proven: bool) -> Status:
+def status_of(objective: float, bound: float, *, proven: bool) -> Status:
     """`proven` says that the bound would meet the objective but for rounding."""
     if abs(objective - bound) <= GAP * (objective if objective > NOTHING else 1.0):
         return Status.OPTIMAL

@@ -1,0 +1,109 @@
+"""Optima of many programs of one kind, as arrays: what the laws are, where rows bind, and what is proven."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, fields
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.active_set import ActiveSet
+
+Array = NDArray[np.float64]
+
+NO_CONTACT = -1
+
+
+@dataclass(frozen=True, eq=False)
+class Found:
+    """Optima of programs that differ in numbers alone, one a row; NaN in the rows of programs that were not solved.
+
+    Attributes
+    ----------
+    x
+        The programs' variables, shape (programs, variables).
+    family, u, sign, free, multiplier
+        Contacts, shape (programs, most contacts): `NO_CONTACT` is the family of none.
+    equations
+        Multipliers of the equations, shape (programs, equations).
+    objective, bound, excess
+        The objective, what is proven that no law is below, and the most by which a row is broken; shape (programs,).
+    """
+
+    x: Array
+    family: NDArray[np.int16]
+    u: Array
+    sign: Array
+    free: NDArray[np.bool_]
+    multiplier: Array
+    equations: Array
+    objective: Array
+    bound: Array
+    excess: Array
+
+    @classmethod
+    def none(cls, count: int, variables: int, contacts: int, equations: int) -> Self:
+        """No optimum of any of `count` programs."""
+        shape = (count, contacts)
+        return cls(
+            x=np.full((count, variables), np.nan),
+            family=np.full(shape, NO_CONTACT, dtype=np.int16),
+            u=np.zeros(shape),
+            sign=np.zeros(shape),
+            free=np.zeros(shape, dtype=np.bool_),
+            multiplier=np.zeros(shape),
+            equations=np.full((count, equations), np.nan),
+            objective=np.full(count, np.nan),
+            bound=np.full(count, np.nan),
+            excess=np.full(count, np.nan),
+        )
+
+    @property
+    def solved(self) -> NDArray[np.bool_]:
+        """Which programs have an optimum here."""
+        return ~np.isnan(self.objective)
+
+    def active_set(self, place: int) -> ActiveSet:
+        """One optimum in the terms of the solver of single programs."""
+        own = self.family[place] != NO_CONTACT
+        return ActiveSet(
+            x=self.x[place].copy(),
+            family=self.family[place][own].astype(np.intp),
+            u=self.u[place][own],
+            s=self.sign[place][own],
+            free=self.free[place][own],
+            multipliers=self.multiplier[place][own],
+            equality_multipliers=self.equations[place].copy(),
+        )
+
+    def taken(self, places: NDArray[np.intp]) -> Found:
+        """Some of the rows."""
+        return Found(**{one.name: getattr(self, one.name)[places] for one in fields(self)})
+
+    def frozen(self) -> Self:
+        """The same, whose arrays nobody can write to."""
+        for one in fields(self):
+            getattr(self, one.name).setflags(write=False)
+        return self
+
+    def put(self, places: NDArray[np.intp], part: Found) -> None:
+        """Enter the rows of a part with as many contacts or fewer."""
+        for one in fields(self):
+            mine, given = getattr(self, one.name), getattr(part, one.name)
+            if mine.ndim == 1:
+                mine[places] = given
+            else:
+                mine[places, : given.shape[1]] = given
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain lists, NaN as None."""
+        return {one.name: _plain(getattr(self, one.name)) for one in fields(self)}
+
+
+def _plain(values: NDArray[Any]) -> Any:  # noqa: ANN401
+    if values.dtype.kind != "f":
+        return values.tolist()
+    listed = values.astype(object)
+    listed[np.isnan(values)] = None
+    return listed.tolist()

@@ -1,0 +1,236 @@
+"""A problem whose numbers are arrays: one problem for each place of their common shape."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.numbers import MOST_VELOCITY
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.problem.fields import FIELDS
+from optlaws.synthesis.problem.problem import Problem
+
+Array = NDArray[np.float64]
+
+_NAMES = tuple(field.name for field in FIELDS)
+
+
+class ProblemArray:
+    """Problems that differ in their entries' numbers: any entry of `Problem` may be a numpy array, or hold some.
+
+    Arrays are broadcast against each other as numpy does, and each place of their common shape is one problem. What
+    is no array is the same for all of them. Values other than numbers come in arrays made by `each`. The array is
+    immutable; nothing is checked before a problem is asked for, so that a wrong number spoils its own place alone.
+
+    Parameters
+    ----------
+    entries
+        As `Problem` takes them, dimensionless: `B=np.linspace(1.5, 2.5, 1000)`, `J=(None, jerks)` for upper bounds,
+        `bounds={"rms_c": (None, sizes)}`, `minimise=each("{:.17g}*C/4 + J/32".format, weights)`.
+
+    Raises
+    ------
+    InputError
+        If an entry is unknown, or the arrays do not fit together.
+
+    Examples
+    --------
+    >>> problems = ProblemArray(B=np.array([1.6, 1.7, 1.8]), order=4)
+    >>> problems.shape, problems[1]
+    ((3,), Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='C'))
+    >>> ProblemArray(B=np.array([1.6, 1.7]), J=(None, np.array([[60.0], [70.0], [80.0]])), order=4).shape
+    (3, 2)
+    """
+
+    def __init__(self, **entries: Any) -> None:  # noqa: ANN401 - what Problem takes, or arrays of it
+        for name in entries:
+            if name not in _NAMES:
+                raise InputError(unknown_key(name, _NAMES))
+        self._entries = {name: _frozen(value) for name, value in entries.items()}
+        arrays = {name: list(_arrays(value)) for name, value in self._entries.items()}
+        try:
+            shape = np.broadcast_shapes(*(one.shape for found in arrays.values() for one in found))
+        except ValueError:
+            shapes = ", ".join(f"{name} {one.shape}" for name, found in arrays.items() for one in found)
+            raise InputError(
+                f"the arrays of a ProblemArray must be of one shape when broadcast, got {shapes}"
+            ) from None
+        self._shape: tuple[int, ...] = tuple(shape)
+
+    @classmethod
+    def of(cls, problems: Sequence[Problem], shape: tuple[int, ...] | None = None) -> ProblemArray:
+        """Problems that are there already, as an array of one dimension or of another shape.
+
+        Examples
+        --------
+        >>> ProblemArray.of([Problem(B=1.6, order=4), Problem(B=1.7, order=4)]).shape
+        (2,)
+        """
+        made = cls()
+        made._shape = (len(problems),) if shape is None else shape
+        made._given = tuple(problems)
+        return made
+
+    _given: tuple[Problem, ...] | None = None
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The common shape of the entries' arrays; () where there are none."""
+        return self._shape
+
+    @property
+    def size(self) -> int:
+        """The number of problems."""
+        return int(np.prod(self._shape))
+
+    @property
+    def entries(self) -> dict[str, Any]:
+        """What was given, arrays as they were."""
+        return dict(self._entries)
+
+    @kept_property
+    def varied(self) -> dict[str, tuple[NDArray[Any], ...]]:
+        """The entries that hold arrays, with these, each of the common shape."""
+        found = {name: tuple(_arrays(value)) for name, value in self._entries.items()}
+        return {
+            name: tuple(np.broadcast_to(one, self._shape) for one in arrays) for name, arrays in found.items() if arrays
+        }
+
+    def __len__(self) -> int:
+        if not self._shape:
+            raise TypeError("a ProblemArray without arrays has no length")
+        return self._shape[0]
+
+    def __iter__(self) -> Iterator[Any]:
+        return (self[i] for i in range(len(self)))
+
+    def __getitem__(self, index: Any) -> Any:  # noqa: ANN401 - what numpy takes
+        """A problem by its indices; an array of problems where the index selects several.
+
+        Raises
+        ------
+        InputError
+            If the entries at that place make no problem.
+        IndexError
+            If there is no such place.
+        """
+        places = np.arange(self.size).reshape(self._shape)[index]
+        return self.problem(int(places)) if np.ndim(places) == 0 else self.taken(places)
+
+    def problem(self, place: int) -> Problem:
+        """The problem at a place, counted in the order of the flattened array.
+
+        Raises
+        ------
+        InputError
+            If the entries at that place make no problem.
+        """
+        if self._given is not None:
+            return self._given[place]
+        at = np.unravel_index(place, self._shape)
+        return Problem(**{name: _at(value, self._shape, at) for name, value in self._entries.items()})
+
+    def taken(self, places: NDArray[np.intp]) -> ProblemArray:
+        """The problems at some places of the flattened array, in their shape."""
+        if self._given is not None:
+            return ProblemArray.of([self._given[i] for i in places.ravel()], places.shape)
+        flat = places.ravel()
+        entries = {
+            name: _mapped(value, lambda one: np.broadcast_to(one, self._shape).reshape(-1)[flat].reshape(places.shape))
+            for name, value in self._entries.items()
+        }
+        made = ProblemArray(**entries)
+        made._shape = places.shape
+        return made
+
+    @kept_property
+    def velocities(self) -> Array | None:
+        """The B of each problem, flattened, where numbers for B are all that varies; NaN where it can be no B."""
+        if self._given is not None or self.varied.keys() != {"B"} or not isinstance(self._entries["B"], np.ndarray):
+            return None
+        given = self._entries["B"]
+        if given.dtype.kind not in "fiu":
+            return None
+        values = np.broadcast_to(given, self._shape).reshape(-1).astype(np.float64)
+        return np.where((values > 1.0) & (values <= MOST_VELOCITY), values, np.nan)
+
+    def __repr__(self) -> str:
+        parts = [f"{name}={_shown(value)}" for name, value in self._entries.items()]
+        if self._given is not None:
+            parts = [f"{len(self._given)} problems"]
+        return f"ProblemArray({', '.join(parts)})"
+
+
+def each(function: Callable[..., Any], *arrays: Any) -> NDArray[Any]:  # noqa: ANN401 - what numpy takes for arrays
+    """The values of a function at each place of some arrays, broadcast against each other: an array of any objects.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis.problem.ranges import at_most
+    >>> each(at_most, np.array([60.0, 70.0])).tolist()
+    [at_most(60.0), at_most(70.0)]
+    >>> each("{:g}*C/4 + J/32".format, np.array([0.5, 1.0])).tolist()
+    ['0.5*C/4 + J/32', '1*C/4 + J/32']
+    """
+    try:
+        given = np.broadcast_arrays(*(np.asarray(one) for one in arrays))
+    except ValueError:
+        raise InputError(
+            f"the arrays must be of one shape when broadcast, got {[np.shape(one) for one in arrays]}"
+        ) from None
+    found = np.empty(given[0].shape if given else (), dtype=object)
+    for at in np.ndindex(found.shape):
+        found[at] = function(*(_plain(one[at]) for one in given))
+    found.setflags(write=False)
+    return found
+
+
+def _arrays(value: Any) -> Iterator[NDArray[Any]]:  # noqa: ANN401
+    if isinstance(value, np.ndarray):
+        yield value
+    elif isinstance(value, Mapping):
+        for one in value.values():
+            yield from _arrays(one)
+    elif isinstance(value, list | tuple):
+        for one in value:
+            yield from _arrays(one)
+
+
+def _mapped(value: Any, change: Callable[[NDArray[Any]], Any]) -> Any:  # noqa: ANN401
+    """The value with each array in it changed."""
+    if isinstance(value, np.ndarray):
+        return change(value)
+    if isinstance(value, Mapping) and any(True for _ in _arrays(value)):
+        return {name: _mapped(one, change) for name, one in value.items()}
+    if isinstance(value, list | tuple) and any(True for _ in _arrays(value)):
+        return tuple(_mapped(one, change) for one in value)
+    return value
+
+
+def _at(value: Any, shape: tuple[int, ...], at: tuple[Any, ...]) -> Any:  # noqa: ANN401
+    return _mapped(value, lambda one: _plain(np.broadcast_to(one, shape)[at]))
+
+
+def _plain(value: Any) -> Any:  # noqa: ANN401
+    return value.item() if isinstance(value, np.generic) else value
+
+
+def _frozen(value: Any) -> Any:  # noqa: ANN401
+    """The value with copies of its arrays that nobody can write to."""
+
+    def copied(one: NDArray[Any]) -> NDArray[Any]:
+        kept = one.copy()
+        kept.setflags(write=False)
+        return kept
+
+    return _mapped(value, copied)
+
+
+def _shown(value: Any) -> str:  # noqa: ANN401
+    return shortened(_mapped(value, lambda one: f"array of shape {one.shape}"))

@@ -1,0 +1,423 @@
+"""What a synthesis of many problems returns: one value of arrays, that becomes an ordinary solution where asked."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.synthesis.arrays import constants
+from optlaws.synthesis.arrays.found import NO_CONTACT, Found
+from optlaws.synthesis.arrays.problems import ProblemArray
+from optlaws.synthesis.limits.of_problem import known_limit
+from optlaws.synthesis.problem.fields import CONSTANTS
+from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.proof.certificate import OBJECTIVE
+from optlaws.synthesis.proof.make import certificate, lower_bound
+from optlaws.synthesis.search import status_of
+from optlaws.synthesis.solution import NOTHING, Solution, Status
+from optlaws.synthesis.spaces.bases import PolynomialBasis
+from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
+from optlaws.synthesis.spaces.splines import PiecewiseBasis
+
+if TYPE_CHECKING:
+    import pandas as pd
+    import xarray as xr
+
+Array = NDArray[np.float64]
+
+#: what stands for the status of a problem without a law
+INFEASIBLE, FAILED, INVALID = "infeasible", "failed", "invalid"
+NUMBERS = ("objective", "lower_bound", "gap", "B", "C", "D", "J", "rms_c")
+_PEAKS = {"B": 1, "C": 2, "J": 3}
+
+
+@dataclass(frozen=True, eq=False)
+class Part:
+    """Problems of one kind that were solved together: which, their program but for numbers, and their optima."""
+
+    places: NDArray[np.intp]
+    model: Model
+    found: Found
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class SolutionArray:
+    """Optimal laws of many problems with their proofs, as arrays of the problems' shape; NaN where there is no law.
+
+    An index gives an ordinary `Solution`, whose certificate is checked by itself, or raises the error of its problem;
+    a slice gives a smaller array. Numbers are recomputed from the laws over the whole interval; immutable.
+
+    Attributes
+    ----------
+    problems
+        What was solved.
+    parts
+        Optima that were found together, in the terms of their programs.
+    others
+        Solutions of problems that were solved alone, and errors of those without a law, by their places in the
+        flattened array.
+    seconds
+        The wall time of all.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> from optlaws import ProblemArray, synthesize_array
+    >>> laws = synthesize_array(ProblemArray(B=np.array([1.6, 1.62]), order=4))
+    >>> laws.objective.round(6).tolist(), laws.status.tolist()
+    ([5.262224, 5.173677], ['optimal', 'optimal'])
+    >>> round(laws[1].objective, 6), laws[1].certificate.bound <= laws[1].objective
+    (5.173677, True)
+    """
+
+    problems: ProblemArray
+    parts: tuple[Part, ...]
+    others: Mapping[int, Solution | OptlawsError] = field(repr=False)
+    seconds: float = 0.0
+
+    def __post_init__(self) -> None:
+        object.__setattr__(self, "others", MappingProxyType(dict(self.others)))
+
+    @property
+    def shape(self) -> tuple[int, ...]:
+        """The shape of the problems."""
+        return self.problems.shape
+
+    @property
+    def size(self) -> int:
+        """The number of problems."""
+        return self.problems.size
+
+    def __len__(self) -> int:
+        return len(self.problems)
+
+    def __iter__(self) -> Iterator[Any]:
+        return (self[i] for i in range(len(self)))
+
+    def __getitem__(self, index: Any) -> Any:  # noqa: ANN401 - what numpy takes
+        """The solution at a place, or the solutions of several as an array.
+
+        Raises
+        ------
+        InfeasibleProblem, SolverFailure, InputError
+            If the problem at that place has no law, none was found, or it is no problem.
+        IndexError
+            If there is no such place.
+        """
+        places = np.arange(self.size).reshape(self.shape)[index]
+        if np.ndim(places):
+            return self._taken(places)
+        result = self.result(int(places))
+        if isinstance(result, OptlawsError):
+            raise result
+        return result
+
+    def result(self, place: int) -> Solution | OptlawsError:
+        """The solution at a place of the flattened array, or the error that `synthesize` raises for its problem."""
+        if place in self.others:
+            return self.others[place]
+        part, row = int(self._part_of[place]), int(self._row_of[place])
+        return _solution(self.problems, self.parts[part], row, self.seconds / max(self.size, 1))
+
+    @kept_property
+    def objective(self) -> Array:
+        """The objective of each law, recomputed from it."""
+        return self._gathered(lambda part: part.found.objective, lambda one: one.objective)
+
+    @kept_property
+    def lower_bound(self) -> Array:
+        """What is proven that no law of each problem is below."""
+        return self._gathered(lambda part: part.found.bound, lambda one: one.lower_bound)
+
+    @kept_property
+    def gap(self) -> Array:
+        """(objective - lower bound) / objective; the difference itself where the objective is 0 but for rounding."""
+        unit = np.where(self.objective > NOTHING, self.objective, 1.0)
+        return _frozen((self.objective - self.lower_bound) / unit)
+
+    @kept_property
+    def status(self) -> NDArray[np.str_]:
+        """As of a solution, "optimal", "local" or "inaccurate"; "infeasible", "failed" or "invalid" without a law."""
+        known = [one.value for one in Status] + [INFEASIBLE, FAILED, INVALID]
+        found = np.full(self.size, Status.OPTIMAL.value, dtype=f"U{max(map(len, known))}")
+        for place, one in self.others.items():
+            found[place] = one.status.value if isinstance(one, Solution) else _status_of_error(one)
+        return _frozen(found.reshape(self.shape))
+
+    @kept_property
+    def errors(self) -> Mapping[int, OptlawsError]:
+        """Why there is no law, by places in the flattened array."""
+        return MappingProxyType({i: one for i, one in self.others.items() if isinstance(one, OptlawsError)})
+
+    @kept_property
+    def limit(self) -> Array:
+        """What no law of any degree can beat; NaN where it is not known."""
+        found = np.full(self.size, np.nan)
+        for place in np.flatnonzero(~np.isnan(self.objective.reshape(-1))).tolist():
+            known = known_limit(self.problems.problem(place))
+            found[place] = np.nan if known is None else known
+        return _frozen(found.reshape(self.shape))
+
+    @kept_property
+    def z_series(self) -> Array:
+        """Chebyshev coefficients of Z in 2k - 1, along the last axis; NaN beyond the end of shorter ones."""
+        return self._rows(_z_series, lambda one: np.array(one.z_series))
+
+    @kept_property
+    def z(self) -> Array:
+        """Coefficients of Z in each problem's basis, along the last axis; NaN beyond the end of shorter ones."""
+        return self._rows(_z, lambda one: np.array(one.z or ()))
+
+    @property
+    def coefficients(self) -> Array:
+        """Coefficients of Z in each problem's basis, along the last axis: `z`."""
+        return self.z
+
+    @kept_property
+    def B(self) -> Array:
+        """Peak velocity of each law."""
+        return self._constant("B")
+
+    @kept_property
+    def C(self) -> Array:
+        """Peak acceleration of each law."""
+        return self._constant("C")
+
+    @kept_property
+    def D(self) -> Array:
+        """Peak power of each law."""
+        return self._constant("D")
+
+    @kept_property
+    def J(self) -> Array:
+        """Peak jerk of each law."""
+        return self._constant("J")
+
+    @kept_property
+    def rms_c(self) -> Array:
+        """Root mean square of the acceleration of each law."""
+        return self._constant("rms_c")
+
+    @kept_property
+    def contacts(self) -> dict[str, NDArray[Any]]:
+        """Where rows bind in the certificates, contacts along the last axis: "constraint", "sign", "k", "multiplier".
+
+        Laws with fewer contacts than others have "" and NaN beyond their end.
+        """
+        columns: dict[str, list[tuple[NDArray[np.intp], NDArray[Any]]]] = {}
+        for places, rows in [*map(_contacts, self.parts), *self._contacts_alone()]:
+            for name, values in rows.items():
+                columns.setdefault(name, []).append((places, values))
+        most = max((values.shape[1] for _, values in columns.get("k", [])), default=0)
+        return {name: _frozen(self._filled(rows, most)) for name, rows in columns.items()}
+
+    def _contacts_alone(self) -> Iterator[tuple[NDArray[np.intp], dict[str, NDArray[Any]]]]:
+        for place, one in self.others.items():
+            if isinstance(one, Solution):
+                rows = one.certificate.contacts
+                found = {"constraint": np.array([[row.constraint for row in rows]], dtype=object)}
+                for name in ("sign", "k", "multiplier"):
+                    found[name] = np.array([[getattr(row, name) for row in rows]])
+                yield np.array([place]), found
+
+    def _filled(self, rows: list[tuple[NDArray[np.intp], NDArray[Any]]], most: int) -> NDArray[Any]:
+        texts = any(values.dtype == object for _, values in rows)
+        filled = np.full((self.size, most), "" if texts else np.nan, dtype=object if texts else np.float64)
+        for places, values in rows:
+            filled[places, : values.shape[1]] = values
+        return filled.reshape(*self.shape, most)
+
+    def to_pandas(self) -> pd.DataFrame:
+        """A table with a row for each problem: what varies, the numbers and the status; needs pandas."""
+        import pandas as pd
+
+        varied = {name: arrays[0].reshape(-1) for name, arrays in self.problems.varied.items() if len(arrays) == 1}
+        named = {_asked(name): values for name, values in varied.items()}
+        numbers = {name: getattr(self, name).reshape(-1) for name in NUMBERS}
+        return pd.DataFrame({**named, **numbers, "status": self.status.reshape(-1)})
+
+    def to_xarray(self) -> xr.Dataset:
+        """A dataset over the axes of the problems: numbers, statuses, coefficients and contacts; needs xarray.
+
+        An axis along which one entry of numbers varies has its name and its values, such as "B asked"; others are
+        "axis 0", "axis 1", ....
+        """
+        import xarray as xr
+
+        dims, coords = _axes(self.problems)
+        variables: dict[str, Any] = {name: (dims, getattr(self, name)) for name in NUMBERS}
+        variables["status"] = (dims, self.status)
+        variables["z_series"] = ([*dims, "coefficient"], self.z_series)
+        for name, values in self.contacts.items():
+            variables[f"contact {name}"] = ([*dims, "contact"], values)
+        return xr.Dataset(variables, coords)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict: the shape, and each solution or error in the order of the flattened array."""
+        results = map(self.result, range(self.size))
+        rows = [one.to_dict() if isinstance(one, Solution) else _error_to_dict(one) for one in results]
+        return {"shape": list(self.shape), "seconds": self.seconds, "solutions": rows}
+
+    def __repr__(self) -> str:
+        names, counts = np.unique(self.status, return_counts=True)
+        told = ", ".join(f"{count} {name}" for name, count in zip(names.tolist(), counts.tolist(), strict=True))
+        return f"SolutionArray(shape={self.shape}, {told}, problems={self.problems!r})"
+
+    @kept_property
+    def _part_of(self) -> NDArray[np.intp]:
+        return self._placed(lambda i, part: np.full(len(part.places), i))
+
+    @kept_property
+    def _row_of(self) -> NDArray[np.intp]:
+        return self._placed(lambda _, part: np.arange(len(part.places)))
+
+    def _placed(self, values: Callable[[int, Part], NDArray[np.intp]]) -> NDArray[np.intp]:
+        found = np.full(self.size, -1, dtype=np.intp)
+        for i, part in enumerate(self.parts):
+            found[part.places] = values(i, part)
+        return found
+
+    def _gathered(self, of_part: Callable[[Part], Array], of_solution: Callable[[Solution], float]) -> Array:
+        found = np.full(self.size, np.nan)
+        for part in self.parts:
+            found[part.places] = of_part(part)
+        for place, one in self.others.items():
+            if isinstance(one, Solution):
+                found[place] = of_solution(one)
+        return _frozen(found.reshape(self.shape))
+
+    def _rows(self, of_part: Callable[[Part], Array], of_solution: Callable[[Solution], Array]) -> Array:
+        rows = [(part.places, of_part(part)) for part in self.parts]
+        rows += [(np.array([i]), of_solution(one)[None]) for i, one in self.others.items() if isinstance(one, Solution)]
+        return _frozen(self._filled(rows, max((values.shape[1] for _, values in rows), default=0)))
+
+    def _constant(self, name: str) -> Array:
+        return self._gathered(lambda part: _constants(part, name), lambda one: _constant_of(one, name))
+
+    def _taken(self, places: NDArray[np.intp]) -> SolutionArray:
+        flat = places.ravel()
+        parts = []
+        for i, part in enumerate(self.parts):
+            mine = np.flatnonzero(self._part_of[flat] == i)
+            if len(mine):
+                parts.append(Part(mine, part.model, part.found.taken(self._row_of[flat[mine]]).frozen()))
+        others = {i: self.others[place] for i, place in enumerate(flat.tolist()) if place in self.others}
+        share = self.seconds * len(flat) / max(self.size, 1)
+        return SolutionArray(self.problems.taken(places), tuple(parts), others, share)
+
+
+def _solution(problems: ProblemArray, part: Part, row: int, seconds: float) -> Solution:
+    problem = problems.problem(int(part.places[row]))
+    model, optimum = model_of(problem), part.found.active_set(row)
+    coordinates = model.coordinates(optimum.x)
+    proof, limit, objective = certificate(model, optimum, OBJECTIVE), known_limit(problem), part.found.objective[row]
+    bound = max(float(part.found.bound[row]), lower_bound(proof, limit))
+    return Solution(
+        problem=problem,
+        law=model.law(optimum.x),
+        z_series=tuple(model.space.z_series(coordinates).tolist()),
+        objective=float(objective),
+        certificate=proof,
+        lower_bound=bound,
+        limit=limit,
+        status=status_of(float(objective), bound, proven=True),
+        iterations=0,
+        seconds=seconds,
+        active_set=optimum,
+    )
+
+
+def _coordinates(part: Part) -> Array:
+    return part.found.x[:, : part.model.space.terms]
+
+
+def _z_series(part: Part) -> Array:
+    space = part.model.space
+    base = space.z_series(np.zeros(space.terms))
+    columns = np.array([space.z_series(one) for one in np.eye(space.terms)]).reshape(space.terms, -1)
+    return np.asarray(_coordinates(part) @ (columns - base) + base)
+
+
+def _z(part: Part) -> Array:
+    basis = part.model.problem.basis
+    if not isinstance(basis, PolynomialBasis | PiecewiseBasis):
+        return np.empty((len(part.places), 0))
+    return np.array([basis.coefficients(series) for series in _z_series(part)])
+
+
+def _constants(part: Part, name: str) -> Array:
+    """A constant of each law of a part."""
+    if repr(part.model.problem.objective) == name:
+        return part.found.objective
+    space = part.model.space
+    if not isinstance(space, PolynomialSpace):
+        return np.array([_of_law(space.law(one), name) for one in _coordinates(part)])
+    laws = [space.series(nu) for nu in (1, 2, 3)]
+    b, c, j = (_coordinates(part) @ series[:, :-1].T + series[:, -1] for series in laws)
+    if name in _PEAKS:
+        return constants.peaks((b, c, j)[_PEAKS[name] - 1])
+    return constants.power_peaks(b, c) if name == "D" else constants.root_mean_squares(c)
+
+
+def _constant_of(solution: Solution, name: str) -> float:
+    return _of_law(solution.law, name)
+
+
+def _of_law(law: MotionLaw, name: str) -> float:
+    value = getattr(law.constants, name)
+    return float(value.value if name in CONSTANTS else value)
+
+
+def _contacts(part: Part) -> tuple[NDArray[np.intp], dict[str, NDArray[Any]]]:
+    found = part.found
+    names = np.array([*(family.name for family in part.model.program.families), ""], dtype=object)
+    none = found.family == NO_CONTACT
+    k = np.full(found.u.shape, np.nan)
+    for i, family in enumerate(part.model.program.families):
+        mine = found.family == i
+        k[mine] = np.clip(family.k(found.u[mine]), 0.0, 1.0)
+    rows: dict[str, NDArray[Any]] = {"constraint": names[found.family], "k": k}
+    rows["sign"] = np.where(none, np.nan, found.sign)
+    rows["multiplier"] = np.where(none, np.nan, found.multiplier)
+    return part.places, rows
+
+
+def _status_of_error(error: OptlawsError) -> str:
+    if isinstance(error, InfeasibleProblem):
+        return INFEASIBLE
+    return INVALID if isinstance(error, InputError) else FAILED
+
+
+def _error_to_dict(error: OptlawsError) -> dict[str, Any]:
+    return {"status": _status_of_error(error), "error": str(error)}
+
+
+def _axes(problems: ProblemArray) -> tuple[list[str], dict[str, Any]]:
+    """Names of the problems' axes, and the values along those that have one entry of numbers alone."""
+    dims = [f"axis {i}" for i in range(len(problems.shape))]
+    coords = {}
+    for name, arrays in problems.varied.items():
+        strides = [i for i, step in enumerate(arrays[0].strides) if step and problems.shape[i] > 1]
+        alone = len(arrays) == 1 and len(strides) == 1 and arrays[0].dtype.kind in "fiu"
+        if alone and dims[strides[0]].startswith("axis "):
+            dims[strides[0]] = _asked(name)
+            coords[_asked(name)] = np.moveaxis(arrays[0], strides[0], 0).reshape(problems.shape[strides[0]], -1)[:, 0]
+    return dims, coords
+
+
+def _asked(name: str) -> str:
+    """What a column of an entry's values is called beside the numbers of the laws."""
+    return f"{name} asked" if name in NUMBERS else name
+
+
+def _frozen(values: NDArray[Any]) -> NDArray[Any]:
+    values.setflags(write=False)
+    return values

@@ -1,0 +1,108 @@
+"""synthesize_array(problems) -> SolutionArray: the best laws of many problems that differ in numbers, with proof.
+
+What other modules build on is `solved(problems)`: it takes a `ProblemArray` (`ProblemArray.of(list_of_problems)` makes
+one of any problems that are there, of one kind or of several) and raises nothing but for wrong arguments. Its
+`SolutionArray` has `result(place)`, which is a `Solution` or the error of that problem, in the order of the problems.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from time import perf_counter
+
+import numpy as np
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError, OptlawsError
+from optlaws.numbers import whole
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.arrays.problems import ProblemArray
+from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.solution_array import Part, SolutionArray
+from optlaws.synthesis.solve import BOUNDS, synthesize
+
+_CHUNK = 10_000
+
+
+def synthesize_array(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
+    """Find the best law of each of many problems and prove it: what `synthesize` gives for each, in far less time.
+
+    A problem without a law, or a number that makes no problem, spoils its own place alone.
+
+    Parameters
+    ----------
+    problems
+        What to solve.
+    bound
+        As for `synthesize`.
+
+    Returns
+    -------
+    SolutionArray
+        Laws, constants, bounds and statuses as arrays; errors where there is no law.
+
+    Raises
+    ------
+    InputError
+        If `problems` is no `ProblemArray`, or the bound is none.
+
+    Examples
+    --------
+    >>> laws = synthesize_array(ProblemArray(B=np.linspace(1.6, 1.9, 4), order=4))
+    >>> laws.C.round(5).tolist(), bool((laws.gap < 1e-10).all())
+    ([5.26222, 4.81977, 4.69579, 4.63147], True)
+    """
+    if not isinstance(problems, ProblemArray):
+        raise InputError(f"synthesize_array takes a ProblemArray, got {shortened(problems)}")
+    if bound not in BOUNDS:
+        raise InputError(unknown_key(bound, BOUNDS, "bound"))
+    return solved(problems, bound=bound)
+
+
+def synthesize_chunks(problems: ProblemArray, *, size: int = _CHUNK, bound: str = "quick") -> Iterator[SolutionArray]:
+    """The same piece by piece, in the order of the flattened array: memory is that of one piece.
+
+    Parameters
+    ----------
+    problems, bound
+        As for `synthesize_array`.
+    size
+        The number of problems in a piece.
+
+    Raises
+    ------
+    InputError
+        As `synthesize_array`, or if the size is no whole number of at least 1.
+
+    Examples
+    --------
+    >>> pieces = synthesize_chunks(ProblemArray(B=np.linspace(1.6, 1.9, 5), order=4), size=2)
+    >>> [piece.shape for piece in pieces]
+    [(2,), (2,), (1,)]
+    """
+    if not isinstance(problems, ProblemArray):
+        raise InputError(f"synthesize_chunks takes a ProblemArray, got {shortened(problems)}")
+    step = whole(size, "size", least=1)
+    places = range(0, problems.size, step)
+    return (synthesize_array(problems.taken(np.arange(i, min(i + step, problems.size))), bound=bound) for i in places)
+
+
+def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
+    """What `synthesize_array` returns, of checked arguments."""
+    began = perf_counter()
+    parts: tuple[Part, ...] = ()
+    others: dict[int, Solution | OptlawsError] = {}
+    previous: Solution | None = None
+    for place in range(problems.size):
+        result = _alone(problems, place, previous, bound)
+        previous = result if isinstance(result, Solution) else previous
+        others[place] = result
+    return SolutionArray(problems, parts, others, perf_counter() - began)
+
+
+def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: str) -> Solution | OptlawsError:
+    """One problem by itself, begun at a neighbour's law."""
+    try:
+        return synthesize(problems.problem(place), start=near, bound=bound)
+    except OptlawsError as error:
+        return error

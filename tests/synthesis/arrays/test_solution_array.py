@@ -1,0 +1,109 @@
+"""Solutions as arrays: their shape, their numbers, what a wrong entry does, and the ordinary solutions within."""
+
+import numpy as np
+import pytest
+
+from optlaws import (
+    Chebyshev,
+    InfeasibleProblem,
+    InputError,
+    Problem,
+    ProblemArray,
+    Solution,
+    at_most,
+    each,
+    synthesize,
+    synthesize_array,
+    synthesize_chunks,
+)
+from optlaws.synthesis.solve_array import solved
+
+B = np.array([[1.6, np.nan, 1.7], [1.8, 0.5, 1.9]])
+
+
+def test_a_wrong_number_spoils_its_own_place_alone_and_says_why() -> None:
+    laws = synthesize_array(ProblemArray(B=B, order=4))
+    assert laws.status.tolist() == [["optimal", "invalid", "optimal"], ["optimal", "invalid", "optimal"]]
+    assert (np.isnan(laws.objective) == (laws.status == "invalid")).all()
+    assert laws.errors.keys() == {1, 4}
+    with pytest.raises(InputError, match="B must be a finite number above 1"):
+        laws[0, 1]
+    for at in ((0, 0), (1, 2)):
+        single = synthesize(Problem(B=float(B[at]), order=4))
+        assert laws.objective[at] == pytest.approx(single.objective, rel=1e-9)
+        assert laws[at].objective == laws.objective[at]
+        for name in ("B", "C", "D", "J"):
+            assert getattr(laws, name)[at] == pytest.approx(getattr(single.constants, name).value, rel=1e-9)
+
+
+def test_an_end_without_laws_is_infeasible_there_and_nowhere_else() -> None:
+    laws = synthesize_array(ProblemArray(B=1.6, C=(None, np.array([5.3, 5.2])), order=4, minimise="J"))
+    assert laws.status.tolist() == ["optimal", "infeasible"]
+    with pytest.raises(InfeasibleProblem):
+        laws[1]
+
+
+def test_slices_are_arrays_and_indices_are_solutions() -> None:
+    laws = synthesize_array(ProblemArray(B=np.linspace(1.5, 2.0, 5), order=4))
+    assert laws[1:4].shape == (3,)
+    assert laws[1:4].C.tolist() == laws.C[1:4].tolist()
+    assert isinstance(laws[-1], Solution)
+    assert [one.objective for one in laws] == laws.objective.tolist()
+    with pytest.raises(IndexError):
+        laws[5]
+
+
+def test_nobody_can_write_to_the_numbers() -> None:
+    laws = synthesize_array(ProblemArray(B=np.array([1.5, 1.6]), order=4))
+    for values in (laws.objective, laws.C, laws.gap, laws.z, laws.status, laws.contacts["k"]):
+        with pytest.raises(ValueError, match="read-only"):
+            values[...] = values[0]
+
+
+def test_pieces_come_in_order_and_hold_what_the_whole_holds() -> None:
+    problems = ProblemArray(B=np.linspace(1.5, 2.0, 5), order=4)
+    pieces = list(synthesize_chunks(problems, size=2))
+    assert [piece.size for piece in pieces] == [2, 2, 1]
+    together = np.concatenate([piece.objective for piece in pieces])
+    np.testing.assert_allclose(together, synthesize_array(problems).objective, rtol=1e-12)
+
+
+def test_problems_of_several_kinds_are_solved_in_their_order() -> None:
+    problems = [Problem(B=1.6, order=3), Problem(B=1.7, order=4, basis=Chebyshev(5)), Problem(order=4, J=at_most(60))]
+    laws = solved(ProblemArray.of(problems))
+    for i, problem in enumerate(problems):
+        assert laws[i].problem == problem
+        assert laws.objective[i] == pytest.approx(synthesize(problem).objective, rel=1e-9)
+
+
+def test_values_that_are_no_numbers_come_from_a_function() -> None:
+    bounds = each(at_most, np.array([60.0, 70.0]))
+    problems = ProblemArray(J=bounds, B=1.7, order=4)
+    assert problems[1] == Problem(J=at_most(70.0), B=1.7, order=4)
+    assert ProblemArray(J=(None, np.array([60.0, 70.0])), B=1.7, order=4)[0] == problems[0]
+
+
+@pytest.mark.parametrize(
+    ("entries", "said"),
+    [
+        ({"ordr": 4}, "did you mean 'order'"),
+        ({"B": np.ones(2), "J": np.ones(3)}, "one shape"),
+    ],
+)
+def test_what_makes_no_array_of_problems_is_refused(entries: dict[str, object], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        ProblemArray(**entries)
+
+
+def test_what_is_no_array_of_problems_is_refused() -> None:
+    with pytest.raises(InputError, match="takes a ProblemArray"):
+        synthesize_array([Problem(order=4)])  # type: ignore[arg-type]
+
+
+def test_tables_have_a_row_and_datasets_a_place_for_each_problem() -> None:
+    laws = synthesize_array(ProblemArray(B=np.array([1.5, 1.6]), C=(None, np.array([[9.0], [10.0]])), order=4))
+    table, dataset = laws.to_pandas(), laws.to_xarray()
+    assert table["objective"].tolist() == laws.objective.reshape(-1).tolist()
+    assert dataset["C"].shape == (2, 2)
+    assert dataset["B asked"].to_numpy().tolist() == [1.5, 1.6]
+    assert dataset.sizes["contact"] == laws.contacts["k"].shape[-1]
