@@ -63,7 +63,7 @@ def _interpolation(count: int) -> tuple[Array, Array]:
 @lru_cache(maxsize=32)
 def _grid(terms: int) -> tuple[Array, Array]:
     count = _DENSITY * terms
-    angle: Array = np.arange(count + 1) * (np.pi / count)
+    angle = np.linspace(0.0, np.pi, count + 1)
     return angle, np.asarray(np.cos(np.outer(np.arange(terms), angle)), dtype=np.float64)
 
 
