@@ -76,6 +76,19 @@ def pareto_front(
     return _surface(problem, names, count, between)
 
 
+def where_it_pays(problem: Problem, over: tuple[str, str]) -> tuple[float, float]:
+    """From the least value of the first constant that has a law, nearly, to the value that the best law has.
+
+    Examples
+    --------
+    >>> low, high = where_it_pays(Problem(order=4), ("B", "C"))
+    >>> round(low, 5), round(high, 5)
+    (1.23641, 1.90294)
+    """
+    found = _Curve(problem, _checked(problem, over, None), None).found
+    return found[0][0], found[-1][0]
+
+
 class _Curve:
     """The front of two constants while it grows: solutions by the asked value of the first."""
 
@@ -120,7 +133,7 @@ class _Curve:
                 return low, synthesize(self._asked(low))
             except InfeasibleProblem:
                 pass
-        least = _least(self.problem, self.over[0])
+        least = least_value(self.problem, self.over[0])
         value = least * (1.0 + _ABOVE[0])
         found = synthesize(self._asked(value))
         for above in _ABOVE[1:]:
@@ -200,7 +213,8 @@ def _tried(asked: Problem, start: Solution | None) -> Solution | None:
         return None
 
 
-def _least(problem: Problem, name: str) -> float:
+def least_value(problem: Problem, name: str) -> float:
+    """The least value of a constant, of B where it is given as a number; SolverFailure where none is found."""
     if name != "B":
         return synthesize(replace(problem, minimise=name)).objective
     found = extreme_velocity(problem, greatest=False)

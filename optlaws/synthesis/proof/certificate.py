@@ -158,13 +158,17 @@ def excess(certificate: Certificate) -> float:
 
 
 def _excess(certificate: Certificate) -> float:
-    model = _model(certificate)
-    program = model.program
-    lines = lines_of(program, certificate.contacts, certificate.equations)
+    model, lines = weighted_rows(certificate)
     plain = float(model.unit * sum_of_rows(model, lines))
     if certificate.program != VIOLATION or plain > 0.0:
         return plain
-    return max(plain, _surplus(certificate, program))
+    return max(plain, _surplus(certificate, model.program))
+
+
+def weighted_rows(certificate: Certificate) -> tuple[Model, list[tuple[float, Array, float]]]:
+    """The program of a certificate, and its rows as `lines_of` gives them."""
+    model = _model(certificate)
+    return model, lines_of(model.program, certificate.contacts, certificate.equations)
 
 
 def lines_of(

@@ -35,12 +35,12 @@ def sum_of_rows(model: Model, lines: list[tuple[float, Array, float]], claim: fl
     claim
         Without it what the sum itself says.
     """
-    total = _summed(model, [line for line in lines if line[0] != 0.0])
-    return total.value - _charge(model, total, model.unit * total.value if claim is None else claim)
+    total = summed(model, lines)
+    return total.value - charge(model, total, model.unit * total.value if claim is None else claim)
 
 
 @dataclass(frozen=True, eq=False)
-class _Sum:
+class Sum:
     """The sum of weighted rows: its slope, exact in the variables beyond the coordinates, and what rounding hides.
 
     `value` is rounded down, the slope by each coordinate is off by its `blur` at most.
@@ -51,7 +51,9 @@ class _Sum:
     blur: Array
 
 
-def _summed(model: Model, lines: list[tuple[float, Array, float]]) -> _Sum:
+def summed(model: Model, lines: list[tuple[float, Array, float]]) -> Sum:
+    """The objective and the weighted rows, added up."""
+    lines = [line for line in lines if line[0] != 0.0]
     weights = np.array([weight for weight, _, _ in lines])
     rows = np.array([[*row, -right] for _, row, right in lines]).reshape(-1, model.program.size + 1)
     total = _weighted(weights, rows, np.append(model.program.objective, 0.0))
@@ -60,7 +62,7 @@ def _summed(model: Model, lines: list[tuple[float, Array, float]]) -> _Sum:
     variables = list(model.places.values())
     # the entries of the variables are exact, and so is a sum that is zero
     slope[variables] = np.where(slope[variables] == 0.0, 0.0, np.nextafter(slope[variables], -inf))
-    return _Sum(slope, float(total[-1] - hidden[-1]), hidden[: model.space.terms])
+    return Sum(slope, float(total[-1] - hidden[-1]), hidden[: model.space.terms])
 
 
 def _weighted(weights: Array, rows: Array, start: Array) -> Array:
@@ -81,7 +83,7 @@ def _halves(values: Array) -> tuple[Array, Array]:
     return high, values - high
 
 
-def _charge(model: Model, total: _Sum, claim: float) -> float:
+def charge(model: Model, total: Sum, claim: float) -> float:
     """Most that rounding in the slope can be worth, over all laws that contradict the claim."""
     terms, slope = model.space.terms, total.slope
     greatest = greatest_values(model, max(claim, 0.0))

@@ -1,0 +1,365 @@
+"""A front as a function: at every value of a number a law, its objective, and a bound that is proven to be near."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from math import isnan
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import Constants, MotionLaw
+from optlaws.laws.making.between import law_between
+from optlaws.numbers import bounded, real
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.evaluation import worth
+from optlaws.synthesis.program.writer import model_of
+from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate, Contact, contact_of
+from optlaws.synthesis.proof.data import StatedContact, problem_of, stated
+from optlaws.synthesis.proven.line import Line, lower_line
+from optlaws.synthesis.proven.running import RunningNumber
+from optlaws.synthesis.solution import NOTHING
+
+Array = NDArray[np.float64]
+Many = NDArray[Any] | list[float] | tuple[float, ...]
+
+
+@dataclass(frozen=True)
+class FrontPoint:
+    """A law of a proven front, with the proof of how much better one could be at most.
+
+    Attributes
+    ----------
+    value
+        Of the number that runs.
+    problem, law
+        The problem at this value, and a law of it.
+    objective
+        Recomputed from the law.
+    certificate
+        Proves `lower_bound`.
+    """
+
+    value: float
+    problem: Problem
+    law: MotionLaw
+    objective: float
+    certificate: Certificate
+
+    @property
+    def lower_bound(self) -> float:
+        """No law of the problem has a smaller objective: the certificate's bound."""
+        return self.certificate.bound
+
+    @property
+    def gap(self) -> float:
+        """(objective - lower bound) / objective, as of a `Solution`."""
+        return (self.objective - self.lower_bound) / (self.objective if self.objective > NOTHING else 1.0)
+
+    @property
+    def constants(self) -> Constants:
+        """B, C, D, J of the law, each with its k, and the RMS of c."""
+        return self.law.constants
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict, which `optlaws verify` takes as it takes that of a `Solution`."""
+        return {
+            "problem": self.problem.to_dict(),
+            "objective": self.objective,
+            "lower_bound": bounded(self.lower_bound),
+            "gap": bounded(self.gap),
+            "constants": self.constants.to_dict(),
+            "law": self.law.to_dict(),
+            "certificate": self.certificate.to_dict(),
+        }
+
+
+class StatedPoint(msgspec.Struct, forbid_unknown_fields=True):
+    """What a proven front writes of one of its certified laws."""
+
+    at: float
+    law: dict[str, Any]
+    contacts: list[StatedContact]
+    equations: tuple[float, ...]
+
+
+class StatedFront(msgspec.Struct, forbid_unknown_fields=True):
+    """What `ProvenFront.to_dict` writes."""
+
+    runs: str
+    problem: dict[str, Any]
+    gap: float
+    points: list[StatedPoint]
+    about: str = ""
+
+
+@dataclass(frozen=True)
+class ProvenFront:
+    """Certified laws along a number, and by convexity a law and a lower bound at every value between.
+
+    Calling it with a value gives a `FrontPoint`: the weighted mean of the two laws beside the value, which keeps every
+    constraint, and the better of their two certificates, each of which bounds the objective at every value. Along a
+    weight of the objective it is the better of the two laws, and the weighted mean of the certificates.
+
+    Parameters
+    ----------
+    number
+        The problem, and what runs.
+    values
+        The values of the certified laws, ascending.
+    laws, certificates
+        The laws, and their certificates.
+
+    Raises
+    ------
+    InputError
+        If there are fewer than two laws, values do not ascend, or a certificate is of another problem.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis.proven.refine import proven_front
+    >>> front = proven_front(Problem(order=4), "B", between=(1.5, 1.6), gap=1e-6)
+    >>> front
+    ProvenFront(B 1.5 to 1.6, C, gap at most 1.0e-06, 62 certified laws)
+    >>> point = front(1.5432)
+    >>> round(point.objective, 5), 0.0 <= point.gap <= 1e-6
+    (5.51302, True)
+    """
+
+    number: RunningNumber
+    values: tuple[float, ...]
+    laws: tuple[MotionLaw, ...]
+    certificates: tuple[Certificate, ...]
+
+    def __post_init__(self) -> None:
+        steps = np.diff(self.values)
+        if len(self.values) < 2 or not (steps > 0.0).all():
+            raise InputError("a proven front needs at least two certified laws, at ascending values")
+        if not len(self.values) == len(self.laws) == len(self.certificates):
+            raise InputError("a proven front needs a law and a certificate for each value")
+        for value, one in zip(self.values, self.certificates, strict=True):
+            if one.program != OBJECTIVE or one.problem != self.number.at(value):
+                raise InputError(f"the certificate at {self.number.name} = {value!r} is not of the problem there")
+
+    @property
+    def problem(self) -> Problem:
+        """What else is asked."""
+        return self.number.problem
+
+    @property
+    def over(self) -> tuple[str, str]:
+        """The number that runs, and the objective."""
+        return self.number.name, repr(self.problem.objective)
+
+    @property
+    def between(self) -> tuple[float, float]:
+        """The least and the greatest value."""
+        return self.values[0], self.values[-1]
+
+    @kept_property
+    def objectives(self) -> Array:
+        """The objectives of the certified laws, recomputed from them."""
+        return np.array([worth(p.problem, law).objective for p, law in zip(self.certificates, self.laws, strict=True)])
+
+    @kept_property
+    def lines(self) -> Array:
+        """By certified law, value and slope of what its certificate proves between the ends."""
+        tops = self._upper_slopes
+        reach = np.subtract.outer(np.array(self.between), np.array(self.values))
+        claims = np.max(self.objectives + tops * reach, axis=0) if self.number.concave else np.full(len(tops), -np.inf)
+        found: list[Line] = [
+            lower_line(one, at, self.number, self.between, claim)
+            for one, at, claim in zip(self.certificates, self.values, claims.tolist(), strict=True)
+        ]
+        return np.array(found)
+
+    @kept_property
+    def _upper_slopes(self) -> Array:
+        """How the objective of each law changes with a weight."""
+        if not self.number.concave:
+            return np.zeros(len(self.values))
+        return np.array([weighted_value(self.number, law) for law in self.laws])
+
+    @kept_property
+    def gaps(self) -> Array:
+        """Between each two certified laws the greatest gap of any value, relative as of a `Solution`."""
+        t, top, bottom = np.array(self.values), self.objectives, self.lines[:, 0]
+        return interval_gaps(
+            t, top, bottom, self._upper_slopes if self.number.concave else self.lines[:, 1], self.number
+        )
+
+    @property
+    def gap(self) -> float:
+        """The greatest gap at any value, proven."""
+        return float(self.gaps.max())
+
+    def upper(self, values: Many) -> Array:
+        """What the objective is at most at values of the number; shape as that of the values."""
+        return self._bounds(values)[1]
+
+    def lower(self, values: Many) -> Array:
+        """What the least objective is at least at values of the number; shape as that of the values."""
+        return self._bounds(values)[0]
+
+    def _bounds(self, values: Many) -> tuple[Array, Array]:
+        asked = np.asarray(values, dtype=np.float64)
+        low, high = self.between
+        wrong = asked[~((asked >= low) & (asked <= high))]
+        if wrong.size:
+            raise self._outside(float(wrong.flat[0]))
+        t = np.array(self.values)
+        i = np.clip(np.searchsorted(t, asked, side="right") - 1, 0, len(t) - 2)
+        away = (asked - t[i], asked - t[i + 1])
+        share = away[0] / (t[i + 1] - t[i])
+        tops, lines = self.objectives, self.lines
+        if self.number.concave:
+            slopes = self._upper_slopes
+            upper = np.minimum(*(tops[j] + slopes[j] * one for j, one in zip((i, i + 1), away, strict=True)))
+            return (1.0 - share) * lines[i, 0] + share * lines[i + 1, 0], upper
+        lower = np.maximum(*(lines[j, 0] + lines[j, 1] * one for j, one in zip((i, i + 1), away, strict=True)))
+        return lower, (1.0 - share) * tops[i] + share * tops[i + 1]
+
+    def __call__(self, value: float) -> FrontPoint:
+        """The law at a value, with its objective and its proof.
+
+        Raises
+        ------
+        InputError
+            If the value is beyond the ends; nothing is known there.
+        """
+        number = real(value)
+        low, high = self.between
+        if number is None or not low <= number <= high:
+            raise self._outside(value)
+        i = min(max(int(np.searchsorted(self.values, number, side="right")) - 1, 0), len(self.values) - 2)
+        share = (number - self.values[i]) / (self.values[i + 1] - self.values[i])
+        problem = self.number.at(number)
+        return (
+            self._averaged(i, share, number, problem) if self.number.concave else self._mixed(i, share, number, problem)
+        )
+
+    def _mixed(self, i: int, share: float, value: float, problem: Problem) -> FrontPoint:
+        law = self.laws[i + 1] if share == 1.0 else law_between(self.laws[i], self.laws[i + 1], share)
+        proofs = [replace(one, problem=problem) for one in self.certificates[i : i + 2]]
+        return FrontPoint(value, problem, law, worth(problem, law).objective, max(proofs, key=lambda one: one.bound))
+
+    def _averaged(self, i: int, share: float, value: float, problem: Problem) -> FrontPoint:
+        sums = [worth(problem, law).objective for law in self.laws[i : i + 2]]
+        best = int(np.argmin(sums))
+        unit = model_of(problem).unit
+        contacts: list[Contact] = []
+        equations: list[Array] = []
+        for one, weight in zip(self.certificates[i : i + 2], (1.0 - share, share), strict=True):
+            factor = weight * model_of(one.problem).unit / unit
+            contacts += [replace(c, multiplier=c.multiplier * factor) for c in one.contacts if factor > 0.0]
+            equations.append(factor * np.array(one.equations))
+        proof = Certificate(problem, tuple(contacts), tuple(sum(equations).tolist()))
+        return FrontPoint(value, problem, self.laws[i + best], sums[best], proof)
+
+    def _outside(self, value: object) -> InputError:
+        low, high = self.between
+        shown = "NaN" if isinstance(value, float) and isnan(value) else shortened(value)
+        return InputError(f"the front is proven for {self.number.name} from {low!r} to {high!r}, not at {shown}")
+
+    def __iter__(self) -> Iterator[FrontPoint]:
+        """The certified laws."""
+        return (self(value) for value in self.values)
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def __repr__(self) -> str:
+        low, high = self.between
+        name, objective = self.over
+        return (
+            f"ProvenFront({name} {low:.6g} to {high:.6g}, {objective}, gap at most {self.gap:.1e}, "
+            f"{len(self)} certified laws)"
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict, which `optlaws verify` proves; numbers that follow from the laws are left out."""
+        return {
+            "runs": self.number.name,
+            "problem": self.problem.to_dict(),
+            "gap": self.gap,
+            "points": [
+                {
+                    "at": value,
+                    "law": law.to_dict(),
+                    "contacts": [_plain(contact) for contact in proof.contacts],
+                    "equations": list(proof.equations),
+                }
+                for value, law, proof in zip(self.values, self.laws, self.certificates, strict=True)
+            ],
+        }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> ProvenFront:
+        """Read what `to_dict` wrote; the gap is recomputed, not read.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong.
+        """
+        return front_of(stated(data, StatedFront, "proven front"))
+
+
+def front_of(found: StatedFront) -> ProvenFront:
+    """The front that was stated.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    number = RunningNumber(problem_of(found.problem), found.runs)
+    proofs = [
+        Certificate(number.at(one.at), tuple(map(contact_of, one.contacts)), one.equations) for one in found.points
+    ]
+    laws = tuple(MotionLaw.from_dict(one.law) for one in found.points)
+    return ProvenFront(number, tuple(one.at for one in found.points), laws, tuple(proofs))
+
+
+def interval_gaps(t: Array, top: Array, bottom: Array, slopes: Array, number: RunningNumber) -> Array:
+    """The greatest gap in each interval: between a chord and two lines, the difference is greatest where these cross.
+
+    Parameters
+    ----------
+    t, top, bottom
+        Values, and what is known above and below the least objective at each.
+    slopes
+        Of the lines through the lower values, or through the upper ones of a concave number.
+    """
+    width = np.diff(t)
+    first = np.stack([top[:-1] - bottom[:-1], np.zeros_like(width)])
+    last = np.stack([np.zeros_like(width), top[1:] - bottom[1:]])
+    if number.concave:
+        first[1] = top[:-1] + slopes[:-1] * width - bottom[1:]
+        last[0] = top[1:] - slopes[1:] * width - bottom[:-1]
+    else:
+        first[1] = top[1:] - (bottom[:-1] + slopes[:-1] * width)
+        last[0] = top[:-1] - (bottom[1:] - slopes[1:] * width)
+    turn = first[1] - first[0] + last[0] - last[1]
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = np.clip(np.where(turn > 0.0, (last[0] - first[0]) / turn, 0.0), 0.0, 1.0)
+    crossing = np.minimum((1.0 - share) * first[0] + share * first[1], (1.0 - share) * last[0] + share * last[1])
+    greatest = np.maximum(crossing, np.minimum(first, last).max(axis=0))
+    least = np.minimum(top[:-1], top[1:])
+    return np.asarray(greatest / np.where(least > NOTHING, least, 1.0))
+
+
+def weighted_value(number: RunningNumber, law: MotionLaw) -> float:
+    """What the term whose weight runs is of a law, before it is weighted."""
+    return worth(replace(number.problem, minimise=number.weighted), law).objective
+
+
+def _plain(contact: Contact) -> dict[str, Any]:
+    found = {"constraint": contact.constraint, "sign": contact.sign, "k": contact.k, "multiplier": contact.multiplier}
+    return found | ({"direction": list(contact.direction)} if contact.direction else {})
