@@ -79,6 +79,9 @@ from optlaws.synthesis.proof.certificate import Certificate as Certificate
 from optlaws.synthesis.proof.certificate import Contact as Contact
 from optlaws.synthesis.proof.peaks.certificate import PeakCertificate as PeakCertificate
 from optlaws.synthesis.proof.power.certificate import PowerCertificate as PowerCertificate
+from optlaws.synthesis.proven.front import FrontPoint as FrontPoint
+from optlaws.synthesis.proven.front import ProvenFront as ProvenFront
+from optlaws.synthesis.proven.refine import proven_front as proven_front
 from optlaws.synthesis.solution import Solution as Solution
 from optlaws.synthesis.solution import Status as Status
 from optlaws.synthesis.solution_array import SolutionArray as SolutionArray
@@ -119,6 +122,7 @@ __all__ = [
     "Expression",
     "Follower",
     "Front",
+    "FrontPoint",
     "Functional",
     "InfeasibleProblem",
     "InputError",
@@ -136,6 +140,7 @@ __all__ = [
     "Powers",
     "Problem",
     "ProblemArray",
+    "ProvenFront",
     "Range",
     "Response",
     "ResponseSpectrum",
@@ -172,6 +177,7 @@ __all__ = [
     "open_study",
     "pareto_front",
     "polydyne",
+    "proven_front",
     "residual",
     "residual_functional",
     "residual_phasor",

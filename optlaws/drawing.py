@@ -18,6 +18,7 @@ if TYPE_CHECKING:
 
     from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum
     from optlaws.synthesis.front import Front
+    from optlaws.synthesis.proven.front import ProvenFront
 
 BLUES = ("#b3cde3", "#74add1", "#4292c6", "#2166ac", "#08306b")
 WARM = "#d95f02"
@@ -87,6 +88,23 @@ def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Art
     bar = axes.get_figure(root=True).colorbar(points, ax=axes)  # type: ignore[union-attr] # these axes have a figure
     bar.set_label(f"{_AXES.get(front.over[2], front.over[2])} (dimensionless)")
     return [points]
+
+
+def draw_proven_front(front: ProvenFront, axes: Axes | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401
+    """Draw a proven front into axes, new ones unless given, as it is at every value, and return the artists.
+
+    Examples
+    --------
+    >>> from optlaws import Problem, proven_front
+    >>> (line,) = draw_proven_front(proven_front(Problem(order=4), between=(1.6, 1.7), gap=1e-4), color=GREEN)
+    >>> line.axes.get_ylabel()
+    'peak acceleration C (dimensionless)'
+    """
+    if axes is None:
+        axes = figure().subplots()
+    for axis, name in zip("xy", front.over, strict=True):
+        axes.set(**{f"{axis}label": f"{_AXES.get(name, name)} (dimensionless)"})
+    return list(axes.plot(*front.curve, **style))
 
 
 def draw_spectrum(

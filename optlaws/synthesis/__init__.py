@@ -18,6 +18,8 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.synthesis.proof.certificate": "Certificate Contact",
         "optlaws.synthesis.proof.peaks.certificate": "PeakCertificate",
         "optlaws.synthesis.proof.power.certificate": "PowerCertificate",
+        "optlaws.synthesis.proven.front": "FrontPoint ProvenFront",
+        "optlaws.synthesis.proven.refine": "proven_front",
         "optlaws.synthesis.solution": "Solution Status",
         "optlaws.synthesis.solve": "sweep synthesize",
         "optlaws.synthesis.solution_array": "SolutionArray",

@@ -32,6 +32,9 @@ from optlaws.synthesis.proof.certificate import Certificate as Certificate
 from optlaws.synthesis.proof.certificate import Contact as Contact
 from optlaws.synthesis.proof.peaks.certificate import PeakCertificate as PeakCertificate
 from optlaws.synthesis.proof.power.certificate import PowerCertificate as PowerCertificate
+from optlaws.synthesis.proven.front import FrontPoint as FrontPoint
+from optlaws.synthesis.proven.front import ProvenFront as ProvenFront
+from optlaws.synthesis.proven.refine import proven_front as proven_front
 from optlaws.synthesis.solution import Solution as Solution
 from optlaws.synthesis.solution import Status as Status
 from optlaws.synthesis.solution_array import SolutionArray as SolutionArray
@@ -67,6 +70,7 @@ __all__ = [
     "D",
     "Expression",
     "Front",
+    "FrontPoint",
     "Functional",
     "J",
     "Maximum",
@@ -78,6 +82,7 @@ __all__ = [
     "Powers",
     "Problem",
     "ProblemArray",
+    "ProvenFront",
     "Range",
     "Solution",
     "SolutionArray",
@@ -96,6 +101,7 @@ __all__ = [
     "limit_law",
     "maximum",
     "pareto_front",
+    "proven_front",
     "rms_c",
     "rms_j",
     "sweep",

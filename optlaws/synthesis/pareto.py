@@ -83,7 +83,7 @@ def where_it_pays(problem: Problem, over: tuple[str, str]) -> tuple[float, float
     --------
     >>> low, high = where_it_pays(Problem(order=4), ("B", "C"))
     >>> round(low, 5), round(high, 5)
-    (1.23641, 1.90294)
+    (1.12969, 1.90294)
     """
     found = _Curve(problem, _checked(problem, over, None), None).found
     return found[0][0], found[-1][0]

@@ -17,6 +17,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
 from optlaws.synthesis.proof.power.certificate import PowerCertificate
+from optlaws.synthesis.proven.front import ProvenFront
 from optlaws.synthesis.solution import NOTHING
 from optlaws.verification.conditions import excesses
 from optlaws.verification.exact.balls import enclosed
@@ -24,7 +25,8 @@ from optlaws.verification.exact.bound import Proof, never_negative, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.limits import exact_limit
 from optlaws.verification.exact.power import prove_power
-from optlaws.verification.places import NO_FILE, Entry, check_keys, entries, is_entry
+from optlaws.verification.places import NO_FILE, Entry, check_keys, entries, is_entry, is_proven_front
+from optlaws.verification.proven_fronts import proven_front
 from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
 from optlaws.verification.said_around import said_around
@@ -65,6 +67,8 @@ def _entry(entry: Entry) -> Verification:
 
 
 def _alone(data: Mapping[str, Any]) -> Verification:
+    if is_proven_front(data):
+        return proven_front(built(ProvenFront.from_dict, data, "the proven front"), number(data, "gap"))
     if "certificate" in data:
         return _solution(data)
     if "contacts" in data:

@@ -119,10 +119,15 @@ def entries(data: Data) -> dict[str, Entry]:
 
 
 def is_entry(data: Data) -> bool:
-    """Whether this is a solution, a certificate, or a law with its constants, whatever else it says."""
+    """Whether this is a solution, a certificate, a law with its constants or a proven front, whatever else it says."""
     solution = {"problem", "law", "certificate"} <= data.keys()
     certificate = {"problem", "contacts"} <= data.keys() or {"problem", "steps"} <= data.keys()
-    return solution or certificate or {"law", "constants"} <= data.keys()
+    return solution or certificate or is_proven_front(data) or {"law", "constants"} <= data.keys()
+
+
+def is_proven_front(data: Data) -> bool:
+    """Whether this is a front that is proven at every value of a number."""
+    return {"runs", "problem", "points"} <= data.keys()
 
 
 def check_keys(data: Data) -> None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from math import isnan
 from typing import Any
@@ -27,7 +27,7 @@ from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solution import NOTHING
 
 Array = NDArray[np.float64]
-Many = NDArray[Any] | list[float] | tuple[float, ...]
+Many = NDArray[Any] | Sequence[float] | float
 
 
 @dataclass(frozen=True)
@@ -124,12 +124,12 @@ class ProvenFront:
     Examples
     --------
     >>> from optlaws.synthesis.proven.refine import proven_front
-    >>> front = proven_front(Problem(order=4), "B", between=(1.5, 1.6), gap=1e-6)
-    >>> front
-    ProvenFront(B 1.5 to 1.6, C, gap at most 1.0e-06, 62 certified laws)
-    >>> point = front(1.5432)
-    >>> round(point.objective, 5), 0.0 <= point.gap <= 1e-6
-    (5.51302, True)
+    >>> front = proven_front(Problem(order=4), "B", between=(1.5, 1.52), gap=1e-9)
+    >>> len(front), front.gap < 1e-12
+    (17, True)
+    >>> point = front(1.5123)
+    >>> round(point.objective, 5), point.gap <= front.gap
+    (5.65, True)
     """
 
     number: RunningNumber
@@ -189,15 +189,27 @@ class ProvenFront:
     @kept_property
     def gaps(self) -> Array:
         """Between each two certified laws the greatest gap of any value, relative as of a `Solution`."""
-        t, top, bottom = np.array(self.values), self.objectives, self.lines[:, 0]
-        return interval_gaps(
-            t, top, bottom, self._upper_slopes if self.number.concave else self.lines[:, 1], self.number
-        )
+        slopes = self._upper_slopes if self.number.concave else self.lines[:, 1]
+        known = np.column_stack([self.objectives, self.lines[:, 0], slopes])
+        return interval_gaps(np.array(self.values), known, concave=self.number.concave)
 
     @property
     def gap(self) -> float:
         """The greatest gap at any value, proven."""
         return float(self.gaps.max())
+
+    @property
+    def curve(self) -> tuple[Array, Array]:
+        """Where the upper side turns, and its values there: it is straight in between."""
+        t, top, slopes = np.array(self.values), self.objectives, self._upper_slopes
+        if not self.number.concave:
+            return t, top
+        turn = np.diff(slopes)
+        with np.errstate(divide="ignore", invalid="ignore"):
+            cross = (top[:-1] - top[1:] + slopes[1:] * t[1:] - slopes[:-1] * t[:-1]) / turn
+        inside = cross[(turn != 0.0) & (cross > t[:-1]) & (cross < t[1:])]
+        places = np.sort(np.concatenate([t, inside]))
+        return places, self.upper(places)
 
     def upper(self, values: Many) -> Array:
         """What the objective is at most at values of the number; shape as that of the values."""
@@ -254,12 +266,12 @@ class ProvenFront:
         best = int(np.argmin(sums))
         unit = model_of(problem).unit
         contacts: list[Contact] = []
-        equations: list[Array] = []
+        equations = np.zeros(len(self.certificates[i].equations))
         for one, weight in zip(self.certificates[i : i + 2], (1.0 - share, share), strict=True):
             factor = weight * model_of(one.problem).unit / unit
             contacts += [replace(c, multiplier=c.multiplier * factor) for c in one.contacts if factor > 0.0]
-            equations.append(factor * np.array(one.equations))
-        proof = Certificate(problem, tuple(contacts), tuple(sum(equations).tolist()))
+            equations += factor * np.array(one.equations)
+        proof = Certificate(problem, tuple(contacts), tuple(equations.tolist()))
         return FrontPoint(value, problem, self.laws[i + best], sums[best], proof)
 
     def _outside(self, value: object) -> InputError:
@@ -268,8 +280,9 @@ class ProvenFront:
         return InputError(f"the front is proven for {self.number.name} from {low!r} to {high!r}, not at {shown}")
 
     def __iter__(self) -> Iterator[FrontPoint]:
-        """The certified laws."""
-        return (self(value) for value in self.values)
+        """The certified laws, each with its own certificate."""
+        for value, law, proof in zip(self.values, self.laws, self.certificates, strict=True):
+            yield FrontPoint(value, proof.problem, law, worth(proof.problem, law).objective, proof)
 
     def __len__(self) -> int:
         return len(self.values)
@@ -327,20 +340,24 @@ def front_of(found: StatedFront) -> ProvenFront:
     return ProvenFront(number, tuple(one.at for one in found.points), laws, tuple(proofs))
 
 
-def interval_gaps(t: Array, top: Array, bottom: Array, slopes: Array, number: RunningNumber) -> Array:
+def interval_gaps(t: Array, known: Array, *, concave: bool) -> Array:
     """The greatest gap in each interval: between a chord and two lines, the difference is greatest where these cross.
 
     Parameters
     ----------
-    t, top, bottom
-        Values, and what is known above and below the least objective at each.
-    slopes
-        Of the lines through the lower values, or through the upper ones of a concave number.
+    t
+        Values.
+    known
+        At each value what is known above and below the least objective, and a slope: of the line through the lower
+        value or, where the objective is concave, through the upper one.
+    concave
+        Whether it is.
     """
+    top, bottom, slopes = known.T
     width = np.diff(t)
     first = np.stack([top[:-1] - bottom[:-1], np.zeros_like(width)])
     last = np.stack([np.zeros_like(width), top[1:] - bottom[1:]])
-    if number.concave:
+    if concave:
         first[1] = top[:-1] + slopes[:-1] * width - bottom[1:]
         last[0] = top[1:] - slopes[1:] * width - bottom[:-1]
     else:

@@ -75,7 +75,7 @@ def proven_front(
     >>> front = proven_front(Problem(order=4), between=(1.6, 1.65), gap=1e-6)
     >>> point = front(1.6180339887)
     >>> round(point.objective, 6), point.certificate.bound <= point.objective, front.gap <= 1e-6
-    (5.181925, True, True)
+    (5.182381, True, True)
     """
     number = _number(problem, over)
     wanted = positive(gap, "gap")
@@ -99,7 +99,7 @@ class _Refined:
         while (parts > 1).any():
             self._insert(parts)
             self._check(gap)
-            gaps = interval_gaps(self.values, *self.known.T, self.number)
+            gaps = interval_gaps(self.values, self.known, concave=self.number.concave)
             parts = np.where(gaps <= gap, 1, np.clip(np.ceil(np.sqrt(gaps / (_AIM * gap))), 2, _MOST_PIECES)).astype(
                 int
             )

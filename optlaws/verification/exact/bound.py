@@ -17,6 +17,7 @@ from math import inf, isfinite
 
 from flint import arb, arb_mat, ctx
 
+from optlaws.errors import InputError
 from optlaws.synthesis.families.names import VariableName
 from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import Peak, Power
@@ -53,6 +54,8 @@ class Proof:
         The greatest change of a multiplier, in units of the greatest one.
     negative, unknown
         Numbers of contacts with a negative multiplier, and of those the problem does not ask for: they do not count.
+    slope
+        By how much the bound rises with a number on the right side of rows, between two floats, where that was asked.
     """
 
     value: Fraction | None
@@ -60,6 +63,7 @@ class Proof:
     correction: float = 0.0
     negative: int = 0
     unknown: int = 0
+    slope: tuple[Fraction, Fraction] = (Fraction(0), Fraction(0))
 
 
 def prove(certificate: Certificate) -> Proof:
@@ -78,24 +82,62 @@ def prove(certificate: Certificate) -> Proof:
     >>> round(float(proof.value), 9), proof.charge
     (4.647776025, 0.0)
     """
+    best = _proof(certificate, None)
+    least = least_objective(certificate.problem, ExactRows(certificate))
+    if certificate.program != VIOLATION and least is not None and (best.value is None or best.value <= least):
+        return replace(best, value=least)
+    return best
+
+
+@dataclass(frozen=True)
+class Along:
+    """A number on the right side of rows, or a weight of the objective, along which a bound is asked.
+
+    Attributes
+    ----------
+    step
+        The problem with the number greater by `width`; None for a weight, along which bounds are averaged.
+    width
+        By how much.
+    widest
+        The problem, of all that are asked about, whose laws may be greatest.
+    claim
+        The greatest objective that is asked about.
+    """
+
+    step: Problem | None
+    width: Fraction
+    widest: Problem
+    claim: float
+
+
+def prove_along(certificate: Certificate, along: Along) -> Proof:
+    """What the certificate's contacts prove wherever the number is between its ends: a value here, and its slope.
+
+    Raises
+    ------
+    InputError
+        As `prove`.
+    """
+    return _proof(certificate, along)
+
+
+def _proof(certificate: Certificate, along: Along | None) -> Proof:
     basis = certificate.problem.basis
     bits = 384 + 16 * (2 * certificate.problem.order + int(getattr(basis, "degree", 0)))
     best: Proof | None = None
     for _ in range(_TRIES):
         with ctx.workprec(bits):
-            found, narrow = _System(certificate).best()
+            found, narrow = _System(certificate, along).best()
             if found.value is None:
                 # rows that are one another's multiples balance where they are, and beside it they do not
-                found, narrow = _System(certificate, beside=False).best()
+                found, narrow = _System(certificate, along, beside=False).best()
         if best is None or best.value is None or (found.value is not None and found.value > best.value):
             best = found
         if narrow:
             break
         bits *= 2
     assert best is not None  # noqa: S101 - there is at least one try
-    least = least_objective(certificate.problem, ExactRows(certificate))
-    if certificate.program != VIOLATION and least is not None and (best.value is None or best.value <= least):
-        return replace(best, value=least)
     return best
 
 
@@ -109,8 +151,8 @@ class _Helper:
 
 
 class _System:
-    def __init__(self, certificate: Certificate, *, beside: bool = True) -> None:
-        self.certificate, self.beside = certificate, beside
+    def __init__(self, certificate: Certificate, along: Along | None = None, *, beside: bool = True) -> None:
+        self.certificate, self.along, self.beside = certificate, along, beside
         self.rows = rows = ExactRows(certificate)
         self.vectors: list[Vector] = []
         self.multipliers: list[arb] = []
@@ -129,6 +171,22 @@ class _System:
             self.multipliers.append(ball(weight))
         self.size = rows.space.terms + len(rows.names)
         self.cost = [arb(0)] * rows.space.terms + [ball(rows.cost.get(name, 0.0)) for name in rows.names]
+
+        self.rates = self._rates()
+
+    def _rates(self) -> list[arb]:
+        """How fast the right side of each row runs along the number that was asked for."""
+        if self.along is None or self.along.step is None:
+            return []
+        there = _System(replace(self.certificate, problem=self.along.step), beside=self.beside)
+        together = zip(self.vectors, there.vectors, strict=True)
+        if any(
+            bool(a != b)
+            for one, other in zip(self.vectors, there.vectors, strict=True)
+            for a, b in zip(one[:-1], other[:-1], strict=True)
+        ):
+            raise InputError("the number changes more than right sides of rows: nothing is proven along it")
+        return [(other[-1] - one[-1]) / ball(self.along.width) for one, other in together]
 
     def _take(self, contact: Contact, row: Row) -> None:
         weight = Fraction(contact.multiplier)
@@ -173,6 +231,8 @@ class _System:
         return best if best is not None else (Proof(None, 0.0, 0.0, self.negative, self.unknown), False)
 
     def _claim(self) -> float:
+        if self.along is not None:
+            return self.along.claim
         total = sum((m * one[-1] for m, one in zip(self.multipliers, self.vectors, strict=True)), arb(0))
         return rounded_up(upper(total)) if total.is_finite() else inf
 
@@ -198,8 +258,10 @@ class _System:
         greatest = max((rounded_up(upper(abs(m))) for m in self.multipliers), default=0.0) or 1.0
         moved = max((rounded_up(upper(abs(c))) for c in changes[: len(self.vectors)]), default=0.0)
         # a law either contradicts the claim, and then the helpers are bounded, or it does not
-        proven = min(total, Fraction(claim)) if helpers else total
-        proof = Proof(proven, rounded_up(upper(charge)) + 0.0, moved / greatest, self.negative, self.unknown)
+        proven = min(total, Fraction(claim)) if helpers and self.along is None else total
+        slope = sum((m * one for m, one in zip(multipliers, self.rates, strict=False)), arb(0))
+        bounds = (lower(slope), upper(slope))
+        proof = Proof(proven, rounded_up(upper(charge)) + 0.0, moved / greatest, self.negative, self.unknown, bounds)
         return proof, bool(value.rad() < _WIDE)
 
     def _slopes(self) -> Vector:
@@ -211,7 +273,8 @@ class _System:
 
     def _helpers(self, claim: float) -> Iterator[list[_Helper]]:
         """Constants, and moments of one derivative whose mean magnitude is bounded."""
-        rows, greatest = self.rows, greatest_values(self.certificate, self.rows, claim)
+        widest = self.certificate if self.along is None else replace(self.certificate, problem=self.along.widest)
+        rows, greatest = self.rows, greatest_values(widest, self.rows, claim)
         least = least_values(self.certificate.problem, rows)
         constants = []
         for i, name in enumerate(rows.names):
@@ -219,7 +282,7 @@ class _System:
                 unit = [arb(0)] * (self.size + 1)
                 unit[rows.space.terms + i] = arb(1)
                 constants.append(_Helper(unit, ball(least.get(name, 0)), ball(greatest[name])))
-        for nu, mean in means(self.certificate.problem, rows, greatest).items():
+        for nu, mean in means(widest.problem, rows, greatest).items():
             moments = []
             for row in rows.space.moments(nu):
                 free = [arb(one) for one in row]

@@ -1,0 +1,129 @@
+"""Proven fronts with every rounding enclosed: laws and certificates one by one, and what convexity says between."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+
+from optlaws.synthesis.limits.rounding import rounded_up
+from optlaws.synthesis.proven.front import FrontPoint, ProvenFront
+from optlaws.synthesis.proven.running import RunningNumber
+from optlaws.synthesis.solution import NOTHING
+from optlaws.verification.conditions import Excess, excesses
+from optlaws.verification.exact.balls import enclosed
+from optlaws.verification.exact.bound import Along, Proof, prove_along
+from optlaws.verification.exact.law import ExactLaw
+from optlaws.verification.result import Claim, Verification
+
+#: by how much a stated gap, computed in doubles, may be below the proven one
+_ROUNDING = 1e-12
+#: the greatest correction of multipliers that rounding explains
+_CORRECTION = 1e-6
+
+
+@dataclass(frozen=True)
+class _Known:
+    """What is proven at one certified law: bounds of the least objective, how these go on, and conditions broken."""
+
+    at: Fraction
+    top: Fraction
+    top_slope: Fraction
+    proof: Proof
+    broken: tuple[Excess, ...]
+    worst: float
+
+
+def proven_front(front: ProvenFront, stated: float) -> Verification:
+    """Check every law and certificate of a front, and its gap at every value between.
+
+    Raises
+    ------
+    InputError
+        As `verify` of a solution.
+    """
+    number, (low, high) = front.number, front.between
+    points = list(front)
+    laws = [ExactLaw(point.law) for point in points]
+    claim = 2.0 * float(front.objectives.max())
+    known = [_known(front, point, law, claim) for point, law in zip(points, laws, strict=True)]
+    gap = _gap(known, number)
+    claims = [*_laws(number, known), *_certificates(number, known)]
+    where = f"the gap at every {number.name} from {low!r} to {high!r}"
+    shown = "not known" if gap is None else f"{gap:.3e}"
+    claims.append(Claim(where, gap is not None and gap <= stated + _ROUNDING, f"{stated:.3e} stated, {shown} proven"))
+    return Verification(problem=number.at(low), bound=None, gap=gap, claims=tuple(claims))
+
+
+def _known(front: ProvenFront, point: FrontPoint, law: ExactLaw, claim: float) -> _Known:
+    number = front.number
+    found = excesses(point.problem, law)
+    top = Fraction(enclosed(law.sum(point.problem.objective))[1])
+    slope = Fraction(enclosed(law.term(number.weighted))[1]) if number.concave else Fraction(0)
+    proof = prove_along(point.certificate, _along(front, point, claim))
+    broken = tuple(one for one in found if not one.holds)
+    return _Known(Fraction(point.value), top, slope, proof, broken, max((one.by for one in found), default=0.0))
+
+
+def _along(front: ProvenFront, point: FrontPoint, claim: float) -> Along:
+    number, (low, high) = front.number, front.between
+    if number.concave:
+        return Along(None, Fraction(1), number.at(low), claim)
+    other = high if point.value < high else low
+    return Along(number.at(other), Fraction(other) - Fraction(point.value), number.at(high), claim)
+
+
+def _laws(number: RunningNumber, known: list[_Known]) -> Iterator[Claim]:
+    wrong = [one for one in known if one.broken]
+    if wrong:
+        first = wrong[0]
+        detail = f"{first.broken[0].name} is broken by {first.broken[0].by:.1e} at {number.name} = {float(first.at)!r}"
+        yield Claim("laws", proven=False, detail=f"{len(wrong)} of {len(known)} break conditions: {detail}")
+        return
+    worst = max(one.worst for one in known)
+    yield Claim("laws", proven=True, detail=f"{len(known)} keep every condition, off by at most {max(worst, 0.0):.1e}")
+
+
+def _certificates(number: RunningNumber, known: list[_Known]) -> Iterator[Claim]:
+    wrong = [one for one in known if one.proof.value is None or one.proof.negative or one.proof.unknown]
+    changed = max(one.proof.correction for one in known)
+    detail = (
+        f"{len(known)} prove a bound, corrected by at most {changed:.1e} of the greatest multiplier"
+        if not wrong
+        else (
+            f"{len(wrong)} of {len(known)} prove nothing or have contacts that do not count, the first at "
+            f"{number.name} = {float(wrong[0].at)!r}"
+        )
+    )
+    yield Claim("certificates", not wrong and changed <= _CORRECTION, detail)
+
+
+def _gap(known: list[_Known], number: RunningNumber) -> float | None:
+    """The greatest gap of any value, relative as of a solution, rounded up."""
+    found = [_between(one, other, number) for one, other in pairwise(known)]
+    return None if None in found else rounded_up(max(one for one in found if one is not None))
+
+
+def _between(one: _Known, other: _Known, number: RunningNumber) -> Fraction | None:
+    """The greatest difference of a chord and two lines, each an affine function: at the ends or where they cross."""
+    if one.proof.value is None or other.proof.value is None:
+        return None
+    width = other.at - one.at
+    if number.concave:
+        differences = [
+            (one.top - one.proof.value, one.top + one.top_slope * width - other.proof.value),
+            (other.top - other.top_slope * width - one.proof.value, other.top - other.proof.value),
+        ]
+    else:
+        rise, fall = one.proof.slope[0] * width, other.proof.slope[1] * width
+        differences = [
+            (one.top - one.proof.value, other.top - one.proof.value - rise),
+            (one.top - other.proof.value + fall, other.top - other.proof.value),
+        ]
+    (first, last), (second, end) = differences
+    turn = (last - first) - (end - second)
+    shares = [Fraction(0), Fraction(1), *([(second - first) / turn] if turn else [])]
+    gaps = [min(first + (last - first) * s, second + (end - second) * s) for s in shares if 0 <= s <= 1]
+    least = min(one.top, other.top)
+    return max(gaps) / (least if least > Fraction(NOTHING) else 1)
