@@ -44,6 +44,13 @@ class FrontPoint:
         Recomputed from the law.
     certificate
         Proves `lower_bound`.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis.proven.refine import proven_front
+    >>> point = proven_front(Problem(order=4), between=(1.6, 1.7), gap=1e-3)(1.65)
+    >>> point.problem.B, point.lower_bound <= point.objective == point.constants.C.value
+    (1.65, True)
     """
 
     value: float
