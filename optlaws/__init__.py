@@ -34,6 +34,8 @@ _load, __dir__, __all__ = face(
         "optlaws.mechanisms.loader.loader": "Loader loader",
         "optlaws.mechanisms.loader.optimal": "BalancedLaw balanced_law",
         "optlaws.mechanisms.loader.trapezium": "TrapeziumSubstitute",
+        "optlaws.mechanisms.machine.machine": "Machine",
+        "optlaws.mechanisms.machine.masses": "Link",
         "optlaws.mechanisms.spectrum.residual": "residual_functional residual_phasor",
         "optlaws.mechanisms.spectrum.robust": "residual",
         "optlaws.mechanisms.spectrum.spectrum": "ResponseSpectrum response_spectrum",

@@ -40,6 +40,8 @@ from optlaws.mechanisms.loader.loader import loader as loader
 from optlaws.mechanisms.loader.optimal import BalancedLaw as BalancedLaw
 from optlaws.mechanisms.loader.optimal import balanced_law as balanced_law
 from optlaws.mechanisms.loader.trapezium import TrapeziumSubstitute as TrapeziumSubstitute
+from optlaws.mechanisms.machine.machine import Machine as Machine
+from optlaws.mechanisms.machine.masses import Link as Link
 from optlaws.mechanisms.spectrum.residual import residual_functional as residual_functional
 from optlaws.mechanisms.spectrum.residual import residual_phasor as residual_phasor
 from optlaws.mechanisms.spectrum.robust import residual as residual
@@ -127,7 +129,9 @@ __all__ = [
     "InfeasibleProblem",
     "InputError",
     "J",
+    "Link",
     "Loader",
+    "Machine",
     "MotionLaw",
     "NotNormalised",
     "OptlawsError",

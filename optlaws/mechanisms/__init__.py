@@ -13,6 +13,8 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.mechanisms.lever.design": "find_torsion_levers",
         "optlaws.mechanisms.lever.lever": "TorsionLever",
         "optlaws.mechanisms.lever.motion": "LeverMotion",
+        "optlaws.mechanisms.machine.machine": "Machine",
+        "optlaws.mechanisms.machine.masses": "Link",
         "optlaws.mechanisms.cam.polydyne": "mass_law polydyne",
         "optlaws.mechanisms.spectrum.residual": "residual_functional residual_phasor",
         "optlaws.mechanisms.spectrum.spectrum": "ResponseSpectrum response_spectrum",

@@ -10,6 +10,8 @@ from optlaws.mechanisms.follower.response import Response as Response
 from optlaws.mechanisms.lever.design import find_torsion_levers as find_torsion_levers
 from optlaws.mechanisms.lever.lever import TorsionLever as TorsionLever
 from optlaws.mechanisms.lever.motion import LeverMotion as LeverMotion
+from optlaws.mechanisms.machine.machine import Machine as Machine
+from optlaws.mechanisms.machine.masses import Link as Link
 from optlaws.mechanisms.spectrum.residual import residual_functional as residual_functional
 from optlaws.mechanisms.spectrum.residual import residual_phasor as residual_phasor
 from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum as ResponseSpectrum
@@ -20,6 +22,8 @@ __all__ = [
     "Deviation",
     "Follower",
     "LeverMotion",
+    "Link",
+    "Machine",
     "Response",
     "ResponseSpectrum",
     "TorsionLever",

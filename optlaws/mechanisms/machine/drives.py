@@ -1,0 +1,118 @@
+"""Laws as drives of a machine: what they are at every time, as Chebyshev series of a, b and c."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from itertools import pairwise
+from math import ceil
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.laws import MotionLaw
+from optlaws.mechanisms.follower.cam_motion import Forcing
+from optlaws.mechanisms.follower.law_motion import forcings
+from optlaws.mechanisms.machine.dynamics import Drive
+from optlaws.series import interpolation
+from optlaws.synthesis.spaces.space import LawSpace
+
+Array = NDArray[np.float64]
+
+_RADIANS = 10.0
+_COUNT = 41
+
+
+def of_law(
+    law: MotionLaw, start: float = 0.0, length: float = 1.0, a0: float | None = None, stroke: float = 1.0
+) -> list[Drive]:
+    """A law as it drives a machine, a0 + stroke (law(k) - law(0)) with k = (time - start) / length.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> (rise,) = of_law(smoothstep(3))
+    >>> rise.ends[1].round(12).ravel().tolist()
+    [1.0, 0.0, 0.0]
+    """
+    return [drive for one in forcings(law, start, length, a0, stroke) for drive in _drives(one)]
+
+
+def rest(start: float, length: float, level: Array) -> Drive:
+    """A dwell at displacements, one for each column.
+
+    Examples
+    --------
+    >>> rest(1.0, 0.5, np.array([1.0])).series.ravel().tolist()
+    [1.0, 0.0, 0.0]
+    """
+    series = np.zeros((1, 3, len(level)))
+    series[0, 0] = level
+    return Drive(start, length, series)
+
+
+def of_space(space: LawSpace) -> list[Drive]:
+    """All laws of a space at once: a column for each free function, the base law's last.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+    >>> from optlaws.synthesis.spaces.polynomials.space import polynomial_space
+    >>> (drive,) = of_space(polynomial_space(BoundaryConditions.rest(2), 3, symmetric=True))
+    >>> drive.ends[1][0].round(12).tolist()
+    [0.0, 0.0, 1.0]
+    """
+    breaks: Sequence[float] = getattr(space, "breaks", (0.0, 1.0))
+    x = interpolation.points(_terms(space))
+    found = []
+    for low, high in pairwise(breaks):
+        k = low + 0.5 * (high - low) * (x + 1.0)
+        values = np.stack([_values(space, nu, k) for nu in range(3)], axis=1)
+        series = interpolation.transformed(values.reshape(len(k), -1)).reshape(values.shape)
+        found.append(Drive(float(low), float(high - low), np.ascontiguousarray(series)))
+    return found
+
+
+def backward(drives: Sequence[Drive], start: float, length: float, level: Array) -> list[Drive]:
+    """The return of such drives, level - (a - a(0)), stretched to a length."""
+    found = []
+    low = drives[0].ends[0][0]
+    for one in drives:
+        series = -one.series / length ** np.arange(3.0)[:, None]
+        series[0, 0] += level + low
+        found.append(Drive(start + length * one.start, length * one.length, series))
+    return found
+
+
+def _terms(space: LawSpace) -> int:
+    """Coefficients that every law of a space has at most, on each piece."""
+    row = space.derivative(1, "b", np.zeros(space.terms))
+    nodes = row.nodes()
+    pieces = len(getattr(space, "breaks", (0.0, 1.0))) - 1
+    return (len(row.series) if nodes is None else len(nodes) // pieces + 2) + 2
+
+
+def _values(space: LawSpace, nu: int, k: Array) -> Array:
+    """Columns of a derivative at k; of symmetric laws the second half mirrors the first."""
+    family = space.derivative(nu, "", np.zeros(space.terms))
+    mirrored = space.symmetric & (k > 0.5)
+    columns = family.columns(1.0 - 2.0 * np.where(mirrored, 1.0 - k, k))[0]
+    if nu != 1:
+        columns[mirrored] *= -1.0
+    if nu == 0:
+        columns[mirrored, -1] += float(space.boundary.start[0] + space.boundary.end[0])
+    return np.asarray(columns)
+
+
+def _drives(forcing: Forcing) -> list[Drive]:
+    fastest = max((one.frequency for one in forcing.sines), default=0.0)
+    count = max(1, ceil(fastest * forcing.length / _RADIANS))
+    length = forcing.length / count
+    terms = max(len(forcing.acceleration) + 2, _COUNT if forcing.sines else 0)
+    places = 0.5 * length * (interpolation.points(terms) + 1.0)
+    found = []
+    for i in range(count):
+        s = np.minimum(i * length + places, forcing.length)
+        values = np.column_stack([forcing.derivative(s, order) for order in range(3)])
+        series = np.asarray(interpolation.transformed(values))[:, :, None]
+        found.append(Drive(forcing.start + i * length, length, series))
+    return found

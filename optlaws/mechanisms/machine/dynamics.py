@@ -1,0 +1,213 @@
+"""Exact motion of a linear machine under polynomials: x' = A x + B w as Chebyshev series, without steps in time.
+
+A is balanced and turned into triangular form (Schur), so that defective, undamped and overdamped machines are all the
+same: one scalar equation after another, the last one first. Each is an integral equation for the coefficients of its
+Chebyshev series, three of them to a row. Panels are short only so that a series is, and roots of it are found quickly.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from math import ceil, inf, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.series import interpolation
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+RADIANS = 10.0  # of the fastest vibration in a panel
+DECAY = 40.0  # of the fastest decay in a panel, while it is not over
+SPARE = 32  # coefficients beyond those of the law that resolve a vibration on such a panel
+PER_ROOT_OF_DECAY = 6.5  # coefficients that an exponential needs for each root of its exponent
+
+
+@dataclass(frozen=True, eq=False)
+class Drive:
+    """What the law does on one stretch of time.
+
+    Attributes
+    ----------
+    start, length
+        Where the stretch lies, in durations of the rise.
+    series
+        Chebyshev series of a, b and c on it, shape (coefficients, 3, columns): one column for each law.
+    """
+
+    start: float
+    length: float
+    series: Array
+
+    def within(self, low: float, high: float) -> Array:
+        """The series of the part from low to high, as shares of the stretch."""
+        if (low, high) == (0.0, 1.0):
+            return self.series
+        count, _, columns = self.series.shape
+        x = low + 0.5 * (high - low) * (interpolation.points(count) + 1.0)
+        values = np.polynomial.chebyshev.chebvander(2.0 * x - 1.0, count - 1) @ self.series.reshape(count, -1)
+        return np.asarray(interpolation.transformed(values)).reshape(count, 3, columns)
+
+    @property
+    def ends(self) -> tuple[Array, Array]:
+        """A, b and c at the start and at the end, shape (3, columns)."""
+        signs = np.where(np.arange(len(self.series)) % 2, -1.0, 1.0)
+        return np.tensordot(signs, self.series, 1), self.series.sum(axis=0)
+
+
+@dataclass(frozen=True, eq=False)
+class Panel:
+    """The machine's states over a short time, as Chebyshev series, in the coordinates of its triangular form.
+
+    Attributes
+    ----------
+    start, length
+        Where it lies.
+    states
+        Series of the states, shape (coefficients, states, columns).
+    drive
+        Series of a, b and c, shape (coefficients, 3, columns), no longer than those.
+    """
+
+    start: float
+    length: float
+    states: Complex
+    drive: Array
+
+    def output(self, states: Complex, direct: Array) -> Array:
+        """Series of states . x + direct . (a, b, c), shape (coefficients, columns)."""
+        found = np.ascontiguousarray(np.einsum("s,nsc->nc", states, self.states).real)
+        found[: len(self.drive)] += np.einsum("i,nic->nc", direct, self.drive)
+        return found
+
+
+class Dynamics:
+    """x' = A x + B (a, b, c) in triangular form.
+
+    Parameters
+    ----------
+    matrix, load
+        A and B, shapes (states, states) and (states, 3).
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> Dynamics(np.array([[0.0, 1.0], [-25.0, -6.0]]), np.zeros((2, 3))).roots.round(12).tolist()
+    [(-3+4j), (-3-4j)]
+    """
+
+    def __init__(self, matrix: Array, load: Array) -> None:
+        from scipy.linalg import matrix_balance, schur
+
+        balanced, (scale, _) = matrix_balance(matrix, permute=False, separate=True)
+        self.triangle, turn = schur(balanced, output="complex")
+        #: columns that turn the triangular form's coordinates into states, and back
+        self.out_of: Complex = scale[:, None] * turn
+        self.into: Complex = turn.conj().T / scale
+        self.load: Complex = self.into @ load
+        self.roots: Complex = np.diag(self.triangle).copy()
+
+    @property
+    def fastest(self) -> float:
+        """The fastest vibration, radians in the duration of the rise."""
+        return float(np.abs(self.roots.imag).max())
+
+    @property
+    def decay(self) -> float:
+        """The fastest decay, in the duration of the rise."""
+        return float(np.abs(self.roots.real).max())
+
+    def moved(
+        self, drives: Sequence[Drive], initial: Complex, *, radians: float = RADIANS, before: Array | None = None
+    ) -> tuple[list[Panel], Complex]:
+        """The motion over consecutive drives from given states, shape (states, columns), and the states at its end.
+
+        Where the law's velocity jumps, its acceleration is an impulse; `before` is its velocity before the first drive,
+        0 unless given.
+        """
+        velocity = np.zeros(drives[0].series.shape[2]) if before is None else before
+        state, panels = initial, list[Panel]()
+        for drive in drives:
+            first, last = drive.ends
+            state = state + np.outer(self.load[:, 2], first[1] - velocity)
+            velocity = last[1]
+            edges = self.edges(drive.length, radians)
+            for low, high in pairwise(edges):
+                series = drive.within(low, high)
+                length = (high - low) * drive.length
+                states = self._solved(series, state, 0.5 * length)
+                state = states.sum(axis=0)
+                panels.append(Panel(drive.start + low * drive.length, length, states, series))
+        return panels, state
+
+    def edges(self, length: float, radians: float) -> list[float]:
+        """Shares of a stretch between which its panels lie: equal ones, and short ones at first for what decays."""
+        count = max(1, ceil(self.fastest * length / radians))
+        found, total = [0.0], self.decay * length
+        reach = DECAY / total if total else inf
+        while reach < 1.0 / count:
+            found.append(reach)
+            reach *= 2.0
+        return [*found, *((i + 1) / count for i in range(count))]
+
+    def _solved(self, drive: Array, initial: Complex, half: float) -> Complex:
+        roots, size = self.roots, len(self.roots)
+        decay = min(float(np.abs(roots.real).max()) * half, 2.0 * DECAY)
+        spare = SPARE + ceil(float(np.abs(roots.imag).max()) * half) + ceil(PER_ROOT_OF_DECAY * sqrt(decay))
+        count = len(drive) + spare
+        loads = np.zeros((count, size, drive.shape[2]), dtype=np.complex128)
+        loads[: len(drive)] = np.einsum("si,nic->nsc", self.load, drive)
+        states = np.empty_like(loads)
+        for i in range(size - 1, -1, -1):
+            load = loads[:, i]
+            if i + 1 < size:
+                load = load + np.tensordot(states[:, i + 1 :], self.triangle[i, i + 1 :], axes=(1, 0))
+            states[:, i] = scalar(complex(roots[i]) * half, half * load, initial[i])
+        return states
+
+
+def scalar(root: complex, load: Complex, initial: Complex) -> Complex:
+    """Chebyshev series of y' = root y + load on [-1, 1], y(-1) given, one column for each load.
+
+    Integrated once, each coefficient depends on its two neighbours, which leaves one free solution: the exponential. It
+    is solved for beside the particular ones, from a coefficient 0, or a coefficient 1, that it is not without.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> load = np.zeros((3, 1), dtype=complex)
+    >>> load[1] = 1.0
+    >>> scalar(0.0, load, np.array([0.0])).real.ravel().round(12).tolist()
+    [-0.25, 0.0, 0.25]
+    """
+    from scipy.linalg import solve_banded
+    from scipy.special import ive
+
+    count, columns = load.shape
+    j = np.arange(1, count)
+    step = root / (2.0 * j)
+    right = np.zeros((count - 1, columns + 1), dtype=np.complex128)
+    right[:, :-1] = load[:-1]
+    right[0] *= 2.0
+    right[:-1, :-1] -= load[2:]
+    right /= (2.0 * j)[:, None]
+    bands = np.ones((3, count - 1), dtype=np.complex128)
+    bands[0, 1:], bands[2, :-1] = step[:-1], -step[1:]
+    sizes = np.abs([complex(ive(order, np.complex128(root))) for order in (0, 1)])
+    first = int(np.argmax(sizes))
+    if first == 0:
+        right[0, -1] = 2.0 * step[0]
+    else:
+        right[:2, -1] = -1.0, step[1]
+        bands[1, 0], bands[2, 0] = -2.0 * step[0], 0.0
+    solved = solve_banded((1, 1), bands, right, overwrite_ab=True, overwrite_b=True, check_finite=False)
+    found = np.empty((count, columns + 1), dtype=np.complex128)
+    found[1:] = solved
+    found[0] = solved[0]
+    found[first, :-1], found[first, -1] = 0.0, 1.0
+    at_start = found[::2].sum(axis=0) - found[1::2].sum(axis=0)
+    series: Complex = found[:, :-1] + np.outer(found[:, -1], (initial - at_start[:-1]) / at_start[-1])
+    return series

@@ -1,0 +1,222 @@
+"""Machines that a law drives: made from matrices, masses or systems, and asked for responses and constants."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+
+from optlaws.laws import MotionLaw
+from optlaws.mechanisms.checks import motion_law
+from optlaws.mechanisms.machine.masses import Link, assembly, named_outputs
+from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse
+from optlaws.mechanisms.machine.state_space import SYMBOLS, StateSpace
+from optlaws.mechanisms.machine.systems import matrices
+from optlaws.numbers import not_negative, positive
+
+
+@dataclass(frozen=True, init=False, repr=False)
+class Machine(StateSpace):
+    """A linear machine that a law drives: x' = A x + B w, y = C x + D w, in durations of the rise.
+
+    The machine is at rest before the law begins. Made from matrices as here, from matrices in seconds (`from_units`),
+    from masses, springs and dampers (`from_masses`) or from a system of scipy.signal or python-control
+    (`from_system`). Equal where the matrices and the names are.
+
+    Parameters
+    ----------
+    A, B, C, D
+        Matrices by rows, shapes (states, states), (states, inputs), (outputs, states) and (outputs, inputs); D is 0
+        unless given.
+    inputs
+        What of the law the columns of B and D belong to: "a" displacement, "b" velocity, "c" acceleration, or several.
+    outputs
+        Names of the outputs; the first one is what counts where none is named.
+
+    Raises
+    ------
+    InputError
+        If the matrices do not fit each other, a number is not finite, or the machine is unstable.
+
+    Examples
+    --------
+    >>> from optlaws import smoothstep
+    >>> machine = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
+    >>> machine
+    Machine(states=2, inputs='a', outputs=['position'])
+    >>> machine.response(smoothstep(4))["position"](0.5)
+    0.489570
+    """
+
+    @classmethod
+    def from_masses(
+        cls,
+        masses: Mapping[str, float],
+        links: Sequence[Link | Sequence[Any]],
+        *,
+        drive: str | tuple[str, str],
+        outputs: Mapping[str, str] | Sequence[str] | None = None,
+        duration: float = 1.0,
+        stroke: float = 1.0,
+    ) -> Self:
+        """The machine of masses, springs and dampers.
+
+        Parameters
+        ----------
+        masses
+            Masses in kg, or moments of inertia in kg m², by name; that of the driven one may be 0.
+        links
+            Springs with dampers: `Link("motor", "load", stiffness=400, damping=0.4)`, or such a tuple. "ground" is
+            what stands still.
+        drive
+            The mass whose displacement is the law; or two, the law being the second one's distance from the first:
+            ("camshaft", "roller").
+        outputs
+            Outputs by the names they are to have, or a list of them; all there are unless given: "drive force";
+            "position", "velocity" and "acceleration" of a mass, such as "position load"; "deflection" and "force" of a
+            link, such as "force motor-load".
+        duration, stroke
+            Duration of the rise, s, and its stroke, m or rad; 1 where all numbers are dimensionless.
+
+        Raises
+        ------
+        InputError
+            If a name is unknown or a number out of range.
+
+        Examples
+        --------
+        >>> axis = Machine.from_masses(
+        ...     {"motor": 1.0, "load": 2.0},
+        ...     [Link("motor", "load", stiffness=800.0, damping=2.0)],
+        ...     drive="motor",
+        ...     outputs={"motor torque": "drive force", "belt force": "force motor-load"},
+        ... )
+        >>> axis
+        Machine(states=2, inputs='abc', outputs=['motor torque', 'belt force'])
+        """
+        found = assembly(masses, links, drive)
+        names = named_outputs(found, outputs)
+        A, B, C, D = found.matrices(list(names.values()))
+        used = [i for i in range(3) if i == 0 or B[:, i].any() or D[:, i].any()]
+        inputs = "".join(SYMBOLS[i] for i in used)
+        return cls.from_units(
+            A, B[:, used], C, D[:, used], duration=duration, stroke=stroke, inputs=inputs, outputs=list(names)
+        )
+
+    @classmethod
+    def from_system(
+        cls,
+        system: Any,  # noqa: ANN401 - of any package
+        *,
+        inputs: str = "a",
+        outputs: Sequence[str] = (),
+        duration: float = 1.0,
+        stroke: float = 1.0,
+    ) -> Self:
+        """The machine of a system of scipy.signal or python-control, continuous in time.
+
+        Parameters
+        ----------
+        system
+            `scipy.signal.StateSpace`, `TransferFunction` or `ZerosPolesGain`, or `control.ss`, `control.tf`.
+        inputs
+            What of the law its inputs are, in their order: "a" displacement, "b" velocity, "c" acceleration.
+        outputs
+            Names of its outputs.
+        duration, stroke
+            Duration of the rise in the system's unit of time, and its stroke.
+
+        Raises
+        ------
+        InputError
+            If it is no such system.
+
+        Examples
+        --------
+        >>> from scipy.signal import TransferFunction
+        >>> Machine.from_system(TransferFunction([400], [1, 2, 400]), outputs=["position"])
+        Machine(states=2, inputs='a', outputs=['position'])
+        """
+        A, B, C, D = matrices(system)
+        return cls.from_units(A, B, C, D, duration=duration, stroke=stroke, inputs=inputs, outputs=outputs)
+
+    def at_speed(self, factor: float) -> Self:
+        """The same machine run `factor` times as fast: the rise takes 1/factor of its duration.
+
+        Raises
+        ------
+        InputError
+            If the factor is not above 0.
+
+        Examples
+        --------
+        >>> Machine([[-2.0]], [[2.0]], [[1.0]]).at_speed(2.0).A
+        ((-1.0,),)
+        """
+        duration = 1.0 / positive(factor, "factor")
+        A, B, C, D = (np.array(one) for one in (self.A, self.B, self.C, self.D))
+        return self.from_units(A, B, C, D, duration=duration, inputs=self.inputs, outputs=self.outputs)
+
+    def response(self, law: MotionLaw, *, dwell: float = 0.0) -> MachineResponse:
+        """What the machine does during a rise and the dwell after it.
+
+        Parameters
+        ----------
+        law
+            The law that drives it; the machine is at rest before.
+        dwell
+            Duration of the dwell that is looked at, in durations of the rise.
+
+        Raises
+        ------
+        InputError
+            If `law` is no motion law or the dwell is below 0.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> machine = Machine([[0, 1], [-400, 0]], [[0], [400]], [[1, 0]], outputs=["position"])
+        >>> machine.response(smoothstep(4), dwell=1.0).dwell_peak("position")
+        Peak(value=1.004147, k=1.128319)
+        """
+        return MachineResponse(self, motion_law(law), not_negative(dwell, "dwell"))
+
+    def cycle(
+        self, rise: MotionLaw, fall: MotionLaw | None = None, *, dwell: float, fall_duration: float = 1.0, rest: float
+    ) -> MachineCycle:
+        """What the machine does steadily when the law rises, dwells, returns and rests again and again.
+
+        Parameters
+        ----------
+        rise
+            Law of the rise.
+        fall
+            Law of the return, run from its end of the rise as a(1) - (fall(k) - fall(0)); the rise's own unless given.
+        dwell, rest
+            Durations of the upper and of the lower dwell, in durations of the rise; 0 or more.
+        fall_duration
+            Duration of the return, in durations of the rise.
+
+        Raises
+        ------
+        InputError
+            If a duration is out of range, the return does not lead back, or the machine is in resonance with the
+            cycle.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> machine = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
+        >>> machine.cycle(smoothstep(4), dwell=0.5, rest=1.0).peak("position")
+        Peak(value=1.00..., k=...)
+        """
+        return MachineCycle(
+            self,
+            motion_law(rise, "rise"),
+            motion_law(rise if fall is None else fall, "fall"),
+            not_negative(dwell, "dwell"),
+            positive(fall_duration, "fall_duration"),
+            not_negative(rest, "rest"),
+        )

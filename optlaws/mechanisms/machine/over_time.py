@@ -1,0 +1,278 @@
+"""What a law does to a machine: its outputs in the motion and the dwell after it, and over a cycle that repeats."""
+
+from __future__ import annotations
+
+from abc import abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw, Peak
+from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws.mechanisms.machine import drives
+from optlaws.mechanisms.machine.dynamics import RADIANS, Drive, Panel
+from optlaws.mechanisms.machine.output_curve import OutputCurve
+from optlaws.mechanisms.machine.state_space import StateSpace
+from optlaws.series import chebyshev
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+BRIEF = 1e-12  # a dwell shorter than this is none
+RETURNED = 1e-9
+RESONANT = 1e-9
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MachineMotion:
+    """The outputs of a machine over time, by their names: each a curve.
+
+    Attributes
+    ----------
+    machine
+        The machine.
+    """
+
+    machine: StateSpace
+
+    def __getitem__(self, output: str) -> OutputCurve:
+        """The curve of an output.
+
+        Raises
+        ------
+        InputError
+            If there is no such output.
+        """
+        self.machine.place(output)
+        if output not in self._curves:
+            self._curves[output] = self._curve(output)
+        return self._curves[output]
+
+    def peak(self, output: str) -> Peak:
+        """The greatest magnitude of an output, with its place.
+
+        Raises
+        ------
+        InputError
+            If there is no such output.
+        """
+        return self[output].peak(0)
+
+    def extrema(self, output: str) -> tuple[Peak, Peak]:
+        """Minimum and maximum of an output, signed.
+
+        Raises
+        ------
+        InputError
+            If there is no such output.
+        """
+        return self[output].extrema(0)
+
+    def rms(self, output: str) -> float:
+        """Root mean square of an output.
+
+        Raises
+        ------
+        InputError
+            If there is no such output.
+        """
+        return self[output].rms(0)
+
+    @kept_property
+    def _curves(self) -> dict[str, OutputCurve]:
+        return {}
+
+    def _curve(self, output: str) -> OutputCurve:
+        states, direct = self.machine.output_rows(output)
+        panels = self._panels
+        parts = tuple(trimmed(one.output(states, direct)[:, 0]) for one in panels)
+        starts, lengths = (np.array([getattr(one, name) for one in panels]) for name in ("start", "length"))
+        jumps = self._velocity_jumps if direct[2] else []
+        impulses = np.array([k for k, _ in jumps]), np.array([np.copysign(np.inf, direct[2] * b) for _, b in jumps])
+        return OutputCurve(output, starts, lengths, parts, impulses)
+
+    @property
+    @abstractmethod
+    def _panels(self) -> list[Panel]:
+        """The machine's states."""
+
+    @property
+    @abstractmethod
+    def _velocity_jumps(self) -> list[tuple[float, float]]:
+        """Where the law's velocity jumps inside, so that its acceleration is an impulse there."""
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MachineResponse(MachineMotion):
+    """The outputs of a machine during a rise, 0 <= k <= 1, and the dwell after it; made by `Machine.response`.
+
+    Attributes
+    ----------
+    law
+        The law that drives it, from rest.
+    dwell
+        Duration of the dwell, in durations of the rise.
+
+    Examples
+    --------
+    >>> from optlaws import Machine, smoothstep
+    >>> mass = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
+    >>> response = mass.response(smoothstep(4), dwell=0.5)
+    >>> response["position"](0.5), response.rise_peak("position"), response.dwell_peak("position")
+    (0.489570, Peak(value=1.003509, k=0.886102), Peak(value=1.003445, k=1.179061))
+    """
+
+    law: MotionLaw
+    dwell: float
+
+    def rise_peak(self, output: str) -> Peak:
+        """The greatest magnitude of an output during the rise.
+
+        Raises
+        ------
+        InputError
+            If there is no such output.
+        """
+        return self._greatest(output, (0.0, 1.0))
+
+    def dwell_peak(self, output: str) -> Peak:
+        """The greatest magnitude of an output during the dwell.
+
+        Raises
+        ------
+        InputError
+            If there is no such output, or no dwell was asked for.
+        """
+        if self.dwell <= BRIEF:
+            raise InputError("this response has no dwell: ask for one, machine.response(law, dwell=1.0)")
+        return self._greatest(output, (1.0, self[output].interval[1]))
+
+    def _greatest(self, output: str, within: tuple[float, float]) -> Peak:
+        low, high = self[output].extrema(0, within)
+        return high if high.value >= -low.value else Peak(-low.value, low.k)
+
+    @kept_property
+    def _panels(self) -> list[Panel]:
+        level = np.array([float(self.law.a(0.0))])
+        found = drives.of_law(self.law)
+        if self.dwell > BRIEF:
+            found.append(drives.rest(1.0, self.dwell, np.array([float(self.law.a(1.0))])))
+        return self.machine.dynamics.moved(found, self.machine.settled(level))[0]
+
+    @property
+    def _velocity_jumps(self) -> list[tuple[float, float]]:
+        return jumps(self.law)
+
+    def __repr__(self) -> str:
+        return f"MachineResponse({self.machine!r}, {self.law!r}, dwell={self.dwell:g})"
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class MachineCycle(MachineMotion):
+    """The steady outputs of a machine over a cycle that repeats; made by `Machine.cycle`. Time is in rises' durations.
+
+    Attributes
+    ----------
+    rise, fall
+        Laws of the rise and of the return.
+    dwell, fall_duration, rest
+        Durations of what follows the rise, in durations of the rise.
+
+    Examples
+    --------
+    >>> from optlaws import Machine, smoothstep
+    >>> mass = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
+    >>> cycle = mass.cycle(smoothstep(4), dwell=0.5, rest=1.0)
+    >>> cycle.period, round(cycle["position"](0.0) - cycle["position"](3.5), 12) + 0.0
+    (3.5, 0.0)
+    """
+
+    rise: MotionLaw
+    fall: MotionLaw
+    dwell: float
+    fall_duration: float
+    rest: float
+
+    def __post_init__(self) -> None:
+        strokes = [float(law.a(1.0)) - float(law.a(0.0)) for law in (self.rise, self.fall)]
+        if abs(strokes[1] - strokes[0]) > RETURNED * max(1.0, abs(strokes[0])):
+            raise InputError(f"fall must lead back over the rise's stroke {strokes[0]:g}, but has {strokes[1]:g}")
+        self._panels  # noqa: B018 - a cycle in resonance is refused at once
+
+    @property
+    def period(self) -> float:
+        """Duration of the cycle, in durations of the rise."""
+        return 1.0 + self.dwell + self.fall_duration + self.rest
+
+    @kept_property
+    def _panels(self) -> list[Panel]:
+        low, high = (np.array([float(self.rise.a(k))]) for k in (0.0, 1.0))
+        back = 1.0 + self.dwell
+        rise, fall = drives.of_law(self.rise), drives.of_law(self.fall, back, self.fall_duration, float(high[0]), -1.0)
+        found = around(rise, fall, (high, low), (self.dwell, self.fall_duration, self.rest))
+        return steady(self.machine, found)
+
+    @property
+    def _velocity_jumps(self) -> list[tuple[float, float]]:
+        back = 1.0 + self.dwell
+        falling = [(back + self.fall_duration * k, -b / self.fall_duration) for k, b in jumps(self.fall)]
+        return [*jumps(self.rise), *falling]
+
+    def __repr__(self) -> str:
+        return f"MachineCycle({self.machine!r}, period={self.period:g})"
+
+
+def around(
+    rise: Sequence[Drive], fall: Sequence[Drive], levels: tuple[Array, Array], durations: tuple[float, float, float]
+) -> list[Drive]:
+    """A cycle: rise, dwell at the upper level, return, rest at the lower one; `durations` are those after the rise."""
+    (high, low), (dwell, fall_duration, pause) = levels, durations
+    found = list(rise)
+    if dwell > BRIEF:
+        found.append(drives.rest(1.0, dwell, high))
+    found += fall
+    if pause > BRIEF:
+        found.append(drives.rest(1.0 + dwell + fall_duration, pause, low))
+    return found
+
+
+def steady(machine: StateSpace, cycle: Sequence[Drive], radians: float = RADIANS) -> list[Panel]:
+    """The motion that comes back after a cycle, a column for each of the cycle's.
+
+    Raises
+    ------
+    InputError
+        If there is none, for the machine is in resonance with the cycle or drifts.
+    """
+    dynamics, columns = machine.dynamics, cycle[0].series.shape[2]
+    size = len(dynamics.roots)
+    last = cycle[-1]
+    period, before = last.start + last.length - cycle[0].start, last.ends[1][1]
+    nothing = np.zeros((size, columns), dtype=np.complex128)
+    still = [drives.rest(0.0, period, np.zeros(size))]
+    forced = dynamics.moved(cycle, nothing, radians=radians, before=before)[1]
+    free = dynamics.moved(still, np.eye(size, dtype=np.complex128), radians=radians)[1]
+    returned = np.eye(size) - free
+    if np.linalg.svd(returned, compute_uv=False)[-1] < RESONANT:
+        raise InputError(
+            f"the machine has no steady motion: a vibration without damping is in resonance with a cycle of {period:g} "
+            "durations of the rise, or a state drifts; give it damping or change the cycle"
+        )
+    initial: Complex = np.linalg.solve(returned, forced).astype(np.complex128)
+    return dynamics.moved(cycle, initial, radians=radians, before=before)[0]
+
+
+def jumps(law: MotionLaw) -> list[tuple[float, float]]:
+    """Where the velocity of a law jumps inside, and by how much."""
+    return list(law.jumps(1)) if isinstance(law, PiecewiseLaw) else []
+
+
+def trimmed(series: Array) -> Array:
+    """A series without the coefficients at its end that are rounding."""
+    size = np.abs(series)
+    kept = np.flatnonzero(size > chebyshev.NEGLIGIBLE * size.max())
+    return series[: kept[-1] + 1] if len(kept) else np.zeros(1)

@@ -1,0 +1,279 @@
+"""Linear machines as matrices: x' = A x + B w and y = C x + D w, w being what the law is and what it does."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.mechanisms.machine.dynamics import Dynamics
+from optlaws.numbers import MAGNITUDE_LIMIT, positive, real_times
+from optlaws.suggest import unknown_key
+
+Array = NDArray[np.float64]
+Matrix = tuple[tuple[float, ...], ...]
+
+Rows = NDArray[Any] | Sequence[Sequence[float]]
+
+SYMBOLS = "abc"
+_ENTRIES = ("A", "B", "C", "D", "inputs", "outputs")
+MOST_STATES = 100
+MOST_OUTPUTS = 100
+LONGEST_NAME = 80
+FASTEST = 1e5  # radians of a vibration in the rise, as for followers
+STIFFEST = 1e8  # the same for what decays
+UNSTABLE = 1e-7  # of the fastest root, what its rounding may be
+SETTLED = 1e-9
+
+
+@dataclass(frozen=True, init=False, repr=False)
+class StateSpace:
+    """x' = A x + B w, y = C x + D w in durations of the rise; w are those of a, b and c that `inputs` names.
+
+    Attributes
+    ----------
+    A, B, C, D
+        Matrices by rows, shapes (states, states), (states, inputs), (outputs, states) and (outputs, inputs).
+    inputs
+        What the columns of B and D belong to: "a" displacement, "b" velocity, "c" acceleration, such as "ab".
+    outputs
+        Names of the outputs.
+    """
+
+    A: Matrix
+    B: Matrix
+    C: Matrix
+    D: Matrix
+    inputs: str
+    outputs: tuple[str, ...]
+
+    def __init__(
+        self, A: Rows, B: Rows, C: Rows, D: Rows = (), *, inputs: str = "a", outputs: Sequence[str] = ()
+    ) -> None:
+        _check_inputs(inputs)
+        square = _matrix(A, "A", limit=MOST_STATES)
+        if square.shape[0] != square.shape[1]:
+            raise InputError(f"A must have as many columns as rows, one for each state, got shape {square.shape}")
+        size, count = len(square), len(inputs)
+        load = _matrix(B, "B", (size, count), f"a row for each of {size} states, a column for each of its inputs")
+        rows = _matrix(C, "C", (None, size), f"a row for each output, a column for each of {size} states")
+        direct = np.zeros((len(rows), count))
+        if not _nothing(D):
+            says = f"a row for each of {len(rows)} outputs, a column for each input"
+            direct = _matrix(D, "D", (len(rows), count), says)
+        for name, one in zip("ABCD", (square, load, rows, direct), strict=True):
+            object.__setattr__(self, name, tuple(map(tuple, one.tolist())))
+        object.__setattr__(self, "inputs", inputs)
+        object.__setattr__(self, "outputs", _names(outputs, len(rows)))
+        self._check_stability()
+
+    def _check_stability(self) -> None:
+        roots = self.dynamics.roots
+        size = float(np.abs(roots).max())
+        worst = complex(roots[int(np.argmax(roots.real))])
+        if worst.real > UNSTABLE * max(size, 1.0):
+            raise InputError(
+                f"the machine is unstable: its root {worst.real:.6g}{worst.imag:+.6g}i grows with time"
+                "; left to itself it must rest or vibrate: check the signs in A"
+            )
+        if self.dynamics.fastest > FASTEST or self.dynamics.decay > STIFFEST:
+            raise InputError(
+                f"the machine's fastest root is {size:.3g} in the duration of the rise: beyond {FASTEST:g} radians it "
+                f"is as good as rigid, and beyond a decay of {STIFFEST:g} without delay: leave that part out"
+            )
+
+    @classmethod
+    def from_units(
+        cls,
+        A: Rows,
+        B: Rows,
+        C: Rows,
+        D: Rows = (),
+        *,
+        duration: float,
+        stroke: float = 1.0,
+        inputs: str = "a",
+        outputs: Sequence[str] = (),
+    ) -> Self:
+        """The machine of matrices in seconds, run through a rise of this duration and stroke; outputs keep their units.
+
+        Parameters
+        ----------
+        A, B, C, D
+            Matrices for time in seconds and for a displacement, velocity and acceleration of the input in its units.
+        duration
+            Duration of the rise, s.
+        stroke
+            Stroke of the rise, in units of the input's displacement.
+        inputs, outputs
+            As of `Machine`.
+
+        Raises
+        ------
+        InputError
+            If a number is out of range, or the matrices do not fit.
+        """
+        T, h = positive(duration, "duration"), positive(stroke, "stroke")
+        _check_inputs(inputs)
+        units = np.array([h / T ** SYMBOLS.index(one) for one in inputs])
+        scaled = _scaled(A, "A", T), _scaled(B, "B", T * units), C, _scaled(D, "D", units)
+        return cls(*scaled, inputs=inputs, outputs=outputs)
+
+    @kept_property
+    def dynamics(self) -> Dynamics:
+        """The equation in triangular form."""
+        return Dynamics(np.array(self.A), self.load)
+
+    @kept_property
+    def load(self) -> Array:
+        """B with a column for each of a, b and c."""
+        return _spread(np.array(self.B), self.inputs)
+
+    @kept_property
+    def direct(self) -> Array:
+        """D with a column for each of a, b and c."""
+        return _spread(np.array(self.D), self.inputs)
+
+    def output_rows(self, output: str) -> tuple[NDArray[np.complex128], Array]:
+        """What turns the triangular form's states into an output, and what turns a, b and c into it."""
+        place = self.place(output)
+        return np.array(self.C[place]) @ self.dynamics.out_of, self.direct[place]
+
+    def place(self, output: str | None) -> int:
+        """Which output a name is; the first where none is named.
+
+        Raises
+        ------
+        InputError
+            If there is no such output.
+        """
+        if output is None:
+            return 0
+        if output not in self.outputs:
+            raise InputError(unknown_key(output, self.outputs, "output of the machine"))
+        return self.outputs.index(output)
+
+    def settled(self, levels: Array) -> NDArray[np.complex128]:
+        """States at rest under displacements of the law, one column for each, in the triangular form.
+
+        Raises
+        ------
+        InputError
+            If there is none: the machine would drift.
+        """
+        right = -np.outer(self.load[:, 0], levels)
+        if not right.any():
+            return np.zeros(right.shape, dtype=np.complex128)
+        A = np.array(self.A)
+        states = np.linalg.lstsq(A, right, rcond=None)[0]
+        if np.abs(A @ states - right).max() > SETTLED * np.abs(right).max():
+            raise InputError(
+                "the machine has no state of rest while the law stands away from 0: A x + B a = 0 has no solution"
+            )
+        return np.asarray(self.dynamics.into @ states)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict.
+
+        Examples
+        --------
+        >>> StateSpace([[-2.0]], [[2.0]], [[1.0]]).to_dict()["A"]
+        [[-2.0]]
+        """
+        plain: dict[str, Any] = {name: [list(row) for row in getattr(self, name)] for name in "ABCD"}
+        return plain | {"inputs": self.inputs, "outputs": list(self.outputs)}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """Read what `to_dict` wrote.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing, unknown or wrong.
+        """
+        if not isinstance(data, Mapping):
+            raise InputError(f"a machine must be a table of A, B, C, D, inputs and outputs, got {shortened(data)}")
+        for name in data:
+            if name not in _ENTRIES:
+                raise InputError(unknown_key(name, _ENTRIES, "entry of a machine"))
+        for name in "ABC":
+            if name not in data:
+                raise InputError(f"a machine needs its matrix {name}")
+        return cls(**{str(name): value for name, value in data.items()})
+
+    def __repr__(self) -> str:
+        names = ", ".join(map(repr, self.outputs[:4])) + (", ..." if len(self.outputs) > 4 else "")
+        return f"{type(self).__name__}(states={len(self.A)}, inputs={self.inputs!r}, outputs=[{names}])"
+
+
+def _check_inputs(inputs: Any) -> None:  # noqa: ANN401 - whatever users give
+    known = isinstance(inputs, str) and inputs != "" and set(inputs) <= set(SYMBOLS)
+    if not known or len(set(inputs)) < len(inputs):
+        raise InputError(
+            'inputs must name what of the law the columns of B belong to, each once: "a" displacement, '
+            f'"b" velocity, "c" acceleration, such as "a" or "ab", got {shortened(inputs)}'
+        )
+
+
+def _spread(matrix: Array, inputs: str) -> Array:
+    found = np.zeros((len(matrix), 3))
+    found[:, [SYMBOLS.index(one) for one in inputs]] = matrix
+    return found
+
+
+def _matrix(
+    value: Any,  # noqa: ANN401 - whatever users have as a matrix
+    name: str,
+    shape: tuple[int | None, int] | None = None,
+    says: str = "",
+    limit: int = MOST_OUTPUTS,
+) -> Array:
+    try:
+        found = real_times(value)
+    except InputError:
+        raise InputError(f"{name} must be a matrix of finite numbers, got {shortened(value)}") from None
+    if found.ndim != 2 or not found.size or max(found.shape) > limit or np.abs(found).max() > MAGNITUDE_LIMIT:
+        raise InputError(f"{name} must be a matrix, a list of rows, at most {limit} of them, got {shortened(value)}")
+    if shape is not None and any(want not in {None, have} for want, have in zip(shape, found.shape, strict=True)):
+        raise InputError(f"{name} must have {says}, got shape {found.shape}")
+    return found + 0.0
+
+
+def _nothing(value: Any) -> bool:  # noqa: ANN401
+    return isinstance(value, Sequence) and not isinstance(value, str) and not len(value)
+
+
+def _scaled(value: Any, name: str, factor: Any) -> Any:  # noqa: ANN401
+    """A matrix times numbers, where it is one; what is none is refused elsewhere."""
+    if _nothing(value):
+        return value
+    found = _matrix(value, name)
+    return found * factor if np.ndim(factor) == 0 or found.shape[1] == len(factor) else found
+
+
+def _listed(names: Any) -> tuple[Any, ...]:  # noqa: ANN401 - they are checked later
+    if isinstance(names, str):
+        return (names,)
+    if not isinstance(names, Iterable):
+        raise InputError(f"outputs must be the outputs' names, got {shortened(names)}")
+    return tuple(names)
+
+
+def _names(names: Any, count: int) -> tuple[str, ...]:  # noqa: ANN401
+    given = _listed(names)
+    if not given:
+        return tuple(f"output {i}" for i in range(1, count + 1))
+    for one in given:
+        plain = isinstance(one, str) and one.strip() and one.isprintable() and not set(one) & set("\"'\\")
+        if not plain or len(one) > LONGEST_NAME:
+            raise InputError(f"an output's name must be a short text without quotes, got {shortened(one)}")
+    if len(given) != count or len(set(given)) != count:
+        raise InputError(f"outputs must be {count} different names, one for each row of C, got {shortened(names)}")
+    return given

@@ -1,0 +1,240 @@
+"""What machines do: against an integrator, against python-control, against followers, and over cycles."""
+
+from collections.abc import Callable, Sequence
+from types import SimpleNamespace
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy import signal
+
+from optlaws import Follower, InputError, Link, Machine, MotionLaw, PiecewiseLaw, catalogue, savin, smoothstep
+from optlaws.laws.segments.segment import PolynomialSegment
+from tests.mechanisms.machine.random_machines import KINDS, integrated, random_case
+
+K = np.linspace(0.0, 1.4, 29)[1:]
+LAWS: dict[str, MotionLaw] = {
+    "polynomial": savin("III", 7.2),
+    "sines": catalogue["cycloidal"].law,
+    "modified trapezoid": catalogue["modified-trapezoid"].law,
+}
+
+
+def follower(nu: float, damping: float) -> Machine:
+    A = [[0.0, 1.0], [-(nu**2), -2.0 * damping * nu]]
+    C, D = [[1.0, 0.0], A[1]], [[0.0], [nu**2]]
+    return Machine(A, [[0.0], [nu**2]], C, D, outputs=["position", "acceleration"])
+
+
+def misses(seed: int) -> float:
+    """The greatest difference from DOP853, relative to the greatest output of a kind."""
+    case = random_case(seed)
+    response = case.machine.response(case.law, dwell=0.4)
+    found = np.array([response[name](K) for name in case.machine.outputs])
+    wanted = integrated(case, K)
+    return float(np.abs(found - wanted).max() / max(1.0, np.abs(wanted).max()))
+
+
+@pytest.mark.parametrize("seed", range(2 * len(KINDS)))
+def test_random_machines_against_an_integrator(seed: int) -> None:
+    assert misses(seed) < 1e-9
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(2 * len(KINDS), 200))
+def test_many_random_machines_against_an_integrator(seed: int) -> None:
+    assert misses(seed) < 1e-9
+
+
+@pytest.mark.parametrize("seed", range(len(KINDS)))
+def test_random_machines_against_python_control(seed: int) -> None:
+    control = pytest.importorskip("control")
+    case = random_case(seed)
+    made = Machine.from_system(
+        control.ss(*(np.array(one) for one in (case.machine.A, case.machine.B, case.machine.C, case.machine.D))),
+        inputs=case.machine.inputs,
+        outputs=case.machine.outputs,
+    )
+    assert made == case.machine
+    # the law as a chain of integrators that runs by itself: the response is a matrix exponential
+    powers = case.a.convert(kind=np.polynomial.Polynomial)
+    size, degree = len(case.machine.A), powers.degree()
+    first = ["abc".index(one) for one in case.machine.inputs]
+    select = np.eye(degree + 1)[first] if degree > 1 else np.eye(3, degree + 1)[first]
+    whole = np.block(
+        [
+            [np.array(case.machine.A), np.array(case.machine.B) @ select],
+            [np.zeros((degree + 1, size)), np.eye(degree + 1, k=1)],
+        ]
+    )
+    outputs = np.hstack([np.array(case.machine.C), np.array(case.machine.D) @ select])
+    start = [float(powers.deriv(i)(0.0)) if i else float(powers(0.0)) for i in range(degree + 1)]
+    load = np.array(case.machine.B)
+    jump = load[:, case.machine.inputs.index("c")] * start[1] if "c" in case.machine.inputs else np.zeros(size)
+    free = control.ss(whole, np.zeros((len(whole), 1)), outputs, np.zeros((len(outputs), 1)))
+    times = np.linspace(0.0, 1.0, 21)
+    wanted = control.initial_response(free, times, np.concatenate([jump, start])).outputs.reshape(len(outputs), -1)
+    response = made.response(case.law)
+    found = np.array([response[name](times) for name in made.outputs])
+    assert np.abs(found - wanted).max() < 1e-9 * max(1.0, np.abs(wanted).max())
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize(("nu", "damping"), [(3.0, 0.0), (20.0, 0.05), (20.0, 1.0), (15.0, 3.0), (500.0, 0.01)])
+def test_a_follower_is_a_machine(law: str, nu: float, damping: float) -> None:
+    machine, own = follower(nu, damping).response(LAWS[law], dwell=0.5), Follower(nu, damping).response(LAWS[law])
+    k = np.linspace(0.0, 1.5, 31)
+    assert machine["position"](k) == pytest.approx(own.a(k), abs=1e-12)
+    assert machine.rise_peak("acceleration").value == pytest.approx(own.peak(2).value, rel=1e-10)
+    assert machine["position"].extrema(0, (0.0, 1.0))[1].value == pytest.approx(own.extrema(0)[1].value, rel=1e-12)
+
+
+def test_peaks_are_above_every_point_and_reached() -> None:
+    for seed in range(len(KINDS)):
+        case = random_case(seed)
+        response = case.machine.response(case.law, dwell=0.7)
+        grid = np.linspace(0.0, 1.7, 8001)
+        for name in (case.machine.outputs[0], case.machine.outputs[-1]):
+            curve, values = response[name], np.abs(response[name](grid))
+            peak = response.peak(name)
+            assert values.max() <= peak.value * (1.0 + 1e-12)
+            assert peak.value - values.max() <= 1e-4 * peak.value + np.abs(np.diff(values)).max()
+            assert abs(curve(peak.k)) == pytest.approx(peak.value, rel=1e-9, abs=np.abs(np.diff(values)).max())
+            parts = (np.linspace(0.0, 1.0 - 1e-12, 4001), np.linspace(1.0, 1.7, 4001))
+            square = sum(float(np.trapezoid(curve(part) ** 2, part)) for part in parts)
+            assert response.rms(name) == pytest.approx(np.sqrt(square / 1.7), rel=1e-4)
+
+
+@pytest.mark.parametrize(("dwell", "rest", "fall_duration"), [(0.5, 1.0, 1.0), (0.0, 0.0, 0.7)])
+def test_cycles_are_those_of_a_follower_and_come_back(dwell: float, rest: float, fall_duration: float) -> None:
+    rise, fall = smoothstep(4), savin("III", 7.2)
+    own = Follower(20, 0.05).cycle(rise, fall, dwell=dwell, fall_duration=fall_duration, rest=rest)
+    cycle = follower(20, 0.05).cycle(rise, fall, dwell=dwell, fall_duration=fall_duration, rest=rest)
+    k = np.linspace(0.0, own.period, 57)[:-1]
+    assert cycle["position"](k) == pytest.approx(own.a(k), abs=1e-12)
+    assert cycle.peak("acceleration").value == pytest.approx(own.peak(2).value, rel=1e-11)
+    assert cycle.rms("acceleration") == pytest.approx(own.rms(2), rel=1e-11)
+
+
+def test_a_law_that_never_rests_keeps_its_cycle() -> None:
+    # uniform motion there and back: the velocity jumps where one cycle ends and the next begins
+    uniform = PiecewiseLaw([0, 1], [PolynomialSegment((0.0,), 1.0)])
+    machine = Machine([[-3.0]], [[0.0, 1.0]], [[1.0]], inputs="ac", outputs=["speed"])
+    speed = machine.cycle(uniform, dwell=0.0, rest=0.0)["speed"]
+    # each jump of b by -2 and 2 is followed by a decay
+    decay = np.exp(-3.0)
+    top = 2.0 / (1.0 + decay)
+    assert speed(0.25) == pytest.approx(top * np.exp(-0.75), rel=1e-12)
+    assert speed(1.25) == pytest.approx(-top * np.exp(-0.75), rel=1e-12)
+
+
+def test_impulses_have_no_bound() -> None:
+    law = PiecewiseLaw([0, 0.5, 1], [PolynomialSegment((0.0,), 0.5), PolynomialSegment((0.0,), 1.5)])
+    machine = Machine([[-3.0]], [[1.0]], [[0.0], [1.0]], [[1.0], [0.0]], inputs="c", outputs=["force", "speed"])
+    response = machine.response(law)
+    assert (response.peak("force").value, response.rms("force")) == (np.inf, np.inf)
+    assert response["speed"](0.25) == pytest.approx(0.5 * np.exp(-0.75), rel=1e-12)
+    assert response["speed"](0.75) == pytest.approx(0.5 * np.exp(-2.25) + np.exp(-0.75), rel=1e-12)
+
+
+def test_masses_keep_newtons_law_and_the_drive_does_the_work() -> None:
+    links: list[Link | Sequence[Any]] = [
+        Link("ground", "camshaft", 5e5, 20.0),
+        ("roller", "valve", 2e5, 10.0),
+        ("valve", "ground", 3e3),
+    ]
+    machine = Machine.from_masses(
+        {"camshaft": 2.0, "roller": 0.3, "valve": 0.5}, links, drive=("camshaft", "roller"), duration=0.01, stroke=0.02
+    )
+    response = machine.response(savin("IV", 11.0), dwell=0.5)
+    k = np.linspace(0.0, 1.5, 41)
+    force = {name: response[name](k) for name in machine.outputs}
+    moved = [force["position roller"] - force["position camshaft"], 0.02 * savin("IV", 11.0).a(np.minimum(k, 1.0))]
+    assert moved[0] == pytest.approx(moved[1], abs=1e-15)
+    roller = 0.3 * force["acceleration roller"] + force["force roller-valve"]
+    assert force["drive force"] == pytest.approx(roller, abs=1e-8 * np.abs(roller).max())
+    camshaft = 2.0 * force["acceleration camshaft"] - force["force ground-camshaft"]
+    assert camshaft == pytest.approx(-force["drive force"], abs=1e-8 * np.abs(camshaft).max())
+    valve = 0.5 * force["acceleration valve"] - force["force roller-valve"] + force["force valve-ground"]
+    assert valve == pytest.approx(np.zeros(41), abs=1e-8 * np.abs(camshaft).max())
+
+
+def test_seconds_and_speeds_are_units() -> None:
+    A, B = np.array([[0.0, 1.0], [-1.6e5, -40.0]]), np.array([[0.0], [1.6e5]])
+    first = Machine.from_units(A, B, [[1.0, 0.0]], duration=0.05, stroke=3.0)
+    second = Machine(0.05 * A, 3.0 * 0.05 * B, [[1.0, 0.0]])
+    assert np.allclose(first.A, second.A)
+    assert np.allclose(first.B, second.B)
+    faster = Machine.from_units(A, B, [[1.0, 0.0]], duration=0.025, stroke=3.0)
+    assert np.allclose(first.at_speed(2.0).A, faster.A, rtol=1e-14)
+    law = smoothstep(4)
+    assert first.at_speed(2.0).response(law).peak("output 1").value == pytest.approx(
+        faster.response(law).peak("output 1").value, rel=1e-13
+    )
+
+
+def test_values_are_those_of_their_contents() -> None:
+    machine = follower(20.0, 0.05)
+    assert Machine.from_dict(machine.to_dict()) == machine == follower(20.0, 0.05)
+    assert hash(machine) == hash(follower(20.0, 0.05))
+    assert machine != follower(20.0, 0.06)
+
+
+WRONG: dict[str, Callable[[], object]] = {
+    "A must have as many columns": lambda: Machine([[0, 1]], [[1]], [[1]]),
+    "B must have a row for each of 2 states": lambda: Machine([[0, 1], [-1, 0]], [[1]], [[1, 0]]),
+    "C must have a row for each output": lambda: Machine([[-1.0]], [[1]], [[1, 0]]),
+    "D must have a row for each of 1 outputs": lambda: Machine([[-1.0]], [[1]], [[1]], [[1, 2]]),
+    "A must be a matrix of finite numbers": lambda: Machine([[np.nan]], [[1]], [[1]]),
+    "B must be a matrix, a list of rows": lambda: Machine([[-1.0]], np.array([1.0]), [[1]]),
+    "unstable: its root 1": lambda: Machine([[1.0]], [[1]], [[1]]),
+    "as good as rigid": lambda: Machine([[0, 1e6], [-1e6, 0]], [[0], [1]], [[1, 0]]),
+    "inputs must name": lambda: Machine([[-1.0]], [[1]], [[1]], inputs="d"),
+    "outputs must be 1 different names": lambda: Machine([[-1.0]], [[1]], [[1]], outputs=["x", "y"]),
+    "without quotes": lambda: Machine([[-1.0]], [[1]], [[1]], outputs=["the 'best'"]),
+    "did you mean 'position'": lambda: follower(20, 0.1).response(smoothstep(4))["positon"],
+    "law must be a motion law": lambda: follower(20, 0.1).response("smooth"),  # type: ignore[arg-type]
+    "dwell must be": lambda: follower(20, 0.1).response(smoothstep(4), dwell=-1.0),
+    "has no dwell": lambda: follower(20, 0.1).response(smoothstep(4)).dwell_peak("position"),
+    "of which the motion is known": lambda: follower(20, 0.1).response(smoothstep(4))["position"](1.5),
+    "in resonance": lambda: follower(np.pi, 0.0).cycle(smoothstep(4), dwell=0.0, rest=0.0),
+    "fall must lead back": lambda: follower(9.0, 0.1).cycle(smoothstep(4), moved_twice(), dwell=0.0, rest=0.0),
+    "unknown mass 'q'": lambda: Machine.from_masses({"m": 1, "n": 2}, [("m", "q", 3)], drive="m"),
+    "at least two": lambda: Machine.from_masses({"m": 1}, [], drive="m"),
+    "joins two different": lambda: Link("m", "m", 3.0),
+    "stiffness must be": lambda: Link("m", "n", -3.0),
+    "the mass n must be": lambda: Machine.from_masses({"m": 1, "n": 0}, [("m", "n", 3)], drive="m"),
+    "drive must": lambda: Machine.from_masses({"m": 1, "n": 1}, [("m", "n", 3)], drive=("m", "m")),
+    "unknown output of these masses": lambda: Machine.from_masses(
+        {"m": 1, "n": 1}, [("m", "n", 3)], drive="m", outputs=["torque"]
+    ),
+    "a system must be": lambda: Machine.from_system(3),
+    "factor must be": lambda: follower(9.0, 0.1).at_speed(0.0),
+    "needs its matrix A": lambda: Machine.from_dict({}),
+    "unknown entry of a machine": lambda: Machine.from_dict({"A": [[-1]], "E": 1}),
+}
+
+
+def moved_twice() -> MotionLaw:
+    return PiecewiseLaw([0, 1], [PolynomialSegment((0.0,), 2.0)])
+
+
+@pytest.mark.parametrize("says", WRONG)
+def test_wrong_inputs_are_named(says: str) -> None:
+    with pytest.raises(InputError, match=says):
+        WRONG[says]()
+
+
+def test_discrete_systems_and_mere_gains_are_refused() -> None:
+    with pytest.raises(InputError, match="continuous in time"):
+        Machine.from_system(signal.StateSpace([[0.5]], [[1.0]], [[1.0]], [[0.0]], dt=0.1))
+    gain = SimpleNamespace(A=np.empty((0, 0)), B=np.empty((0, 1)), C=np.empty((1, 0)), D=[[2.0]])
+    with pytest.raises(InputError, match="a mere gain is no machine"):
+        Machine.from_system(gain)
+
+
+def test_no_state_of_rest_is_said() -> None:
+    drifting = Machine([[0.0]], [[1.0]], [[1.0]])
+    away = PiecewiseLaw([0, 1], [PolynomialSegment((0.0,), 1.0)], a0=0.5)
+    with pytest.raises(InputError, match="no state of rest"):
+        drifting.response(away).peak("output 1")
