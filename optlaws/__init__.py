@@ -93,6 +93,7 @@ declare(
         "optlaws.synthesis.spaces.splines": "bsplines",
     },
 )
+declare("plain constant", {"optlaws.mechanisms.loader.constants": "B_loader C_loader D_loader"})
 declare(
     "constant",
     {

@@ -11,8 +11,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.problem.fields import CONSTANTS
+from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.solution import Solution
 
 Array = NDArray[np.float64]
@@ -133,7 +133,7 @@ def value_of(solution: Solution, name: str) -> float:
     >>> round(value_of(synthesize(Problem(B=1.641, order=4)), "C"), 6)
     5.080702
     """
-    return FUNCTIONALS[name].value(solution.law)
+    return named(name).value(solution.law)
 
 
 def _shown(cell: float | str) -> str:

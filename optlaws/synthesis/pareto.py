@@ -15,7 +15,7 @@ from optlaws.numbers import real, whole
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.front import Front, undominated, value_of
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.problem.constants import FUNCTIONALS
+from optlaws.synthesis.problem.constants import FUNCTIONALS, PLAIN
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
@@ -230,7 +230,7 @@ def _checked(problem: object, over: Sequence[str], between: tuple[float, float] 
     names = tuple(over) if not isinstance(over, str) else tuple(name.strip() for name in over.split(","))
     if len(names) not in (2, 3) or len(set(names)) != len(names):
         raise InputError(f"over must name two or three constants, each once, such as ('B', 'C'); got {shortened(over)}")
-    for name, known in zip(names, [CONSTANTS] * (len(names) - 1) + [tuple(FUNCTIONALS)], strict=True):
+    for name, known in zip(names, [CONSTANTS] * (len(names) - 1) + [(*FUNCTIONALS, *PLAIN)], strict=True):
         if name not in known:
             raise InputError(unknown_key(name, known, "constant"))
         if problem.range(name) is not None:

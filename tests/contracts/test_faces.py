@@ -14,7 +14,7 @@ from optlaws.laws import MotionLaw
 from optlaws.laws.segments import Segment
 from optlaws.lazy import Registry
 from optlaws.synthesis import Basis
-from optlaws.synthesis.problem.constants import MAKERS
+from optlaws.synthesis.problem.constants import MAKERS, PLAIN
 from tests.contracts.faces import faces, stub
 from tests.documents import ROOT
 
@@ -24,6 +24,7 @@ REGISTRIES: dict[str, Registry[Any]] = {
     "segment": Segment.kinds,
     "basis": Basis.kinds,
     "constant": MAKERS,
+    "plain constant": PLAIN,
 }
 
 
@@ -65,6 +66,7 @@ def test_importing_optlaws_imports_no_subject() -> None:
         ("segment", "optlaws.laws.segments.segment import Segment; table = Segment.kinds"),
         ("basis", "optlaws.synthesis.spaces.bases import Basis; table = Basis.kinds"),
         ("constant", "optlaws.synthesis.problem.constants import MAKERS as table"),
+        ("plain constant", "optlaws.synthesis.problem.constants import PLAIN as table"),
     ],
 )
 def test_whoever_asks_first_sees_every_kind(subject: str, where: str) -> None:

@@ -1,7 +1,8 @@
-"""What no loader can beat at a peak velocity B of its executive law: least peak velocity, least peak acceleration."""
+"""What no loader can beat at a peak velocity B of its executive law: least peak velocity, acceleration, power."""
 
 from __future__ import annotations
 
+from collections.abc import Callable, Mapping
 from math import asin, cos, pi, sin, sqrt
 
 from optlaws.echo import shortened
@@ -9,6 +10,7 @@ from optlaws.errors import InputError
 from optlaws.numbers import positive
 
 HARMLESS = 4.0 / pi  # here the loader can run at constant acceleration, with C = 4
+EVEN_POWER = 1.5  # here it can run at constant power, with D = 9/4
 _SHARP = 1e-13
 
 
@@ -60,19 +62,68 @@ def loader_acceleration_limit(B: float) -> float:
     if found >= HARMLESS:
         rate = 0.5 * pi * found
         return rate * rate / (rate - 1.0)
+
+    def peak(angle: float) -> float:
+        rate = _rate(found, angle, 0.5 * pi)
+        return rate * rate / (1.0 + cos(angle) * (rate - 2.0))
+
+    return _least(found, peak)
+
+
+def loader_power_limit(B: float) -> float:
+    """Least peak power D_l of a loader whose executive link does not go back (b >= 0).
+
+    From B = 3/2 on it is r³ / (2 (r - 2/3)²) with r = 4B/3; for smaller B the loader has to slow down, run evenly for a
+    while, and slow down again, at constant power.
+
+    Parameters
+    ----------
+    B
+        Peak velocity of the executive law, above 1 (dimensionless); the law is symmetric with one top.
+
+    Raises
+    ------
+    InputError
+        If B is not above 1.
+
+    Examples
+    --------
+    >>> round(loader_power_limit(1.5), 12), round(loader_power_limit(1.875), 6)
+    (2.25, 2.32438)
+    """
+    found = _velocity(B)
+    if found >= EVEN_POWER:
+        rate = 4.0 * found / 3.0
+        return 0.5 * rate**3 / (rate - 2.0 / 3.0) ** 2
+
+    def peak(angle: float) -> float:
+        rate = _rate(found, angle, 4.0 / 3.0)
+        return 0.5 * rate**3 / (4.0 / 3.0 + cos(angle) * (rate - 2.0)) ** 2
+
+    return _least(found, peak)
+
+
+LIMITS: Mapping[str, Callable[[float], float]] = {
+    "B": loader_velocity_limit,
+    "C": loader_acceleration_limit,
+    "D": loader_power_limit,
+}
+
+
+def _rate(B: float, angle: float, slopes: float) -> float:
+    """How steep two equal slopes are between which the loader runs evenly at cos(angle) of its peak velocity."""
+    return (2.0 * sin(angle) - slopes) / (sin(angle) - 1.0 / B)
+
+
+def _least(B: float, peak: Callable[[float], float]) -> float:
+    """The least peak over the angles at which the loader may run evenly."""
     from scipy.optimize import minimize_scalar
 
     # the angle has to keep a distance from the end at which the rate is infinite
-    start = asin(1.0 / found)
+    start = asin(1.0 / B)
     bounds = (start + 1e-9 * (0.5 * pi - start), 0.5 * pi)
-    best = minimize_scalar(lambda angle: _two_slopes(found, angle), bounds=bounds, options={"xatol": _SHARP})
-    return float(min(best.fun, _two_slopes(found, 0.5 * pi)))
-
-
-def _two_slopes(B: float, angle: float) -> float:
-    """C_l of a loader that runs evenly at cos(angle) of its peak velocity between two equal slopes."""
-    rate = (2.0 * sin(angle) - 0.5 * pi) / (sin(angle) - 1.0 / B)
-    return rate * rate / (1.0 + cos(angle) * (rate - 2.0))
+    best = minimize_scalar(peak, bounds=bounds, options={"xatol": _SHARP})
+    return float(min(best.fun, peak(0.5 * pi)))
 
 
 def _velocity(B: float) -> float:

@@ -55,7 +55,7 @@ def _of_term(problem: Problem, term: Term) -> Fraction | None:
         return _of_constant(problem, "C")
     if isinstance(term, CombinedPeak | CombinedPower):
         return Fraction(term.least(problem.order))
-    return _of_constant(problem, _NAMES[term.name]) if term.name in _NAMES else None
+    return _of_constant(problem, _NAMES[term.name]) if term.name in _NAMES else term.limit(problem)
 
 
 def _of_constant(problem: Problem, constant: str) -> Fraction | None:

@@ -4,11 +4,13 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import replace
+from math import inf, isfinite
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.method.exchange import solve
+from optlaws.synthesis.problem.constants import Power
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 
@@ -17,14 +19,16 @@ Array = NDArray[np.float64]
 _SEED = 20010
 _RANDOM = 2
 _SPREAD = 0.3
+_AMPLE = 1.2
 
 
 def points(model: Model) -> Iterator[Array]:
     """Coordinates of the laws of least RMS of c, of least C, and some around them; D follows from the law."""
     problem = model.problem
     convex: list[Array] = []
+    bounds = {one: asked for one, asked in problem.bounds.items() if one.convex}
     for constant in ("rms_c", "C"):
-        optimum = solve(model_of(replace(problem, minimise=constant, D=None)).program).optimum
+        optimum = solve(model_of(replace(problem, minimise=constant, D=None, bounds=bounds)).program).optimum
         if optimum is not None:
             convex.append(model.coordinates(optimum.x))
             yield _completed(model, convex[-1])
@@ -57,6 +61,11 @@ def _completed(model: Model, coordinates: Array) -> Array:
     x = np.zeros(model.program.size)
     x[: model.space.terms] = coordinates
     law = model.space.law(coordinates)
+    own = {one.name: one for one in model.problem.constants if not (one.convex or isinstance(one, Power))}
     for name, place in model.places.items():
-        x[place] = law.peak(1).value if name == "B" else 2.0 * law.power_peak().value
+        value = own[name].value(law) if name in own else inf
+        if isfinite(value):
+            x[place] = _AMPLE * value
+        else:
+            x[place] = law.peak(1).value if name == "B" else 2.0 * law.power_peak().value
     return x

@@ -12,7 +12,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import ProductFamily, Program
+from optlaws.synthesis.families.energy import EnergyFamily
+from optlaws.synthesis.families.family import Family, ProductFamily, Program
 
 Array = NDArray[np.float64]
 
@@ -75,7 +76,7 @@ def units_of(program: Program) -> Units | None:
         if isinstance(family, ProductFamily):
             powers |= family.slack != 0.0
     variables = np.where(powers, size * size, size)
-    rows = np.array([size**2 if isinstance(one, ProductFamily) else size for one in program.families])
+    rows = np.array([_row_unit(one, size) for one in program.families])
     cost = program.objective * variables
     objective = float(np.abs(cost).max()) or 1.0
     scaled = Program(
@@ -85,3 +86,9 @@ def units_of(program: Program) -> Units | None:
         cost / objective,
     )
     return Units(scaled, variables, rows, size, objective)
+
+
+def _row_unit(family: Family, size: float) -> float:
+    if isinstance(family, EnergyFamily):
+        return 1.0
+    return size**2 if isinstance(family, ProductFamily) else size

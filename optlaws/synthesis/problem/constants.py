@@ -7,10 +7,11 @@ One more constant is one class: say how it reads off a law (`value`), which rows
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Callable
+from collections import ChainMap
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -26,6 +27,26 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _NO_ACCELERATION = 3  # the order from which laws begin and end without acceleration
+
+
+class Asked(Protocol):
+    """What a problem says of its laws, as far as a constant may need to know it."""
+
+    @property
+    def B(self) -> object:
+        """What is asked of the peak velocity."""
+
+    @property
+    def symmetric(self) -> bool:
+        """Whether a(k) + a(1-k) = 1."""
+
+    @property
+    def monotone(self) -> bool:
+        """Whether b >= 0."""
+
+    @property
+    def peak_at(self) -> float | None:
+        """Where b is greatest, if that is asked."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -72,6 +93,23 @@ class Functional(Term, ABC):
     def where(self, k: float) -> str:
         """What a certificate's place says, in words."""
         return f"k = {k:.4g}"
+
+    def check_problem(self, problem: Asked) -> None:
+        """Refuse a problem among whose laws the constant cannot be sought; the error says what helps."""
+
+    def limit(self, problem: Asked) -> Fraction | None:  # noqa: ARG002 - what it is may depend on it
+        """What no law of the problem is below, of whatever degree, if the constant knows more than its least value."""
+        return None
+
+    def convex_families(
+        self,
+        space: LawSpace,
+        slack: Array,
+        bound: float,
+        problem: Asked,  # noqa: ARG002 - a constant that is not convex may need it
+    ) -> tuple[Family, ...]:
+        """Convex rows that hold if the constant is at most slack . x + bound, for a bound of all laws."""
+        return self.families(space, slack, bound)
 
     @abstractmethod
     def value(self, law: MotionLaw) -> float:
@@ -187,5 +225,9 @@ rms_j = RootMeanSquare("rms_j", np.nan, convex=True, nu=3)
 
 FUNCTIONALS: dict[str, Functional] = {f.name: f for f in (B, C, C_plus, C_minus, D, J, jounce, rms_c, rms_j)}
 ALIASES: dict[str, Functional] = {"rms": rms_c}
+#: constants of other subjects without arguments, by their names: `C_loader`
+PLAIN: Registry[Functional] = Registry("plain constant")
+#: every constant that a name alone stands for
+WITHOUT_ARGUMENTS: Mapping[str, Functional] = ChainMap(FUNCTIONALS, ALIASES, PLAIN)
 #: what makes a constant from arguments, by the name that text calls it by: `C_cam(nu=20)`
 MAKERS: Registry[Callable[..., Functional]] = Registry("constant")

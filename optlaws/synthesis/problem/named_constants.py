@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import lru_cache
 
 from optlaws.errors import InputError
-from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, Functional
+from optlaws.synthesis.problem.constants import FUNCTIONALS, MAKERS, PLAIN, WITHOUT_ARGUMENTS, Functional
 from optlaws.synthesis.problem.expression import Expression, Term
 from optlaws.synthesis.problem.grammar import parse
 
@@ -24,7 +24,7 @@ def expression(text: str) -> Expression:
     >>> expression("0.5*C/4 + C_cam(nu=20)")
     0.125*C + C_cam(nu=20.0)
     """
-    return parse(text, FUNCTIONALS | ALIASES, MAKERS)
+    return parse(text, WITHOUT_ARGUMENTS, MAKERS)
 
 
 def named(text: str) -> Functional:
@@ -57,7 +57,7 @@ def is_named(term: Term) -> bool:
     True
     """
     text = repr(term)
-    if FUNCTIONALS.get(text) == term:
+    if FUNCTIONALS.get(text) == term or PLAIN.get(text) == term:
         return True
     if text.partition("(")[0] not in MAKERS:
         return False

@@ -11,7 +11,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import finite, real
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, Functional
+from optlaws.synthesis.problem.constants import MAKERS, WITHOUT_ARGUMENTS, Functional
 from optlaws.synthesis.problem.named_constants import is_named, named
 
 
@@ -183,14 +183,13 @@ class Bounds(Mapping[Functional, Range]):
 def _constant(key: Any) -> Functional:  # noqa: ANN401 - it is checked here
     if isinstance(key, Functional):
         return key
-    known = FUNCTIONALS | ALIASES
     if not isinstance(key, str):
         raise InputError(f"bounds are of constants such as 'rms_c' or rms_c, got {shortened(key)}")
     if "(" in key:
         return named(key)
-    if key not in known:
-        raise InputError(unknown_key(key, (*known, *MAKERS), "constant"))
-    return known[key]
+    if key not in WITHOUT_ARGUMENTS:
+        raise InputError(unknown_key(key, (*WITHOUT_ARGUMENTS, *MAKERS), "constant"))
+    return WITHOUT_ARGUMENTS[key]
 
 
 def read_bounds(most: Sequence[str], least: Sequence[str] = ()) -> dict[str, Range]:

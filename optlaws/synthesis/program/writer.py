@@ -94,8 +94,9 @@ def relaxed(problem: Problem, tangent: float) -> Model:
 
 @lru_cache(maxsize=64)
 def _relaxed(problem: Problem, tangent: float) -> Model:
-    writer = _Writer(problem, _objective_names(problem), extra=VariableName.POWER_ROOT)
-    writer.tangent = tangent
+    powers = relaxed_power(problem) is not None
+    writer = _Writer(problem, _objective_names(problem), extra=VariableName.POWER_ROOT if powers else None)
+    writer.tangent, writer.convex = tangent, True
     writer.objective(problem.objective)
     writer.constraints()
     return writer.model()
@@ -155,6 +156,7 @@ class _Writer:
         if extra is not None:
             variables = [*variables, extra]
         self.problem, self.power = problem, relaxed_power(problem)
+        self.convex = False
         self.space = space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
         self.places = {name: self.space.terms + i for i, name in enumerate(dict.fromkeys(variables))}
         self.size = self.space.terms + len(self.places)
@@ -186,7 +188,7 @@ class _Writer:
             if isinstance(leaf, Power) and VariableName.POWER_ROOT in self.places:
                 self._power(leaf, self.unit(leaf.name), 0.0)
             elif isinstance(leaf, Functional):
-                self.families += leaf.families(self.space, self.unit(repr(leaf)), 0.0)
+                self.families += self._rows(leaf, self.unit(repr(leaf)), 0.0)
         for term in dict.fromkeys(maxima(expression)):
             for i, part in enumerate(term.parts, 1):
                 self.row(names.maximum_part(i, repr(term)), self.sum(part) - self.unit(repr(term)), 0.0)
@@ -277,7 +279,13 @@ class _Writer:
         elif isinstance(constant, Power) and VariableName.POWER_ROOT in self.places:
             self._power(constant, np.zeros(self.size), limits.high)
         else:
-            self.families += constant.families(self.space, self.spare, limits.high)
+            self.families += self._rows(constant, self.spare, limits.high)
+
+    def _rows(self, constant: Functional, slack: Array, bound: float) -> tuple[Family, ...]:
+        constant.check_problem(self.problem)
+        if self.convex:
+            return constant.convex_families(self.space, slack, bound, self.problem)
+        return constant.families(self.space, slack, bound)
 
     def _window(self, name: str, window: Window) -> None:
         ends = (1.0 - 2.0 * window.stop, 1.0 - 2.0 * window.start)

@@ -22,6 +22,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import bounded
 from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
@@ -40,7 +41,8 @@ _NEAR, _SHARE = 2.0**-12, 2.0**-14
 class Contact:
     """A constraint at one k: which family of rows, with which sign, and its multiplier (dimensionless).
 
-    `direction` belongs to an RMS and to a complex amplitude: the unit vector by which its size is bounded from below.
+    `direction` belongs to an RMS and to a complex amplitude: the unit vector by which its size is bounded from below;
+    to the peak velocity of a loader: the coordinates of the law whose tangent bounds it.
 
     Examples
     --------
@@ -236,4 +238,17 @@ def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
             direction = np.array(contact.direction)
             row = family.tangent(float(u[0]), direction / max(float(np.linalg.norm(direction)), 1.0))
             return row[:-1] - family.slack, family.bound - float(row[-1])
+        if isinstance(family, EnergyFamily) and family.convex and len(contact.direction) <= program.size:
+            row = family.minorant(_on_equations(program, np.array(contact.direction)))
+            return row[:-1] - family.slack, family.bound - float(row[-1])
     return np.zeros(program.size), 0.0
+
+
+def _on_equations(program: Program, coordinates: Array) -> Array:
+    """Variables with these coordinates, or the nearest that keep the program's equations."""
+    x = np.zeros(program.size)
+    x[: len(coordinates)] = coordinates
+    for _ in range(2):
+        off = program.right - program.equalities @ x
+        x += np.linalg.lstsq(program.equalities, off, rcond=None)[0]
+    return x

@@ -8,12 +8,13 @@ import numpy as np
 
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import NormFamily
 from optlaws.synthesis.families.names import RowName, VariableName, velocity_at_peak
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.writer import Model, relaxed
+from optlaws.synthesis.program.writer import Model, relaxed, relaxed_power
 from optlaws.synthesis.proof.certificate import OBJECTIVE, RELAXED, VIOLATION, Certificate, Contact
 from optlaws.synthesis.proof.directions import turned
 from optlaws.synthesis.spaces.bases import PolynomialBasis
@@ -34,6 +35,10 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
     problem = model.problem
     if problem.convex:
         return certificate(model, optimum, OBJECTIVE)
+    if relaxed_power(problem) is None:
+        loose = relaxed(problem, 0.0)
+        state = solve(loose.program).optimum
+        return Certificate(problem, (), (), RELAXED) if state is None else certificate(loose, state, RELAXED)
     tangent = _needed_root(model, optimum) or float(np.sqrt(objective))
     best: Certificate | None = None
     warm: ActiveSet | None = None
@@ -99,6 +104,8 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
         for j, k in zip(own, family.k(optimum.u[own]), strict=True):
             if isinstance(family, ConeFamily):
                 direction = family.direction(optimum.x, float(optimum.u[j]))
+            if isinstance(family, EnergyFamily):
+                direction = tuple(model.coordinates(optimum.x).tolist())
             multiplier = float(optimum.multipliers[j])
             place = float(min(max(k, 0.0), 1.0))
             contacts.append(Contact(family.name, float(optimum.s[j]), place, multiplier, direction))

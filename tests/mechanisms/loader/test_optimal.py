@@ -1,5 +1,6 @@
 """Executive laws made for their loaders: other methods, limits, proofs by tangents, what is refused."""
 
+from dataclasses import replace
 from functools import cache
 from math import inf, pi, sqrt
 from typing import Any
@@ -15,9 +16,9 @@ from scipy.optimize import minimize
 from optlaws import (
     BalancedLaw,
     Chebyshev,
-    Functional,
     InfeasibleProblem,
     InputError,
+    MotionLaw,
     Pieces,
     Problem,
     balanced_law,
@@ -25,14 +26,15 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
-from optlaws.mechanisms.loader.constants import B_loader, C_loader
-from optlaws.mechanisms.loader.limits import loader_acceleration_limit, loader_velocity_limit
+from optlaws.mechanisms.loader.constants import B_loader, C_loader, D_loader
+from optlaws.mechanisms.loader.limits import loader_acceleration_limit, loader_power_limit, loader_velocity_limit
 from optlaws.mechanisms.loader.loader import loader
-from optlaws.mechanisms.loader.search import Task, tangent_bound
-from optlaws.mechanisms.loader.space import LoaderSpace
+from optlaws.synthesis.families.energy import EnergyFamily
+from optlaws.synthesis.program.writer import model_of, relaxed
+from optlaws.synthesis.proof.certificate import Contact, row_of
 
 CODES = ("K", "Co", "3-4-5 polynomial", "0510", "0307(1,5)", "0317(1,5)", "KC00", "KC05", "0040", "0000")
-SPACE = LoaderSpace(1.7, 3, 9)
+MODEL = model_of(Problem(B=1.7, order=3, minimise="B_loader", monotone=True))
 
 
 @cache
@@ -168,7 +170,15 @@ def corners() -> np.ndarray:
         synthesize(Problem(B=1.7, order=3, minimise=name, monotone=True)).law for name in ("C", "rms_c", "J", "C + J")
     ]
     own = [balanced_law(1.7, order=3, minimise=name).law for name in ("C_loader", "B_loader")]
-    return np.array([SPACE.projected(law) for law in (*least, *own)])
+    return np.array([coordinates(law) for law in (*least, *own)])
+
+
+def coordinates(law: MotionLaw) -> np.ndarray:
+    """Those of a law of the model, from its velocity at some places."""
+    family = MODEL.space.derivative(1, "b", np.zeros(MODEL.space.terms))
+    u = np.linspace(0.0, 1.0, 41)
+    columns = family.columns(u)[0]
+    return np.asarray(np.linalg.lstsq(columns[:, :-1], law.b(family.k(u)) - columns[:, -1])[0])
 
 
 SHARES = st.lists(st.floats(0.01, 1.0), min_size=6, max_size=6)
@@ -182,13 +192,14 @@ def mixed(shares: list[float]) -> np.ndarray:
 @settings(max_examples=15)
 @given(SHARES, SHARES)
 def test_no_law_is_below_a_limit_or_a_tangent(first: list[float], second: list[float]) -> None:
-    y = mixed(first)
-    one = loader(SPACE.law(y))
+    x = mixed(first)
+    one = loader(MODEL.space.law(x))
     assert loader_acceleration_limit(1.7) < one.C
     assert loader_velocity_limit(1.7) < one.B
-    task = Task(SPACE, {"B_loader": 1.0, "C": 0.05}, most=60.0)
-    peaks = one.B + 0.05 * one.executive.constants.C.value
-    assert tangent_bound(task, mixed(second)) <= peaks
+    assert loader_power_limit(1.7) < one.D
+    program = relaxed(MODEL.problem, 0.0).program
+    row, right = row_of(program, Contact("B_loader", 1.0, 0.0, 1.0, tuple(mixed(second).tolist())))
+    assert row @ np.append(x, one.B) <= right
 
 
 @pytest.mark.parametrize("name", CODES)
@@ -208,25 +219,16 @@ def test_the_law_of_constant_acceleration_of_the_loader_attains_its_limit() -> N
 
 @settings(max_examples=10)
 @given(SHARES)
-def test_gradients_are_those_of_differences(shares: list[float]) -> None:
-    y, step = mixed(shares), 1e-6
-    at = SPACE.rows(np.linspace(0.0, 1.0, 9))
-    for curve in (SPACE.Y, lambda y: SPACE.loader_acceleration(at, y), lambda y: SPACE.acceleration(at, y)):
-        gradient = curve(y).gradient
-        for i, direction in enumerate(np.eye(len(y))):
-            slope = (curve(y + step * direction).value - curve(y - step * direction).value) / (2 * step)
-            assert np.abs(slope - gradient[:, i]).max() < 1e-6 * max(1.0, np.abs(gradient).max())
-
-
-@settings(max_examples=10)
-@given(SHARES)
-def test_the_space_knows_the_loader(shares: list[float]) -> None:
-    y = mixed(shares)
-    one = loader(SPACE.law(y))
-    t = np.linspace(0.05, 1.0, 20)
-    assert float(SPACE.Y(y).value[0]) == pytest.approx(one.Y, rel=1e-10)
-    values = SPACE.loader_acceleration(SPACE.rows(t), y).value
-    assert np.abs(values + one.law.c(0.5 * (1 - t))).max() < 1e-8 * one.C
+def test_rows_know_the_loader(shares: list[float]) -> None:
+    x = mixed(shares)
+    law = MODEL.space.law(x)
+    one, k = loader(law), 0.5 * (1.0 - np.linspace(0.05, 1.0, 20))
+    wanted = {B_loader: np.full(20, one.B), C_loader: -one.law.c(k), D_loader: -one.law.d(k)}
+    for constant, values in wanted.items():
+        (family,) = constant.families(MODEL.space, np.zeros(len(x)), 0.0)
+        assert isinstance(family, EnergyFamily)
+        assert np.abs(family.value(x, family.u(k)) - values).max() < 1e-8 * np.abs(values).max()
+        assert family.energy.value(x) == pytest.approx(0.5 / one.Y, rel=1e-10)
 
 
 @pytest.mark.parametrize(
@@ -255,7 +257,15 @@ def test_no_law_has_so_small_an_acceleration() -> None:
         balanced_law(1.8, order=3, most_C=4.2)
 
 
-@pytest.mark.parametrize("constant", [C_loader, B_loader])
-def test_the_general_engine_names_the_way(constant: Functional) -> None:
-    with pytest.raises(InputError, match="balanced_law"):
-        synthesize(Problem(B=1.8, order=3, minimise=constant))
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ({"B": None}, "give B as a number above 1, or inflexion=0.5"),
+        ({"symmetric": False}, "leave symmetric=True"),
+        ({"basis": Pieces(4)}, "needs symmetric laws from rest to rest.*Chebyshev"),
+        ({"order": 1}, "needs symmetric laws from rest to rest, order at least 2"),
+    ],
+)
+def test_the_general_engine_says_what_has_a_loader(given: dict[str, Any], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        synthesize(replace(Problem(B=1.8, order=3, minimise="C_loader"), **given))

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.locks import process_lock
 from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.energy import LEAST_ROOT, EnergyFamily
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Points, ProductFamily, Program
 from optlaws.synthesis.method.tolerances import EMPTY_ROW
 
@@ -38,7 +39,7 @@ _FINE = {"ipopt.tol": 1e-12, "ipopt.compl_inf_tol": 1e-12, "ipopt.dual_inf_tol":
 _USUAL = {"ipopt.tol": 1e-9}
 
 
-_KINDS: tuple[type[Family], ...] = (LinearFamily, ProductFamily, ConeFamily, NormFamily)
+_KINDS: tuple[type[Family], ...] = (LinearFamily, ProductFamily, ConeFamily, NormFamily, EnergyFamily)
 _CONE_SHARE = 2.0  # the cone's row as IPOPT sees it is twice as steep as the magnitude itself
 
 
@@ -58,11 +59,23 @@ class _Counts:
     products: int
     cones: int
     norms: tuple[int, ...]
+    shared: tuple[_Shared, ...] = ()
 
     @property
     def rows(self) -> int:
         """The rows of all kinds."""
-        return self.linear + self.products + self.cones + len(self.norms)
+        return self.linear + self.products + self.cones + len(self.norms) + sum(one.places for one in self.shared)
+
+
+@dataclass(frozen=True)
+class _Shared:
+    """What the rows of a family of shared energy look like: places, factors, nodes of the integral, the power of Y."""
+
+    places: int
+    factors: int
+    nodes: int
+    degree: int
+    divided: bool
 
 
 _Shape = tuple[_Counts, bool, bool]
@@ -112,12 +125,16 @@ def solve_on_points(
     products = [(f, p) for f, p in pairs if isinstance(f, ProductFamily)]
     first, second, slack, bound = _product_rows(products, program.size)
     norms = [f for f in program.families if isinstance(f, NormFamily)]
+    shared = [(f, p) for f, p in pairs if isinstance(f, EnergyFamily)]
     real, imaginary, room = _cone_rows([(f, p) for f, p in pairs if isinstance(f, ConeFamily)], program.size)
-    counts = _Counts(program.size, len(rows), len(first), len(room), tuple(len(f.matrix) for f in norms))
+    kinds = tuple(_shape(family, p) for family, p in shared)
+    counts = _Counts(program.size, len(rows), len(first), len(room), tuple(len(f.matrix) for f in norms), kinds)
     parts = [rows / length[:, None], first, second, slack, real, imaginary, room]
     parts += [*(f.matrix for f in norms), *(f.slack[None] for f in norms)]
+    parts += [part for family, p in shared for part in _shared_rows(family, p)]
     parameters = np.concatenate([*(part.ravel(order="F") for part in parts), program.objective])
     upper = np.concatenate([right / length, bound, np.zeros(len(room)), [f.bound for f in norms]])
+    upper = np.concatenate([upper, *(np.full(len(p.u), f.bound) for f, p in shared)])
     lower = np.full(len(upper), -np.inf)
     equations = slice(len(rows) - len(program.right), len(rows))
     lower[equations] = upper[equations]
@@ -186,10 +203,26 @@ def _cone_rows(cones: list[tuple[ConeFamily, Points]], size: int) -> tuple[Array
     return real, imaginary, room
 
 
+def _shape(family: EnergyFamily, points: Points) -> _Shared:
+    nodes = len(family.energy.columns[0])
+    return _Shared(len(points.u), len(family.factors), nodes, family.degree, family.divided)
+
+
+def _shared_rows(family: EnergyFamily, points: Points) -> list[Array]:
+    """Rows of the factors, of both parts of the energy, and of these at the nodes of its integral; the slack."""
+    energy = family.energy
+    first, *others = [factor.columns(points.u)[0] for factor in family.factors]
+    found = [first * (family.scale * points.s)[:, None], *others]
+    if family.divided:
+        found += [part.columns(points.u)[0] for part in (energy.below, energy.above)]
+    return [*found, *energy.columns, family.slack[None]]
+
+
 def _split(pairs: list[tuple[Any, Points]], weights: Array, rows: int, equations: int) -> list[Array]:
     products = sum(len(p.u) for f, p in pairs if isinstance(f, ProductFamily))
     cones = sum(len(p.u) for f, p in pairs if isinstance(f, ConeFamily))
-    begins = [0, rows, rows + products, rows + products + cones]
+    norms = sum(isinstance(f, NormFamily) for f, _ in pairs)
+    begins = np.cumsum([0, rows, products, cones, norms]).tolist()
     found = []
     for family, points in pairs:
         kind = next(i for i, one in enumerate(_KINDS) if isinstance(family, one))
@@ -218,7 +251,7 @@ def _solver(shape: _Shape) -> Any:  # noqa: ANN401 - a casadi Function, imported
 def _build(counts: _Counts, *, careful: bool, fine: bool) -> Any:  # noqa: ANN401 - a casadi Function, imported late
     import casadi as ca
 
-    size, linear, products, cones, norms = astuple(counts)
+    size, linear, products, cones, norms = astuple(counts)[:5]
     x = ca.MX.sym("x", size)
     point = ca.vertcat(x, 1)
     symbols: list[Any] = [
@@ -231,10 +264,11 @@ def _build(counts: _Counts, *, careful: bool, fine: bool) -> Any:  # noqa: ANN40
         ca.MX.sym("rooms", cones, size + 1),
         *(ca.MX.sym("norm", count, size + 1) for count in norms),
         *(ca.MX.sym("room", 1, size) for _ in norms),
-        ca.MX.sym("objective", size),
     ]
+    shared = [_energy_symbols(size, one) for one in counts.shared]
+    symbols += [*(symbol for of_family in shared for symbol in of_family), ca.MX.sym("objective", size)]
     rows, first, second, slack, real, imaginary, room = symbols[:7]
-    matrices, rooms = symbols[7 : 7 + len(norms)], symbols[7 + len(norms) : -1]
+    matrices, rooms = symbols[7 : 7 + len(norms)], symbols[7 + len(norms) : 7 + 2 * len(norms)]
     p = ca.vertcat(*(ca.vec(s) for s in symbols))
     curved = [(first @ point) * (second @ point) - slack @ x] if products else []
     if cones:
@@ -242,6 +276,7 @@ def _build(counts: _Counts, *, careful: bool, fine: bool) -> Any:  # noqa: ANN40
         wide = room @ point
         curved.append(((real @ point) ** 2 + (imaginary @ point) ** 2) / wide - wide)
     curved += [ca.sqrt(ca.sumsqr(m @ point) + _SMOOTH) - room @ x for m, room in zip(matrices, rooms, strict=True)]
+    curved += [_energy_rows(x, own, one) for own, one in zip(shared, counts.shared, strict=True)]
     program: Any = {"x": x, "p": p, "f": ca.dot(symbols[-1], x), "g": ca.vertcat(rows @ x, *curved)}
     options: Any = {**_QUIET, **_LEAN, **_REPEATABLE, **(_FINE if fine else _USUAL)}
     if not curved:
@@ -259,3 +294,30 @@ def _build(counts: _Counts, *, careful: bool, fine: bool) -> Any:  # noqa: ANN40
     if careful:
         options["ipopt.mehrotra_algorithm"] = "no"
     return ca.nlpsol("program", "ipopt", program, options)
+
+
+def _energy_symbols(size: int, shape: _Shared) -> list[Any]:
+    import casadi as ca
+
+    wide = shape.factors + (2 if shape.divided else 0)
+    rows = [ca.MX.sym("part", shape.places, size + 1) for _ in range(wide)]
+    return [*rows, *(ca.MX.sym("energy", shape.nodes, size + 1) for _ in range(2)), ca.MX.sym("room", 1, size)]
+
+
+def _energy_rows(x: Any, symbols: list[Any], shape: _Shared) -> Any:  # noqa: ANN401 - casadi's, imported late
+    import casadi as ca
+
+    point = ca.vertcat(x, 1)
+    *parts, below, above, room = symbols
+
+    def root(first: Any, second: Any) -> Any:  # noqa: ANN401
+        top = second @ point
+        return ca.sqrt(ca.fmax((first @ point) * top, LEAST_ROOT * top**2))
+
+    Y = 0.5 / ca.sum1(root(below, above))
+    found = Y**shape.degree
+    for factor in parts[: shape.factors]:
+        found = found * (factor @ point)
+    if shape.divided:
+        found = found / root(*parts[shape.factors :])
+    return found - room @ x

@@ -13,7 +13,8 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.family import LinearFamily, Points, Program
+from optlaws.synthesis.families.energy import EnergyFamily
+from optlaws.synthesis.families.family import Family, LinearFamily, Points, Program
 from optlaws.synthesis.method.on_points.conic import conic
 from optlaws.synthesis.method.on_points.grids import with_extrema
 from optlaws.synthesis.method.on_points.ipopt import Answer, solve_on_points
@@ -71,12 +72,12 @@ class ByInteriorPoints(Way[list[Points], ActiveSet]):
             return optimum, None
         if self.count == self.rounds:
             # an optimum may be so flat that no exact active set shows: IPOPT's own contacts are then an answer
-            return (as_answered(held, answer) if _only_cones(self.program) else None), None
+            return (as_answered(held, answer) if _only(self.program, LinearFamily, ConeFamily) else None), None
         return None, with_extrema(self.program, held, answer.x)
 
     def _answer(self, points: list[Points]) -> Answer:
         """IPOPT's answer; where a fine one is not usable, the usual."""
-        fine = self.count > 1 and _only_cones(self.program)
+        fine = self.count > 1 and _only(self.program, LinearFamily, ConeFamily, EnergyFamily)
         answer = self._asked(points, fine=fine)
         return self._asked(points, fine=False) if fine and not answer.usable else answer
 
@@ -99,9 +100,9 @@ class ByInteriorPoints(Way[list[Points], ActiveSet]):
         return optimum
 
 
-def _only_cones(program: Program) -> bool:
-    """Whether nothing but cones, if that, is not affine."""
-    return all(isinstance(family, LinearFamily | ConeFamily) for family in program.families)
+def _only(program: Program, *kinds: type[Family]) -> bool:
+    """Whether every family is one of these kinds."""
+    return all(isinstance(family, kinds) for family in program.families)
 
 
 def _lost(answer: Answer) -> bool:

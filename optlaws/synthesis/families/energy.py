@@ -1,0 +1,280 @@
+"""Peaks of a body that shares a law's kinetic energy: products of what is affine in the law, times powers of its Y.
+
+Together they keep one energy, so that where the law has the velocity b the other has Y sqrt(B² - b²), and Y is such
+that its stroke is 1. With B² - b² = t² q r, t = |1 - 2k|, all of it is affine in the law but for the roots and for Y.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from functools import reduce
+from typing import Self
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+from optlaws.kept import kept_property
+from optlaws.series.chebyshev import product, real_parts_of_roots
+from optlaws.synthesis.families.family import Family, Jet, LinearFamily
+
+Array = NDArray[np.float64]
+
+_SPARE = 48
+_ROUNDING = 1e-14
+#: of B²: keeps roots real on the way to a law with b <= B
+LEAST_ROOT = 1e-12
+
+
+@dataclass(frozen=True, eq=False)
+class Energy:
+    """The integral of sqrt(B² - b²) over the first half of a symmetric law, with B² - b² = t² below above.
+
+    Attributes
+    ----------
+    below, above
+        (B - b) / t² and B + b, both families in u = 2 t² - 1.
+    """
+
+    below: LinearFamily
+    above: LinearFamily
+
+    def in_units(self, units: Array, unit: float) -> Self:
+        """The same of laws in other units."""
+        return replace(self, below=self.below.in_units(units, unit), above=self.above.in_units(units, unit))
+
+    @kept_property
+    def columns(self) -> tuple[Array, Array]:
+        """Rows of both at Gauss's nodes, a node's weight in each, so that the integral sums sqrt(below above)."""
+        return self.rule(_SPARE + 4 * len(self.above.series))
+
+    def rule(self, count: int) -> tuple[Array, Array]:
+        """The same with so many nodes."""
+        nodes, weights = legendre.leggauss(count)
+        t = 0.5 * (nodes + 1.0)
+        share = (0.25 * weights * t)[:, None]
+        below, above = (share * family.columns(2.0 * t * t - 1.0)[0] for family in (self.below, self.above))
+        return below, above
+
+    def value(self, x: Array) -> float:
+        """The integral."""
+        return float(self._integral(x).value[0])
+
+    def majorant(self, x: Array, count: int | None = None) -> Array:
+        """An affine function, the constant last, that the integral is nowhere above: its tangent at the law x.
+
+        By the means of two positive numbers, sqrt(q r) <= (m q + r/m)/2 whatever m > 0 is.
+        """
+        below, above = self.columns if count is None else self.rule(count)
+        point = np.append(x, 1.0)
+        top = above @ point
+        share = np.sqrt(np.maximum(top, 0.0) / np.maximum(below @ point, LEAST_ROOT * np.abs(top)))
+        found: Array = 0.5 * (share @ below + (1.0 / share) @ above)
+        return found
+
+    def factor(self, x: Array) -> Taylor:
+        """Y, half of the inverse, with its derivatives."""
+        return self._integral(x).power(-1.0).scaled(0.5)
+
+    def _integral(self, x: Array) -> Taylor:
+        below, above = (affine(columns, x) for columns in self.columns)
+        return (below * above).raised(_floor(below, above)).power(0.5).total()
+
+
+@dataclass(frozen=True, eq=False)
+class Taylor:
+    """Values at points with their first and second derivatives by the place u, which comes first, and the variables."""
+
+    value: Array
+    gradient: Array
+    curvature: Array
+
+    def __mul__(self, other: Taylor) -> Taylor:
+        across = self.gradient[:, :, None] * other.gradient[:, None, :]
+        return Taylor(
+            self.value * other.value,
+            self.gradient * other.value[:, None] + other.gradient * self.value[:, None],
+            self.curvature * other.value[:, None, None]
+            + other.curvature * self.value[:, None, None]
+            + across
+            + across.transpose(0, 2, 1),
+        )
+
+    def power(self, exponent: float) -> Taylor:
+        """A power of positive values."""
+        value = self.value**exponent
+        slope = exponent * value / self.value
+        bend = (exponent - 1.0) * slope / self.value
+        across = self.gradient[:, :, None] * self.gradient[:, None, :]
+        return Taylor(
+            value,
+            slope[:, None] * self.gradient,
+            slope[:, None, None] * self.curvature + bend[:, None, None] * across,
+        )
+
+    def scaled(self, factor: float) -> Taylor:
+        """Times a number."""
+        return Taylor(factor * self.value, factor * self.gradient, factor * self.curvature)
+
+    def raised(self, least: Array) -> Taylor:
+        """Constant where it would be below `least`."""
+        kept = (self.value > least).astype(np.float64)
+        return Taylor(
+            np.maximum(self.value, least), self.gradient * kept[:, None], self.curvature * kept[:, None, None]
+        )
+
+    def total(self) -> Taylor:
+        """The sum over the points, as one."""
+        return Taylor(np.array([self.value.sum()]), self.gradient.sum(axis=0)[None], self.curvature.sum(axis=0)[None])
+
+
+def affine(columns: Array, x: Array) -> Taylor:
+    """An affine function from its rows at points, a number for each variable and the constant last; no place."""
+    count, size = len(columns), columns.shape[1]
+    gradient = np.column_stack([np.zeros(count), columns[:, :-1]])
+    return Taylor(columns @ np.append(x, 1.0), gradient, np.zeros((count, size, size)))
+
+
+def _floor(below: Taylor, above: Taylor) -> Array:
+    """The least product that counts, in units of B² where the product is about that."""
+    scale = np.maximum(above.value**2, np.abs(below.value) * np.abs(above.value))
+    least: Array = LEAST_ROOT * np.maximum(scale, np.finfo(float).tiny)
+    return least
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class EnergyFamily(Family):
+    """f = scale Y^degree times the factors, divided by sqrt(below above) where `divided`.
+
+    Attributes
+    ----------
+    factors
+        Families that are affine in the law, over the same places.
+    energy
+        Of which Y is made.
+    degree
+        The power of Y.
+    divided
+        Whether sqrt(B² - b²)/t divides: then the places are those of the energy's families.
+    scale
+        A number.
+    convex
+        f is Y B, and the program's laws have one B: then it is convex in them.
+    """
+
+    factors: tuple[LinearFamily, ...]
+    energy: Energy
+    degree: int = 1
+    divided: bool = False
+    scale: float = 1.0
+    convex: bool = False
+
+    def in_units(self, units: Array, unit: float) -> Self:
+        """The same of laws in other units: the other body's peaks do not depend on them."""
+        return replace(
+            self,
+            factors=tuple(factor.in_units(units, unit) for factor in self.factors),
+            energy=self.energy.in_units(units, unit),
+            slack=self.slack * units,
+        )
+
+    def k(self, u: Array) -> Array:
+        """The k of the factors' places."""
+        return self.factors[0].k(u)
+
+    def u(self, k: Array) -> Array:
+        """The factors' places."""
+        return self.factors[0].u(k)
+
+    def nodes(self) -> Array | None:
+        """Chebyshev points with both ends; None where there is one place."""
+        low, high = self.domain
+        if low == high:
+            return None
+        count = 2 * len(self.slack) + 8
+        places: Array = 0.5 * (high + low) + 0.5 * (high - low) * np.cos(np.arange(count) * np.pi / (count - 1))
+        return places
+
+    def jet(self, x: Array, u: Array, s: Array) -> Jet:
+        """Residuals with their derivatives."""
+        found = self._taylor(x, u)
+        return Jet(
+            s * found.value - self.room(x),
+            s * found.gradient[:, 0],
+            s * found.curvature[:, 0, 0],
+            s[:, None] * found.gradient[:, 1:] - self.slack,
+            s[:, None] * found.curvature[:, 0, 1:],
+        )
+
+    def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
+        """Second derivatives of f, weighted."""
+        curved: Array = np.tensordot(weights, self._taylor(x, u).curvature[:, 1:, 1:], axes=1)
+        return curved
+
+    def value(self, x: Array, u: Array) -> Array:
+        """f at the points u."""
+        values = np.full(len(u), self.scale * (0.5 / self.energy.value(x)) ** self.degree)
+        for factor in self.factors:
+            values = values * factor.value(x, u)
+        if self.divided:
+            values = values / np.sqrt(self._below_above(x, u).value)
+        return values
+
+    def stationary(self, x: Array) -> Array:
+        """Roots of the derivative's numerator, a polynomial in u."""
+        point = np.append(x, 1.0)
+        top = reduce(product, (factor.series @ point for factor in self.factors))
+        slope = _derivative(top)
+        if self.divided:
+            under = product(self.energy.below.series @ point, self.energy.above.series @ point)
+            slope = _sum(product(slope, under), -0.5 * product(top, _derivative(under)))
+        return real_parts_of_roots(slope)
+
+    def minorant(self, x: Array) -> Array:
+        """An affine function, the constant last, that Y B is nowhere below in laws of the B that the law x has.
+
+        1/I is at least its tangent 2/J - I/J² at any J, and the integral I at most its tangent at any law.
+        """
+        own = self.factors[0].columns(np.array(self.domain[:1]))[0, 0]
+        above, point = self.energy.majorant(x), np.append(x, 1.0)
+        peak, middle = float(own @ point), float(above @ point)
+        row = (0.5 * self.scale / middle) * (own - (peak / middle) * above)
+        # in laws of the same B its own row is a number
+        row[-1] += 0.5 * self.scale * peak / middle * (1.0 - _ROUNDING)
+        return np.asarray(row, dtype=np.float64)
+
+    def _taylor(self, x: Array, u: Array) -> Taylor:
+        parts = [_at_places(factor, x, u) for factor in self.factors]
+        if self.divided:
+            parts.append(self._below_above(x, u).power(-0.5))
+        shared = self.energy.factor(x)
+        found = reduce(Taylor.__mul__, [*parts, *[_repeated(shared, len(u))] * self.degree])
+        return found.scaled(self.scale)
+
+    def _below_above(self, x: Array, u: Array) -> Taylor:
+        below, above = (_at_places(family, x, u) for family in (self.energy.below, self.energy.above))
+        return (below * above).raised(_floor(below, above))
+
+
+def _at_places(family: LinearFamily, x: Array, u: Array) -> Taylor:
+    columns = family.columns(u)
+    value, slope, curvature = columns @ np.append(x, 1.0)
+    bend = np.zeros((len(u), len(x) + 1, len(x) + 1))
+    bend[:, 0, 0] = curvature
+    bend[:, 0, 1:] = bend[:, 1:, 0] = columns[1, :, :-1]
+    return Taylor(value, np.column_stack([slope, columns[0, :, :-1]]), bend)
+
+
+def _repeated(one: Taylor, count: int) -> Taylor:
+    return Taylor(*(np.repeat(part, count, axis=0) for part in (one.value, one.gradient, one.curvature)))
+
+
+def _derivative(series: Array) -> Array:
+    return np.asarray(np.polynomial.chebyshev.chebder(series), dtype=np.float64)
+
+
+def _sum(first: Array, second: Array) -> Array:
+    total = np.zeros(max(len(first), len(second)))
+    total[: len(first)] = first
+    total[: len(second)] += second
+    return total
