@@ -52,7 +52,7 @@ def test_values_of_other_problems_are_not_equal() -> None:
 
 def test_a_module_and_the_tests_of_its_laws_run_in_one_call() -> None:
     # pytest must not import a module that its package has imported a second time
-    files = ["optlaws/laws/polynomial.py", "tests/laws/test_contract.py"]
+    files = ["optlaws/laws/polynomial.py", "tests/contracts/test_laws.py"]
     arguments = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-k", "equal_law", *files]
     found = subprocess.run(
         arguments, cwd=Path(__file__).parent.parent, capture_output=True, text=True, check=False, timeout=120

@@ -151,13 +151,15 @@ class Curve(ABC):
         >>> smoothstep(2).extrema(2)
         (Peak(value=-6.0, k=1.0), Peak(value=6.0, k=0.0))
         """
-        k, values = self._whole(derivative(nu))
-        if within is not None and within != self.interval:
-            ends = self._part(within)
-            inside = (k >= ends[0]) & (k <= ends[1])
-            k = np.concatenate([ends, k[inside]])
-            values = np.concatenate([self._derivative(ends, nu), values[inside]])
-        return peaks.extremes(k, values)
+        order = derivative(nu)
+        if within is None or within == self.interval:
+            return peaks.extremes(*self._whole(order))
+        ends = self._part(within)
+        k, values = self._whole(order)
+        inside = (k >= ends[0]) & (k <= ends[1])
+        return peaks.extremes(
+            np.concatenate([ends, k[inside]]), np.concatenate([self._derivative(ends, order), values[inside]])
+        )
 
     def power_peak(self) -> Peak:
         """Peak of |d| over the whole interval, d = b c.

@@ -1,7 +1,7 @@
 """The modules whose mutants are tried, each with the tests that speak of it; its own doctests run too."""
 
 BOUNDS = ("tests/synthesis/proof/test_certificate_by_hand.py", "tests/synthesis/proof/test_certificate.py")
-LAWS = ("tests/laws/test_contract.py", "tests/laws/test_exactness.py")
+LAWS = ("tests/contracts/test_laws.py", "tests/laws/test_exactness.py")
 SERIES = ("tests/series", *LAWS)
 
 TESTS: dict[str, tuple[str, ...]] = {

@@ -92,6 +92,8 @@ class PowerSegment(Segment, kind="power"):
         return PowerSegment(self.b1, self.b0)
 
     def times(self, length: float, y: Array) -> Segment:  # noqa: D102
+        if self.b0 == self.b1:
+            return PolynomialSegment((), self.b0)
         return self.fractional(length).times(length, y)
 
     def fractional(self, length: float) -> FractionalSegment:

@@ -100,6 +100,20 @@ class FractionalSegment(Segment, kind="fractional"):
         changed = np.polynomial.Polynomial(self.coefficients) * factor
         return replace(self, coefficients=tuple(changed.coef.tolist()))
 
+    def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:  # noqa: D102
+        c, j, s = (self._powers(length, nu) for nu in (2, 3, 4))
+        terms = ((e, factor * q) for powers, factor in ((c, 1.0), (j, once), (s, twice)) for e, q in powers.items())
+        total = real_powers.gathered(terms)
+        lowest, highest = min(total, default=0.0), max(total, default=0.0)
+        if lowest <= -1.0:
+            return super().plus_derivatives(length, once, twice)
+        coefficients = [0.0] * (round(highest - lowest) + 1)
+        for e, q in total.items():
+            coefficients[round(e - lowest)] = q
+        # what is constant in b, c and j is no power of v that c has
+        steady = self.steady + once * c.get(0.0, 0.0) + twice * j.get(0.0, 0.0)
+        return replace(self, exponent=lowest, coefficients=tuple(coefficients), steady=steady)
+
     def at_rest(self, length: float, share: float) -> Segment:  # noqa: D102
         if self.exponent < 0.0:
             swing = float(np.abs(self.derivative(np.array([0.0, 1.0]), length, 1)).max())

@@ -23,8 +23,8 @@ Array = NDArray[np.float64]
 def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
     """The cam law whose follower's mass, at rest at first, moves exactly by `law`: a + 2 n b/nu² + c/nu² (1.27).
 
-    A polynomial gives a polynomial, by exact arithmetic. A piecewise law gives a piecewise law: polynomials and sines
-    stay what they are. Anything else becomes a polynomial, to machine accuracy.
+    A polynomial gives a polynomial, by exact arithmetic. A piecewise law gives a piecewise law: polynomials, sines
+    and powers of time stay what they are. Anything else becomes a polynomial, to machine accuracy.
 
     Parameters
     ----------

@@ -1,0 +1,558 @@
+"""What every law does, whatever its representation, and what every motion of a mass does that can be asked the same.
+
+A new representation is a line in tests/laws/examples.py or below.
+"""
+
+import copy
+import dataclasses
+import itertools
+import json
+import pickle
+from typing import Any
+
+import mpmath  # type: ignore[import-untyped]
+import numpy as np
+import pytest
+
+from optlaws import (
+    BoundaryConditions,
+    BSplines,
+    Follower,
+    InputError,
+    MotionLaw,
+    PiecewiseLaw,
+    PolynomialLaw,
+    Response,
+    catalogue,
+    construct,
+    mirrored_law,
+    reversed_law,
+    smoothstep,
+    with_end_velocity,
+)
+from optlaws.laws.curve import Curve
+from optlaws.laws.segments import FractionalSegment, HarmonicSegment, PolynomialSegment, PowerSegment, SineSegment
+from optlaws.mechanisms.dwell.parts import PartSegment
+from optlaws.mechanisms.follower.mass_motion import MassMotion
+from optlaws.mechanisms.loader.law import LoaderLaw
+from tests.contracts.kinds import kinds
+from tests.laws.examples import EXAMPLES, cut_sine, free_function_law
+
+NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)
+DENSE = np.linspace(0.0, 1.0, 20001)
+
+COSINE = PiecewiseLaw([0, 1], [SineSegment(amplitude=np.pi**2 / 2, frequency=np.pi, phase=np.pi / 2)])
+#: one class each of what `laws` itself does not make
+OTHERS: dict[str, MotionLaw] = {
+    "loader of a cosine": LoaderLaw(COSINE),
+    "loader of a cycloid": LoaderLaw(cut_sine()),
+    "loader of S_2": LoaderLaw(smoothstep(2)),
+    "loader of S_4": LoaderLaw(smoothstep(4)),
+    "loader of an unsymmetric law": LoaderLaw(free_function_law(3, 4, 6)),
+    "loader of a law between velocities": LoaderLaw(PolynomialLaw.from_powers([0.0, 0.5, 1.5, -1.0])),
+    "splines": construct(BoundaryConditions.rest(3), [1.0, -2.0, 3.0, 0.5, 1.0, -1.0], BSplines(3, 3)),
+}
+#: whose derivatives jump or grow without limit, inside or at the ends
+ROUGH: dict[str, MotionLaw] = {
+    "jumps of b": PiecewiseLaw([0, 0.25, 0.5, 1], [PolynomialSegment((), b0=b) for b in (0.5, 1.5, 1.0)]),
+    "jumps of c": PiecewiseLaw([0, 0.5, 1], [PolynomialSegment((4.0,)), PolynomialSegment((-4.0,), b0=2.0)]),
+    "constant power from rest": PiecewiseLaw([0, 0.5, 1], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)]),
+    "infinite c inside": PiecewiseLaw([0, 0.5, 1], [PowerSegment(1.5, 0.0), PowerSegment(0.0, 1.5)]),
+    "loader of jumps of c": LoaderLaw(catalogue["constant acceleration"].law),
+    "parts of laws": PiecewiseLaw(
+        [0, 0.3, 1], [PartSegment(smoothstep(4), 0.0, 0.5, 0.6), PartSegment(smoothstep(4), 0.5, 1.0, 1.4)]
+    ),
+    "roots of time": PiecewiseLaw([0, 1], [FractionalSegment(-0.5, 0.0, 1.0, (0.75,))]),
+}
+LAWS = EXAMPLES | OTHERS
+KNOWN = {*LAWS.values(), *ROUGH.values()}
+STANDARD = {f"{name}, catalogue": catalogue[name].law for name in catalogue if catalogue[name].law not in KNOWN}
+ALL = LAWS | ROUGH | STANDARD
+UNDAMPED, DAMPED = Follower(nu=18.0), Follower(nu=25.0, damping=0.03)
+MASSES: dict[str, MassMotion] = {
+    "response to a polynomial": DAMPED.response(smoothstep(4)),
+    "response to sines": UNDAMPED.response(catalogue["modified sine"].law),
+    "response to powers of time": DAMPED.response(EXAMPLES["fall like x^4.5"]),
+    "response to jumps of c": DAMPED.response(ROUGH["jumps of c"]),
+    "slow follower": Follower(nu=2.5, damping=0.2).response(smoothstep(4)),
+    "overdamped follower": Follower(nu=30.0, damping=1.5).response(EXAMPLES["S-curve"]),
+    "cycle": DAMPED.cycle(smoothstep(4), dwell=0.5, rest=1.0),
+    "cycle of a sine and a polynomial": DAMPED.cycle(
+        catalogue["cycloidal"].law, dwell=0.0, fall=smoothstep(4), fall_duration=2.0, rest=0.25
+    ),
+}
+
+every_law = pytest.mark.parametrize("law", LAWS.values(), ids=LAWS.keys())
+every_order = pytest.mark.parametrize("nu", range(4))
+any_law = pytest.mark.parametrize("law", ALL.values(), ids=ALL.keys())
+everything = pytest.mark.parametrize("curve", (ALL | MASSES).values(), ids=(ALL | MASSES).keys())
+
+
+def panels(law: Curve, end: float = 1.0) -> list[tuple[np.ndarray, np.ndarray]]:
+    """Points and weights of a quadrature over [0, end] on each of whose panels the law is smooth."""
+    places = [*(k for k in law.breaks if k < end), end]
+    pairs = [(0.5 * (low + high), 0.5 * (high - low)) for low, high in itertools.pairwise(places)]
+    return [(middle + half * NODES, half * WEIGHTS) for middle, half in pairs]
+
+
+def integral(law: MotionLaw, nu: int, end: float) -> float:
+    return sum(float(weights @ law(k, nu)) for k, weights in panels(law, end))
+
+
+def leaps(law: MotionLaw, nu: int, end: float = 1.0) -> float:
+    """What the jumps of a derivative up to `end` add to it."""
+    return sum(height for k, height in law.jumps(nu) if k <= end)
+
+
+def far_from_breaks(law: MotionLaw, k: float, reach: float) -> bool:
+    inside = law.breaks[1:-1]
+    return not inside or min(abs(k - place) for place in inside) > reach
+
+
+def size(law: MotionLaw, nu: int) -> float:
+    return float(np.abs(law(DENSE, nu)).max())
+
+
+@every_law
+@every_order
+def test_each_derivative_integrates_the_next(law: MotionLaw, nu: int) -> None:
+    room = 1e-12 * size(law, nu + 1)
+    for end in (0.1, 0.5, 0.83, 1.0):
+        change = integral(law, nu + 1, end) + leaps(law, nu, end)
+        assert law(end, nu) - law(0.0, nu) == pytest.approx(change, abs=room)
+
+
+@every_law
+def test_acceleration_integrated_twice_gives_the_displacement(law: MotionLaw) -> None:
+    room = 1e-13 * (1 + size(law, 2))
+    for k in (0.2, 0.5, 0.77):
+        twice = sum(float(weights @ ((k - points) * law.c(points))) for points, weights in panels(law, k))
+        assert law.a(k) == pytest.approx(law.a(0.0) + k * law.b(0.0) + twice, abs=room)
+
+
+@every_law
+def test_derivatives_agree_with_differences_of_the_displacement(law: MotionLaw) -> None:
+    step = 1e-3
+    rooms = [step * size(law, nu + 1) + 1e-9 for nu in range(4)]
+    for place in (0.21, 0.5, 0.87):
+        k = place + (0.0 if far_from_breaks(law, place, 4 * step) else 7 * step)
+        for nu in (1, 2, 3):
+            difference = mpmath.diff(lambda t, nu=nu: law(float(t), nu - 1), k, h=step, direction=0)
+            assert float(difference) == pytest.approx(law(k, nu), abs=rooms[nu])
+
+
+@every_law
+def test_named_derivatives_are_the_numbered_ones(law: MotionLaw) -> None:
+    for nu, named in enumerate((law.a, law.b, law.c, law.j)):
+        assert np.array_equal(named(DENSE), law(DENSE, nu))
+    assert np.array_equal(law.d(DENSE), law.b(DENSE) * law.c(DENSE))
+
+
+@every_law
+def test_boundary_values_are_the_derivatives_at_the_ends(law: MotionLaw) -> None:
+    start, end = law.boundary_values(5)
+    assert start == tuple(law(0.0, nu) for nu in range(5))
+    assert end == tuple(law(1.0, nu) for nu in range(5))
+    assert law.boundary_values(0) == ((), ())
+
+
+@every_law
+@every_order
+def test_peak_is_no_less_than_samples_and_no_more_than_their_spacing_allows(law: MotionLaw, nu: int) -> None:
+    sampled = size(law, nu)
+    allowance = law.peak(nu + 2).value * (DENSE[1] / 2) ** 2 / 2
+    rounding = 1e-13 * sampled
+    assert sampled - rounding <= law.peak(nu).value <= sampled + allowance + rounding
+
+
+@every_law
+def test_power_peak_is_no_less_than_samples_and_no_more_than_their_spacing_allows(law: MotionLaw) -> None:
+    sampled = float(np.abs(law.d(DENSE)).max())
+    b, c, j, s = (law.peak(nu).value for nu in (1, 2, 3, 4))
+    allowance = (3 * c * j + b * s) * (DENSE[1] / 2) ** 2 / 2
+    assert sampled * (1 - 1e-13) <= law.power_peak().value <= sampled * (1 + 1e-13) + allowance
+
+
+@every_law
+@every_order
+def test_extrema_bracket_the_samples_and_make_the_peak(law: MotionLaw, nu: int) -> None:
+    low, high = law.extrema(nu)
+    values = law(DENSE, nu)
+    slack = 1e-13 * size(law, nu)
+    assert low.value <= values.min() + slack
+    assert high.value >= values.max() - slack
+    assert law.peak(nu).value == max(abs(low.value), abs(high.value))
+
+
+@every_law
+def test_peaks_are_reached_where_they_are_said_to_be(law: MotionLaw) -> None:
+    one = law.constants
+    for nu, peak in ((1, one.B), (2, one.C), (3, one.J)):
+        assert abs(law(peak.k, nu)) == pytest.approx(peak.value, rel=2e-10, abs=1e-300)
+    assert abs(law.d(one.D.k)) == pytest.approx(one.D.value, rel=2e-10, abs=1e-300)
+
+
+@every_law
+def test_rms_of_acceleration_is_the_integral(law: MotionLaw) -> None:
+    square = sum(float(weights @ law.c(points) ** 2) for points, weights in panels(law))
+    assert law.constants.rms_c == pytest.approx(square**0.5, rel=1e-12)
+
+
+@every_law
+def test_constants_as_plain_data(law: MotionLaw) -> None:
+    table = law.constants.to_dict()
+    assert list(table) == ["B", "C", "D", "J"]
+    assert table["C"] == {"value": law.peak(2).value, "k": law.peak(2).k}
+    assert law.constants.to_dict(rms=True)["rms_c"] == law.constants.rms_c
+    assert json.loads(json.dumps(table)) == table
+
+
+@every_law
+def test_dict_and_json_give_an_equal_law(law: MotionLaw) -> None:
+    for back in (MotionLaw.from_dict(law.to_dict()), MotionLaw.from_json(law.to_json())):
+        assert back == law
+        assert hash(back) == hash(law)
+        assert type(back) is type(law)
+        assert np.array_equal(back(DENSE), law(DENSE))
+    assert json.loads(law.to_json()) == law.to_dict()
+
+
+@every_law
+def test_copies_and_pickles_are_equal(law: MotionLaw) -> None:
+    assert law.constants.B.value >= 0.0
+    assert copy.deepcopy(law) == law
+    assert pickle.loads(pickle.dumps(law)) == law  # noqa: S301
+
+
+def test_laws_are_equal_to_themselves_only() -> None:
+    assert len(set(EXAMPLES.values())) == len(EXAMPLES)
+
+
+@every_law
+def test_a_law_cannot_be_changed(law: MotionLaw) -> None:
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        law.a0 = 1.0  # type: ignore[attr-defined]
+    with pytest.raises(dataclasses.FrozenInstanceError):
+        law.constants.B.value = 1.0  # type: ignore[misc]
+    before = law(DENSE, 2)
+    values = law(DENSE, 2)
+    values *= 2.0
+    assert np.array_equal(law(DENSE, 2), before)
+
+
+@every_law
+def test_values_have_the_shape_of_k(law: MotionLaw) -> None:
+    several: list[Any] = [DENSE[:6].reshape(2, 3), DENSE[:6].reshape(2, 3).tolist(), np.empty((0, 2)), [0, 1]]
+    for k in several:
+        assert law(k).shape == np.shape(k)
+    single: list[Any] = [0.5, 1, np.float64(0.5), np.array(0.5), np.float32(0.5)]
+    assert {type(law(k)) for k in single} == {float}
+    assert law(0.3, 2) == law([0.3, 0.4], 2)[0]
+    assert np.array_equal(law(DENSE[::-1], 1), law(DENSE, 1)[::-1])
+
+
+@every_law
+def test_k_outside_the_interval_is_refused(law: MotionLaw) -> None:
+    wrong: list[Any] = [-1e-9, 1.0000001, np.nan, np.inf, "0.5", None, 0.5j, [0.2, 1.5], [[0.1], [0.1, 0.2]]]
+    for k, call in itertools.product(wrong, (law, law.a, law.b, law.c, law.j, law.d)):
+        with pytest.raises(InputError, match="k must be"):
+            call(k)
+
+
+@everything
+def test_orders_of_derivatives_are_integers_from_0(curve: Curve) -> None:
+    wrong: list[Any] = [-1, 1.0, "1", None, True]
+    for nu in wrong:
+        for call in (
+            lambda nu=nu: curve(0.5, nu),
+            lambda nu=nu: curve.peak(nu),
+            lambda nu=nu: curve.extrema(nu),
+            lambda nu=nu: curve.rms(nu),
+            lambda nu=nu: curve.samples(9, nu),
+        ):
+            with pytest.raises(InputError, match="nu must be an integer of at least 0"):
+                call()
+        if isinstance(curve, MotionLaw):
+            with pytest.raises(InputError, match="count must be an integer"):
+                curve.boundary_values(nu)
+
+
+@pytest.mark.parametrize("motion", MASSES.values(), ids=MASSES.keys())
+def test_times_of_a_mass_are_finite_and_none_before_its_motion(motion: MassMotion) -> None:
+    wrong: list[Any] = [np.nan, np.inf, "0.5", None, 0.5j, [[0.1], [0.1, 0.2]]]
+    for k in [*wrong, *([-1e-9] if isinstance(motion, Response) else [])]:
+        with pytest.raises(InputError, match="k must be"):
+            motion(k)
+    assert np.isfinite(motion(motion.interval[1] + np.linspace(0.0, 2.0, 9), 2)).all()
+
+
+@every_law
+def test_repr_and_html_show_the_constants(law: MotionLaw) -> None:
+    assert repr(law).startswith(f"{type(law).__name__}(")
+    assert f"C={law.peak(2).value:g}" in repr(law)
+    html = law._repr_html_()
+    assert html.count("<svg") == html.count("</svg>") == 3
+    assert f"{law.peak(2).value:.7g}" in html
+    assert "nan" not in html
+
+
+def test_every_kind_of_law_has_an_example() -> None:
+    assert kinds(MotionLaw) <= {type(law) for law in ALL.values()}
+    assert kinds(MassMotion) <= {type(motion) for motion in MASSES.values()}
+
+
+@pytest.mark.parametrize("kind", sorted(kinds(Curve), key=lambda kind: kind.__name__))
+def test_a_representation_supplies_hooks_and_overrides_nothing_that_users_call(kind: type[Curve]) -> None:
+    faces = {MotionLaw, Curve, MassMotion}
+    given = {
+        name
+        for face in faces
+        for name, member in vars(face).items()
+        if not getattr(member, "__isabstractmethod__", False)
+    }
+    public = {name for name in given if not name.startswith("_") or name in {"__call__", "_repr_html_", "_whole"}}
+    own = {name for base in kind.__mro__ if base not in faces and issubclass(base, Curve) for name in vars(base)}
+    # contents of a law and the interval are data, not what is computed from them
+    assert own & public <= {"breaks", "interval"}
+
+
+def ends(curve: Curve) -> np.ndarray:
+    """Both ends of every piece."""
+    return np.array(curve.breaks)
+
+
+def inside(curve: Curve, count: int = 15) -> np.ndarray:
+    """Places within every piece, shape (pieces, count), none near its ends."""
+    places = ends(curve)
+    return places[:-1, None] + np.diff(places)[:, None] * np.linspace(0.08, 0.92, count)
+
+
+@everything
+def test_each_derivative_is_the_limit_of_differences(curve: Curve) -> None:
+    k = inside(curve)
+    lengths = np.diff(ends(curve))[:, None]
+    step = 1e-3 * lengths
+    for nu in (1, 2, 3):
+        # the error of the central difference of order 4 is step^4/30 of the fifth derivative above
+        moved = [np.asarray(curve(k + i * step, nu - 1)) for i in (-2, -1, 1, 2)]
+        difference = (moved[0] - 8 * moved[1] + 8 * moved[2] - moved[3]) / (12 * step)
+        above = np.abs(np.stack([np.asarray(curve(k + i * step, nu + 4)) for i in (-2, 0, 2)])).max(axis=0)
+        rounding = 1e-14 * np.abs(np.stack(moved)).max() / step
+        assert (np.abs(difference - curve(k, nu)) <= 0.1 * step**4 * above + 20 * rounding).all()
+
+
+@everything
+def test_named_derivatives_and_power(curve: Curve) -> None:
+    k = inside(curve)
+    for nu, named in enumerate((curve.a, curve.b, curve.c, curve.j)):
+        assert np.array_equal(named(k), curve(k, nu))
+    assert curve.d(k) == pytest.approx(curve.b(k) * curve.c(k), rel=1e-12)
+
+
+@everything
+def test_extrema_hold_on_both_sides_of_every_break_and_are_reached(curve: Curve) -> None:
+    for nu in range(4):
+        check_extrema(curve, nu)
+
+
+def check_extrema(curve: Curve, nu: int) -> None:
+    low, high = curve.extrema(nu)
+    k, values = curve.samples(1001, nu)
+    size = float(np.abs(values[np.isfinite(values)]).max())
+    assert low.value <= values.min() + 1e-13 * size
+    assert high.value >= values.max() - 1e-13 * size
+    assert curve.peak(nu).value == max(abs(low.value), abs(high.value))
+    for extreme in (low, high):
+        if np.isfinite(extreme.value):
+            both = [float(curve(extreme.k, nu)), *values[k == extreme.k]]
+            assert min(abs(value - extreme.value) for value in both) <= 1e-9 * size
+            nearest = np.abs(values - extreme.value).min()
+            assert nearest <= 1e-3 * size  # no sample is far from what is said to be reached
+
+
+@everything
+def test_the_power_is_within_its_peak(curve: Curve) -> None:
+    k = np.concatenate([inside(curve, 101).ravel(), ends(curve)])
+    peak = curve.power_peak()
+    power = np.abs(curve.d(k))
+    assert not np.isnan(power).any()
+    assert power.max() <= peak.value * (1 + 1e-12)
+    if np.isfinite(peak.value):
+        before = np.nextafter(peak.k, 0.0)
+        assert peak.value == pytest.approx(max(abs(curve.d(peak.k)), abs(curve.d(before))), rel=1e-6, abs=1e-300)
+
+
+@everything
+def test_root_mean_squares_are_the_integrals(curve: Curve) -> None:
+    places = ends(curve)
+    cells = np.concatenate([np.linspace(low, high, 9)[:-1] for low, high in itertools.pairwise(places)] + [places[-1:]])
+    middles, halves = 0.5 * (cells[1:] + cells[:-1]), 0.5 * np.diff(cells)
+    for nu in range(4):
+        rms = curve.rms(nu)
+        square = float((np.asarray(curve(middles[:, None] + halves[:, None] * NODES, nu)) ** 2 @ WEIGHTS) @ halves)
+        mean = square / (places[-1] - places[0])
+        # a square that grows without limit at an end is missed by a quadrature
+        assert rms == np.inf or rms**2 == pytest.approx(mean, rel=1e-6, abs=1e-14)
+        assert rms < np.inf or not np.isfinite(curve.peak(nu).value)
+
+
+@everything
+def test_samples_are_the_values_with_both_sides_of_breaks(curve: Curve) -> None:
+    k, values = curve.samples(33, 2)
+    assert (np.diff(k) >= 0.0).all()
+    assert (k[0], k[-1]) == curve.interval == (curve.breaks[0], curve.breaks[-1])
+    assert len(k) == 33 + 2 * (len(curve.breaks) - 2)
+    for place in curve.breaks[1:-1]:
+        before, *after = values[k == place].tolist()
+        assert set(after) == {curve.c(place)}
+        near = curve.c(place - 1e-9)
+        assert before == near or abs(before - near) <= 1e-5 * max(1.0, abs(near)) or not np.isfinite(before)
+
+
+@everything
+def test_extrema_of_a_part_are_those_of_its_samples(curve: Curve) -> None:
+    first, last = curve.interval
+    part = first + 0.31 * (last - first), first + 0.64 * (last - first)
+    for nu in (0, 1, 2):
+        low, high = curve.extrema(nu, part)
+        values = curve(np.linspace(*part, 401), nu)
+        size = max(1.0, float(np.abs(values[np.isfinite(values)]).max()))
+        assert part[0] <= low.k <= part[1]
+        assert low.value <= values.min() + 1e-12 * size
+        assert high.value >= values.max() - 1e-12 * size
+        whole = curve.extrema(nu)
+        assert whole[0].value <= low.value <= high.value <= whole[1].value
+
+
+@everything
+def test_parts_and_numbers_of_samples_that_are_none_are_refused(curve: Curve) -> None:
+    parts: list[Any] = [(0.5, 0.2), (-0.1, 0.5), (0.5, 99.0), (0.1, 0.2, 0.3), (0.1, np.nan), "01", 0.5]
+    for part in parts:
+        with pytest.raises(InputError, match=r"within must be two k|k must be"):
+            curve.extrema(1, part)
+    counts: list[Any] = [1, 0, 2.5, "9", None, True]
+    for count in counts:
+        with pytest.raises(InputError, match="count must be an integer of at least 2"):
+            curve.samples(count)
+
+
+@any_law
+def test_jumps_are_the_differences_of_both_sides(law: MotionLaw) -> None:
+    for nu in range(1, 4):
+        k, values = law.samples(2, nu)
+        jumps = dict(law.jumps(nu))
+        for place in law.breaks[1:-1]:
+            before, after = values[k == place].tolist()
+            if np.isfinite([before, after]).all():
+                assert jumps.get(place, 0.0) == pytest.approx(after - before, abs=1e-8 * max(1.0, abs(after)))
+    assert set(law.breaks[1:-1]) >= {place for nu in range(1, 6) for place, _ in law.jumps(nu)}
+
+
+@any_law
+def test_above_the_first_jump_derivatives_are_impulses(law: MotionLaw) -> None:
+    nu = law.continuity + 1
+    if nu > 4 or not law.jumps(nu):
+        return
+    place, height = law.jumps(nu)[0]
+    peak = law.peak(nu + 1)
+    assert peak.value == np.inf
+    assert peak.k <= place
+    assert law.rms(nu + 1) == np.inf
+    assert (law.extrema(nu + 1)[1].value == np.inf) or height < 0.0
+    assert law.extrema(nu + 2)[0].value == -np.inf
+
+
+@any_law
+def test_rough_laws_are_stored_copied_and_shown_as_all_are(law: MotionLaw) -> None:
+    assert MotionLaw.from_json(law.to_json()) == law
+    assert pickle.loads(pickle.dumps(law)) == copy.deepcopy(law) == law  # noqa: S301
+    assert "nan" not in law._repr_html_()
+    for data, message in (
+        ({**law.to_dict(), "extra": 1}, "'extra' is unknown"),
+        (dict(list(law.to_dict().items())[:-1]), "is missing"),
+        ({**law.to_dict(), "kind": "novelty"}, "kind of law 'novelty' is unknown"),
+        ({**law.to_dict(), "format": 2}, "format of a law must be 1"),
+    ):
+        with pytest.raises(InputError, match=message):
+            MotionLaw.from_dict(data)
+
+
+def can_be_changed(law: MotionLaw) -> bool:
+    """Whether it is made of what keeps a closed form, or is smooth enough for a polynomial."""
+    return not isinstance(law, LoaderLaw) and law is not ROUGH["parts of laws"]
+
+
+K = np.linspace(0.0, 1.0, 203)[1:-1] + 1e-3 / np.pi  # none of them a break
+
+
+@any_law
+def test_mirrored_reversed_and_scaled_laws_are_what_their_definitions_say(law: MotionLaw) -> None:
+    if not can_be_changed(law):
+        return
+    size = max(1.0, float(np.abs(law.a(K)).max()))
+    drifting, mirrored, turned = with_end_velocity(law, 0.3), mirrored_law(law), reversed_law(law)
+    for nu in (0, 1):
+        room = 1e-12 * size * 30.0**nu
+        assert drifting(K, nu) == pytest.approx(0.7 * law(K, nu) + 0.3 * (K if nu == 0 else 1.0), abs=room)
+        assert mirrored(K, nu) == pytest.approx((-1) ** nu * law(1.0 - K, nu), abs=max(room, 1e-10 * nu))
+    assert turned.a(K) == pytest.approx(law.a(0.0) + law.a(1.0) - law.a(1.0 - K), abs=1e-12 * size)
+    assert mirrored_law(mirrored).a(K) == pytest.approx(law.a(K), abs=1e-12 * size)
+    assert reversed_law(turned).a(K) == pytest.approx(law.a(K), abs=1e-12 * size)
+    assert mirrored.power_peak().value == pytest.approx(law.power_peak().value, rel=1e-9, abs=1e-12)
+    assert with_end_velocity(law, 0.0).constants.C.value == pytest.approx(law.constants.C.value, rel=1e-12)
+
+
+def exact(law: PiecewiseLaw, i: int, nu: int) -> Any:  # noqa: ANN401 - a function of mpmath's numbers
+    """Derivative of order nu >= 2 of a segment of a law by mpmath, of the time since its start."""
+    segment, length = law.segments[i], mpmath.mpf(law.breaks[i + 1]) - mpmath.mpf(law.breaks[i])
+
+    def c(s: Any) -> Any:  # noqa: ANN401
+        if isinstance(segment, PolynomialSegment):
+            x = 2 * s / length - 1
+            return mpmath.fsum(value * mpmath.chebyt(n, x) for n, value in enumerate(segment.acceleration))
+        if isinstance(segment, SineSegment | HarmonicSegment):
+            sines = (segment,) if isinstance(segment, SineSegment) else segment.sines
+            return mpmath.fsum(
+                one.amplitude * mpmath.sin(one.frequency * s + one.phase)
+                + mpmath.fsum(power * s**n for n, power in enumerate(one.powers))
+                for one in sines
+            )
+        if isinstance(segment, PowerSegment):
+            return (
+                (segment.b1**2 - segment.b0**2)
+                / (2 * length)
+                / mpmath.sqrt(segment.b0**2 + (segment.b1**2 - mpmath.mpf(segment.b0) ** 2) * s / length)
+            )
+        assert isinstance(segment, FractionalSegment)
+        v = segment.first + (mpmath.mpf(segment.last) - segment.first) * s / length
+        return v**segment.exponent * mpmath.fsum(q * v**n for n, q in enumerate(segment.coefficients))
+
+    return c if nu == 2 else lambda s: mpmath.diff(c, s, nu - 2)
+
+
+@pytest.mark.parametrize("name", [name for name, law in LAWS.items() if isinstance(law, PiecewiseLaw)])
+@pytest.mark.parametrize("nu", [2, 3])
+def test_peaks_are_those_of_many_digits(name: str, nu: int) -> None:
+    law = LAWS[name]
+    assert isinstance(law, PiecewiseLaw)
+    with mpmath.workdps(30):
+        best = mpmath.mpf(0)
+        for i, (low, high) in enumerate(itertools.pairwise(law.breaks)):
+            f = exact(law, i, nu)
+            length = mpmath.mpf(high) - mpmath.mpf(low)
+            # differences of mpmath need room at either end
+            edge = 0 if nu == 2 else length * mpmath.mpf(10) ** -14
+            at = [edge + (length - 2 * edge) * n / 24 for n in range(25)]
+            values = [abs(f(s)) for s in at]
+            n = max(range(25), key=values.__getitem__)
+            best = max(best, refined(f, at[max(n - 1, 0)], at[min(n + 1, 24)]))
+    assert law.peak(nu).value == pytest.approx(float(best), rel=1e-11)
+
+
+def refined(f: Any, low: Any, high: Any) -> Any:  # noqa: ANN401
+    """The greatest |f| between two places around it, by golden sections to 14 digits of the value."""
+    golden = (mpmath.sqrt(5) - 1) / 2
+    for _ in range(36):
+        left, right = high - golden * (high - low), low + golden * (high - low)
+        low, high = (low, right) if abs(f(left)) > abs(f(right)) else (left, high)
+    return max(abs(f(low)), abs(f(high)))
