@@ -254,7 +254,8 @@ def test_values_have_the_shape_of_k(law: MotionLaw) -> None:
 @every_law
 def test_k_outside_the_interval_is_refused(law: MotionLaw) -> None:
     wrong: list[Any] = [-1e-9, 1.0000001, np.nan, np.inf, "0.5", None, 0.5j, [0.2, 1.5], [[0.1], [0.1, 0.2]]]
-    for k, call in itertools.product(wrong, (law, law.a, law.b, law.c, law.j, law.d)):
+    calls: list[Any] = [law, law.a, law.b, law.c, law.j, law.d]
+    for k, call in itertools.product(wrong, calls):
         with pytest.raises(InputError, match="k must be"):
             call(k)
 
@@ -301,7 +302,7 @@ def test_every_kind_of_law_has_an_example() -> None:
     assert kinds(MassMotion) <= {type(motion) for motion in MASSES.values()}
 
 
-@pytest.mark.parametrize("kind", sorted(kinds(Curve), key=lambda kind: kind.__name__))
+@pytest.mark.parametrize("kind", sorted(kinds(Curve), key=str))
 def test_a_representation_supplies_hooks_and_overrides_nothing_that_users_call(kind: type[Curve]) -> None:
     faces = {MotionLaw, Curve, MassMotion}
     given = {
