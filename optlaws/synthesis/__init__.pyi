@@ -38,10 +38,11 @@ from optlaws.synthesis.proven.refine import proven_front as proven_front
 from optlaws.synthesis.solution import Solution as Solution
 from optlaws.synthesis.solution import Status as Status
 from optlaws.synthesis.solution_array import SolutionArray as SolutionArray
-from optlaws.synthesis.solve import sweep as sweep
 from optlaws.synthesis.solve import synthesize as synthesize
 from optlaws.synthesis.solve_array import synthesize_array as synthesize_array
 from optlaws.synthesis.solve_array import synthesize_chunks as synthesize_chunks
+from optlaws.synthesis.solve_many import sweep as sweep
+from optlaws.synthesis.solve_many import synthesize_many as synthesize_many
 from optlaws.synthesis.spaces.bases import Basis as Basis
 from optlaws.synthesis.spaces.bases import Bernstein as Bernstein
 from optlaws.synthesis.spaces.bases import Chebyshev as Chebyshev
@@ -108,5 +109,6 @@ __all__ = [
     "synthesize",
     "synthesize_array",
     "synthesize_chunks",
+    "synthesize_many",
     "via",
 ]

@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
 from dataclasses import replace
 from math import isfinite
-from typing import Literal, overload
 
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.suggest import unknown_key
@@ -20,9 +18,6 @@ from optlaws.synthesis.spaces.of_basis import space_of
 
 TIGHT = "tight"
 BOUNDS = ("quick", TIGHT)
-ERRORS = ("raise", "return")
-
-Errors = Literal["raise", "return"]
 
 
 def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = "quick") -> Solution:
@@ -67,62 +62,6 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = 
         return solution
     error = search.error()
     raise error if isinstance(error, InfeasibleProblem) else _no_power_so_small(problem) or error
-
-
-@overload
-def sweep(problems: Iterable[Problem], *, errors: Literal["raise"] = "raise") -> Iterator[Solution]: ...
-@overload
-def sweep(problems: Iterable[Problem], *, errors: Errors) -> Iterator[Solution | OptlawsError]: ...
-def sweep(problems: Iterable[Problem], *, errors: Errors = "raise") -> Iterator[Solution | OptlawsError]:
-    """Solve problems in turn, each warm started by the one before it where they are neighbours.
-
-    Parameters
-    ----------
-    problems
-        The problems; they are taken one by one.
-    errors
-        What becomes of a problem without an answer: "raise" raises its error and ends the sweep, "return" gives the
-        error in its place and goes on.
-
-    Raises
-    ------
-    InfeasibleProblem, SolverFailure
-        As `synthesize`, unless errors are returned.
-    InputError
-        If `errors` is neither; and, unless errors are returned, if one of the problems is none.
-
-    Examples
-    --------
-    >>> from dataclasses import replace
-    >>> first = Problem(B=1.6, order=4)
-    >>> [round(s.objective, 6) for s in sweep(replace(first, B=B) for B in (1.6, 1.62))]
-    [5.262224, 5.173677]
-    >>> found = list(sweep((replace(first, B=B) for B in (1.1, 1.6)), errors="return"))
-    >>> [type(one).__name__ for one in found]
-    ['InfeasibleProblem', 'Solution']
-    """
-    check_errors(errors)
-    return _swept(problems, errors)
-
-
-def check_errors(errors: object) -> None:
-    """Refuse what is no way to deal with errors."""
-    if errors not in ERRORS:
-        raise InputError(unknown_key(errors, ERRORS, "errors"))
-
-
-def _swept(problems: Iterable[Problem], errors: Errors) -> Iterator[Solution | OptlawsError]:
-    previous: Solution | None = None
-    for problem in problems:
-        try:
-            previous = synthesize(problem, start=previous)
-        except OptlawsError as error:
-            if errors == "raise":
-                raise
-            # its frames would keep what was tried
-            yield error.with_traceback(None)
-        else:
-            yield previous
 
 
 def _warm(model: Model, start: Solution | None) -> ActiveSet | None:

@@ -19,7 +19,8 @@ from optlaws.synthesis.proven.front import ProvenFront, interval_gaps, weighted_
 from optlaws.synthesis.proven.line import lower_line
 from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solution import NOTHING, Solution, Status
-from optlaws.synthesis.solve import sweep, synthesize
+from optlaws.synthesis.solve import synthesize
+from optlaws.synthesis.solve_many import synthesize_many
 
 Array = NDArray[np.float64]
 
@@ -127,7 +128,7 @@ class _Refined:
         self.values, self.known = together[order], np.concatenate([self.known, known])[order]
 
     def _solved(self, values: Array) -> list[Solution]:
-        found = sweep((self.number.at(value) for value in values.tolist()), errors="return")
+        found = synthesize_many((self.number.at(value) for value in values.tolist()), errors="return")
         return [
             one if isinstance(one, Solution) and one.status is Status.OPTIMAL else self._again(value)
             for value, one in zip(values.tolist(), found, strict=True)
