@@ -85,8 +85,8 @@ def where_it_pays(problem: Problem, over: tuple[str, str]) -> tuple[float, float
     >>> round(low, 5), round(high, 5)
     (1.12969, 1.90294)
     """
-    found = _Curve(problem, _checked(problem, over, None), None).found
-    return found[0][0], found[-1][0]
+    points = _Curve(problem, _checked(problem, over, None), None).points
+    return points[0][0], points[-1][0]
 
 
 class _Curve:
@@ -103,25 +103,25 @@ class _Curve:
             raise InputError(
                 f"{over[1]} is least at {over[0]} = {pays:.7g}: nothing is exchanged above, got {shortened(between)}"
             )
-        self.found = [self._first(low), self._last(best, pays, high)]
+        self.points = [self._first(low), self._last(best, pays, high)]
 
     def grow(self, count: int) -> Front:
         """Put a point into the stretch that wants one most, and so on."""
         dead: set[float] = set()
-        while len(self.found) < count:
-            widths = [0.0 if self.found[i][0] in dead else width for i, width in enumerate(self._widths())]
+        while len(self.points) < count:
+            widths = [0.0 if self.points[i][0] in dead else width for i, width in enumerate(self._widths())]
             i = int(np.argmax(widths))
             if widths[i] < _SAME:
                 break
-            (low, left), (high, right) = self.found[i : i + 2]
+            (low, left), (high, right) = self.points[i : i + 2]
             value = sqrt(low * high)
             solution = self._solved(value, left, right)
             if solution is None:
                 self.failed.append(value)
                 dead.add(low)
             else:
-                self.found.insert(i + 1, (value, solution))
-        return Front(self.over, tuple(undominated([s for _, s in self.found], self.over)), tuple(sorted(self.failed)))
+                self.points.insert(i + 1, (value, solution))
+        return Front(self.over, tuple(undominated([s for _, s in self.points], self.over)), tuple(sorted(self.failed)))
 
     def _asked(self, value: float) -> Problem:
         return _at_most(self.problem, self.over[0], value)
@@ -135,14 +135,14 @@ class _Curve:
                 pass
         least = least_value(self.problem, self.over[0])
         value = least * (1.0 + _ABOVE[0])
-        found = synthesize(self._asked(value))
+        solution = synthesize(self._asked(value))
         for above in _ABOVE[1:]:
             # so near to its least value the constant leaves the solver no room: the contacts are continued instead
-            nearer = _tried(self._asked(least * (1.0 + above)), found)
+            nearer = _tried(self._asked(least * (1.0 + above)), solution)
             if nearer is None or nearer.status is Status.INACCURATE:
                 break
-            value, found = least * (1.0 + above), nearer
-        return value, found
+            value, solution = least * (1.0 + above), nearer
+        return value, solution
 
     def _last(self, best: Solution, pays: float, high: float) -> tuple[float, Solution]:
         """At the least value of the last constant, or at `high`; a problem of the same kind as the others."""
@@ -156,10 +156,10 @@ class _Curve:
 
     def _widths(self) -> list[float]:
         """How much each stretch wants a point: its length in normalised logarithms, more where the front turns."""
-        logs = np.log([[value, value_of(solution, self.over[1])] for value, solution in self.found])
+        logs = np.log([[value, value_of(solution, self.over[1])] for value, solution in self.points])
         span = np.abs(logs[-1] - logs[0])
         if span[0] < _NOTHING:
-            return [0.0] * (len(self.found) - 1)
+            return [0.0] * (len(self.points) - 1)
         steps = np.diff(logs, axis=0) / np.where(span > 0.0, span, 1.0)
         lengths = np.hypot(*steps.T)
         turns = np.abs(np.diff(np.arctan2(steps[:, 1], steps[:, 0])))
@@ -173,28 +173,28 @@ class _Curve:
             near = _tried(asked, left)
             return near if near is not None and near.status is Status.OPTIMAL else _tried(asked, None)
         # a branch of local optima may cease to be the best, so it is only continued where the starts lead to worse
-        found = _tried(asked, None)
-        if found is None or found.objective > left.objective or found.objective < right.objective:
-            tries = [one for one in (found, _tried(asked, left), _tried(asked, right)) if one is not None]
-            found = min(tries, key=lambda one: one.objective, default=None)
-        return found
+        best = _tried(asked, None)
+        if best is None or best.objective > left.objective or best.objective < right.objective:
+            tries = [solution for solution in (best, _tried(asked, left), _tried(asked, right)) if solution is not None]
+            best = min(tries, key=lambda solution: solution.objective, default=None)
+        return best
 
 
 def _surface(problem: Problem, over: tuple[str, ...], points: int, between: tuple[float, float] | None) -> Front:
     """Curves of the second and the third constant at values of the first, as many as each curve has points."""
     across = max(2, round(sqrt(points)))
     spines = [_Curve(problem, (over[0], name), between) for name in over[1:]]
-    spine = max(spines, key=lambda one: one.found[-1][0]).grow(across)
+    spine = max(spines, key=lambda curve: curve.points[-1][0]).grow(across)
     failed = list(spine.failed)
-    found: list[Solution] = []
+    solutions: list[Solution] = []
     for i, value in enumerate(spine.values[:, 0].tolist()):
-        share = (points - len(found)) // (len(spine) - i)
+        share = (points - len(solutions)) // (len(spine) - i)
         part = _at_most(problem, over[0], value)
         try:
-            found += _Curve(part, over[1:], None).grow(max(2, share)).points
+            solutions += _Curve(part, over[1:], None).grow(max(2, share)).points
         except (InfeasibleProblem, SolverFailure):
             failed.append(value)
-    return Front(over, tuple(undominated(found, over)), tuple(sorted(failed)))
+    return Front(over, tuple(undominated(solutions, over)), tuple(sorted(failed)))
 
 
 def _at_most(problem: Problem, name: str, value: float) -> Problem:
@@ -217,11 +217,11 @@ def least_value(problem: Problem, name: str) -> float:
     """The least value of a constant, of B where it is given as a number; SolverFailure where none is found."""
     if name != "B":
         return synthesize(replace(problem, minimise=name)).objective
-    found = extreme_velocity(problem, greatest=False)
-    optimum = solve(found.program).optimum
+    extreme = extreme_velocity(problem, greatest=False)
+    optimum = solve(extreme.program).optimum
     if optimum is None:
         raise SolverFailure("the least B of these conditions was not found: give between", problem=problem)
-    return float(optimum.x[found.places["B"]])
+    return float(optimum.x[extreme.places["B"]])
 
 
 def _checked(problem: object, over: Sequence[str], between: tuple[float, float] | None) -> tuple[str, ...]:

@@ -81,7 +81,7 @@ def _check_types(problem: object, start: object, bound: object) -> None:
 
 
 def _neighbours(first: Problem, second: Problem) -> bool:
-    peaks = [(one.peak_at, one.peak_is_variable) for one in (first, second)]
+    peaks = [(problem.peak_at, problem.peak_is_variable) for problem in (first, second)]
     return peaks[0] == peaks[1] and differ_in_numbers(first, second) and _same_space(first, second)
 
 

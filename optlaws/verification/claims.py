@@ -51,10 +51,10 @@ def verify(source: Mapping[str, Any] | Path | str) -> Verification:
 
 def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification]:
     """Check every solution, certificate and law with constants, by where it is; refuse whatever else is claimed."""
-    found = entries(read(source))
-    if not found:
+    claimed = entries(read(source))
+    if not claimed:
         raise InputError(f"{NO_FILE}: nothing in it is a solution, a certificate or a law with its constants")
-    return {path: built(_entry, one, path or "the file") for path, one in found.items()}
+    return {path: built(_entry, entry, path or "the file") for path, entry in claimed.items()}
 
 
 def _entry(entry: Entry) -> Verification:
@@ -62,8 +62,8 @@ def _entry(entry: Entry) -> Verification:
         claim = Claim(f"{entry.around.status}", proven=False, detail="no certificate stands beside it")
         return Verification(problem=None, bound=None, claims=(claim,))
     check_keys(entry.data)
-    found = _alone(entry.data)
-    return replace(found, claims=(*found.claims, *said_around(entry, found)))
+    alone = _alone(entry.data)
+    return replace(alone, claims=(*alone.claims, *said_around(entry, alone)))
 
 
 def _alone(data: Mapping[str, Any]) -> Verification:
@@ -79,7 +79,7 @@ def _alone(data: Mapping[str, Any]) -> Verification:
 
 
 def _law_alone(data: Mapping[str, Any]) -> Verification:
-    law = built(lambda one: ExactLaw(MotionLaw.from_dict(one)), data["law"], "law")
+    law = built(lambda entry: ExactLaw(MotionLaw.from_dict(entry)), data["law"], "law")
     constants = law.enclosures()
     return Verification(problem=None, bound=None, constants=constants, claims=tuple(stated_constants(data, law)))
 
@@ -124,7 +124,7 @@ def _solution(data: Mapping[str, Any]) -> Verification:
     certificate = built(Certificate.from_dict, data["certificate"], "certificate")
     if certificate.program == VIOLATION:
         raise InputError("a proof that no law exists beside a law: verify the certificate alone")
-    law = built(lambda one: ExactLaw(MotionLaw.from_dict(one)), data["law"], "law")
+    law = built(lambda entry: ExactLaw(MotionLaw.from_dict(entry)), data["law"], "law")
     same = certificate.problem == problem
     proof = prove(certificate)
     objective = enclosed(law.sum(problem.objective))
@@ -134,9 +134,12 @@ def _solution(data: Mapping[str, Any]) -> Verification:
     if bound is not None and objective[1] < inf:
         gap = rounded_up((Fraction(objective[1]) - bound) / (Fraction(objective[1]) if objective[1] > NOTHING else 1))
     constants = law.enclosures()
-    found = excesses(problem, law)
+    conditions = excesses(problem, law)
     claims = [
-        *(Claim(e.name, e.holds, f"off by at most {max(e.by, 0.0):.1e}, {e.allowed:.1e} is allowed") for e in found),
+        *(
+            Claim(e.name, e.holds, f"off by at most {max(e.by, 0.0):.1e}, {e.allowed:.1e} is allowed")
+            for e in conditions
+        ),
         *stated_numbers(data, problem, law, objective),
         *stated_constants(data, law),
         _same("the certificate's problem", certificate.problem, problem),
@@ -157,7 +160,7 @@ def _solution(data: Mapping[str, Any]) -> Verification:
         objective=objective,
         gap=gap,
         constants=constants,
-        excesses={one.name: one.by for one in found},
+        excesses={condition.name: condition.by for condition in conditions},
     )
 
 
@@ -181,8 +184,8 @@ def _verification(
 
 def _certificate(proof: Proof, certificate: Certificate, *, accurate: bool = True) -> Iterator[Claim]:
     count = len(certificate.contacts)
-    greatest = max((abs(one.multiplier) for one in certificate.contacts), default=0.0)
-    negative = [one for one in certificate.contacts if one.multiplier < -_NOTHING * greatest]
+    greatest = max((abs(contact.multiplier) for contact in certificate.contacts), default=0.0)
+    negative = [contact for contact in certificate.contacts if contact.multiplier < -_NOTHING * greatest]
     shown = f"{len(negative)} of {count} negative" if negative else f"{count}, none negative"
     yield Claim("multipliers", not negative, shown)
     if proof.unknown:
@@ -228,14 +231,14 @@ def _of_places(data: object, problem: Problem) -> Iterator[Claim]:
     yield Claim("the peak certificate", proven=False, detail=detail)
 
 
-def _same(name: str, one: Problem, other: Problem) -> Claim:
-    return Claim(name, one == other, "the file's" if one == other else f"another: {one!r}")
+def _same(name: str, stated: Problem, other: Problem) -> Claim:
+    return Claim(name, stated == other, "the file's" if stated == other else f"another: {stated!r}")
 
 
 def _best(proven: Fraction | None, power: Fraction | None, limit: Fraction | None) -> tuple[Fraction | None, str]:
     sources = ((proven, ""), (power, " by the power certificate"), (limit, " by the limit of laws of any degree"))
     known = [(value, source) for value, source in sources if value is not None]
-    return max(known, key=lambda one: one[0], default=(None, ""))
+    return max(known, key=lambda bound: bound[0], default=(None, ""))
 
 
 def _shown(gap: float | None) -> str:

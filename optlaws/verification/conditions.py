@@ -49,7 +49,7 @@ def excesses(problem: Problem, law: ExactLaw) -> list[Excess]:
             *_shape(problem, law),
             *_ends(problem, law),
             *_velocity(problem, law),
-            *(one for constant, wanted in problem.bounded for one in _constant(law, constant, wanted)),
+            *(excess for constant, wanted in problem.bounded for excess in _constant(law, constant, wanted)),
             *_windows(problem, law),
         ]
 
@@ -67,14 +67,14 @@ def _ends(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
             yield _of(f"derivative {nu} at k = {k}", off, _size(law, nu), _ROUNDING)
     if problem.symmetric:
         a = law.polynomials
-        low, high = least_and_greatest([one for pair in _facing(a) for one in _uneven(*pair)])
+        low, high = least_and_greatest([extreme for pair in _facing(a) for extreme in _uneven(*pair)])
         yield _of("a(k) + a(1-k) = 1", law.magnitude((low, high)), _size(law, 0), _ROUNDING)
 
 
 def _shape(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     """The law's degree, and where it is piecewise its breaks and how smooth it is there."""
     shape = shape_of(problem.basis, problem.order)
-    beyond = [abs(one) for piece in law.polynomials for one in piece.stored[max(shape.degree - 1, 0) :]]
+    beyond = [abs(term) for piece in law.polynomials for term in piece.stored[max(shape.degree - 1, 0) :]]
     yield _of("terms beyond the degree", arb(sum(beyond)), _size(law, 0), _ROUNDING)
     if len(shape.breaks) != len(law.breaks):
         detail = f"{len(law.breaks) - 1} pieces instead of {len(shape.breaks) - 1}"
@@ -83,7 +83,7 @@ def _shape(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     if len(shape.breaks) == 2:
         return
     breaks = _folded(shape.breaks) if problem.symmetric else shape.breaks
-    apart = max(abs(one - other) for one, other in zip(breaks, law.breaks, strict=True))
+    apart = max(abs(place - other) for place, other in zip(breaks, law.breaks, strict=True))
     yield _of("breaks", ball(apart), 1.0, _APART)
     for nu in range(1, shape.continuity + 1):
         sides = ((left.exact(nu, left.stop), right.exact(nu, right.start)) for left, right in pairwise(law.polynomials))
@@ -99,19 +99,19 @@ def _folded(breaks: list[Fraction]) -> list[Fraction]:
 
 def _facing(pieces: list[PolynomialPiece]) -> Iterator[tuple[PolynomialPiece, PolynomialPiece, Fraction, Fraction]]:
     """Pieces, with those that their mirror images meet, and from where to where."""
-    for one in pieces:
+    for piece in pieces:
         for other in reversed(pieces):
-            low, high = max(one.start, 1 - other.stop), min(one.stop, 1 - other.start)
+            low, high = max(piece.start, 1 - other.stop), min(piece.stop, 1 - other.start)
             if low < high:
-                yield one, other, low, high
+                yield piece, other, low, high
 
 
-def _uneven(one: PolynomialPiece, other: PolynomialPiece, low: Fraction, high: Fraction) -> tuple[arb, arb]:
+def _uneven(piece: PolynomialPiece, other: PolynomialPiece, low: Fraction, high: Fraction) -> tuple[arb, arb]:
     """Least and greatest a(k) + a(1-k) - 1."""
     # the y of the other piece at 1 - k, as a function of this one's
-    slope = -other.rate / one.rate
-    mirrored = fmpq_poly([other.local(1 - low) - slope * one.local(low), slope])
-    return between(one.derivative(0) + other.derivative(0)(mirrored) - 1, one.local(low), one.local(high))
+    slope = -other.rate / piece.rate
+    mirrored = fmpq_poly([other.local(1 - low) - slope * piece.local(low), slope])
+    return between(piece.derivative(0) + other.derivative(0)(mirrored) - 1, piece.local(low), piece.local(high))
 
 
 def _size(law: ExactLaw, nu: int) -> float:

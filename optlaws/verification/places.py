@@ -180,14 +180,14 @@ def _row(row: Row, path: str, around: Around) -> Iterator[tuple[str, Entry]]:
     if row.asked is not None:
         problem_of(_stated(row.asked, dict[str, Any], f"{path}.asked"))
     said = Around(row.status, row.asked, around.B, around.values)
-    inside = [one for name in ("solution", "proof") for one in _walk(getattr(row, name), f"{path}.{name}", said)]
+    inside = [entry for name in ("solution", "proof") for entry in _walk(getattr(row, name), f"{path}.{name}", said)]
     if not inside and row.status not in {None, "not found"}:
         inside = [(path, Entry({}, said))]
     yield from inside
 
 
 def _front(front: FrontFile, path: str) -> Iterator[tuple[str, Entry]]:
-    if len(front.values) != len(front.points) or any(len(one) != len(front.over) for one in front.values):
+    if len(front.values) != len(front.points) or any(len(row) != len(front.over) for row in front.values):
         raise InputError(f"{path or 'the front'}: values must be as many as points, one for each of {front.over}")
     for i, (values, point) in enumerate(zip(front.values, front.points, strict=True)):
         said = Around(values=dict(zip(front.over, values, strict=True)))
@@ -203,6 +203,6 @@ def _of_velocity(data: Data, path: str) -> Iterator[tuple[str, Entry]]:
     except ValueError:
         raise InputError(f"{path}.B must be a number, got {said!r:.40}") from None
     inside = list(_members({key: value for key, value in data.items() if key != "B"}, path, Around(B=B)))
-    if not any("problem" in one.data for _, one in inside):
+    if not any("problem" in entry.data for _, entry in inside):
         raise InputError(f"{NO_FILE}: {path}.B claims something without a certificate: {B!r}")
     yield from inside

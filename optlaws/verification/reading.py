@@ -69,12 +69,12 @@ def _loaded(file: Path) -> Mapping[str, Any]:
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
-    found: dict[str, Any] = {}
+    entries: dict[str, Any] = {}
     for key, value in pairs:
-        if key in found:
+        if key in entries:
             raise InputError(f"the key {key!r} comes twice")
-        found[key] = value
-    return found
+        entries[key] = value
+    return entries
 
 
 def _no_number(text: str) -> float:

@@ -106,4 +106,4 @@ class Verification:
 
 
 def _pair(pair: tuple[float, float]) -> list[float | None]:
-    return [bounded(one) for one in pair]
+    return [bounded(value) for value in pair]

@@ -42,7 +42,7 @@ def _constants(entry: Entry) -> Iterator[Claim]:
         return
     if "law" not in entry.data:
         raise InputError("values of a front claim something of a point without a law")
-    law = built(lambda one: ExactLaw(MotionLaw.from_dict(one)), entry.data["law"], "law")
+    law = built(lambda data: ExactLaw(MotionLaw.from_dict(data)), entry.data["law"], "law")
     for name, value in entry.around.values.items():
         if name not in FUNCTIONALS:
             raise InputError(unknown_key(name, FUNCTIONALS, "constant"))

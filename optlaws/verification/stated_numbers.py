@@ -60,8 +60,8 @@ def stated_constants(data: Mapping[str, Any], law: ExactLaw) -> Iterator[Claim]:
     balls = law.constants()
     if unknown := [name for name in stated if name not in balls]:
         raise InputError(f"constants: {unknown[0]!r} is none of {', '.join(balls)}")
-    for name, one in stated.items():
-        entry, key = (one, "value") if isinstance(one, Mapping) else (stated, name)
+    for name, statement in stated.items():
+        entry, key = (statement, "value") if isinstance(statement, Mapping) else (stated, name)
         # JSON knows no infinite number
         value = inf if entry.get(key, 0) is None else number(entry, key)
         yield near(name, value, enclosed(balls[name]))
@@ -81,14 +81,14 @@ def _reached(name: str, value: float, k: float, law: ExactLaw) -> Claim:
         return Claim(f"place of {name}", proven=False, detail=f"k = {k!r} is not in [0, 1]")
     place = Fraction(k)
     with ctx.workprec(law.precision):
-        found = []
+        magnitudes = []
         for piece in law.pieces:
             if piece.start <= place <= piece.stop:
                 b, *others = (piece.value(nu, place) for nu in (1, _ORDERS.get(name, 2)))
-                found.append(abs(b * others[0]) if name == "D" else abs(others[0]))
-    highest = max((enclosed(one)[1] for one in found), default=0.0)
+                magnitudes.append(abs(b * others[0]) if name == "D" else abs(others[0]))
+    highest = max((enclosed(magnitude)[1] for magnitude in magnitudes), default=0.0)
     # a constant power is the same everywhere, and 0 times infinity at its end
-    holds = highest >= value - _PLACE * max(1.0, value) or not all(one.is_finite() for one in found)
+    holds = highest >= value - _PLACE * max(1.0, value) or not all(magnitude.is_finite() for magnitude in magnitudes)
     return Claim(f"place of {name}", holds, f"{highest!r} at k = {k!r}")
 
 
@@ -101,15 +101,15 @@ def _of_z(z: object, problem: Problem, law: ExactLaw) -> Claim:
         raise InputError(f"z must be a list of numbers, got {z!r}")
     if len(z) != basis.size:
         return Claim("Z", proven=False, detail=f"it has {len(z)} coefficients, {basis!r} has {basis.size}")
-    exact = [Fraction(one) for one in z]
+    exact = [Fraction(coefficient) for coefficient in z]
     pieces = basis.pieces(exact) if isinstance(basis, PiecewiseBasis) else [exact]
     if len(pieces) != len(law.pieces):
         return Claim("Z", proven=False, detail=f"Z has {len(pieces)} pieces, the law {len(law.pieces)}")
     k = fmpq_poly([0, 1])
-    a0, a1 = (fmpq_poly([rational(one) for one in part]) for part in (conditions.a0(), conditions.a1()))
+    a0, a1 = (fmpq_poly([rational(coefficient) for coefficient in part]) for part in (conditions.a0(), conditions.a1()))
     off = []
     for powers, piece in zip(pieces, law.polynomials, strict=True):
-        whole = fmpq_poly([rational(Fraction(one)) for one in powers])
+        whole = fmpq_poly([rational(Fraction(power)) for power in powers])
         if isinstance(basis, PiecewiseBasis):
             whole = whole((k - rational(piece.start)) / rational(piece.stop - piece.start))
         a = a0 + k**order * (a1 + (k - 1) ** order * whole)
@@ -122,10 +122,10 @@ def _small(name: str, off: list[fmpq_poly], law: ExactLaw, allowed: float) -> Cl
     """That polynomials in y are small from -1 to 1."""
     with ctx.workprec(law.precision):
         # what is not small at a few places need not be enclosed everywhere
-        least = max(enclosed(abs(at(one, arb(y) / 4)))[0] for one in off for y in range(-4, 5))
+        least = max(enclosed(abs(at(polynomial, arb(y) / 4)))[0] for polynomial in off for y in range(-4, 5))
         if least > allowed:
             return Claim(name, proven=False, detail=f"off by {least:.1e} or more, {allowed:.1e} is allowed")
-        by = enclosed(law.magnitude(least_and_greatest([one for part in off for one in between(part, *_WHOLE)])))[1]
+        by = enclosed(law.magnitude(least_and_greatest([value for part in off for value in between(part, *_WHOLE)])))[1]
     return Claim(name, by <= allowed, f"off by at most {by:.1e}, {allowed:.1e} is allowed")
 
 

@@ -58,7 +58,7 @@ class ConeFamily(Family):
 
     def columns(self, u: Array) -> Complex:
         """p's columns with two derivatives by u, shape (3, points, variables + 1)."""
-        return np.stack([np.asarray(chebyshev.chebval(u, one)).T for one in self._derivatives])
+        return np.stack([np.asarray(chebyshev.chebval(u, series)).T for series in self._derivatives])
 
     def tangent(self, u: float, direction: Array) -> Array:
         """The affine function that a unit vector makes of p at u; |p| is nowhere below it."""
@@ -129,7 +129,7 @@ def stationary_places(series: Complex) -> Array:
 
 
 def _slope(series: Complex) -> Complex:
-    found = np.zeros_like(series)
+    slope = np.zeros_like(series)
     lower = chebyshev.chebder(series)
-    found[: len(lower)] = lower
-    return found
+    slope[: len(lower)] = lower
+    return slope

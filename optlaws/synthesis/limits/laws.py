@@ -181,9 +181,9 @@ def _straight_squares(times: Sequence[float], ends: Sequence[Pair], D: float) ->
 
 def _linear(breaks: Sequence[float], series: Sequence[Pair], b: float) -> PiecewiseLaw:
     segments = []
-    for (start, end), one in zip(pairwise(breaks), series, strict=True):
-        segments.append(PolynomialSegment(one, b))
-        b += one[0] * (end - start)
+    for (start, end), acceleration in zip(pairwise(breaks), series, strict=True):
+        segments.append(PolynomialSegment(acceleration, b))
+        b += acceleration[0] * (end - start)
     return PiecewiseLaw(breaks, segments)
 
 

@@ -37,16 +37,16 @@ def contradiction(rows: Array, right: Array) -> Array | None:
         return _unit(len(right), int(i), -float(np.sign(right[i])))
     length[empty] = 1.0
     rows, right = np.where(empty[:, None], 0.0, rows / length[:, None]), right / length
-    found = _of_one_value(rows, right)
-    if found is None:
+    multipliers = _of_one_value(rows, right)
+    if multipliers is None:
         residual = right - rows @ np.linalg.lstsq(rows, right, rcond=_RANK)[0]
         if np.abs(residual).max(initial=0.0) <= _OFF * max(1.0, float(np.abs(right).max(initial=0.0))):
             return None
-        found = -residual
-    found = found / length
-    found = found / np.abs(found).max()
-    found[np.abs(found) < _WEIGHTLESS] = 0.0
-    return np.asarray(found, dtype=np.float64)
+        multipliers = -residual
+    multipliers = multipliers / length
+    multipliers = multipliers / np.abs(multipliers).max()
+    multipliers[np.abs(multipliers) < _WEIGHTLESS] = 0.0
+    return np.asarray(multipliers, dtype=np.float64)
 
 
 def independent(rows: Array) -> NDArray[np.bool_]:
@@ -87,6 +87,6 @@ def _of_one_value(rows: Array, right: Array) -> Array | None:
 
 
 def _unit(count: int, place: int, size: float) -> Array:
-    found = np.zeros(count)
-    found[place] = size
-    return found
+    unit = np.zeros(count)
+    unit[place] = size
+    return unit

@@ -73,7 +73,7 @@ def raised_at(model: Model, optimum: ActiveSet, constant: Functional, low: float
     """Candidates in which the peak is asked at k, and let go to where it is best nearby."""
     family = family_of(model, constant)
     ways = _asked(model.program, family, optimum, (constant.name, low), family.u(np.array([k])))
-    return [one for program, state in ways for one in raised(replace(model, program=program), state)]
+    return [candidate for program, state in ways for candidate in raised(replace(model, program=program), state)]
 
 
 def _reached(model: Model, state: ActiveSet, constant: Functional, low: float) -> bool:
@@ -90,7 +90,7 @@ def _held_up(model: Model, plain: ActiveSet, constant: Functional, low: float) -
         free = _inside(family, float(extrema[j]))
         start = plain.joined(len(model.program.families), float(extrema[j]), float(signs[j]), free=free)
         led.append(_continued(model.program, held, start, (float(height[j]), low)))
-    ways = [_rested(model.program, family, one, low) for one in led if one is not None]
+    ways = [_rested(model.program, family, optimum, low) for optimum in led if optimum is not None]
     if not ways and isinstance(family, NormFamily):
         ways = aligned(model.program, family, plain, low)
     elif not ways:
@@ -121,7 +121,7 @@ def _asked(
     """Optima of the programs in which the peak is asked at one place, let go from there."""
     name, low = asked
     # held at the bound from both sides, c would have no slope at the place: the upper side waits until it may move
-    loose = [replace(one, bound=one.bound + _ROOM) if one.name == name else one for one in program.families]
+    loose = [replace(own, bound=own.bound + _ROOM) if own.name == name else own for own in program.families]
     ways, stuck = [], []
     for u in where.tolist():
         for s in family.signs:
@@ -261,7 +261,7 @@ def _at_places(problem: Problem, other: Model, family: Family, low: float) -> It
 
 def _without(problem: Problem, constant: Functional) -> Problem:
     """The same laws with nothing asked of the constant; what is minimised makes them smooth."""
-    bounds = {one: asked for one, asked in problem.bounded if one != constant}
+    bounds = {bounded: asked for bounded, asked in problem.bounded if bounded != constant}
     # a norm is held up by linear rows: what is minimised beside it had better be linear too
     minimise = "C" if isinstance(constant, RootMeanSquare) else _SMOOTH.get(constant.name, "rms_c")
     smooth = replace(problem, minimise=minimise, C=None, D=None, J=None, bounds=bounds)

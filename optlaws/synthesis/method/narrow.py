@@ -39,7 +39,7 @@ def narrowed(model: Model) -> Iterator[tuple[ActiveSet, Array]]:
     """
     problem = model.problem
     bounded = [asked for _, asked in problem.bounded if isfinite(asked.high)]
-    if not bounded or not all(one.convex for one, _ in problem.bounded):
+    if not bounded or not all(constant.convex for constant, _ in problem.bounded):
         return
 
     def excess(coordinates: Array) -> float:
@@ -62,7 +62,7 @@ def narrowed(model: Model) -> Iterator[tuple[ActiveSet, Array]]:
 
 
 def _loosened(problem: Problem, share: float) -> Problem:
-    bounds = {one: replace(asked, high=asked.high * (1.0 + share)) for one, asked in problem.bounded}
+    bounds = {constant: replace(asked, high=asked.high * (1.0 + share)) for constant, asked in problem.bounded}
     return replace(problem, C=None, D=None, J=None, bounds=bounds)
 
 
@@ -70,7 +70,7 @@ def _closer(program: Program, state: ActiveSet, roomy: Array) -> ActiveSet:
     """A guess of the optimum with a hundredth of the room: a norm leaves a tenth of the way then, and pulls tenfold."""
     x = state.x.copy()
     x[: len(roomy)] = roomy + _CLOSER * (x[: len(roomy)] - roomy)
-    norms = [isinstance(one, NormFamily) and not one.slack.any() for one in program.families]
+    norms = [isinstance(family, NormFamily) and not family.slack.any() for family in program.families]
     bounding = np.array([norms[i] for i in state.family], dtype=np.bool_)
     return replace(state, x=x, multipliers=np.where(bounding, state.multipliers / _CLOSER, state.multipliers))
 

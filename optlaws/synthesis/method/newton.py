@@ -67,13 +67,13 @@ def _conditions(program: Program, state: ActiveSet) -> tuple[Array, Array]:
     last = n + m + p
     system = np.zeros((last + len(program.right),) * 2)
     for i, family in enumerate(program.families):
-        mine = state.family == i
-        if mine.any():
-            u, s = state.u[mine], state.s[mine]
+        own = state.family == i
+        if own.any():
+            u, s = state.u[own], state.s[own]
             jet = family.jet(state.x, u, s)
-            value[mine], slope[mine], curvature[mine] = jet.value, jet.slope, jet.curvature
-            rows[mine], slopes[mine] = jet.gradient, jet.slope_gradient
-            bent = family.hessian(state.x, u, state.multipliers[mine] * s)
+            value[own], slope[own], curvature[own] = jet.value, jet.slope, jet.curvature
+            rows[own], slopes[own] = jet.gradient, jet.slope_gradient
+            bent = family.hessian(state.x, u, state.multipliers[own] * s)
             if bent is not None:
                 system[:n, :n] += bent
 

@@ -76,7 +76,7 @@ def units_of(program: Program) -> Units | None:
         if isinstance(family, ProductFamily):
             powers |= family.slack != 0.0
     variables = np.where(powers, size * size, size)
-    rows = np.array([_row_unit(one, size) for one in program.families])
+    rows = np.array([_row_unit(member, size) for member in program.families])
     cost = program.objective * variables
     objective = float(np.abs(cost).max()) or 1.0
     scaled = Program(

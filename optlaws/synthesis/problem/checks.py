@@ -23,14 +23,14 @@ def constant(value: Any, name: str) -> float | Range | None:  # noqa: ANN401 - i
     """A constant's entry as a number, a range or None."""
     if name == "B" and value is not None and not isinstance(value, Range | tuple | list) and not _velocity(value):
         raise InputError(f"B must be a finite number above 1 (the mean velocity is 1), got {shortened(value)}")
-    found = as_range(value, name)
-    if found is None:
+    limits = as_range(value, name)
+    if limits is None:
         return None
-    if name == "B" and found.high <= 1.0:
+    if name == "B" and limits.high <= 1.0:
         raise InputError(f"B must be able to exceed 1 (the mean velocity is 1), got {shortened(value)}")
-    if found.high <= 0.0:
+    if limits.high <= 0.0:
         raise InputError(f"{name} must be able to exceed 0, got {shortened(value)}")
-    return found.high if found.fixed else found
+    return limits.high if limits.fixed else limits
 
 
 def constant_of_bounds(value: Any, asked: Range, name: str) -> float | Range | None:  # noqa: ANN401

@@ -112,15 +112,15 @@ def _factor(value: object) -> float:
 
 
 def _no_weight(value: object, where: str = "") -> InputError:
-    what = "weights in an objective must be finite numbers above 0 and at most"
-    return InputError(f"{what} {MAGNITUDE_LIMIT:g}, got {shortened(value)}{where}")
+    demand = "weights in an objective must be finite numbers above 0 and at most"
+    return InputError(f"{demand} {MAGNITUDE_LIMIT:g}, got {shortened(value)}{where}")
 
 
 def _pairs(terms: Any) -> list[tuple[float, Term]]:  # noqa: ANN401 - it is checked here
-    found = list(terms) if isinstance(terms, list | tuple) else [terms]
-    if not found or not all(isinstance(pair, tuple) and len(pair) == 2 for pair in found):
+    pairs = list(terms) if isinstance(terms, list | tuple) else [terms]
+    if not pairs or not all(isinstance(pair, tuple) and len(pair) == 2 for pair in pairs):
         raise InputError(f"an objective needs pairs of a weight and a constant, at least one, got {shortened(terms)}")
-    return found
+    return pairs
 
 
 @dataclass(frozen=True, repr=False)

@@ -141,7 +141,7 @@ def _asked_alike(first: Any, second: Any) -> bool:  # noqa: ANN401
 
 
 def _bounded_alike(first: Mapping[Any, Range], second: Mapping[Any, Range]) -> bool:
-    return list(first) == list(second) and all(_asked_alike(first[one], second[one]) for one in first)
+    return list(first) == list(second) and all(_asked_alike(first[constant], second[constant]) for constant in first)
 
 
 def _same_terms(first: Any, second: Any) -> bool:  # noqa: ANN401 - expressions
@@ -162,11 +162,11 @@ def _plain_range(asked: Any) -> Any:  # noqa: ANN401 - a number, a range or None
 
 
 def _plain_bounds(bounds: Mapping[Any, Range]) -> dict[str, Any] | None:
-    return {one.name: r.high if r.fixed else _plain_range(r) for one, r in bounds.items()} or None
+    return {constant.name: r.high if r.fixed else _plain_range(r) for constant, r in bounds.items()} or None
 
 
 def _joined_basis(**entries: Any) -> Any:  # noqa: ANN401
-    name, degree = (entries.pop(one, ENTRIES[one].default) for one in ("basis", "degree"))
+    name, degree = (entries.pop(entry, ENTRIES[entry].default) for entry in ("basis", "degree"))
     return basis(name, degree, **entries)
 
 
@@ -182,7 +182,7 @@ def _plain_ends(boundary: BoundaryConditions | None) -> dict[str, Any]:
 
 def _read_windows(windows: Any) -> tuple[Window, ...]:  # noqa: ANN401
     given = checks.listed(windows, "windows")
-    return tuple(read_window(one) if isinstance(one, str) else Window.from_dict(one) for one in given)
+    return tuple(read_window(window) if isinstance(window, str) else Window.from_dict(window) for window in given)
 
 
 def _plain_windows(windows: tuple[Window, ...]) -> list[dict[str, Any]] | None:

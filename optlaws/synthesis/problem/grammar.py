@@ -90,23 +90,23 @@ class _Reader:
         self.token = next(self.tokens)
 
     def _tokens(self) -> list[Token]:
-        found, place, end = [], 0, len(self.text.rstrip())
+        tokens, place, end = [], 0, len(self.text.rstrip())
         while place < end:
             match = _TOKEN.match(self.text, place)
             if match is None:
                 place = _BLANK.match(self.text, place).end()  # type: ignore[union-attr] # blanks may be none
                 self.refuse(f"{self.text[place]!r} is not understood", place)
             kind = str(match.lastgroup)
-            found.append(Token(kind, match.group(kind), match.start(kind)))
+            tokens.append(Token(kind, match.group(kind), match.start(kind)))
             place = match.end()
-        return [*found, Token("end", "", len(self.text))]
+        return [*tokens, Token("end", "", len(self.text))]
 
-    def refuse(self, what: str, place: int | None = None) -> NoReturn:
+    def refuse(self, complaint: str, place: int | None = None) -> NoReturn:
         at = self.token.place if place is None else place
         first = max(0, at - _SHOWN // 2)
         before, after = "..." if first else "", "..." if first + _SHOWN < len(self.text) else ""
         shown = f"{before}{self.text[first : first + _SHOWN]}{after}"
-        raise InputError(f"{what}\n  {shown}\n  {' ' * (len(before) + at - first)}^")
+        raise InputError(f"{complaint}\n  {shown}\n  {' ' * (len(before) + at - first)}^")
 
     def take(self) -> Token:
         token = self.token

@@ -40,8 +40,8 @@ def named(text: str) -> Functional:
     >>> named("rms_c"), named("residual(nu=(18, 22))")
     (rms_c, residual(nu=(18.0, 22.0)))
     """
-    found = expression(text).terms
-    (weight, constant), *others = found
+    terms = expression(text).terms
+    (weight, constant), *others = terms
     if others or weight != 1.0 or not isinstance(constant, Functional):
         raise InputError(f"{text!r} is no constant of a law but an expression")
     return constant

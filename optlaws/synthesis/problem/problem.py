@@ -82,8 +82,8 @@ class Problem:
     inflexion: float | None = None
 
     def __post_init__(self) -> None:
-        for one in FIELDS:
-            object.__setattr__(self, one.name, one.check(getattr(self, one.name)))
+        for entry in FIELDS:
+            object.__setattr__(self, entry.name, entry.check(getattr(self, entry.name)))
         object.__setattr__(self, "order", order_with(self.order, self.boundary))
         self._give_bounds_their_entries()
         if self.symmetric and self.inflexion not in {None, 0.5}:
@@ -100,11 +100,11 @@ class Problem:
 
     def _give_bounds_their_entries(self) -> None:
         """What `bounds` ask of B, C, D and J belongs to the entries of these names."""
-        for one in _NAMED:
-            if one in self.bounds:
-                asked = constant_of_bounds(getattr(self, one.name), self.bounds[one], one.name)
-                object.__setattr__(self, one.name, asked)
-        others = {one: asked for one, asked in self.bounds.items() if one not in _NAMED}
+        for constant in _NAMED:
+            if constant in self.bounds:
+                asked = constant_of_bounds(getattr(self, constant.name), self.bounds[constant], constant.name)
+                object.__setattr__(self, constant.name, asked)
+        others = {constant: asked for constant, asked in self.bounds.items() if constant not in _NAMED}
         object.__setattr__(self, "bounds", Bounds(others))
 
     def _drop_implied_inflexion(self) -> None:
@@ -125,7 +125,7 @@ class Problem:
     @kept_property
     def convex(self) -> bool:
         """Whether every constant in the objective and every bounded one is convex in the law."""
-        return all(one.convex for one in self.constants)
+        return all(constant.convex for constant in self.constants)
 
     @property
     def mirrored(self) -> bool:
@@ -134,7 +134,10 @@ class Problem:
         Where the objective is convex the mean of a law and its mirror image is no worse; where D is in it, that is
         so for the relaxed program.
         """
-        even = all(FUNCTIONALS.get(one.name) == one and one not in {C_plus, C_minus} for one in self.constants)
+        even = all(
+            FUNCTIONALS.get(constant.name) == constant and constant not in {C_plus, C_minus}
+            for constant in self.constants
+        )
         plain = self.boundary is None and not self.windows and self.basis.mirrored and self.inflexion is None
         return not self.symmetric and plain and even
 
@@ -160,19 +163,19 @@ class Problem:
     @kept_property
     def bounded(self) -> tuple[tuple[Functional, Range], ...]:
         """The constants but B of which something is asked, and what."""
-        own = ((one, self._ranges[one.name]) for one in _NAMED if one.name != "B")
-        return (*((one, asked) for one, asked in own if asked is not None), *self.bounds.items())
+        own = ((constant, self._ranges[constant.name]) for constant in _NAMED if constant.name != "B")
+        return (*((constant, asked) for constant, asked in own if asked is not None), *self.bounds.items())
 
     @kept_property
     def _ranges(self) -> dict[str, Range | None]:
         own = {name: as_range(getattr(self, name), name) for name in CONSTANTS}
-        return own | {one.name: asked for one, asked in self.bounds.items()}
+        return own | {constant.name: asked for constant, asked in self.bounds.items()}
 
     @kept_property
     def constants(self) -> set[Functional]:
         """The constants in the objective and the bounded ones."""
-        found = {leaf for _, leaf in leaves(self.objective) if isinstance(leaf, Functional)}
-        return found | {one for one, _ in self.bounded}
+        minimised = {leaf for _, leaf in leaves(self.objective) if isinstance(leaf, Functional)}
+        return minimised | {constant for constant, _ in self.bounded}
 
     @kept_property
     def shape(self) -> Problem:
@@ -211,8 +214,8 @@ def _fixed_above_mean(wanted: Range | None) -> bool:
     return wanted is not None and wanted.fixed and wanted.low > 1.0
 
 
-def _given(problem: Problem, one: Any) -> bool:  # noqa: ANN401 - a dataclass field
-    return bool(getattr(problem, one.name) != one.default)
+def _given(problem: Problem, entry: Any) -> bool:  # noqa: ANN401 - a dataclass field
+    return bool(getattr(problem, entry.name) != entry.default)
 
 
 @lru_cache(maxsize=MOST_ORDER)

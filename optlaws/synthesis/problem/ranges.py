@@ -153,17 +153,17 @@ class Bounds(Mapping[Functional, Range]):
         self._ranges: dict[Functional, Range] = {}
         for key, value in dict(asked).items():
             constant = _constant(key)
-            if constant.name in {one.name for one in self._ranges}:
+            if constant.name in {bounded.name for bounded in self._ranges}:
                 raise InputError(f"bounds name {shortened(constant.name)} twice")
-            found = as_range(value, constant.name)
-            if found is not None and found.high <= 0.0:
+            limits = as_range(value, constant.name)
+            if limits is not None and limits.high <= 0.0:
                 raise InputError(f"{constant.name} must be able to exceed 0, got {shortened(value)}")
-            if found is not None and found != Range():
-                self._ranges[constant] = found
+            if limits is not None and limits != Range():
+                self._ranges[constant] = limits
 
     def __getitem__(self, key: Functional | str) -> Range:
         if isinstance(key, str):
-            return {one.name: value for one, value in self._ranges.items()}[key]
+            return {constant.name: value for constant, value in self._ranges.items()}[key]
         return self._ranges[key]
 
     def __iter__(self) -> Iterator[Functional]:
@@ -176,8 +176,8 @@ class Bounds(Mapping[Functional, Range]):
         return hash(frozenset(self._ranges.items()))
 
     def __repr__(self) -> str:
-        known = {one: repr(one.name) if is_named(one) else repr(one) for one in self._ranges}
-        return "{" + ", ".join(f"{known[one]}: {value!r}" for one, value in self._ranges.items()) + "}"
+        known = {constant: repr(constant.name) if is_named(constant) else repr(constant) for constant in self._ranges}
+        return "{" + ", ".join(f"{known[constant]}: {value!r}" for constant, value in self._ranges.items()) + "}"
 
 
 def _constant(key: Any) -> Functional:  # noqa: ANN401 - it is checked here

@@ -22,7 +22,7 @@ _BALANCED = 1e-13
 _RANK = 1e-10
 
 
-def turned(found: Model, proof: Certificate) -> Certificate:
+def turned(model: Model, proof: Certificate) -> Certificate:
     """The certificate with the least change of its directions that balances it; the better of both.
 
     Parameters
@@ -34,8 +34,8 @@ def turned(found: Model, proof: Certificate) -> Certificate:
     """
     if not any(contact.direction for contact in proof.contacts):
         return proof
-    images = [_image(found, contact) for contact in proof.contacts]
-    slope = _slope(found, proof)
+    images = [_image(model, contact) for contact in proof.contacts]
+    slope = _slope(model, proof)
     if all(image is None for image in images) or np.abs(slope).max(initial=0.0) <= _BALANCED:
         return proof
     pulls = [c.multiplier * image for c, image in zip(proof.contacts, images, strict=True) if image is not None]
@@ -49,10 +49,10 @@ def turned(found: Model, proof: Certificate) -> Certificate:
     return better if better.bound > proof.bound else proof
 
 
-def _image(found: Model, contact: Contact) -> Array | None:
+def _image(model: Model, contact: Contact) -> Array | None:
     """What each component of a contact's direction stands for, in the coordinates; None where it has no direction."""
-    terms = found.space.terms
-    for family in found.program.families:
+    terms = model.space.terms
+    for family in model.program.families:
         if family.name == contact.constraint and contact.multiplier > 0.0:
             if isinstance(family, NormFamily):
                 return family.matrix[:, :terms]
@@ -62,13 +62,13 @@ def _image(found: Model, contact: Contact) -> Array | None:
     return None
 
 
-def _slope(found: Model, proof: Certificate) -> Array:
+def _slope(model: Model, proof: Certificate) -> Array:
     """What is left of the objective's slope and the contacts' in the coordinates."""
-    slope = found.program.objective.copy()
+    slope = model.program.objective.copy()
     for contact in proof.contacts:
-        slope += max(contact.multiplier, 0.0) * row_of(found.program, contact)[0]
-    slope += found.program.equalities.T @ np.array(proof.equations)
-    return np.asarray(slope[: found.space.terms])
+        slope += max(contact.multiplier, 0.0) * row_of(model.program, contact)[0]
+    slope += model.program.equalities.T @ np.array(proof.equations)
+    return np.asarray(slope[: model.space.terms])
 
 
 def _with_direction(contact: Contact, direction: Array) -> Contact:

@@ -106,7 +106,7 @@ def _falls_for_ever(problem: Problem) -> bool:
 
 def _convex_part(problem: Problem) -> Problem:
     """The problem without the bounds that are not convex: what contradicts itself there does so with them too."""
-    kept = {one: asked for one, asked in problem.bounded if one.convex}
+    kept = {constant: asked for constant, asked in problem.bounded if constant.convex}
     if len(kept) == len(problem.bounded):
         return problem
     return replace(problem, C=None, D=None, J=None, bounds=kept)
@@ -125,21 +125,21 @@ def _beyond_limit(problem: Problem) -> str:
 
 
 def _contradiction(proof: Certificate) -> str:
-    where = {one.name: one.where for one in proof.problem.constants}
+    where = {constant.name: constant.where for constant in proof.problem.constants}
     acting = [contact for contact in proof.contacts if contact.multiplier > 0.0]
-    words = [where.get(one.constraint, C.where)(one.k).partition(" = ") for one in acting]
+    words = [where.get(contact.constraint, C.where)(contact.k).partition(" = ") for contact in acting]
     symbols = dict.fromkeys(symbol for symbol, _, _ in words)
-    places = ", ".join(f"{one} = {', '.join(at for symbol, _, at in words if symbol == one)}" for one in symbols)
+    places = ", ".join(f"{shown} = {', '.join(at for symbol, _, at in words if symbol == shown)}" for shown in symbols)
     return f"the constraints contradict each other at {places} (error.proof is the certificate)"
 
 
 def _out_of_reach(problem: Problem, elastic: Model) -> Certificate | None:
     """Proof that an amplitude cannot be as small as asked, from its least under all other constraints."""
     cones = {family.name for family in elastic.program.families if isinstance(family, ConeFamily)}
-    for one, asked in problem.bounds.items():
-        others = {other: wanted for other, wanted in problem.bounds.items() if other != one}
-        if one.name in cones:
-            least = replace(problem, minimise=one.expression(), bounds=others)
+    for constant, asked in problem.bounds.items():
+        others = {other: wanted for other, wanted in problem.bounds.items() if other != constant}
+        if constant.name in cones:
+            least = replace(problem, minimise=constant.expression(), bounds=others)
             model = model_of(least)
             optimum = solve(model.program).optimum
             proof = None if optimum is None else certificate(model, optimum, OBJECTIVE)

@@ -230,10 +230,10 @@ class Pieces(Basis):
         """
         width = positive(width, "width")
         half = width / 2.0
-        found = {0.0, 0.5, 1.0}
+        breaks = {0.0, 0.5, 1.0}
         for k in numbers(switches, "switches", MOST_PIECES):
-            found |= {width} if k == 0.0 else {1.0 - width} if k == 1.0 else {k - half, k + half}
-        return cls(sorted({round(k, 15) for k in found}), degree, continuity)
+            breaks |= {width} if k == 0.0 else {1.0 - width} if k == 1.0 else {k - half, k + half}
+        return cls(sorted({round(k, 15) for k in breaks}), degree, continuity)
 
     @property
     def mirrored(self) -> bool:

@@ -29,10 +29,10 @@ def places(breaks: int | Sequence[float]) -> tuple[float, ...]:
     if isinstance(breaks, Integral):
         number = whole(breaks, "number of pieces", least=1, most=MOST_PIECES)
         return tuple(i / number for i in range(number + 1))
-    found = numbers(listed(breaks, "breaks", MOST_PIECES + 1), "breaks")
-    if len(found) < 2 or found[0] != 0.0 or found[-1] != 1.0 or not all(a < b for a, b in pairwise(found)):
-        raise InputError(f"breaks must increase from 0 to 1, got {shortened(found)}")
-    return found
+    places = numbers(listed(breaks, "breaks", MOST_PIECES + 1), "breaks")
+    if len(places) < 2 or places[0] != 0.0 or places[-1] != 1.0 or not all(a < b for a, b in pairwise(places)):
+        raise InputError(f"breaks must increase from 0 to 1, got {shortened(places)}")
+    return places
 
 
 def mirrored(breaks: Sequence[float]) -> bool:
@@ -43,7 +43,7 @@ def mirrored(breaks: Sequence[float]) -> bool:
     >>> mirrored((0.0, 0.3, 0.7, 1.0)), mirrored((0.0, 0.3, 1.0))
     (True, False)
     """
-    return all(abs(one + other - 1.0) <= _MIRROR for one, other in zip(breaks, reversed(breaks), strict=True))
+    return all(abs(place + other - 1.0) <= _MIRROR for place, other in zip(breaks, reversed(breaks), strict=True))
 
 
 def order_of_continuity(continuity: int, degree: int) -> int:
@@ -59,10 +59,10 @@ def order_of_continuity(continuity: int, degree: int) -> int:
     >>> order_of_continuity(2, 3)
     2
     """
-    found = whole(continuity, "continuity", least=1, most=MOST_DEGREE)
-    if found >= degree:
-        raise InputError(f"continuity must be below the degree {degree}, got {found}")
-    return found
+    order = whole(continuity, "continuity", least=1, most=MOST_DEGREE)
+    if order >= degree:
+        raise InputError(f"continuity must be below the degree {degree}, got {order}")
+    return order
 
 
 def read_breaks(text: str) -> int | list[float]:
@@ -79,7 +79,7 @@ def read_breaks(text: str) -> int | list[float]:
     (8, [0.0, 0.3, 1.0])
     """
     try:
-        found = [float(one) for one in text.replace(",", " ").split()]
+        places = [float(word) for word in text.replace(",", " ").split()]
     except ValueError as error:
         raise InputError(f"breaks are a number of pieces or places separated by blanks: {error}") from None
-    return int(found[0]) if len(found) == 1 and found[0].is_integer() else found
+    return int(places[0]) if len(places) == 1 and places[0].is_integer() else places

@@ -40,7 +40,8 @@ def piecewise_law(
     for (low, high), z in zip(pairwise(fractions(breaks, "breaks")), pieces, strict=True):
         length = high - low
         around, local = (
-            [value * length**i for i, value in enumerate(shifted(one, low))] for one in (edge(order), base)
+            [value * length**i for i, value in enumerate(shifted(coefficients, low))]
+            for coefficients in (edge(order), base)
         )
         a = plus(local, times(around, fractions(z, "Z")))
         c = [(i + 1) * (i + 2) * value / length**2 for i, value in enumerate(a[2:])]

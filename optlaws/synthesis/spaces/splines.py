@@ -79,11 +79,11 @@ class PiecewiseBasis(Basis):
 
     def series(self, z: Sequence[float]) -> Array:
         """Chebyshev series of Z on each piece, in a variable from -1 to 1; shape (pieces, degree + 1)."""
-        found = np.zeros((len(self.breaks) - 1, self.degree + 1))
-        for row, powers in zip(found, self.pieces(self.sized(z)), strict=True):
+        on_pieces = np.zeros((len(self.breaks) - 1, self.degree + 1))
+        for row, powers in zip(on_pieces, self.pieces(self.sized(z)), strict=True):
             series = chebyshev_from_powers(powers)
             row[: len(series)] = series
-        return found
+        return on_pieces
 
     def coefficients(self, series: Array) -> tuple[float, ...]:
         """The z_i of a Z given by its Chebyshev series on each piece, in least squares."""
@@ -93,7 +93,7 @@ class PiecewiseBasis(Basis):
     @kept_property
     def functions(self) -> Array:
         """Chebyshev series of every W_i on each piece; shape (size, pieces, degree + 1)."""
-        return np.stack([self.series(one) for one in np.eye(self.size).tolist()])
+        return np.stack([self.series(unit) for unit in np.eye(self.size).tolist()])
 
     def sized(self, z: Sequence[Any]) -> list[Fraction]:
         """The exact values of as many coefficients as there are functions.
@@ -141,18 +141,18 @@ class BSplines(PiecewiseBasis):
         """Ascending powers on each piece in exact arithmetic: Bernstein coefficients are values of the blossom."""
         exact, knots = fractions(z, "z"), fractions(self.knots, "knots")
         n, step = self.degree, self.degree - self.continuity
-        found = []
+        powers = []
         for i, (low, high) in enumerate(pairwise(fractions(self.breaks, "breaks"))):
             first = i * step
-            mine, around = exact[first : first + n + 1], knots[first + 1 : first + 2 * n + 1]
-            bernstein = [_blossom(mine, around, [low] * (n - j) + [high] * j) for j in range(n + 1)]
-            found.append(
+            control, around = exact[first : first + n + 1], knots[first + 1 : first + 2 * n + 1]
+            bernstein = [_blossom(control, around, [low] * (n - j) + [high] * j) for j in range(n + 1)]
+            powers.append(
                 [
                     comb(n, m) * sum(((-1) ** (m - j) * comb(m, j) * bernstein[j] for j in range(m + 1)), Fraction(0))
                     for m in range(n + 1)
                 ]
             )
-        return found
+        return powers
 
 
 def _blossom(values: Sequence[Fraction], knots: Sequence[Fraction], at: Sequence[Fraction]) -> Fraction:

@@ -40,7 +40,7 @@ class SinePiece(ExactPiece):
 
     def at(self, nu: int, s: arb) -> arb:
         """The derivative of order nu at the time s since the start."""
-        return sum((_sine(one, nu, s) for one in self.sines), arb(0))
+        return sum((_sine(sine, nu, s) for sine in self.sines), arb(0))
 
     def value(self, nu: int, k: Fraction) -> arb:
         """The derivative of order nu at k."""
@@ -62,17 +62,17 @@ class SinePiece(ExactPiece):
         """By rigorous quadrature."""
 
         def squared(s: acb, _: bool) -> acb:  # noqa: FBT001 - how FLINT calls it
-            value = sum((_sine(one, nu, s) for one in self.sines), acb(0))
+            value = sum((_sine(sine, nu, s) for sine in self.sines), acb(0))
             return value * value
 
         return acb.integral(squared, acb(0), acb(ball(self.stop - self.start))).real
 
 
-def _sine(one: SineSegment, nu: int, s: Ball) -> Ball:
+def _sine(sine: SineSegment, nu: int, s: Ball) -> Ball:
     """The derivative of order nu of one segment, for balls and complex balls."""
-    A, w, phase = (ball(value) for value in (one.amplitude, one.frequency, one.phase))
+    A, w, phase = (ball(value) for value in (sine.amplitude, sine.frequency, sine.phase))
     total = s * 0
-    for i, p in enumerate(one.powers):
+    for i, p in enumerate(sine.powers):
         power = i + 2 - nu
         if power >= 0:
             # s^i twice integrated, differentiated nu times
@@ -82,8 +82,8 @@ def _sine(one: SineSegment, nu: int, s: Ball) -> Ball:
         turned = (angle.sin(), angle.cos(), -angle.sin(), -angle.cos())[(nu - 2) % 4]
         return total + turned * (A * w ** (nu - 2))
     if nu == 1:
-        return total + ball(one.b0) + (phase.cos() - angle.cos()) * (A / w)
-    return total + s * ball(one.b0) + (s * phase.cos() - (angle.sin() - phase.sin()) / w) * (A / w)
+        return total + ball(sine.b0) + (phase.cos() - angle.cos()) * (A / w)
+    return total + s * ball(sine.b0) + (s * phase.cos() - (angle.sin() - phase.sin()) / w) * (A / w)
 
 
 def _factor(i: int, nu: int) -> Fraction:
@@ -159,8 +159,8 @@ def bisected(derivative: Derivative, start: Fraction, stop: Fraction) -> Extreme
     >>> greatest.contains(1), float(greatest.rad()) < 1e-12
     (True, True)
     """
-    found = [derivative(0, ball(start)), derivative(0, ball(stop))]
-    size = 1.0 + max(float(abs(one).upper()) for one in found)
+    values = [derivative(0, ball(start)), derivative(0, ball(stop))]
+    size = 1.0 + max(float(abs(value).upper()) for value in values)
     narrow = size * max(_NARROW, 2.0 ** (8 - ctx.prec))
     left = [(start, stop)]
     for count in range(1 << 20):
@@ -176,14 +176,14 @@ def bisected(derivative: Derivative, start: Fraction, stop: Fraction) -> Extreme
             continue
         whole = _taylor([*jet, rest], x - centre)
         if float(whole.rad()) < narrow or count > _MOST:
-            found.append(whole)
+            values.append(whole)
         else:
             left += [(low, middle), (middle, high)]
-    return least_and_greatest(found)
+    return least_and_greatest(values)
 
 
 def _taylor(derivatives: list[arb], off: arb) -> arb:
     total = arb(0)
-    for i, one in reversed(list(enumerate(derivatives))):
-        total = one + total * off / (i + 1)
+    for i, derivative in reversed(list(enumerate(derivatives))):
+        total = derivative + total * off / (i + 1)
     return total

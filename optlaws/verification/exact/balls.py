@@ -55,8 +55,8 @@ def enclosed(value: arb) -> tuple[float, float]:
 
 def at(polynomial: fmpq_poly, x: arb) -> arb:
     """The polynomial's value."""
-    found: arb = polynomial.numer()(x) / arb(polynomial.denom())
-    return found
+    value: arb = polynomial.numer()(x) / arb(polynomial.denom())
+    return value
 
 
 def _end(value: arb, *, upper: bool = False) -> arb:

@@ -128,12 +128,12 @@ def _proof(certificate: Certificate, along: Along | None) -> Proof:
     best: Proof | None = None
     for _ in range(_TRIES):
         with ctx.workprec(bits):
-            found, narrow = _System(certificate, along).best()
-            if found.value is None:
+            proof, narrow = _System(certificate, along).best()
+            if proof.value is None:
                 # rows that are one another's multiples balance where they are, and beside it they do not
-                found, narrow = _System(certificate, along, beside=False).best()
-        if best is None or best.value is None or (found.value is not None and found.value > best.value):
-            best = found
+                proof, narrow = _System(certificate, along, beside=False).best()
+        if best is None or best.value is None or (proof.value is not None and proof.value > best.value):
+            best = proof
         if narrow:
             break
         bits *= 2
@@ -182,11 +182,11 @@ class _System:
         together = zip(self.vectors, there.vectors, strict=True)
         if any(
             bool(a != b)
-            for one, other in zip(self.vectors, there.vectors, strict=True)
-            for a, b in zip(one[:-1], other[:-1], strict=True)
+            for here, other in zip(self.vectors, there.vectors, strict=True)
+            for a, b in zip(here[:-1], other[:-1], strict=True)
         ):
             raise InputError("the number changes more than right sides of rows: nothing is proven along it")
-        return [(other[-1] - one[-1]) / ball(self.along.width) for one, other in together]
+        return [(other[-1] - here[-1]) / ball(self.along.width) for here, other in together]
 
     def _take(self, contact: Contact, row: Row) -> None:
         weight = Fraction(contact.multiplier)
@@ -224,34 +224,34 @@ class _System:
         joining = list(self._helpers(claim)) if isfinite(claim) else []
         for readiness in _READINESS:
             for helpers in joining:
-                found = self._corrected(helpers, readiness, claim)
-                value = found[0].value if found else None
+                corrected = self._corrected(helpers, readiness, claim)
+                value = corrected[0].value if corrected else None
                 if value is not None and (best is None or best[0].value is None or value > best[0].value):
-                    best = found
+                    best = corrected
         return best if best is not None else (Proof(None, 0.0, 0.0, self.negative, self.unknown), False)
 
     def _claim(self) -> float:
         if self.along is not None:
             return self.along.claim
-        total = sum((m * one[-1] for m, one in zip(self.multipliers, self.vectors, strict=True)), arb(0))
+        total = sum((m * vector[-1] for m, vector in zip(self.multipliers, self.vectors, strict=True)), arb(0))
         return rounded_up(upper(total)) if total.is_finite() else inf
 
     def _corrected(self, helpers: list[_Helper], readiness: float, claim: float = inf) -> tuple[Proof, bool] | None:
-        vectors = self.vectors + [one.vector for one in helpers]
+        vectors = self.vectors + [helper.vector for helper in helpers]
         weights = [m * m for m in self.multipliers[: self.contacts]]
         weights += [arb(1)] * (len(self.vectors) - self.contacts) + [arb(readiness)] * len(helpers)
         changes = _changes(vectors, weights, self._slopes())
         if changes is None:
             return None
-        multipliers = [m + one for m, one in zip(self.multipliers, changes, strict=False)]
+        multipliers = [m + change for m, change in zip(self.multipliers, changes, strict=False)]
         if not all(bool(m >= 0) for m in multipliers[: self.contacts]):
             return None
-        value = sum((m * one[-1] for m, one in zip(multipliers, self.vectors, strict=True)), arb(0))
+        value = sum((m * vector[-1] for m, vector in zip(multipliers, self.vectors, strict=True)), arb(0))
         charge = arb(0)
-        for one, weight in zip(helpers, changes[len(self.vectors) :], strict=True):
+        for helper, weight in zip(helpers, changes[len(self.vectors) :], strict=True):
             # the multipliers' sum plus the helpers' is the constant `value`: without them it is that minus their worth
-            value += weight * one.vector[-1]
-            charge += (weight * one.low).max(weight * one.high)
+            value += weight * helper.vector[-1]
+            charge += (weight * helper.low).max(weight * helper.high)
         if not value.is_finite() or not charge.is_finite():
             return None
         total = lower(value - charge)
@@ -259,7 +259,7 @@ class _System:
         moved = max((rounded_up(upper(abs(c))) for c in changes[: len(self.vectors)]), default=0.0)
         # a law either contradicts the claim, and then the helpers are bounded, or it does not
         proven = min(total, Fraction(claim)) if helpers and self.along is None else total
-        slope = sum((m * one for m, one in zip(multipliers, self.rates, strict=False)), arb(0))
+        slope = sum((m * rate for m, rate in zip(multipliers, self.rates, strict=False)), arb(0))
         bounds = (lower(slope), upper(slope))
         proof = Proof(proven, rounded_up(upper(charge)) + 0.0, moved / greatest, self.negative, self.unknown, bounds)
         return proof, bool(value.rad() < _WIDE)
@@ -285,7 +285,7 @@ class _System:
         for nu, mean in means(widest.problem, rows, greatest).items():
             moments = []
             for row in rows.space.moments(nu):
-                free = [arb(one) for one in row]
+                free = [arb(entry) for entry in row]
                 moments.append(_Helper([*free[:-1], *[arb(0)] * len(rows.names), free[-1]], -mean, mean))
             yield constants + moments
 
@@ -299,12 +299,12 @@ def _changes(vectors: list[Vector], weights: Vector, slopes: Vector) -> Vector |
         # rows that are the same but for their right sides: their difference is exact, and nothing need change
         return [arb(0)] * len(vectors)
     matrix = arb_mat([vector[:size] for vector in vectors])
-    weighted = arb_mat([[w * one for one in vector[:size]] for w, vector in zip(weights, vectors, strict=True)])
+    weighted = arb_mat([[w * entry for entry in vector[:size]] for w, vector in zip(weights, vectors, strict=True)])
     try:
-        found = (matrix.transpose() * weighted).solve(arb_mat(size, 1, [-one for one in slopes]))
+        solution = (matrix.transpose() * weighted).solve(arb_mat(size, 1, [-slope for slope in slopes]))
     except ZeroDivisionError:
         return None
-    return list((weighted * found).entries())
+    return list((weighted * solution).entries())
 
 
 def never_negative(problem: Problem) -> bool:
@@ -319,15 +319,15 @@ def least_values(problem: Problem, rows: ExactRows) -> dict[str, Fraction | floa
     The greatest c is at least its mean, the change of velocity, and so is the greatest -c.
     """
     change = rows.space.bounds.velocity_change
-    found: dict[str, Fraction | float] = {}
+    least: dict[str, Fraction | float] = {}
     if never_negative(problem):
-        return found
+        return least
     mean = None if change is None else Fraction(int(change.p), int(change.q))
     for _, leaf in leaves(problem.objective):
         if isinstance(leaf, Peak) and len(leaf.signs) == 1:
-            found[repr(leaf)] = -inf if mean is None or leaf.nu != 2 else mean * Fraction(leaf.signs[0])
-    _least_sum(problem.objective, found)
-    return found
+            least[repr(leaf)] = -inf if mean is None or leaf.nu != 2 else mean * Fraction(leaf.signs[0])
+    _least_sum(problem.objective, least)
+    return least
 
 
 def least_objective(problem: Problem, rows: ExactRows) -> Fraction | None:
@@ -348,34 +348,34 @@ def _least_sum(expression: Expression, least: dict[str, Fraction | float]) -> Fr
 
 def greatest_values(certificate: Certificate, rows: ExactRows, claim: float) -> dict[str, float]:
     """Greatest values of the named constants in a law whose objective is below the claim."""
-    found: dict[str, float] = {}
+    greatest: dict[str, float] = {}
     problem = certificate.problem
     if certificate.program != VIOLATION:
-        _spread(problem.objective, Fraction(claim), least_values(problem, rows), found)
-    for name in ("B", *(one.name for one, _ in problem.bounded)):
+        _spread(problem.objective, Fraction(claim), least_values(problem, rows), greatest)
+    for name in ("B", *(constant.name for constant, _ in problem.bounded)):
         asked = problem.range(name)
         if asked is not None:
-            found[name] = min(found.get(name, inf), asked.high)
-    if rows.power is not None and isfinite(found.get(rows.power.name, inf)):
-        found[VariableName.POWER_ROOT] = rounded_up(upper(ball(found[rows.power.name]).sqrt()))
+            greatest[name] = min(greatest.get(name, inf), asked.high)
+    if rows.power is not None and isfinite(greatest.get(rows.power.name, inf)):
+        greatest[VariableName.POWER_ROOT] = rounded_up(upper(ball(greatest[rows.power.name]).sqrt()))
     start = rows.space.bounds.start_velocity
-    if "B" in rows.names and not isfinite(found.get("B", inf)) and start is not None:
+    if "B" in rows.names and not isfinite(greatest.get("B", inf)) and start is not None:
         # b is b(0) and the integral of c
-        mean = min(found.get(name, inf) for name in ("C", "rms_c"))
+        mean = min(greatest.get(name, inf) for name in ("C", "rms_c"))
         if isfinite(mean):
-            found["B"] = rounded_up(upper(abs(ball(start)) + ball(mean)))
-    return found
+            greatest["B"] = rounded_up(upper(abs(ball(start)) + ball(mean)))
+    return greatest
 
 
 def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict[int, arb]:
     """By order of derivative: a bound of the integral of its magnitude, in every such law."""
     start, change, stroke = rows.space.bounds
-    found: dict[int, list[arb]] = {}
+    bounds: dict[int, list[arb]] = {}
 
     def known(nu: int, name: str, factor: float = 1.0, extra: arb | None = None) -> None:
         if isfinite(greatest.get(name, inf)):
             size = ball(factor) * ball(max(greatest[name], 0.0))
-            found.setdefault(nu, []).append(size + (arb(0) if extra is None else extra))
+            bounds.setdefault(nu, []).append(size + (arb(0) if extra is None else extra))
 
     for nu, name in ((2, "C"), (2, "rms_c"), (3, "J"), (3, "rms_j"), (4, "jounce")):
         known(nu, name)
@@ -385,22 +385,22 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
         known(2, "C_minus", 2, ball(change))
     known(1, "B", 2, -ball(stroke))
     if problem.monotone:
-        found.setdefault(1, []).append(ball(stroke))
-    for one in problem.constants:
-        for nu, factor in one.curbs():
-            name = VariableName.POWER_ROOT if one == rows.power else one.name
+        bounds.setdefault(1, []).append(ball(stroke))
+    for constant in problem.constants:
+        for nu, factor in constant.curbs():
+            name = VariableName.POWER_ROOT if constant == rows.power else constant.name
             # the factor is rounded
-            if name == VariableName.POWER_ROOT or not isinstance(one, Power):
+            if name == VariableName.POWER_ROOT or not isinstance(constant, Power):
                 known(nu, name, factor * _ROUNDED)
     plain = rows.power is not None and not rows.power.curbs()
     if plain and start is not None and change is not None and start == 0 and start + change == 0:
         # b² <= 2 D k
         known(1, VariableName.POWER_ROOT)
-    return {nu: ball(min(map(upper, several))) for nu, several in found.items()}
+    return {nu: ball(min(map(upper, several))) for nu, several in bounds.items()}
 
 
 def _spread(
-    expression: Expression, claim: Fraction, least: Mapping[str, Fraction | float], found: dict[str, float]
+    expression: Expression, claim: Fraction, least: Mapping[str, Fraction | float], greatest: dict[str, float]
 ) -> None:
     """What each term is at most where the sum is below the claim and the other terms are no less than they can be."""
     lowest = [Fraction(weight) * least.get(repr(term), Fraction(0)) for weight, term in expression.terms]
@@ -409,10 +409,10 @@ def _spread(
         if isinstance(others, float):
             continue
         value = rounded_up((claim - others) / Fraction(weight))
-        found[repr(term)] = max(min(found.get(repr(term), inf), value), float(least.get(repr(term), 0)))
+        greatest[repr(term)] = max(min(greatest.get(repr(term), inf), value), float(least.get(repr(term), 0)))
         if isinstance(term, Maximum):
             for part in term.parts:
-                _spread(part, Fraction(value), least, found)
+                _spread(part, Fraction(value), least, greatest)
 
 
 def exact_bound(certificate: Certificate) -> Fraction | None:

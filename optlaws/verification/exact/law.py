@@ -56,7 +56,7 @@ class ExactLaw:
             segments, breaks = law.segments, list(law.breaks)
         else:
             raise InputError(f"exact verification knows polynomial and piecewise laws, got {type(law).__name__}")
-        longest = max(len(one.acceleration) if isinstance(one, PolynomialSegment) else 0 for one in segments)
+        longest = max(len(piece.acceleration) if isinstance(piece, PolynomialSegment) else 0 for piece in segments)
         #: bits that leave every enclosure much narrower than a float's rounding, whatever the degree
         self.precision = 256 + 6 * longest
         self.start = Fraction(law.a0)
@@ -85,10 +85,10 @@ class ExactLaw:
         InputError
             If one is not.
         """
-        found = [piece for piece in self.pieces if isinstance(piece, PolynomialPiece)]
-        if len(found) < len(self.pieces):
+        polynomials = [piece for piece in self.pieces if isinstance(piece, PolynomialPiece)]
+        if len(polynomials) < len(self.pieces):
             raise InputError("the law of a solution must be made of polynomials")
-        return found
+        return polynomials
 
     def value(self, nu: int, k: Fraction) -> fmpq:
         """The derivative of order nu at k, exact; at a break that of the later piece.
@@ -112,12 +112,12 @@ class ExactLaw:
         if start == stop:
             value = arb(self.value(nu, start))
             return value, value
-        found: list[arb] = []
-        for one in self.pieces:
-            low, high = max(start, one.start), min(stop, one.stop)
+        values: list[arb] = []
+        for piece in self.pieces:
+            low, high = max(start, piece.start), min(stop, piece.stop)
             if low < high:
-                found += one.extremes(nu, low, high)
-        return least_and_greatest(found)
+                values += piece.extremes(nu, low, high)
+        return least_and_greatest(values)
 
     def peak(self, nu: int) -> arb:
         """A ball that holds the peak of the magnitude of the derivative of order nu."""
@@ -132,7 +132,7 @@ class ExactLaw:
         if self._impulses(2):
             return arb.pos_inf()
         with ctx.workprec(self.precision):
-            return self.magnitude(least_and_greatest([one for piece in self.pieces for one in piece.power()]))
+            return self.magnitude(least_and_greatest([value for piece in self.pieces for value in piece.power()]))
 
     def rms(self, nu: int) -> arb:
         """A ball that holds the RMS of the derivative of order nu."""
@@ -140,7 +140,7 @@ class ExactLaw:
             return arb.pos_inf()
         with ctx.workprec(self.precision):
             squares = [piece.square(nu) for piece in self.pieces]
-            return sum(squares, arb(0)).sqrt() if all(one.is_finite() for one in squares) else arb.pos_inf()
+            return sum(squares, arb(0)).sqrt() if all(square.is_finite() for square in squares) else arb.pos_inf()
 
     def constants(self) -> dict[str, arb]:
         """Balls that hold B, C, D, J and rms_c."""
@@ -159,8 +159,8 @@ class ExactLaw:
         if self._impulses(nu + len(weights) - 1):
             return arb.pos_inf()
         with ctx.workprec(self.precision):
-            found = [one for piece in self.polynomials for one in piece.combined(nu, weights)]
-            least, greatest = least_and_greatest(found)
+            extremes = [value for piece in self.polynomials for value in piece.combined(nu, weights)]
+            least, greatest = least_and_greatest(extremes)
             return reduce(arb.max, (greatest if sign > 0 else -least for sign in constant.signs))
 
     def combined_power(self, constant: CombinedPower) -> arb:
@@ -175,7 +175,7 @@ class ExactLaw:
         if self._impulses(len(weights) + 1):
             return arb.pos_inf()
         with ctx.workprec(self.precision):
-            products = [one for piece in self.polynomials for one in piece.combined_power(weights)]
+            products = [value for piece in self.polynomials for value in piece.combined_power(weights)]
             return self.magnitude(least_and_greatest(products))
 
     def enclosures(self) -> dict[str, tuple[float, float]]:
@@ -206,25 +206,25 @@ class ExactLaw:
                 return reduce(arb.max, map(self.sum, term.parts))
         return self._constant(known(term))
 
-    def _constant(self, one: Known) -> arb:
-        if isinstance(one, CombinedPeak):
-            return self.combined_peak(one)
-        if isinstance(one, CombinedPower):
-            return self.combined_power(one)
-        if isinstance(one, ResidualConstant):
-            return self.residual(one)
-        if isinstance(one, Power):
+    def _constant(self, constant: Known) -> arb:
+        if isinstance(constant, CombinedPeak):
+            return self.combined_peak(constant)
+        if isinstance(constant, CombinedPower):
+            return self.combined_power(constant)
+        if isinstance(constant, ResidualConstant):
+            return self.residual(constant)
+        if isinstance(constant, Power):
             return self.power()
-        if isinstance(one, RootMeanSquare):
-            return self.rms(one.nu)
-        return self._signed_peak(one)
+        if isinstance(constant, RootMeanSquare):
+            return self.rms(constant.nu)
+        return self._signed_peak(constant)
 
-    def _signed_peak(self, one: Peak) -> arb:
-        if len(one.signs) == 2 or self._impulses(one.nu):
-            return self.peak(one.nu)
-        least, greatest = self.extremes(one.nu)
+    def _signed_peak(self, constant: Peak) -> arb:
+        if len(constant.signs) == 2 or self._impulses(constant.nu):
+            return self.peak(constant.nu)
+        least, greatest = self.extremes(constant.nu)
         with ctx.workprec(self.precision):
-            return greatest if one.signs[0] > 0 else -least
+            return greatest if constant.signs[0] > 0 else -least
 
     def sum(self, expression: Expression) -> arb:
         """A ball that holds the value of an objective."""

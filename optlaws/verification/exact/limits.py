@@ -30,8 +30,8 @@ def exact_limit(problem: Problem) -> Fraction | None:
     """
     if problem.boundary is not None or problem.order == 1:
         return None
-    found = _sum(problem, problem.objective)
-    return found if found > 0 else None
+    total = _sum(problem, problem.objective)
+    return total if total > 0 else None
 
 
 def _sum(problem: Problem, expression: Expression) -> Fraction:

@@ -97,30 +97,32 @@ class _FreePieces(ExactSpace):
         ways[0] = (_K / rational(self.breaks[1])) ** power
         if self.breaks[-1] == 1:
             ways[-1] = ((1 - _K) / rational(1 - self.breaks[-2])) ** power
-        return [[-_quotient(one, way) for one in part] for part, way in zip(self.derivative(1), ways, strict=True)]
+        return [
+            [-_quotient(velocity, way) for velocity in part] for part, way in zip(self.derivative(1), ways, strict=True)
+        ]
 
 
-def _quotient(one: fmpq_poly, way: fmpq_poly) -> fmpq_poly:
-    return divmod(one, way)[0]
+def _quotient(polynomial: fmpq_poly, way: fmpq_poly) -> fmpq_poly:
+    return divmod(polynomial, way)[0]
 
 
 def _splines(breaks: list[Fraction], degree: int, continuity: int, lowest: int = 0) -> list[Functions]:
     """On each piece: powers of k from the lowest on, then what begins at each inner break."""
-    found: list[Functions] = []
+    functions: list[Functions] = []
     for start in breaks[:-1]:
         part = [_K**i for i in range(lowest, degree + 1)]
         for place in breaks[1:-1]:
             begun = [(_K - rational(place)) ** j for j in range(continuity + 1, degree + 1)]
             part += begun if place <= start else [_ZERO] * len(begun)
-        found.append(part)
-    return found
+        functions.append(part)
+    return functions
 
 
 def _odd_splines(breaks: list[Fraction], degree: int, continuity: int) -> tuple[list[Fraction], list[Functions]]:
     """Breaks of the first half, and all splines that are odd about 1/2, there."""
     inner = [k for k in breaks if 0 < k < _HALF]
     way = fmpq_poly([fmpq(1, 2)]) - _K
-    found: list[Functions] = []
+    functions: list[Functions] = []
     starts = [Fraction(0), *inner]
     for start in starts:
         part = [way**j for j in range(1, degree + 1, 2)]
@@ -129,8 +131,8 @@ def _odd_splines(breaks: list[Fraction], degree: int, continuity: int) -> tuple[
         for place in inner:
             gone = [(rational(place) - _K) ** j for j in range(continuity + 1, degree + 1)]
             part += gone if start < place else [_ZERO] * len(gone)
-        found.append(part)
-    return [*starts, _HALF], found
+        functions.append(part)
+    return [*starts, _HALF], functions
 
 
 def _edge(problem: Problem) -> fmpq_poly:

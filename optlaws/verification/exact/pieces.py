@@ -65,8 +65,8 @@ class PolynomialPiece(ExactPiece):
         self._derivatives = [self._risen(b, rational(a0)), b, c]
 
     def _risen(self, slope: fmpq_poly, start: fmpq) -> fmpq_poly:
-        found = slope.integral() / self.rate
-        return found - found(-1) + start
+        integral = slope.integral() / self.rate
+        return integral - integral(-1) + start
 
     def raised(self, by: fmpq) -> None:
         """Add to the displacement."""
@@ -119,17 +119,17 @@ class PolynomialPiece(ExactPiece):
 def between(polynomial: fmpq_poly, start: fmpq, stop: fmpq) -> Extremes:
     """Balls that hold the least and the greatest value of a polynomial between two places."""
     ends = [ball(start), ball(stop)]
-    found = [at(polynomial, x) for x in ends]
+    values = [at(polynomial, x) for x in ends]
     for x in real_roots(polynomial.derivative()):
         if x < ends[0] or x > ends[1]:
             continue
         value = at(polynomial, x)
         # a root that may lie beyond an end says no more than that end
-        for end, held in zip(ends, found[:2], strict=True):
+        for end, held in zip(ends, values[:2], strict=True):
             if x.overlaps(end):
                 value = value.union(held)
-        found.append(value)
-    return least_and_greatest(found)
+        values.append(value)
+    return least_and_greatest(values)
 
 
 def real_roots(polynomial: fmpq_poly) -> list[arb]:

@@ -85,7 +85,7 @@ class _Proof:
             arb(0) if start is None or change is None else arb(start + change),
         ]
         self.D = ball(self.greatest["D"])
-        reach = (max(ends, key=lambda one: float(abs(one))) ** 2 + self.D).sqrt()
+        reach = (max(ends, key=lambda end: float(abs(end))) ** 2 + self.D).sqrt()
         self.B = ball(self.greatest["B"]).min(reach) if "B" in self.greatest else reach
         self.anchors = [(Fraction(0), ends[0], ends[0]), (Fraction(1), ends[1], ends[1])]
         asked, peak = self.problem.range("B"), self.problem.peak_at
@@ -115,7 +115,8 @@ class _Proof:
         low = [ball(asked.low) if name == "B" and asked is not None else arb(0) for name in self.rows.names]
         high = [self.B if name == "B" else ball(self.greatest[name]) for name in self.rows.names]
         return _Box(
-            [one.lower() for one, _ in brackets] + low, [one.upper() for _, one in brackets] + [x.upper() for x in high]
+            [least.lower() for least, _ in brackets] + low,
+            [most.upper() for _, most in brackets] + [x.upper() for x in high],
         )
 
     def moved(self, box: _Box, step: Step) -> list[_Box]:
@@ -123,7 +124,7 @@ class _Proof:
         total = [arb(0)] * (len(box.low) + 1)
         if step.variable >= 0:
             total[step.variable] = arb(step.side)
-        parts = [(max(one.multiplier, 0.0), self.contact(one, box)) for one in step.contacts]
+        parts = [(max(contact.multiplier, 0.0), self.contact(contact, box)) for contact in step.contacts]
         equations = [self.mapped(row.vector(self.rows.names)) for row in self.rows.equations]
         parts += zip(step.equations, equations, strict=False)
         cost = [ball(self.rows.cost.get(name, 0.0)) for name in self.rows.names]
@@ -162,17 +163,17 @@ class _Proof:
         assert high is not None  # noqa: S101
         return (low.max(arb(0)) if self.problem.monotone else low), high.min(self.B)
 
-    def contact(self, one: Contact, box: _Box) -> Vector:
+    def contact(self, contact: Contact, box: _Box) -> Vector:
         """The row of a contact, at most 0; zeros where the problem asks for nothing of the kind."""
         nothing = [arb(0)] * (len(box.low) + 1)
-        if one.constraint in POWER_ROWS:
-            return self.power(one, box) or nothing
-        row = self.rows.row(one)
+        if contact.constraint in POWER_ROWS:
+            return self.power(contact, box) or nothing
+        row = self.rows.row(contact)
         return nothing if row is None else self.mapped(row.vector(self.rows.names))
 
-    def power(self, one: Contact, box: _Box) -> Vector | None:
+    def power(self, contact: Contact, box: _Box) -> Vector | None:
         """S c <= D / |b| by the chord of 1 / |b|; None where the box does not keep b from zero."""
-        k = Fraction(one.k)
+        k = Fraction(contact.k)
         velocity = self.derivative(1, k)
         known = [*self.anchors, *zip(self.points, box.low, box.high, strict=False)]
         low, high = self.outer(k, known)
@@ -182,16 +183,16 @@ class _Proof:
         if not near > 0 or not far >= near:
             return None
         place = len(self.points) + self.rows.names.index("D") if "D" in self.rows.names else None
-        least = one.constraint == RowName.POWER_FROM_LEAST
+        least = contact.constraint == RowName.POWER_FROM_LEAST
         D = self.D if place is None else (box.low if least else box.high)[place]
-        found = [ball(one.sign) * x for x in self.derivative(2, k)]
-        found = [x + forth * D / (near * far) * y for x, y in zip(found, velocity, strict=True)]
-        found[-1] -= D / near + D / far
+        row = [ball(contact.sign) * x for x in self.derivative(2, k)]
+        row = [x + forth * D / (near * far) * y for x, y in zip(row, velocity, strict=True)]
+        row[-1] -= D / near + D / far
         if place is not None:
             other = near if least else far
-            found[place] -= 1 / other
-            found[-1] += D / other
-        return found
+            row[place] -= 1 / other
+            row[-1] += D / other
+        return row
 
 
 def _signed_root(square: arb) -> arb:
@@ -203,20 +204,20 @@ def _signed_root(square: arb) -> arb:
 
 
 def _greatest(problem: Problem, claim: Fraction) -> dict[str, Fraction]:
-    found: dict[str, Fraction] = {}
+    greatest: dict[str, Fraction] = {}
 
     def spread(expression: Expression, most: Fraction) -> None:
         for weight, term in expression.terms:
             share = most / Fraction(weight)
-            found[repr(term)] = min(found.get(repr(term), share), share)
+            greatest[repr(term)] = min(greatest.get(repr(term), share), share)
             if isinstance(term, Maximum):
                 for part in term.parts:
                     spread(part, share)
 
     spread(problem.objective, claim)
-    for name in ("B", *(one.name for one, _ in problem.bounded)):
+    for name in ("B", *(constant.name for constant, _ in problem.bounded)):
         asked = problem.range(name)
         if asked is not None and asked.high < float("inf"):
             high = Fraction(asked.high)
-            found[name] = min(found.get(name, high), high)
-    return found
+            greatest[name] = min(greatest.get(name, high), high)
+    return greatest

@@ -60,11 +60,11 @@ class ExactResidual:
         root = acb(ball(-self.damping), sine)
         w = nu * root
         scale = nu * nu * self._detuning(nu, w) * (-_I * acb(ball(-self.damping), -sine) / sine)
-        found = _transforms(w, breaks, columns)
+        transforms = _transforms(w, breaks, columns)
         if breaks[-1] == _HALF:
             mirrored = _transforms(-w, breaks, columns)
-            found = [one + w.exp() * other for one, other in zip(found, mirrored, strict=True)]
-        return [scale * one for one in found]
+            transforms = [transform + w.exp() * other for transform, other in zip(transforms, mirrored, strict=True)]
+        return [scale * transform for transform in transforms]
 
     def _detuning(self, nu: Number, w: Number) -> Number:
         """What the cam made for the design frequency leaves."""
@@ -84,8 +84,8 @@ class ExactResidual:
         breaks = [pieces[0].start, *(piece.stop for piece in pieces)]
         ends = [[_ends(piece) for piece in pieces]]
         if self.low == self.high:
-            found: arb = abs(self.amplitudes(acb(ball(self.low)), breaks, ends)[0])
-            return found
+            magnitude: arb = abs(self.amplitudes(acb(ball(self.low)), breaks, ends)[0])
+            return magnitude
         jets: list[tuple[arb, list[arb]]] = []
 
         def derivative(i: int, nu: arb) -> arb:
@@ -100,12 +100,15 @@ class ExactResidual:
 
 def ends_of(space: ExactSpace) -> list[list[Ends]]:
     """Of every function of a space, by its pieces."""
-    degree = max(one.degree() for part in space.derivative(0) for one in part)
+    degree = max(polynomial.degree() for part in space.derivative(0) for polynomial in part)
     derivatives = [space.derivative(nu) for nu in range(1, degree + 1)]
     edges = [2 * fmpq(k.numerator, k.denominator) - 1 for k in space.breaks]
     return [
         [
-            ([one[i][column](low) for one in derivatives], [one[i][column](high) for one in derivatives])
+            (
+                [derivative[i][column](low) for derivative in derivatives],
+                [derivative[i][column](high) for derivative in derivatives],
+            )
             for i, (low, high) in enumerate(pairwise(edges))
         ]
         for column in range(space.terms + 1)
@@ -124,13 +127,13 @@ def _transforms(w: Number, breaks: Sequence[Fraction], columns: Sequence[Sequenc
         powers.append(powers[-1] * inverse)
     waves = [(w * acb(ball(1 - k))).exp() for k in breaks]
     nothing = w * 0
-    found = []
+    transforms = []
     for column in columns:
         total = nothing
         for (start, stop), before, after in zip(column, waves, waves[1:], strict=False):
             total = total + before * _sum(powers, start, nothing) - after * _sum(powers, stop, nothing)
-        found.append(total)
-    return found
+        transforms.append(total)
+    return transforms
 
 
 def _sum(powers: Sequence[Number], values: Sequence[fmpq], nothing: Number) -> Number:
@@ -139,7 +142,7 @@ def _sum(powers: Sequence[Number], values: Sequence[fmpq], nothing: Number) -> N
 
 def _squared(series: list[acb]) -> list[arb]:
     """Coefficients of the squared magnitude of a series in a real number."""
-    conjugates = [one.conjugate() for one in series]
+    conjugates = [amplitude.conjugate() for amplitude in series]
     return [sum((series[i] * conjugates[n - i] for i in range(n + 1)), acb(0)).real for n in range(len(series))]
 
 

@@ -113,11 +113,11 @@ class ExactRows:
 
     def _objective(self, expression: Expression) -> None:
         self.cost = expression.weights()
-        found = list(dict.fromkeys(leaf for _, leaf in leaves(expression)))
+        constants = list(dict.fromkeys(leaf for _, leaf in leaves(expression)))
         maxima = list(dict.fromkeys(_maxima(expression)))
-        self.names += [repr(one) for one in (*found, *maxima)]
-        for leaf in found:
-            if not isinstance(leaf, Functional) or [repr(one) for one in found].count(repr(leaf)) > 1:
+        self.names += [repr(term) for term in (*constants, *maxima)]
+        for leaf in constants:
+            if not isinstance(leaf, Functional) or [repr(other) for other in constants].count(repr(leaf)) > 1:
                 raise InputError(f"there are no exact rows for {leaf!r}: it is no constant, or shares its name")
             self._bounded(leaf, {leaf.name: -1.0}, 0.0)
         for term in maxima:
@@ -126,28 +126,28 @@ class ExactRows:
 
     def _bounded(self, leaf: Functional, slack: Names, high: float) -> None:
         """Rows of `leaf <= -slack + high`."""
-        one = known(leaf)
-        if isinstance(one, CombinedPeak | CombinedPower):
-            one.check(space_of(self.problem.basis, self.problem.conditions, symmetric=self.problem.symmetric))
-        if isinstance(one, CombinedPeak):
-            for name, weights, sides in one.sides(symmetric=self.problem.symmetric):
-                self._everywhere(name, partial(self.space.combination, one.nu, weights), sides, slack, high)
-        elif isinstance(one, ResidualConstant):
-            self._residual(one, slack, high)
-        elif isinstance(one, RootMeanSquare):
-            self._add(one.name, lambda contact, _: self._norm(one.nu, contact, slack, high))
-        elif isinstance(one, Peak):
+        constant = known(leaf)
+        if isinstance(constant, CombinedPeak | CombinedPower):
+            constant.check(space_of(self.problem.basis, self.problem.conditions, symmetric=self.problem.symmetric))
+        if isinstance(constant, CombinedPeak):
+            for name, weights, sides in constant.sides(symmetric=self.problem.symmetric):
+                self._everywhere(name, partial(self.space.combination, constant.nu, weights), sides, slack, high)
+        elif isinstance(constant, ResidualConstant):
+            self._residual(constant, slack, high)
+        elif isinstance(constant, RootMeanSquare):
+            self._add(constant.name, lambda contact, _: self._norm(constant.nu, contact, slack, high))
+        elif isinstance(constant, Peak):
             # one sign of a derivative that is odd about 1/2 is, over the whole interval, both signs over the half
-            signs = (1.0, -1.0) if self.problem.symmetric and one.nu % 2 == 0 else one.signs
-            self._everywhere(one.name, partial(self.space.values, one.nu), signs, slack, high)
-        elif one == self.power:
-            self._power(one, slack, high)
+            signs = (1.0, -1.0) if self.problem.symmetric and constant.nu % 2 == 0 else constant.signs
+            self._everywhere(constant.name, partial(self.space.values, constant.nu), signs, slack, high)
+        elif constant == self.power:
+            self._power(constant, slack, high)
         elif self.relaxed and slack:
-            self._single(names.at_least(one.name), slack, 0.0)
+            self._single(names.at_least(constant.name), slack, 0.0)
 
     def _everywhere(self, name: str, values: Place, signs: tuple[float, ...], slack: Names, high: float = 0.0) -> None:
         def make(contact: Contact, k: Fraction) -> Row:
-            return Row([one * contact.sign for one in values(k)], slack, -ball(high))
+            return Row([value * contact.sign for value in values(k)], slack, -ball(high))
 
         self._add(name, make, signs)
 
@@ -176,9 +176,9 @@ class ExactRows:
 
     def _from_rest(self, name: str, weights: tuple[Fraction, ...], way: Callable[[Fraction], Fraction]) -> None:
         def make(contact: Contact, k: Fraction) -> Row:
-            found = self.space.combination(1, weights, k)
+            velocities = self.space.combination(1, weights, k)
             left = ball(2 * way(k)).sqrt()
-            row = [one * contact.sign / left if way(k) else arb(0) for one in found]
+            row = [velocity * contact.sign / left if way(k) else arb(0) for velocity in velocities]
             return Row(row, {VariableName.POWER_ROOT: -1.0})
 
         self._add(name, make, (1.0, -1.0))
@@ -187,8 +187,8 @@ class ExactRows:
         """A direction times the values at Gauss points, each by the root of its weight: at most the norm (Cauchy)."""
         direction = [ball(value) for value in contact.direction]
         rule = self.space.gauss(nu, len(direction))
-        length = sum((one * one for one in direction), arb(0)).sqrt()
-        weights = [one * weight.sqrt() / length for one, (_, weight) in zip(direction, rule, strict=True)]
+        length = sum((component * component for component in direction), arb(0)).sqrt()
+        weights = [component * weight.sqrt() / length for component, (_, weight) in zip(direction, rule, strict=True)]
         columns = zip(*(column for column, _ in rule), strict=True)
         return Row([sum(map(mul, weights, column), arb(0)) for column in columns], slack, -ball(high))
 
@@ -204,7 +204,7 @@ class ExactRows:
                 kept[k] = exact.rows(self.space, k)
             real, imaginary = (ball(value) for value in contact.direction)
             length = (real**2 + imaginary**2).sqrt().max(arb(1)) * unit
-            row = [(one.real * real + one.imag * imaginary) / length for one in kept[k]]
+            row = [(amplitude.real * real + amplitude.imag * imaginary) / length for amplitude in kept[k]]
             return Row(row, slack, -ball(high) / unit)
 
         self.cones.add(constant.name)
@@ -274,20 +274,20 @@ class ExactRows:
 
     def _below_middle(self, contact: Contact, k: Fraction) -> Row:
         pairs = zip(self.space.values(1, k), self.space.values(1, Fraction(1, 2)), strict=True)
-        return Row([one * contact.sign - middle for one, middle in pairs])
+        return Row([velocity * contact.sign - middle for velocity, middle in pairs])
 
     def _window(self, name: str, window: Window, part: Part) -> None:
         if window.value:
-            found = self.space.values(part.order, part.start)
-            self.equations.append(Row(found, {}, -ball(part.high or Fraction(0))))
+            values = self.space.values(part.order, part.start)
+            self.equations.append(Row(values, {}, -ball(part.high or Fraction(0))))
             return
 
         def make(contact: Contact, k: Fraction) -> Row:
             bound = part.high if contact.sign > 0.0 else part.low
             if bound is None or not part.start - _NEAR <= k <= part.stop + _NEAR:
                 raise LookupError
-            found = self.space.values(part.order, min(max(k, part.start), part.stop))
-            return Row([one * contact.sign for one in found], {}, -contact.sign * ball(bound))
+            values = self.space.values(part.order, min(max(k, part.start), part.stop))
+            return Row([value * contact.sign for value in values], {}, -contact.sign * ball(bound))
 
         for sign in (1.0, -1.0):
             self._add(names.window_side(name, sign), make, (sign,))
@@ -295,7 +295,7 @@ class ExactRows:
 
 def parts(window: Window, *, symmetric: bool) -> Iterator[Part]:
     """What a window asks; of symmetric laws, for which a(k) + a(1-k) = 1, on the first half only."""
-    low, high = (Fraction(one) if isfinite(one) else None for one in (window.low, window.high))
+    low, high = (Fraction(bound) if isfinite(bound) else None for bound in (window.low, window.high))
     start, stop = Fraction(window.start), Fraction(window.stop)
     half = Fraction(1, 2)
     if not symmetric or stop <= half:
@@ -305,14 +305,14 @@ def parts(window: Window, *, symmetric: bool) -> Iterator[Part]:
         yield Part(window.order, low, high, start, half)
     if window.order % 2 == 0:
         whole = 1 - window.order // 2
-        low, high = (None if one is None else whole - one for one in (high, low))
+        low, high = (None if bound is None else whole - bound for bound in (high, low))
     yield Part(window.order, low, high, 1 - stop, 1 - max(start, half))
 
 
 def _is_bounded(power: Power, problem: Problem) -> bool:
     """Whether it is bounded from above, by the objective or by a number: only then do rows have its root."""
-    high = (one for one, wanted in problem.bounded if isfinite(wanted.high))
-    return any(one == power for one in (*(leaf for _, leaf in leaves(problem.objective)), *high))
+    high = (constant for constant, wanted in problem.bounded if isfinite(wanted.high))
+    return any(constant == power for constant in (*(leaf for _, leaf in leaves(problem.objective)), *high))
 
 
 def _maxima(expression: Expression) -> Iterator[Maximum]:

@@ -76,7 +76,9 @@ class ExactSpace:
     def derivative(self, nu: int) -> list[Functions]:
         """Derivatives of order nu by k, on each piece."""
         while len(self._derivatives) <= nu:
-            self._derivatives.append([[2 * one.derivative() for one in part] for part in self._derivatives[-1]])
+            self._derivatives.append(
+                [[2 * function.derivative() for function in part] for part in self._derivatives[-1]]
+            )
         return self._derivatives[nu]
 
     def values(self, nu: int, k: Fraction) -> list[arb]:
@@ -85,7 +87,7 @@ class ExactSpace:
 
     def combination(self, nu: int, weights: tuple[Fraction, ...], k: Fraction) -> list[arb]:
         """Values of w0 a^(nu) + w1 a^(nu+1) + ... at k."""
-        terms = [[ball(w) * one for one in self.values(nu + i, k)] for i, w in enumerate(weights) if w]
+        terms = [[ball(w) * value for value in self.values(nu + i, k)] for i, w in enumerate(weights) if w]
         return [sum(column, arb(0)) for column in zip(*terms, strict=True)]
 
     def chord(self, peak: Fraction, k: Fraction) -> list[arb]:
@@ -94,10 +96,10 @@ class ExactSpace:
         On other pieces w is the least value of this there. Where c may jump it is the distance and not its square.
         """
         piece = self.piece(k)
-        found = values(self._chords(peak)[piece], x_of(k))
+        divided = values(self._chords(peak)[piece], x_of(k))
         low, high = self.breaks[piece : piece + 2]
         falling = not self._smooth and low < peak <= high and (k < peak or high == peak)
-        return [-one for one in found] if falling else found
+        return [-value for value in divided] if falling else divided
 
     @property
     def _smooth(self) -> bool:
@@ -119,21 +121,23 @@ class ExactSpace:
         if not touching:
             raise LookupError
         b, c = self.derivative(1), self.derivative(2)
-        heights = [one(centre) for one in b[touching[0]]]
-        found = []
+        heights = [function(centre) for function in b[touching[0]]]
+        chords = []
         for i, part in enumerate(b):
             if i in touching:
                 # what c = 0 makes vanish is the rest of the division
                 way = fmpq_poly([-centre, 1]) ** power
-                found.append([divmod(one - height, way)[0] for one, height in zip(part, heights, strict=True)])
+                chords.append(
+                    [divmod(function - height, way)[0] for function, height in zip(part, heights, strict=True)]
+                )
                 continue
             before = i < touching[0]
             inner, joint = (touching[0], edges[touching[0]]) if before else (touching[-1], edges[touching[-1] + 1])
-            slopes = [one(centre) / 2 * (joint - centre) if self._smooth else fmpq(0) for one in c[inner]]
+            slopes = [function(centre) / 2 * (joint - centre) if self._smooth else fmpq(0) for function in c[inner]]
             scale = abs(edges[i + 1 if before else i] - centre) ** power
             together = zip(part, heights, slopes, strict=True)
-            found.append([(one - height - slope) / scale for one, height, slope in together])
-        return found
+            chords.append([(function - height - slope) / scale for function, height, slope in together])
+        return chords
 
     def ratio(self, k: Fraction) -> list[arb]:
         """-b / w at k of laws from rest to rest, w > 0: (k(1-k))^(l-1), in units of the base law's."""
@@ -143,7 +147,7 @@ class ExactSpace:
     def _ratio(self) -> list[Functions]:
         weight, b = fmpq_poly([1, 0, -1]) ** (self.problem.order - 1), self.derivative(1)
         middle = b[self.piece(Fraction(1, 2))][-1](fmpq(0))
-        return [[divmod(one, weight)[0] / -middle for one in part] for part in b]
+        return [[divmod(velocity, weight)[0] / -middle for velocity in part] for part in b]
 
     @kept_property
     def bounds(self) -> Bounds:
@@ -159,17 +163,17 @@ class ExactSpace:
 
         These are Legendre polynomials on one piece each; one list for each that sees a free function.
         """
-        found = []
+        moments = []
         for part, (low, high) in zip(self.derivative(nu), pairwise(self.breaks), strict=True):
             local = fmpq_poly([rational(low + high - 1), rational(high - low)])
-            functions = [one(local) for one in part]
-            degree = max((one.degree() for one in functions[:-1]), default=-1)
+            functions = [function(local) for function in part]
+            degree = max((function.degree() for function in functions[:-1]), default=-1)
             for m in range(degree + 1):
-                products = [(one * fmpq_poly.legendre_p(m)).integral() for one in functions]
+                products = [(function * fmpq_poly.legendre_p(m)).integral() for function in functions]
                 row = [(p(fmpq(1)) - p(fmpq(-1))) / 2 * rational(high - low) for p in products]
                 if any(row[:-1]):
-                    found.append(row)
-        return found
+                    moments.append(row)
+        return moments
 
     def gauss(self, nu: int, count: int) -> list[tuple[list[arb], arb]]:
         """Values of the derivatives of order nu at so many Gauss points, with weights that add up to 1.
@@ -178,21 +182,23 @@ class ExactSpace:
         """
         pieces, functions = len(self.breaks) - 1, self.derivative(nu)
         each, rest = divmod(count, pieces)
-        if rest or each <= max(one.degree() for part in functions for one in part):
+        if rest or each <= max(function.degree() for part in functions for function in part):
             raise LookupError
         # the solver's points ascend in 1 - 2k on each piece
-        rule = sorted((arb.legendre_p_root(each, i, weight=True) for i in range(each)), key=lambda one: -float(one[0]))
+        rule = sorted(
+            (arb.legendre_p_root(each, i, weight=True) for i in range(each)), key=lambda point: -float(point[0])
+        )
         whole = self.breaks[-1] - self.breaks[0]
-        found = []
+        points = []
         for part, (low, high) in zip(functions, pairwise(self.breaks), strict=True):
             middle, half, share = ball(low + high - 1), ball(high - low), ball((high - low) / whole / 2)
-            found += [(values(part, middle + half * x), weight * share) for x, weight in rule]
-        return found
+            points += [(values(part, middle + half * x), weight * share) for x, weight in rule]
+        return points
 
 
 def values(polynomials: Functions, x: arb) -> list[arb]:
     """All the polynomials' values at one place."""
-    return [at(one, x) for one in polynomials]
+    return [at(polynomial, x) for polynomial in polynomials]
 
 
 def x_of(k: Fraction) -> arb:

@@ -65,22 +65,22 @@ def optimum_on_points(program: Program, points: list[Points]) -> Answer | None:
     import clarabel
     from scipy import sparse
 
-    blocks = [_block(family, mine) for family, mine in zip(program.families, points, strict=True)]
+    blocks = [_block(family, held) for family, held in zip(program.families, points, strict=True)]
     scale = 1.0 / _length(program.equalities)
     matrix = np.vstack([program.equalities * scale[:, None], *(block.rows for block in blocks)])
     right = np.concatenate([program.right * scale, *(block.right for block in blocks)])
     cones = [clarabel.ZeroConeT(len(scale)), *(cone for block in blocks for cone in block.cones)]
     nothing = sparse.csc_matrix((program.size, program.size))
     solver = clarabel.DefaultSolver(nothing, program.objective, sparse.csc_matrix(matrix), right, cones, _settings())
-    found = solver.solve()
-    if str(found.status) not in _USABLE:
+    optimum = solver.solve()
+    if str(optimum.status) not in _USABLE:
         return None
     ends = np.cumsum([len(scale), *(len(block.right) for block in blocks)])[:-1]
-    equations, *duals = np.split(np.asarray(found.z), ends)
+    equations, *duals = np.split(np.asarray(optimum.z), ends)
     weights = [block.weights(dual) for block, dual in zip(blocks, duals, strict=True)]
-    x = _on_equations(program, np.asarray(found.x))
-    status = str(found.status)
-    return Answer(x, [*weights, equations * scale], success=True, status=status, iterations=found.iterations)
+    x = _on_equations(program, np.asarray(optimum.x))
+    status = str(optimum.status)
+    return Answer(x, [*weights, equations * scale], success=True, status=status, iterations=optimum.iterations)
 
 
 def _settings() -> Any:  # noqa: ANN401 - Clarabel's, imported late

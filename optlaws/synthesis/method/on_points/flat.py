@@ -41,14 +41,14 @@ def sharpened(program: Program, points: list[Points], answer: Answer) -> ActiveS
     room = -table.residuals(answer.x)
     # too many rows cannot all hold, too few multipliers cannot balance: each is sought by itself
     held = (table.held(ease > share * room, answer.x) for share in _FEWER)
-    x = next((one for one in held if one is not None), None)
+    x = next((nearest for nearest in held if nearest is not None), None)
     if x is None:
         return None
     for share in _MORE:
         binding = ease > share * room
-        found = table.balanced(binding, weights, answer.multipliers[-1])
-        if found is not None:
-            multipliers, equations = found
+        balance = table.balanced(binding, weights, answer.multipliers[-1])
+        if balance is not None:
+            multipliers, equations = balance
             kept = np.flatnonzero(binding)
             gap = float(np.abs(multipliers * table.residuals(x)[kept]).sum())
             if gap > _GAP * max(1.0, abs(program.worth(x))):
@@ -85,15 +85,15 @@ class Table:
         self.equations = program.equalities / self.equation_length[:, None]
         self.equation_right = program.right / self.equation_length
         families = [family for family in program.families if isinstance(family, LinearFamily)]
-        parts = [family.rows(mine.u, mine.s) for family, mine in zip(families, points, strict=True)]
+        parts = [family.rows(held.u, held.s) for family, held in zip(families, points, strict=True)]
         rows = np.vstack([np.empty((0, program.size)), *(part for part, _ in parts)])
         self.length = np.linalg.norm(rows, axis=1)
         self.length[self.length < _RANK] = 1.0
         self.rows = rows / self.length[:, None]
         self.right = np.concatenate([np.empty(0), *(right for _, right in parts)]) / self.length
-        self.family = np.repeat(np.arange(len(families)), [len(mine.u) for mine in points])
-        self.u = np.concatenate([np.empty(0), *(mine.u for mine in points)])
-        self.s = np.concatenate([np.empty(0), *(mine.s for mine in points)])
+        self.family = np.repeat(np.arange(len(families)), [len(held.u) for held in points])
+        self.u = np.concatenate([np.empty(0), *(held.u for held in points)])
+        self.s = np.concatenate([np.empty(0), *(held.s for held in points)])
 
     def residuals(self, x: Array) -> Array:
         """Rows . x - right: negative where a row has room."""
@@ -113,14 +113,14 @@ class Table:
 
         Those of the rows belong to rows of length 1, those of the equations to the program's own.
         """
-        own, mine = self.rows[binding], weights[binding]
-        matrix = np.hstack([own.T * mine, self.equations.T])
+        own, before = self.rows[binding], weights[binding]
+        matrix = np.hstack([own.T * before, self.equations.T])
         scaled = equations * self.equation_length
-        share = np.zeros(len(mine) + len(scaled))
+        share = np.zeros(len(before) + len(scaled))
         for _ in range(2):
-            changed = mine * (1.0 + share[: len(mine)])
-            share = share - np.linalg.lstsq(matrix, self._defect(own, changed, scaled + share[len(mine) :]), _RANK)[0]
-        changed, scaled = mine * (1.0 + share[: len(mine)]), scaled + share[len(mine) :]
+            changed = before * (1.0 + share[: len(before)])
+            share = share - np.linalg.lstsq(matrix, self._defect(own, changed, scaled + share[len(before) :]), _RANK)[0]
+        changed, scaled = before * (1.0 + share[: len(before)]), scaled + share[len(before) :]
         left = np.abs(self._defect(own, changed, scaled)).max()
         sound = left <= _BALANCED * max(1.0, float(changed.max(initial=0.0)))
         return (changed, scaled / self.equation_length) if sound and not (changed < 0.0).any() else None

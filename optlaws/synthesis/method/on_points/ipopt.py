@@ -169,7 +169,7 @@ def _solved(shape: _Shape, **numbers: Array) -> _Result:
         solver = _solver(shape)
         result = solver(**numbers)
         stats = solver.stats()
-        found = _Result(
+        answer = _Result(
             # copies: a view would keep CasADi's matrix, and give it back outside the lock
             x=np.array(result["x"], dtype=float).ravel(),
             weights=np.array(result["lam_g"], dtype=float).ravel(),
@@ -180,7 +180,7 @@ def _solved(shape: _Shape, **numbers: Array) -> _Result:
         )
         # what they refer to is counted, and the last reference must go while the lock is held
         del result, stats, solver
-    return found
+    return answer
 
 
 def _product_rows(products: list[tuple[ProductFamily, Points]], size: int) -> tuple[Array, Array, Array, Array]:
@@ -223,14 +223,14 @@ def _split(pairs: list[tuple[Any, Points]], weights: Array, rows: int, equations
     cones = sum(len(p.u) for f, p in pairs if isinstance(f, ConeFamily))
     norms = sum(isinstance(f, NormFamily) for f, _ in pairs)
     begins = np.cumsum([0, rows, products, cones, norms]).tolist()
-    found = []
+    split = []
     for family, points in pairs:
-        kind = next(i for i, one in enumerate(_KINDS) if isinstance(family, one))
+        kind = next(i for i, kind_of_row in enumerate(_KINDS) if isinstance(family, kind_of_row))
         begin = begins[kind]
         begins[kind] += len(points.u)
         share = _CONE_SHARE if isinstance(family, ConeFamily) else 1.0
-        found.append(share * weights[begin : begin + len(points.u)])
-    return [*found, weights[rows - equations : rows]]
+        split.append(share * weights[begin : begin + len(points.u)])
+    return [*split, weights[rows - equations : rows]]
 
 
 def _solver(shape: _Shape) -> Any:  # noqa: ANN401 - a casadi Function, imported late

@@ -116,8 +116,8 @@ class PeakCertificate:
         InputError
             If an entry is missing or wrong.
         """
-        found = stated(data, StatedPeakCertificate, "peak certificate")
-        return cls(problem_of(found.problem), found.constant, found.claim, tuple(map(_read, found.cells)))
+        entries = stated(data, StatedPeakCertificate, "peak certificate")
+        return cls(problem_of(entries.problem), entries.constant, entries.claim, tuple(map(_read, entries.cells)))
 
 
 def excluded(rows: PeakRows, cell: Cell) -> bool:
@@ -128,18 +128,18 @@ def excluded(rows: PeakRows, cell: Cell) -> bool:
 
 def _covered(rows: PeakRows, cells: tuple[Cell, ...], sign: float) -> bool:
     """Whether the cells of a sign leave no place of the interval out; at its ends the slope need not be 0."""
-    wide = [one for one in cells if one.sign == sign and one.reach > 0.0]
-    mine = sorted(wide, key=lambda one: Fraction(one.k) - Fraction(one.reach))
-    alone = {one.k for one in cells if one.sign == sign and one.reach == 0.0}
+    wide = [cell for cell in cells if cell.sign == sign and cell.reach > 0.0]
+    ascending = sorted(wide, key=lambda cell: Fraction(cell.k) - Fraction(cell.reach))
+    alone = {cell.k for cell in cells if cell.sign == sign and cell.reach == 0.0}
     if not alone >= set(rows.ends):
         return False
     reached = Fraction(0)
-    for one in mine:
-        if Fraction(one.k) - Fraction(one.reach) > reached:
+    for cell in ascending:
+        if Fraction(cell.k) - Fraction(cell.reach) > reached:
             return False
-        reached = max(reached, Fraction(one.k) + Fraction(one.reach))
+        reached = max(reached, Fraction(cell.k) + Fraction(cell.reach))
     return reached >= Fraction(rows.stop)
 
 
-def _read(found: StatedCell) -> Cell:
-    return Cell(found.k, found.reach, found.sign, tuple(map(contact_of, found.contacts)), found.equations)
+def _read(entries: StatedCell) -> Cell:
+    return Cell(entries.k, entries.reach, entries.sign, tuple(map(contact_of, entries.contacts)), entries.equations)

@@ -100,7 +100,7 @@ class PeakRows:
         """Most by which a peak within reach of k can be above the value at k."""
         if reach == 0.0:
             return 0.0
-        curvature = sum(one * reach**i for i, one in enumerate(self._curvature(k)))
+        curvature = sum(coefficient * reach**i for i, coefficient in enumerate(self._curvature(k)))
         return reach * reach / 2.0 * curvature * _AMPLE
 
     def _curvature(self, k: float) -> list[float]:

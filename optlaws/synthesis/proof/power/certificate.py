@@ -154,8 +154,8 @@ class PowerCertificate:
         InputError
             If an entry is missing or wrong.
         """
-        found = stated(data, StatedPowerCertificate, "power certificate")
-        return cls(problem_of(found.problem), found.claim, found.points, tuple(map(_read, found.steps)))
+        entries = stated(data, StatedPowerCertificate, "power certificate")
+        return cls(problem_of(entries.problem), entries.claim, entries.points, tuple(map(_read, entries.steps)))
 
 
 def moved_by(rows: PowerRows, box: Box, step: Step) -> Box | None:
@@ -179,7 +179,7 @@ def least_sum(rows: PowerRows, box: Box, step: Step) -> float:
     """What side times the variable is at least in the box: the sum of the rows is at most 0, so it can join."""
     equations = rows.equations()[: len(step.equations)]
     joined = np.vstack([rows.of_contacts(step.contacts, box), equations, rows.objective()])
-    multipliers = [max(one.multiplier, 0.0) for one in step.contacts]
+    multipliers = [max(contact.multiplier, 0.0) for contact in step.contacts]
     weights = np.array([*multipliers, *step.equations[: len(equations)], max(step.claim, 0.0)])
     own = np.zeros(rows.size + 1)
     if step.variable >= 0:
@@ -198,11 +198,11 @@ def _written(step: Step | Cut) -> dict[str, Any]:
     return data
 
 
-def _read(found: StatedStep) -> Step | Cut:
-    own = (found.side, found.contacts, found.equations, found.claim)
-    if found.at is not None and own == (None, None, None, None):
-        return Cut(found.variable, found.at)
-    if found.at is None and None not in own:
+def _read(entries: StatedStep) -> Step | Cut:
+    own = (entries.side, entries.contacts, entries.equations, entries.claim)
+    if entries.at is not None and own == (None, None, None, None):
+        return Cut(entries.variable, entries.at)
+    if entries.at is None and None not in own:
         side, contacts, equations, claim = own
-        return Step(found.variable, side or 0, tuple(map(contact_of, contacts or ())), equations or (), claim or 0.0)
+        return Step(entries.variable, side or 0, tuple(map(contact_of, contacts or ())), equations or (), claim or 0.0)
     raise InputError("this is not a power certificate: a step has side, contacts, equations and claim, a cut has at")

@@ -88,7 +88,7 @@ class Grid:
             u, _, residual = family.extremes(x)
             near = family.k(u[residual > -_NEAR * max(1.0, abs(family.room(x)))])
             seen = self._seen.setdefault(family.name, [])
-            new = [k for k in near.tolist() if not seen or min(abs(k - one) for one in seen) > spacing]
+            new = [k for k in near.tolist() if not seen or min(abs(k - place) for place in seen) > spacing]
             if new:
                 self._join(family, np.array(new))
 
@@ -97,7 +97,7 @@ class Grid:
         if isinstance(family, ProductFamily):
             self._power(k)
         elif isinstance(family, LinearFamily):
-            joined = [Contact(family.name, sign, one, 0.0) for sign in family.signs for one in k.tolist()]
+            joined = [Contact(family.name, sign, place, 0.0) for sign in family.signs for place in k.tolist()]
             self._fix(joined)
 
     def _fix(self, contacts: Sequence[Contact]) -> None:
@@ -184,8 +184,8 @@ class Grid:
             if weight <= least:
                 continue
             if i < len(self.contacts):
-                one = self.contacts[i]
-                contacts.append(Contact(one.constraint, one.sign, one.k, weight, one.direction))
+                contact = self.contacts[i]
+                contacts.append(Contact(contact.constraint, contact.sign, contact.k, weight, contact.direction))
             elif (place := i - len(self.contacts)) < len(kinds) * len(self.k):
                 name, sign = kinds[place // len(self.k)]
                 contacts.append(Contact(name, sign, float(self.k[place % len(self.k)]), weight))

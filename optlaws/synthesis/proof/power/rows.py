@@ -138,8 +138,8 @@ class PowerRows:
     def coordinates(self, values: Array) -> Array:
         """The coordinates of the law whose velocities at the points are the first of the values."""
         inverse, base = self._map
-        found: Array = inverse @ values[: self.terms] - base
-        return found
+        coordinates: Array = inverse @ values[: self.terms] - base
+        return coordinates
 
     def mapped(self, rows: Array) -> Array:
         """Rows over the program's variables, the constant last, as rows over those of a box."""
@@ -150,8 +150,8 @@ class PowerRows:
     def rows(self, nu: int, k: Array) -> Array:
         """The law's derivative at the places k over the program's variables, the constant last."""
         family = self._families[nu]
-        found: Array = family.columns(family.u(k))[0]
-        return found
+        values: Array = family.columns(family.u(k))[0]
+        return values
 
     def derivative(self, nu: int, k: Array) -> Array:
         """The same over the variables of a box."""
@@ -177,30 +177,30 @@ class PowerRows:
         away = (near > _AWAY) & (far >= near)
         near, far = np.where(away, near, 1.0), np.where(away, far, 1.0)
         D = self.greatest["D"] if self.place is None else (box.low if least else box.high)[self.place]
-        found = signs[:, None] * acceleration + (D / (near * far) * forth)[:, None] * velocity
+        bounding = signs[:, None] * acceleration + (D / (near * far) * forth)[:, None] * velocity
         if self.place is None:
-            found[:, -1] -= D / near + D / far
+            bounding[:, -1] -= D / near + D / far
         else:
             other = near if least else far
-            found[:, self.place] -= 1.0 / other
-            found[:, -1] -= D / near + D / far - D / other
-        return np.where(away[:, None], found, 0.0)
+            bounding[:, self.place] -= 1.0 / other
+            bounding[:, -1] -= D / near + D / far - D / other
+        return np.where(away[:, None], bounding, 0.0)
 
     def of_contacts(self, contacts: Sequence[Contact], box: Box) -> Array:
         """The rows of contacts, each at most 0 with its constant: zeros where the problem does not ask for it."""
-        found = np.zeros((len(contacts), self.size + 1))
+        stacked = np.zeros((len(contacts), self.size + 1))
         for name in POWER_ROWS:
-            mine = [i for i, one in enumerate(contacts) if one.constraint == name]
-            k = np.array([contacts[i].k for i in mine])
-            signs = np.array([contacts[i].sign for i in mine])
-            if mine:
+            places = [i for i, contact in enumerate(contacts) if contact.constraint == name]
+            k = np.array([contacts[i].k for i in places])
+            signs = np.array([contacts[i].sign for i in places])
+            if places:
                 rows = (k, self.derivative(1, k), self.derivative(2, k))
-                found[mine] = self.power(box, rows, signs, least=name == RowName.POWER_FROM_LEAST)
-        for i, one in enumerate(contacts):
-            if one.constraint not in POWER_ROWS:
-                row, right = row_of(self.model.program, one)
-                found[i] = self.mapped(np.append(row, -right)[None])[0]
-        return found
+                stacked[places] = self.power(box, rows, signs, least=name == RowName.POWER_FROM_LEAST)
+        for i, contact in enumerate(contacts):
+            if contact.constraint not in POWER_ROWS:
+                row, right = row_of(self.model.program, contact)
+                stacked[i] = self.mapped(np.append(row, -right)[None])[0]
+        return stacked
 
     def equations(self) -> Array:
         """The program's equations, each 0 with its constant."""
@@ -241,5 +241,5 @@ def velocity_brackets(anchors: Anchors, D: float, k: Array) -> tuple[Array, Arra
 
 
 def _signed_root(square: Array) -> Array:
-    found: Array = np.copysign(np.sqrt(np.abs(square)), square)
-    return found
+    root: Array = np.copysign(np.sqrt(np.abs(square)), square)
+    return root

@@ -49,8 +49,8 @@ def tightened(problem: Problem, objective: float, x: Array, explore: Explore) ->
     share = min(1.0, (_COORDINATES / model_of(problem).space.terms) ** 3)
     for gap, budget in _CLAIMS:
         search = searched(problem, objective * (1.0 - gap), x, int(budget * share), explore)
-        if search.found is not None or search.overtaken:
-            return search.found
+        if search.certificate is not None or search.overtaken:
+            return search.certificate
     return None
 
 
@@ -70,7 +70,7 @@ class Search:
     ----------
     left
         How many linear programs it may still solve.
-    found
+    certificate
         The certificate; None before, and where they do not suffice.
     overtaken
         Whether a law was found that makes the claim worthless.
@@ -80,7 +80,7 @@ class Search:
     grid: Grid
     left: int
     explore: Explore
-    found: PowerCertificate | None = None
+    certificate: PowerCertificate | None = None
     overtaken: bool = False
 
     def __post_init__(self) -> None:
@@ -108,7 +108,7 @@ class Search:
             boxes += [box.cut(variable, 1, at), box.cut(variable, -1, at)]
         points = tuple(self.rows.points.tolist())
         proof = PowerCertificate(self.rows.problem, self.rows.claim, points, tuple(self._steps))
-        self.found = proof if proof.proven else None
+        self.certificate = proof if proof.proven else None
 
     def _shrunk(self, box: Box) -> Box | None:
         for _ in range(_ROUNDS):

@@ -32,25 +32,25 @@ def below_peak(acceleration: PieceSeries, jerk: PieceSeries, centre: float, *, s
     """
     breaks = acceleration.breaks
     count = acceleration.series.shape[1] + 1
-    found = np.zeros((len(breaks) - 1, count, acceleration.series.shape[2]))
+    divided = np.zeros((len(breaks) - 1, count, acceleration.series.shape[2]))
     power = 2 if smooth else 1
-    touching = [i for i in range(len(found)) if breaks[i + 1] <= centre <= breaks[i]]
+    touching = [i for i in range(len(divided)) if breaks[i + 1] <= centre <= breaks[i]]
     angle = (np.arange(count) + 0.5) * np.pi / count
     for i in touching:
         low, high = breaks[i + 1], breaks[i]
         u = low + (high - low) * (1.0 + np.cos(angle)) / 2.0
         of = chord if smooth else kink
-        found[i] = chebyshev_series(of(_extended(jerk if smooth else acceleration, i), u, centre, count - 1), angle)
-    for i in (*range(touching[0] - 1, -1, -1), *range(touching[-1] + 1, len(found))):
+        divided[i] = chebyshev_series(of(_extended(jerk if smooth else acceleration, i), u, centre, count - 1), angle)
+    for i in (*range(touching[0] - 1, -1, -1), *range(touching[-1] + 1, len(divided))):
         inner, end = (i + 1, -1.0) if breaks[i + 1] >= centre else (i - 1, 1.0)
         near, behind = (breaks[i + 1], inner) if end < 0.0 else (breaks[i], inner)
         scale = abs(near - centre) ** power
         # the neighbour's value at the break, in its own units
-        height = np.asarray(chebyshev.chebval(-end, found[behind])) * _unit(breaks, behind, centre, power, near)
+        height = np.asarray(chebyshev.chebval(-end, divided[behind])) * _unit(breaks, behind, centre, power, near)
         rise = -np.asarray(chebyshev.chebint(acceleration.series[i], axis=0)) * (breaks[i] - breaks[i + 1]) / 4.0
         rise[0] += height - np.asarray(chebyshev.chebval(end, rise))
-        found[i] = rise / scale
-    return PieceSeries(breaks, found)
+        divided[i] = rise / scale
+    return PieceSeries(breaks, divided)
 
 
 def _unit(breaks: Array, piece: int, centre: float, power: int, at: float) -> float:

@@ -89,15 +89,15 @@ class PieceSpace(PiecewiseSpace):
 
     @staticmethod
     def _integrated(pieces: PieceSeries, value: Array) -> PieceSeries:
-        found = []
+        integrals = []
         for i, series in enumerate(pieces.series):
             length = (pieces.breaks[i] - pieces.breaks[i + 1]) / 2.0
             # against the local variable, which falls with k and is 1 at the piece's start
             whole = -np.asarray(chebyshev.chebint(series, axis=0)) * length / 2.0
             whole[0] += value - whole.sum(axis=0)
-            found.append(whole)
+            integrals.append(whole)
             value = np.asarray(chebyshev.chebval(-1.0, whole))
-        return PieceSeries(pieces.breaks, np.stack(found))
+        return PieceSeries(pieces.breaks, np.stack(integrals))
 
     def forward(self, slack: Array) -> Family:
         """Rows b >= 0, from rest to rest divided by what they vanish like at the ends."""
@@ -111,15 +111,15 @@ class PieceSpace(PiecewiseSpace):
     def equations(self) -> list[Equation]:
         """The end conditions that the base law and the splines do not keep by themselves."""
         order = self.boundary.order
-        found = [(nu, 0.0, float(self.boundary.start[nu])) for nu in range(2, order)]
+        conditions = [(nu, 0.0, float(self.boundary.start[nu])) for nu in range(2, order)]
         if self.symmetric:
-            found += [(0, 0.5, 0.5 * (float(self.boundary.start[0]) + float(self.boundary.end[0])))]
-            found += [(nu, 0.5, 0.0) for nu in range(2, min(self.continuity, self._order + 2) + 1, 2)]
+            conditions += [(0, 0.5, 0.5 * (float(self.boundary.start[0]) + float(self.boundary.end[0])))]
+            conditions += [(nu, 0.5, 0.0) for nu in range(2, min(self.continuity, self._order + 2) + 1, 2)]
         else:
-            found += [(nu, 1.0, float(self.boundary.end[nu])) for nu in range(order)]
+            conditions += [(nu, 1.0, float(self.boundary.end[nu])) for nu in range(order)]
         symbols = ("a", "b", "c", "j")
         rows = []
-        for nu, k, value in found:
+        for nu, k, value in conditions:
             row = self.row(nu, k)
             symbol = symbols[nu] if nu < len(symbols) else f"a^({nu})"
             rows.append(Equation(f"{symbol}({k:g}) = {value:g}", row[:-1], value - float(row[-1])))
@@ -131,14 +131,15 @@ class PieceSpace(PiecewiseSpace):
         c, b = self.pieces(2).series @ point, self.pieces(1).series @ point
         c[:, 1::2] *= -1.0
         starts = b.sum(axis=1)
-        segments = [PolynomialSegment(tuple(one.tolist()), float(v)) for one, v in zip(c, starts, strict=True)]
+        segments = [PolynomialSegment(tuple(series.tolist()), float(v)) for series, v in zip(c, starts, strict=True)]
         breaks = self.k.tolist()
         if self.symmetric:
-            ends = np.array([chebyshev.chebval(-1.0, one) for one in b])
+            ends = np.array([chebyshev.chebval(-1.0, velocity) for velocity in b])
             mirror = -c[::-1]
             mirror[:, 1::2] *= -1.0
             segments += [
-                PolynomialSegment(tuple(one.tolist()), float(v)) for one, v in zip(mirror, ends[::-1], strict=True)
+                PolynomialSegment(tuple(series.tolist()), float(v))
+                for series, v in zip(mirror, ends[::-1], strict=True)
             ]
             breaks += [1.0 - k for k in breaks[-2::-1]]
         return PiecewiseLaw(breaks, segments, float(self.boundary.start[0]))

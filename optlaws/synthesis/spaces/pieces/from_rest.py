@@ -21,7 +21,7 @@ class PieceRootFamily(RootFamily, PieceFamily):
 
     def stationary(self, x: Array) -> Array:
         """Roots of 2 (1-u) g' + g on every piece, and the breaks."""
-        found = [self.corners]
+        places = [self.corners]
         breaks = self.pieces.breaks
         for i, series in enumerate(self.pieces.series @ np.append(x, 1.0)):
             middle, half = (breaks[i] + breaks[i + 1]) / 2.0, (breaks[i] - breaks[i + 1]) / 2.0
@@ -32,8 +32,8 @@ class PieceRootFamily(RootFamily, PieceFamily):
             total[: len(slope)] += slope
             if total.any():
                 roots = real_parts_of_roots(total)
-                found.append(self.pieces.global_places(i, roots[np.abs(roots) < 1.0]))
-        return np.concatenate(found)
+                places.append(self.pieces.global_places(i, roots[np.abs(roots) < 1.0]))
+        return np.concatenate(places)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

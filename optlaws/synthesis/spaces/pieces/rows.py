@@ -83,8 +83,8 @@ class PieceFamily(LinearFamily):
         count = self.pieces.series.shape[1]
         local = np.cos((np.arange(count) + 0.5) * np.pi / count) if count > 2 else np.empty(0)
         inner = [self.pieces.global_places(i, local) for i in range(len(self.pieces.breaks) - 1)]
-        found = np.concatenate([self.corners, *inner])
-        return found[(found >= self.domain[0]) & (found <= self.domain[1])]
+        places = np.concatenate([self.corners, *inner])
+        return places[(places >= self.domain[0]) & (places <= self.domain[1])]
 
     @kept_property
     def _derivatives(self) -> tuple[PieceSeries, PieceSeries, PieceSeries]:
@@ -133,7 +133,7 @@ class PieceProductFamily(ProductFamily):
 def _stationary(family: PieceFamily, factors: list[Array]) -> Array:
     """Roots of the derivative on every piece, the ends, and the corners that may be extrema."""
     pieces = family.pieces
-    found, slopes = [], []
+    places, slopes = [], []
     for i in range(len(pieces.breaks) - 1):
         series = factors[0][i]
         if len(factors) > 1:
@@ -142,11 +142,11 @@ def _stationary(family: PieceFamily, factors: list[Array]) -> Array:
         slopes.append(np.asarray(chebyshev.chebval(np.array([1.0, -1.0]), slope)))
         if np.abs(slope).max() > _FLAT * np.abs(series).max():
             roots = real_parts_of_roots(slope)
-            found.append(pieces.global_places(i, roots[np.abs(roots) < 1.0]))
+            places.append(pieces.global_places(i, roots[np.abs(roots) < 1.0]))
     kept = np.ones(len(family.corners), dtype=np.bool_)
     if not family.jumps:
         # where the function goes on rising or falling, a corner is no extremum
         kept[1:-1] = [
             before[1] * after[0] <= _FLAT * max(before[1] ** 2, after[0] ** 2) for before, after in pairwise(slopes)
         ]
-    return np.concatenate([family.corners[kept], *found])
+    return np.concatenate([family.corners[kept], *places])

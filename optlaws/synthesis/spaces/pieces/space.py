@@ -79,8 +79,8 @@ class PiecewiseSpace(LawSpace):
             return lowest
         series = weights[0] * lowest.series
         for i, weight in enumerate(weights[1:], 1):
-            one = self.pieces(nu + i).series
-            series[:, : one.shape[1]] += weight * one[:, : series.shape[1]]
+            own = self.pieces(nu + i).series
+            series[:, : own.shape[1]] += weight * own[:, : series.shape[1]]
         return PieceSeries(lowest.breaks, series)
 
     def power(

@@ -72,12 +72,12 @@ class SplineSpace(PiecewiseSpace):
         """Chebyshev series between `parts`, which may divide the pieces, of functions of a degree."""
         count = max(degree, 0) + 1
         angle = (np.arange(count) + 0.5) * np.pi / count
-        found = []
+        pieces = []
         for low, high in pairwise(parts):
             piece = int(np.searchsorted(self.breaks, low, side="right")) - 1
             k = low + (high - low) * (1.0 + np.cos(angle)) / 2.0
-            found.append(chebyshev_series(values(piece, k), angle))
-        return np.stack(found)
+            pieces.append(chebyshev_series(values(piece, k), angle))
+        return np.stack(pieces)
 
     def _derivative(self, nu: int, piece: int, k: Array) -> Array:
         """The derivative of order nu at points of a piece: free functions, then the base law; the product rule."""
@@ -114,7 +114,7 @@ class SplineSpace(PiecewiseSpace):
         point = np.append(coordinates, 1.0)
         c = self._accelerations @ point
         starts = self._start_velocities @ point
-        segments = [PolynomialSegment(tuple(one.tolist()), float(b)) for one, b in zip(c, starts, strict=True)]
+        segments = [PolynomialSegment(tuple(series.tolist()), float(b)) for series, b in zip(c, starts, strict=True)]
         return PiecewiseLaw(self.breaks, segments, float(self.boundary.start[0]))
 
     @kept_property

@@ -101,19 +101,19 @@ class PolynomialSpace(LawSpace):
         if nu not in self._series:
             if nu > 2:
                 lower = self.series(nu - 1)
-                found: Array = np.zeros_like(lower)
+                series: Array = np.zeros_like(lower)
                 if len(lower) > 1:
-                    found = -2.0 * np.asarray(chebyshev.chebder(lower), dtype=np.float64)
+                    series = -2.0 * np.asarray(chebyshev.chebder(lower), dtype=np.float64)
             else:
                 base = self.base(self._k, nu)
                 values = np.column_stack([(self._shapes[nu] * self.scale[:, None]).T, base])
                 # what lies beyond the degree is rounding
-                found = chebyshev_series(values, self._angle)[: 2 * self.order + self.degree + 1 - nu]
+                series = chebyshev_series(values, self._angle)[: 2 * self.order + self.degree + 1 - nu]
                 if self.symmetric:
                     # a - 1/2 and c are odd about the middle, b is even: rounding must not blur it
-                    found[(1 if nu == 1 else (2 if nu == 0 else 0)) :: 2] = 0.0
-            found.setflags(write=False)
-            self._series[nu] = found
+                    series[(1 if nu == 1 else (2 if nu == 0 else 0)) :: 2] = 0.0
+            series.setflags(write=False)
+            self._series[nu] = series
         return self._series[nu]
 
     @property
@@ -138,11 +138,11 @@ class PolynomialSpace(LawSpace):
     def z_series(self, coordinates: Array) -> Array:
         """Chebyshev series of Z in 2k - 1."""
         series = chebyshev_series((self._shapes[3] * self.scale[:, None]).T, self._angle)[: self.degree + 1]
-        found: Array = series @ coordinates
-        found[1::2] *= -1.0
+        mirrored: Array = series @ coordinates
+        mirrored[1::2] *= -1.0
         if self.symmetric:
-            found[::2] = 0.0
-        return found
+            mirrored[::2] = 0.0
+        return mirrored
 
     def combination(
         self,
@@ -162,11 +162,11 @@ class PolynomialSpace(LawSpace):
         """Series of w0 a^(nu) + w1 a^(nu+1) + ..., the base law's as the last column."""
         if weights == (1.0,):
             return self.series(nu)
-        found = np.zeros_like(self.series(nu))
+        total = np.zeros_like(self.series(nu))
         for i, weight in enumerate(weights):
-            one = self.series(nu + i)
-            found[: len(one)] += weight * one[: len(found)]
-        return found
+            own = self.series(nu + i)
+            total[: len(own)] += weight * own[: len(total)]
+        return total
 
     def backward(self, slack: Array, bound: float) -> LinearFamily:
         """Rows -b <= slack . x + bound; b is even about 1/2 where the law is symmetric."""

@@ -184,7 +184,7 @@ def test_the_search_comes_upon_a_better_law_than_it_was_given(first: Solution) -
 
     x = np.append(poor.active_set.x[:5], poor.law.power_peak().value)
     search = searched(FIRST, first.objective * 1.05, x, 120, explore)
-    assert search.found is None
+    assert search.certificate is None
     assert min(seen) < first.objective * 1.05 < poor.law.power_peak().value
 
 
