@@ -19,7 +19,8 @@ Array = NDArray[np.float64]
 
 HEADINGS = ("B", "C", "D", "J", "lower bound", "gap", "limit", "status")
 
-_SAME = 1e-9
+#: of a constant: two values that differ by less are one
+SAME = 1e-9
 _SHOWN = 12
 
 
@@ -116,9 +117,9 @@ def undominated(solutions: Sequence[Solution], over: Sequence[str]) -> list[Solu
     order = np.lexsort(values.T[::-1])
     kept: list[int] = []
     for i in order:
-        no_worse = (values <= values[i] * (1.0 + _SAME)).all(axis=1)
-        better = no_worse & (values < values[i] * (1.0 - _SAME)).any(axis=1)
-        same = (np.abs(values[kept] / values[i] - 1.0) <= _SAME).all(axis=1).any() if kept else False
+        no_worse = (values <= values[i] * (1.0 + SAME)).all(axis=1)
+        better = no_worse & (values < values[i] * (1.0 - SAME)).any(axis=1)
+        same = (np.abs(values[kept] / values[i] - 1.0) <= SAME).all(axis=1).any() if kept else False
         if not better.any() and not same:
             kept.append(int(i))
     return [solutions[i] for i in kept]

@@ -13,7 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.numbers import real, whole
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.front import Front, undominated, value_of
+from optlaws.synthesis.front import SAME, Front, undominated, value_of
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import FUNCTIONALS, PLAIN
 from optlaws.synthesis.problem.fields import CONSTANTS
@@ -26,7 +26,6 @@ from optlaws.synthesis.solve import synthesize
 # how far above its least value a constant is held while the next one is minimised: as near as the solver can go
 _ABOVE = (1e-5, 1e-7, 1e-9)
 _BENT = 2.0
-_SAME = 1e-9
 # a stretch of the first constant, relative, within which nothing is exchanged
 _NOTHING = 1e-6
 
@@ -99,7 +98,7 @@ class _Curve:
         low, high = between if between is not None else (0.0, inf)
         best = synthesize(_with(self.problem, over[0], Range(1.0 if over[0] == "B" else 0.0, inf)))
         pays = value_of(best, over[0])
-        if low >= pays * (1.0 - _SAME):
+        if low >= pays * (1.0 - SAME):
             raise InputError(
                 f"{over[1]} is least at {over[0]} = {pays:.7g}: nothing is exchanged above, got {shortened(between)}"
             )
@@ -111,7 +110,7 @@ class _Curve:
         while len(self.points) < count:
             widths = [0.0 if self.points[i][0] in dead else width for i, width in enumerate(self._widths())]
             i = int(np.argmax(widths))
-            if widths[i] < _SAME:
+            if widths[i] < SAME:
                 break
             (low, left), (high, right) = self.points[i : i + 2]
             value = sqrt(low * high)
@@ -146,7 +145,7 @@ class _Curve:
 
     def _last(self, best: Solution, pays: float, high: float) -> tuple[float, Solution]:
         """At the least value of the last constant, or at `high`; a problem of the same kind as the others."""
-        value = min(pays if self.over[0] == "B" else pays * (1.0 + _SAME), high)
+        value = min(pays if self.over[0] == "B" else pays * (1.0 + SAME), high)
         try:
             return value, synthesize(self._asked(value))
         except (InfeasibleProblem, SolverFailure):

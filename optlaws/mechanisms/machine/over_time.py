@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from abc import abstractmethod
+from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -28,7 +28,7 @@ RESONANT = 1e-9
 
 
 @dataclass(frozen=True, eq=False, repr=False)
-class MachineMotion:
+class MachineMotion(ABC):
     """The outputs of a machine over time, by their names: each a curve.
 
     Attributes

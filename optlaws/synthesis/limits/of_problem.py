@@ -8,7 +8,7 @@ from math import isfinite
 from optlaws.errors import InputError
 from optlaws.synthesis.limits.closed_forms import best_velocity, limit, power_limit
 from optlaws.synthesis.limits.rounding import rounded_down
-from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
+from optlaws.synthesis.problem.combined import Combined
 from optlaws.synthesis.problem.constants import C_minus, C_plus, Functional
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.synthesis.problem.problem import Problem
@@ -53,7 +53,7 @@ def _of_term(problem: Problem, term: Term) -> Fraction | None:
         return None
     if term in (C_plus, C_minus) and problem.symmetric:
         return _of_constant(problem, "C")
-    if isinstance(term, CombinedPeak | CombinedPower):
+    if isinstance(term, Combined):
         return Fraction(term.least(problem.order))
     return _of_constant(problem, _NAMES[term.name]) if term.name in _NAMES else term.limit(problem)
 

@@ -31,7 +31,7 @@ from optlaws.synthesis.method.ways.contacts import polished
 from optlaws.synthesis.problem.constants import B, Functional, RootMeanSquare
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.program.evaluation import shortfalls
+from optlaws.synthesis.program.evaluation import reaches, shortfalls
 from optlaws.synthesis.program.writer import Model, model_of
 
 Array = NDArray[np.float64]
@@ -42,7 +42,6 @@ _WORTHY = 0.2
 _FOLLOWED = 4
 _ROUNDS = 2
 _ROOM = 1e3
-_SHORT = 1e-9
 
 
 def raised(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
@@ -62,7 +61,7 @@ def raised(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
     alone = all(leaf == constant for _, leaf in leaves(problem.objective))
     ways = [] if alone else _held_up(model, optimum, constant, low)
     ways.sort(key=lambda way: way[0].program.worth(way[1].x))
-    led = [state for way in ways[:_FOLLOWED] if _reached(*way, constant, low) for state in raised(*way)]
+    led = [state for way in ways[:_FOLLOWED] if reaches(way[0].law(way[1].x), constant, low) for state in raised(*way)]
     middle = asked_in_the_middle(model, optimum, constant)
     if middle is not None:
         led = [*raised(*middle), *led]
@@ -74,10 +73,6 @@ def raised_at(model: Model, optimum: ActiveSet, constant: Functional, low: float
     family = family_of(model, constant)
     ways = _asked(model.program, family, optimum, (constant.name, low), family.u(np.array([k])))
     return [candidate for program, state in ways for candidate in raised(replace(model, program=program), state)]
-
-
-def _reached(model: Model, state: ActiveSet, constant: Functional, low: float) -> bool:
-    return constant.value(model.law(state.x)) >= low * (1.0 - _SHORT)
 
 
 def _held_up(model: Model, plain: ActiveSet, constant: Functional, low: float) -> list[tuple[Model, ActiveSet]]:

@@ -22,7 +22,20 @@ Array = NDArray[np.float64]
 
 
 @dataclass(frozen=True, repr=False)
-class CombinedPeak(Functional):
+class Combined(Functional):
+    """A constant of a combination, which some laws have none of: where a derivative in it jumps or is infinite."""
+
+    @abstractmethod
+    def value(self, law: MotionLaw) -> float:
+        """The peak over the whole interval."""
+
+    @abstractmethod
+    def check(self, space: LawSpace) -> None:
+        """Refuse laws for which the combination is beyond every bound."""
+
+
+@dataclass(frozen=True, repr=False)
+class CombinedPeak(Combined):
     """Peak of w0 a^(nu) + w1 a^(nu+1) + ..., magnitude or one sign only.
 
     Attributes
@@ -38,14 +51,6 @@ class CombinedPeak(Functional):
     nu: int
     weights: tuple[Fraction, ...]
     signs: tuple[float, ...] = (1.0, -1.0)
-
-    @abstractmethod
-    def value(self, law: MotionLaw) -> float:
-        """The peak over the whole interval."""
-
-    @abstractmethod
-    def check(self, space: LawSpace) -> None:
-        """Refuse laws for which the combination is beyond every bound."""
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """One family; two where symmetric laws count on half the interval but the combination is not symmetric."""
@@ -63,32 +68,35 @@ class CombinedPeak(Functional):
         plain = (self.name, self.weights, self.signs)
         if not symmetric:
             return [plain]
-        facing = self.signs if self.nu % 2 else tuple(-sign for sign in self.signs)
-        if any(self.weights[1::2]):
-            weights = tuple(-w if i % 2 else w for i, w in enumerate(self.weights))
-            return [plain, (mirrored(self.name), weights, facing)]
-        return [(self.name, self.weights, tuple(dict.fromkeys((*self.signs, *facing))))]
+        signs = self.signs if self.nu % 2 else tuple(-sign for sign in self.signs)
+        weights = facing(self.weights)
+        if weights != self.weights:
+            return [plain, (mirrored(self.name), weights, signs)]
+        return [(self.name, self.weights, tuple(dict.fromkeys((*self.signs, *signs))))]
 
 
 @dataclass(frozen=True, repr=False)
-class CombinedPower(Power):
+class CombinedPower(Combined, Power):
     """Peak of the product of a combination of b, c, ... and its derivative: not convex in the law."""
-
-    @abstractmethod
-    def value(self, law: MotionLaw) -> float:
-        """The peak over the whole interval."""
-
-    @abstractmethod
-    def check(self, space: LawSpace) -> None:
-        """Refuse laws for which the combination is beyond every bound."""
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """The product's family; one for each half where symmetric laws have a combination that is not."""
         self.check(space)
         sides = [(self.name, self.weights)]
-        if space.symmetric and any(self.weights[1::2]):
-            sides.append((mirrored(self.name), tuple(-w if i % 2 else w for i, w in enumerate(self.weights))))
+        if space.symmetric and facing(self.weights) != self.weights:
+            sides.append((mirrored(self.name), facing(self.weights)))
         return tuple(space.power(name, slack, bound, floats(weights)) for name, weights in sides)
+
+
+def facing(weights: tuple[Fraction, ...]) -> tuple[Fraction, ...]:
+    """The weights that say on the first half what these say on the second, in symmetric laws.
+
+    Examples
+    --------
+    >>> facing((Fraction(1), Fraction(2), Fraction(3)))
+    (Fraction(1, 1), Fraction(-2, 1), Fraction(3, 1))
+    """
+    return tuple(-weight if i % 2 else weight for i, weight in enumerate(weights))
 
 
 def floats(weights: tuple[Fraction, ...]) -> tuple[float, ...]:

@@ -70,8 +70,13 @@ def shortfalls(problem: Problem, law: MotionLaw) -> dict[Functional, float]:
     return {
         constant: limits.low
         for constant, limits in ranges
-        if limits.low > 0.0 and constant.value(law) < limits.low * (1.0 - _SHORT)
+        if limits.low > 0.0 and not reaches(law, constant, limits.low)
     }
+
+
+def reaches(law: MotionLaw, constant: Functional, low: float) -> bool:
+    """Whether a constant of a law is no less than its lower bound, but for rounding."""
+    return constant.value(law) >= low * (1.0 - _SHORT)
 
 
 def _total(expression: Expression, law: MotionLaw, values: dict[str, float]) -> float:

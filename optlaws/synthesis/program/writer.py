@@ -13,6 +13,7 @@ from optlaws.laws import MotionLaw
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import Family, LinearFamily, Program
 from optlaws.synthesis.families.names import RowName, VariableName
+from optlaws.synthesis.problem.combined import facing, floats
 from optlaws.synthesis.problem.constants import B, Functional, Power
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
 from optlaws.synthesis.problem.problem import Problem
@@ -305,14 +306,13 @@ class _Writer:
             if power != self.power and slack.any():
                 self.row(names.at_least(power.name), -slack, 0.0)
             return
-        weights = tuple(map(float, power.weights))
+        weights, mirrored = floats(power.weights), facing(power.weights)
         root, end_velocity = self.unit(VariableName.POWER_ROOT), self.space.start_velocity + self.space.velocity_change
         # each row counts on rest at its end
         if self.space.start_velocity == 0.0:
             self.families.append(self.space.from_rest(RowName.FROM_START, root, weights=weights))
-        if self.space.symmetric and any(weights[1::2]):
-            facing = tuple(-w if i % 2 else w for i, w in enumerate(weights))
-            self.families.append(self.space.from_rest(RowName.FROM_END, root, weights=facing))
+        if self.space.symmetric and mirrored != power.weights:
+            self.families.append(self.space.from_rest(RowName.FROM_END, root, weights=floats(mirrored)))
         if not self.space.symmetric and abs(end_velocity) < _REST:
             self.families.append(self.space.from_rest(RowName.FROM_END, root, backward=True, weights=weights))
         self.row(RowName.TANGENT, 2.0 * self.tangent * root - slack, bound + self.tangent**2)

@@ -15,7 +15,7 @@ from flint import acb, arb
 from optlaws.errors import InputError
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName
-from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
+from optlaws.synthesis.problem.combined import Combined, CombinedPeak, facing
 from optlaws.synthesis.problem.constants import B, Functional, Peak, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
 from optlaws.synthesis.problem.problem import Problem
@@ -127,7 +127,7 @@ class ExactRows:
     def _bounded(self, leaf: Functional, slack: Names, high: float) -> None:
         """Rows of `leaf <= -slack + high`."""
         constant = known(leaf)
-        if isinstance(constant, CombinedPeak | CombinedPower):
+        if isinstance(constant, Combined):
             constant.check(space_of(self.problem.basis, self.problem.conditions, symmetric=self.problem.symmetric))
         if isinstance(constant, CombinedPeak):
             for name, weights, sides in constant.sides(symmetric=self.problem.symmetric):
@@ -162,12 +162,11 @@ class ExactRows:
         its second half are those of its mirror image on the first.
         """
         start, change, _ = self.space.bounds
-        weights = power.weights
-        facing = tuple(-w if i % 2 else w for i, w in enumerate(weights))
+        weights, mirrored = power.weights, facing(power.weights)
         if start is not None and change is not None and start == 0:
             self._from_rest(RowName.FROM_START, weights, lambda k: k)
-        if self.problem.symmetric and facing != weights:
-            self._from_rest(RowName.FROM_END, facing, lambda k: k)
+        if self.problem.symmetric and mirrored != weights:
+            self._from_rest(RowName.FROM_END, mirrored, lambda k: k)
         elif start is not None and change is not None and start + change == 0:
             self._from_rest(RowName.FROM_END, weights, lambda k: 1 - k)
         self._single(
