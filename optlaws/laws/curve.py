@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from math import inf
 from typing import Any, overload
 
@@ -152,14 +152,7 @@ class Curve(ABC):
         (Peak(value=-6.0, k=1.0), Peak(value=6.0, k=0.0))
         """
         order = derivative(nu)
-        if within is None or within == self.interval:
-            return peaks.extremes(*self._whole(order))
-        ends = self._part(within)
-        k, values = self._whole(order)
-        inside = (k >= ends[0]) & (k <= ends[1])
-        return peaks.extremes(
-            np.concatenate([ends, k[inside]]), np.concatenate([self._derivative(ends, order), values[inside]])
-        )
+        return self._extremes(lambda: self._whole(order), lambda k: self._derivative(k, order), within)
 
     def power_peak(self) -> Peak:
         """Peak of |d| over the whole interval, d = b c.
@@ -171,6 +164,27 @@ class Curve(ABC):
         3.464102
         """
         return peaks.peak(*self._whole_power())
+
+    def power_extrema(self, within: tuple[float, float] | None = None) -> tuple[Peak, Peak]:
+        """Minimum and maximum, signed, of d over the whole interval or a part of it.
+
+        Parameters
+        ----------
+        within
+            The part: its first and its last k.
+
+        Raises
+        ------
+        InputError
+            If the part is not in the interval.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> [round(one.value, 6) for one in smoothstep(2).power_extrema()]
+        [-3.464102, 3.464102]
+        """
+        return self._extremes(self._whole_power, self._power, within)
 
     def rms(self, nu: int) -> float:
         """Root mean square of the derivative of order nu over the interval.
@@ -229,6 +243,16 @@ class Curve(ABC):
     def _whole_power(self) -> Sides:
         """Places with values among which the extremes of d are, infinite ones included."""
         return self._power_sides()
+
+    def _extremes(
+        self, whole: Callable[[], Sides], at: Callable[[Array], Array], within: tuple[float, float] | None
+    ) -> tuple[Peak, Peak]:
+        if within is None or within == self.interval:
+            return peaks.extremes(*whole())
+        ends = self._part(within)
+        k, values = whole()
+        inside = (k >= ends[0]) & (k <= ends[1])
+        return peaks.extremes(np.concatenate([ends, k[inside]]), np.concatenate([at(ends), values[inside]]))
 
     def _part(self, within: tuple[float, float]) -> Array:
         ends = self._times(within)

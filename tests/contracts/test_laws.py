@@ -378,6 +378,17 @@ def test_the_power_is_within_its_peak(curve: Curve) -> None:
     power = np.abs(curve.d(k))
     assert not np.isnan(power).any()
     assert power.max() <= peak.value * (1 + 1e-12)
+    low, high = curve.power_extrema()
+    assert peak.value == max(abs(low.value), abs(high.value))
+    assert low.value <= curve.d(k).min() + 1e-12 * power.max()
+    assert curve.d(k).max() <= high.value + 1e-12 * power.max()
+    first, last = curve.interval
+    part = first + 0.2 * (last - first), first + 0.45 * (last - first)
+    least, greatest = curve.power_extrema(part)
+    inner = curve.d(np.linspace(*part, 301))
+    assert least.value <= inner.min() + 1e-12 * power.max()
+    assert greatest.value >= inner.max() - 1e-12 * power.max()
+    assert part[0] <= min(least.k, greatest.k) <= max(least.k, greatest.k) <= part[1]
     if np.isfinite(peak.value):
         before = np.nextafter(peak.k, 0.0)
         assert peak.value == pytest.approx(max(abs(curve.d(peak.k)), abs(curve.d(before))), rel=1e-6, abs=1e-300)

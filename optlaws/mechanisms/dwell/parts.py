@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from typing import Any
 
@@ -11,8 +11,6 @@ from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.segment import Segment
-from optlaws.mechanisms.loader.law import LoaderLaw
-from optlaws.series.panels import Panels
 
 Array = NDArray[np.float64]
 
@@ -64,19 +62,10 @@ class PartSegment(Segment, kind="part"):
         return self._places(np.array([one.k for one in self.law.extrema(nu, (self.start, self.end))]))
 
     def power_candidates(self, length: float) -> Array:  # noqa: ARG002, D102
-        # the power of a loader is that of its executive law but for a factor
-        law = self.law.executive if isinstance(self.law, LoaderLaw) else self.law
+        return self._places(np.array([one.k for one in self.law.power_extrema((self.start, self.end))]))
 
-        def slope(k: Array) -> Array:
-            with np.errstate(invalid="ignore"):
-                return np.nan_to_num(law.c(k) ** 2 + law.b(k) * law.j(k))
-
-        def curvature(k: Array) -> Array:
-            with np.errstate(invalid="ignore"):
-                return np.nan_to_num(3.0 * law.c(k) * law.j(k) + law.b(k) * law(k, 4))
-
-        edges = np.linspace(self.start, self.end, 5)
-        return self._places(Panels(tuple(edges.tolist())).roots(slope, curvature))
+    def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: D102
+        return super().scaled(length, scale, drift) if drift else replace(self, scale=scale * self.scale)
 
     def square(self, length: float, nu: int) -> float:  # noqa: D102
         from scipy.integrate import quad
