@@ -44,6 +44,7 @@ _load, __dir__, __all__ = face(
         "optlaws.studies.study": "open_study",
         "optlaws.synthesis.arrays.problems": "ProblemArray each",
         "optlaws.synthesis.front": "Front",
+        "optlaws.synthesis.functionals.makers": "peak rms value",
         "optlaws.synthesis.limits.closed_forms": "acceleration_limit limit",
         "optlaws.synthesis.limits.laws": "limit_law",
         "optlaws.synthesis.pareto": "pareto_front",
@@ -100,6 +101,7 @@ declare(
     {
         "optlaws.mechanisms.cam.constants": "B_cam C_cam C_minus_cam C_plus_cam D_cam J_cam",
         "optlaws.mechanisms.spectrum.robust": "residual",
+        "optlaws.synthesis.functionals.makers": "peak rms value",
     },
 )
 

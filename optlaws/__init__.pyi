@@ -53,6 +53,9 @@ from optlaws.studies.study import open_study as open_study
 from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
 from optlaws.synthesis.arrays.problems import each as each
 from optlaws.synthesis.front import Front as Front
+from optlaws.synthesis.functionals.makers import peak as peak
+from optlaws.synthesis.functionals.makers import rms as rms
+from optlaws.synthesis.functionals.makers import value as value
 from optlaws.synthesis.limits.closed_forms import acceleration_limit as acceleration_limit
 from optlaws.synthesis.limits.closed_forms import limit as limit
 from optlaws.synthesis.limits.laws import limit_law as limit_law
@@ -181,6 +184,7 @@ __all__ = [
     "off_design",
     "open_study",
     "pareto_front",
+    "peak",
     "polydyne",
     "proven_front",
     "residual",
@@ -188,6 +192,7 @@ __all__ = [
     "residual_phasor",
     "response_spectrum",
     "reversed_law",
+    "rms",
     "rms_c",
     "rms_j",
     "run_study",
@@ -200,6 +205,7 @@ __all__ = [
     "synthesize_chunks",
     "synthesize_many",
     "trapezoid",
+    "value",
     "via",
     "with_end_velocity",
 ]

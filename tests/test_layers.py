@@ -12,10 +12,11 @@ from tests.imports import Import, cycles, imports, modules
 
 BASE = {"echo", "errors", "files", "kept", "lazy", "locks", "numbers", "suggest"}
 KNOWN = BASE | {"series"}
-CORE = KNOWN | {"laws", "synthesis", "mechanisms", "verification"}
+CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "verification"}
 MAY_IMPORT = {
     "echo": set[str](),
     "errors": {"echo"},
+    "formulas": KNOWN,
     "files": {"echo", "errors", "suggest"},
     "kept": set[str](),
     "lazy": set[str](),
@@ -24,9 +25,9 @@ MAY_IMPORT = {
     "suggest": {"echo"},
     "series": BASE,
     "laws": KNOWN,
-    "synthesis": KNOWN | {"laws"},
-    "mechanisms": KNOWN | {"laws", "synthesis"},
-    "verification": KNOWN | {"laws", "synthesis"},
+    "synthesis": KNOWN | {"formulas", "laws"},
+    "mechanisms": KNOWN | {"formulas", "laws", "synthesis"},
+    "verification": KNOWN | {"formulas", "laws", "synthesis"},
     "drawing": CORE,
     "studies": CORE | {"drawing"},
     "jobs": CORE | {"drawing", "studies"},
@@ -88,6 +89,7 @@ CHECKERS = (
 MUST_NOT_IMPORT = {
     "errors": {"casadi", "matplotlib", "scipy"},
     "series": {"casadi", "matplotlib", "scipy"},
+    "formulas": {"matplotlib", "scipy"},
     "laws": {"casadi", "matplotlib", "scipy"},
     "synthesis": {"matplotlib"},
     "mechanisms": {"matplotlib"},

@@ -20,7 +20,7 @@ from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.proven.front import ProvenFront
 from optlaws.synthesis.solution import NOTHING
 from optlaws.verification.conditions import excesses
-from optlaws.verification.exact.balls import enclosed
+from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Proof, never_negative, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.limits import exact_limit

@@ -15,9 +15,9 @@ from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
-from optlaws.verification.exact.balls import ball, rational, upper
+from optlaws.verification.enclosing.balls import ball, rational, upper
+from optlaws.verification.enclosing.pieces import PolynomialPiece, between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.pieces import PolynomialPiece, between, least_and_greatest
 from optlaws.verification.law_shape import shape_of
 
 #: what an optimum may break a constraint by, in units of the constraint's bound

@@ -12,7 +12,7 @@ from optlaws.synthesis.proven.front import FrontPoint, ProvenFront
 from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solution import NOTHING
 from optlaws.verification.conditions import Excess, excesses
-from optlaws.verification.exact.balls import enclosed
+from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Along, Proof, prove_along
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.result import Claim, Verification

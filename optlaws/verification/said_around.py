@@ -9,7 +9,7 @@ from optlaws.laws import MotionLaw
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.proof.data import problem_of
-from optlaws.verification.exact.balls import enclosed
+from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.places import Entry
 from optlaws.verification.reading import built

@@ -16,9 +16,9 @@ from optlaws.synthesis.limits.rounding import rounded_down
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-from optlaws.verification.exact.balls import at, enclosed, rational
+from optlaws.verification.enclosing.balls import at, enclosed, rational
+from optlaws.verification.enclosing.pieces import between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.exact.pieces import between, least_and_greatest
 from optlaws.verification.reading import number
 from optlaws.verification.result import Claim
 

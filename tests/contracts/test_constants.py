@@ -16,9 +16,11 @@ import pytest
 from numpy.typing import NDArray
 
 from optlaws import BoundaryConditions, BSplines, Chebyshev, Functional, InputError, MotionLaw, Pieces
+from optlaws.formulas.vocabulary import ORDERS
 from optlaws.mechanisms.cam.constants import CamPeak, CamPower
 from optlaws.mechanisms.loader.constants import LoaderPeak
 from optlaws.mechanisms.spectrum.robust import Residual
+from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms, FormulaValue, OfFormula
 from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, PLAIN, Peak, Power, RootMeanSquare
 from optlaws.synthesis.problem.named_constants import expression, is_named, named
 from optlaws.synthesis.spaces.of_basis import space_of
@@ -42,6 +44,13 @@ TEXTS = (
     "residual(nu=(18.0, 22.0), damping=0.03)",
     "residual(nu=(8.0, 12.0), design=10.0)",
     "residual(nu=(9.0, 11.0), damping=0.02, design=10.0, design_damping=0.05)",
+    "peak(c + 0.2*b)",
+    "peak((1 + k)*c - a, side=high)",
+    "peak(j + sin(6*k)*c, side=low, start=0.1, stop=0.6)",
+    "peak(c + table(k, 0:0, 0.5:3, 1:1)*b)",
+    "rms(c + 3*b)",
+    "rms(c + spline(k, 0:0, 0.3:1, 0.6:0, 1:2)*a, start=0.2)",
+    "value(c - 2*b, at=0.3)",
 )
 EXAMPLES: dict[str, Functional] = {text: named(text) for text in TEXTS}
 ORDER = 5
@@ -100,6 +109,8 @@ def sampled(constant: Functional, law: MotionLaw) -> tuple[float, float]:
         return vibration(constant, law)
     if isinstance(constant, LoaderPeak):
         return of_loader(constant, law)
+    if isinstance(constant, OfFormula):
+        return of_formula(constant, law)
     values = signal(constant, law)
     signs = constant.signs if isinstance(constant, Peak | CamPeak) else (1.0, -1.0)
     greatest = max(float((sign * values).max()) for sign in signs)
@@ -148,6 +159,20 @@ def of_loader(constant: LoaderPeak, law: MotionLaw) -> tuple[float, float]:
     return float(values.max()), 5.0 * float(np.abs(np.diff(values)).max())
 
 
+def of_formula(constant: OfFormula, law: MotionLaw) -> tuple[float, float]:
+    """A formula on a grid of its part; a mean square by the trapezoidal rule on it."""
+    motion = constant.motion
+    k = motion.start + (motion.stop - motion.start) * GRID
+    values = np.broadcast_to(motion.values({"k": k, **{name: law(k, nu) for name, nu in ORDERS.items()}}), k.shape)
+    if isinstance(constant, FormulaRms):
+        return sqrt(float(np.trapezoid(values**2, GRID))) * (1.0 - 1e-5), 2e-5 * float(np.abs(values).max())
+    if isinstance(constant, FormulaValue):
+        return float(values[0]), 0.0
+    assert isinstance(constant, FormulaPeak)
+    greatest = max(float((sign * values).max()) for sign in constant.signs)
+    return greatest, float(np.abs(np.diff(values)).max())
+
+
 def test_every_kind_name_and_maker_is_here() -> None:
     assert {type(constant) for constant in EXAMPLES.values()} == kinds(Functional)
     assert {*FUNCTIONALS, *PLAIN} <= EXAMPLES.keys()
@@ -161,7 +186,8 @@ def test_its_value_is_that_of_a_grid_and_of_numpy(name: str) -> None:
     for where in places_of(name):
         law = point(where, 0, quiet(name))[1]
         value, (low, spare) = constant.value(law), sampled(constant, law)
-        assert low * (1.0 - 1e-9) <= value <= low * (1.0 + 1e-9) + spare, where
+        rounding = 1e-9 * abs(low)
+        assert low - rounding <= value <= low + rounding + spare, where
         if not isinstance(constant, LoaderPeak):
             assert value == pytest.approx(Judged(law).value(constant), rel=1e-8), where
 
@@ -177,10 +203,11 @@ def test_its_rows_hold_if_and_only_if_it_is_bounded(name: str) -> None:
         x, law = point(where, 0, quiet(name))
         value = constant.value(law)
         variable, nothing = np.eye(space.terms + 1)[-1], np.zeros(space.terms + 1)
-        for factor, holds in ((1.0 + 1e-6, True), (1.0 - 1e-6, False)):
-            for slack, bound in ((variable, 0.0), (nothing, factor * value)):
+        for step, holds in ((1e-6, True), (-1e-6, False)):
+            limit = value + step * abs(value)
+            for slack, bound in ((variable, 0.0), (nothing, limit)):
                 rows = constant.families(space, slack, bound)
-                full = np.append(x, factor * value)
+                full = np.append(x, limit)
                 assert (max(family.extremes(full)[2].max() for family in rows) <= 0.0) == holds, where
 
 
@@ -215,6 +242,9 @@ def test_no_law_is_below_its_least_value_or_beyond_its_curbs(name: str) -> None:
             size = sqrt(value) if isinstance(constant, Power) else value
             for nu, factor in constant.curbs():
                 assert np.abs(law(GRID, nu)).mean() <= factor * size * (1.0 + 1e-3)
+            assert value >= constant.floor(SPACES[where].boundary)
+            for nu, factor, offset in constant.sizes(SPACES[where]):
+                assert np.abs(law(GRID, nu)).mean() <= (factor * size + offset) * (1.0 + 1e-3)
 
 
 @every_constant

@@ -1,5 +1,6 @@
 """What a solution of any problem claims, judged by numpy.polynomial from the stored law alone."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
@@ -12,9 +13,13 @@ from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
 from optlaws import Expression, Functional, MotionLaw, Problem, Range, Solution, Window
+from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.tree import Table
 from optlaws.mechanisms.cam.constants import CamPeak, CamPower
 from optlaws.mechanisms.spectrum.robust import Residual
 from optlaws.synthesis import Maximum
+from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms, FormulaValue, OfFormula
+from tests.formulas.by_python import by_python
 from tests.synthesis.independent import DENSE
 
 Array = NDArray[np.float64]
@@ -135,6 +140,8 @@ class Judged:
             return max(float(np.abs(_extremes(first, second)).max()) for first, second in pieces)
         if isinstance(constant, Residual):
             return self.residual(constant)
+        if isinstance(constant, OfFormula):
+            return self.of_formula(constant)
         return self.constants[constant.name]
 
     def cam(self, frequency: float, damping: float) -> list[Curve]:
@@ -177,6 +184,48 @@ class Judged:
         around = (places[max(best - 1, 0)], places[min(best + 1, 60)])
         finer = minimize_scalar(lambda nu: -size(nu), bounds=around, method="bounded", options={"xatol": 1e-9})
         return max(*sizes, -float(finer.fun))
+
+    def of_formula(self, constant: OfFormula) -> float:
+        """By Python's own grammar of the formula's text: a fine grid, and searches about its best places."""
+        motion, derivatives = constant.motion, self.derivatives
+        text = str(motion.formula)
+
+        def signal(k: Any) -> Any:  # noqa: ANN401 - a number or an array, as it comes
+            values = {name: derivatives[nu](k) for nu, name in enumerate("abcj")}
+            return by_python(text, {**values, "k": k}) + 0.0 * np.asarray(k)
+
+        edges = sorted(
+            {motion.start, motion.stop, *(k for k in self._breaks(motion) if motion.start < k < motion.stop)}
+        )
+        if isinstance(constant, FormulaValue):
+            return float(signal(motion.start))
+        if isinstance(constant, FormulaRms):
+            x, weights = np.polynomial.legendre.leggauss(80)
+            total = sum(
+                float(weights @ signal(low + (high - low) * (1.0 + x) / 2.0) ** 2) * (high - low) / 2.0
+                for low, high in pairwise(edges)
+            )
+            return sqrt(total / (motion.stop - motion.start))
+        assert isinstance(constant, FormulaPeak)
+        return max(self._highest(signal, sign, edges) for sign in constant.signs)
+
+    def _breaks(self, motion: Motion) -> list[float]:
+        """Of the law, and of the tables, by their places."""
+        own = [piece.domain[0] for piece in self.derivatives[2].pieces]
+        return own + [x for part in motion.formula.walk() if isinstance(part, Table) for x in part.places]
+
+    @staticmethod
+    def _highest(signal: Callable[[Any], Any], sign: float, edges: list[float]) -> float:
+        found = []
+        for low, high in pairwise(edges):
+            k = np.linspace(low + 2.0**-50, high - 2.0**-50, 801)
+            values = sign * signal(k)
+            found.append(float(values.max()))
+            for best in np.argsort(values)[-3:]:
+                around = (k[max(best - 1, 0)], k[min(best + 1, 800)])
+                finer = minimize_scalar(lambda at: -sign * float(signal(at)), bounds=around, method="bounded")
+                found.append(-float(finer.fun))
+        return max(found)
 
     def worth(self, expression: Expression) -> float:
         """The objective."""

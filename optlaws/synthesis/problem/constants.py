@@ -22,6 +22,7 @@ from optlaws.synthesis.families.family import Family
 from optlaws.synthesis.problem.expression import Term
 
 if TYPE_CHECKING:
+    from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
     from optlaws.synthesis.spaces.space import LawSpace
 
 Array = NDArray[np.float64]
@@ -89,6 +90,30 @@ class Functional(Term, ABC):
         constants that optlaws names itself it knows.
         """
         return ()
+
+    def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:  # noqa: ARG002 - some depend on it
+        """The same with an offset, in every law of a space: at most factor times the constant plus the offset."""
+        return tuple((nu, factor, 0.0) for nu, factor in self.curbs())
+
+    def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002 - a constant may depend on them
+        """What it is at least in every law with these end conditions; minus infinity where nothing is known."""
+        return 0.0
+
+    @property
+    def why(self) -> str:
+        """Why it is convex or not."""
+        return f"{self.name} is {'convex' if self.convex else 'not convex'} in the law"
+
+    @property
+    def convexity(self) -> str:
+        """Whether it is known to be convex in the law, in words, and the rule that says so.
+
+        Examples
+        --------
+        >>> C.convexity
+        'convex: C is convex in the law'
+        """
+        return f"{'convex' if self.convex else 'not known to be convex'}: {self.why}"
 
     def where(self, k: float) -> str:
         """What a certificate's place says, in words."""

@@ -3,42 +3,30 @@
 sum     = product { "+" product }
 product = factor { ("*" | "/") factor }
 factor  = number | constant | "max" "(" sum { "," sum } ")" | "(" sum ")"
-constant = name [ "(" name "=" value { "," name "=" value } ")" ]
-value   = number | "(" number "," number ")"
+constant = name [ "(" argument { "," argument } ")" ]
+argument = name "=" value, or first a formula, whose grammar is that of optlaws.formulas, perhaps in quotes
+value   = number | name | "(" number "," number ")"
 """
 
 from __future__ import annotations
 
-import re
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
-from typing import NoReturn
 
 from optlaws.errors import InputError
+from optlaws.formulas.reading import parse as parse_formula
+from optlaws.formulas.scanner import FormulaError, Scanner, Token
+from optlaws.formulas.vocabulary import VOCABULARY
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem.expression import Expression, Term, maximum
 
-_TOKEN = re.compile(
-    r"\s*(?:(?P<number>\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)|(?P<sign>[-+*/(),=]))"
-)
-
 Value = float | Expression
-
-_BLANK = re.compile(r"\s*")
+Argument = float | str | tuple[float, float]
 
 _DEPTH = 40
 _LONGEST = 10_000
-_SHOWN = 120
-
-
-@dataclass(frozen=True)
-class Token:
-    """A number, name or sign with its place in the text; an empty text ends the list."""
-
-    kind: str
-    text: str
-    place: int
-
+_SIGNS = frozenset("+-*/(),=")
+#: what makes a constant of a formula, which comes first among its arguments
+OF_FORMULAS = frozenset({"integral", "peak", "rms", "value"})
 
 Makers = Mapping[str, Callable[..., Term]]
 
@@ -83,35 +71,14 @@ def parse(text: str, names: Mapping[str, Term], makers: Makers | None = None) ->
     return value
 
 
-class _Reader:
+class _Reader(Scanner):
     def __init__(self, text: str, names: Mapping[str, Term], makers: Makers) -> None:
-        self.text, self.names, self.makers = text, names, makers
-        self.tokens = iter(self._tokens())
-        self.token = next(self.tokens)
-
-    def _tokens(self) -> list[Token]:
-        tokens, place, end = [], 0, len(self.text.rstrip())
-        while place < end:
-            match = _TOKEN.match(self.text, place)
-            if match is None:
-                place = _BLANK.match(self.text, place).end()  # type: ignore[union-attr] # blanks may be none
-                self.refuse(f"{self.text[place]!r} is not understood", place)
-            kind = str(match.lastgroup)
-            tokens.append(Token(kind, match.group(kind), match.start(kind)))
-            place = match.end()
-        return [*tokens, Token("end", "", len(self.text))]
-
-    def refuse(self, complaint: str, place: int | None = None) -> NoReturn:
-        at = self.token.place if place is None else place
-        first = max(0, at - _SHOWN // 2)
-        before, after = "..." if first else "", "..." if first + _SHOWN < len(self.text) else ""
-        shown = f"{before}{self.text[first : first + _SHOWN]}{after}"
-        raise InputError(f"{complaint}\n  {shown}\n  {' ' * (len(before) + at - first)}^")
-
-    def take(self) -> Token:
-        token = self.token
-        self.token = next(self.tokens, token)
-        return token
+        super().__init__(text, _SIGNS)
+        if not any(token.text in OF_FORMULAS for token in self.tokens):
+            for token in self.tokens:
+                if token.kind == "sign" and token.text not in _SIGNS:
+                    self.refuse(f"{token.text!r} is not understood", token.place)
+        self.names, self.makers = names, makers
 
     def sum(self) -> Value:
         value = self.product()
@@ -160,7 +127,7 @@ class _Reader:
         if token.text == "(":
             self.take()
             value = self.sum()
-            self._close()
+            self.close()
             return value
         if token.text == "max":
             return self._maximum()
@@ -171,36 +138,65 @@ class _Reader:
     def _named(self) -> Expression:
         token = self.token
         if token.text not in self.names and token.text not in self.makers:
-            self.refuse(unknown_key(token.text, (*self.names, *self.makers), "constant"))
+            self.refuse(unknown_key(token.text, {*self.names, *self.makers}, "constant"))
         self.take()
-        if token.text in self.names:
+        if token.text in self.names and not (token.text in self.makers and self.token.text == "("):
             return self.names[token.text].expression()
         return self._made(token).expression()
 
     def _made(self, token: Token) -> Term:
+        formulas = token.text in OF_FORMULAS
         if self.token.text != "(":
-            self.refuse(f"{token.text} needs its arguments, such as {token.text}(nu=20)")
-        given: dict[str, float | tuple[float, float]] = {}
+            example = "(c + 0.2*b)" if formulas else "(nu=20)"
+            self.refuse(f"{token.text} needs its arguments, such as {token.text}{example}")
+        begin, formula = self.token.place, []
+        if formulas:
+            self.take()
+            begin, text = self._formula()
+            formula = [text]
+        given = self._arguments(token)
+        self.take()
+        try:
+            return self.makers[token.text](*formula, **given)
+        except FormulaError as error:
+            self.refuse(error.what, begin + error.place)
+        except InputError as error:
+            self.refuse(str(error), token.place)
+        except TypeError:
+            self.refuse(f"{token.text} does not take the arguments {', '.join(given)}", token.place)
+
+    def _formula(self) -> tuple[int, str]:
+        """Where the formula that comes next begins, and its text; it may be in quotes."""
+        quote = self.take().text if self.token.text in {'"', "'"} else ""
+        begin = self.token.place
+        parse_formula(self, VOCABULARY)
+        end = self.token.place
+        if quote:
+            self.close(quote)
+        if self.token.text not in {",", ")"}:
+            self.refuse("expected + - * / ^ , or )")
+        return begin, self.text[begin:end].rstrip()
+
+    def _arguments(self, token: Token) -> dict[str, Argument]:
+        """What is given by name, up to the bracket that closes."""
+        given: dict[str, Argument] = {}
         while self.token.text != ")":
             self.take()
             name = self.take()
             if name.kind != "name" or self.token.text != "=":
-                self.refuse(f"expected an argument of {token.text} such as nu=20", name.place)
+                example = "start=0.1" if token.text in OF_FORMULAS else "nu=20"
+                self.refuse(f"expected an argument of {token.text} such as {example}", name.place)
             if name.text in given:
                 self.refuse(f"{name.text} is given twice", name.place)
             self.take()
             given[name.text] = self._value()
             if self.token.text not in {",", ")"}:
                 self.refuse("expected , or )")
-        self.take()
-        try:
-            return self.makers[token.text](**given)
-        except InputError as error:
-            self.refuse(str(error), token.place)
-        except TypeError:
-            self.refuse(f"{token.text} does not take the arguments {', '.join(given)}", token.place)
+        return given
 
-    def _value(self) -> float | tuple[float, float]:
+    def _value(self) -> Argument:
+        if self.token.kind == "name":
+            return self.take().text
         if self.token.text != "(":
             return self._number()
         self.take()
@@ -209,7 +205,7 @@ class _Reader:
             self.refuse("expected , between two numbers")
         self.take()
         high = self._number()
-        self._close()
+        self.close()
         return low, high
 
     def _number(self) -> float:
@@ -226,7 +222,7 @@ class _Reader:
         while self.token.text == ",":
             self.take()
             parts.append(self._part())
-        self._close()
+        self.close()
         if len(parts) < 2:
             self.refuse("max needs at least two parts")
         return maximum(*parts).expression()
@@ -237,8 +233,3 @@ class _Reader:
         if isinstance(value, float):
             self.refuse("a part of max needs a constant of the law", place)
         return value
-
-    def _close(self) -> None:
-        if self.token.text != ")":
-            self.refuse("expected )")
-        self.take()

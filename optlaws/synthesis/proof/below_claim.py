@@ -12,10 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.names import VariableName
-from optlaws.synthesis.problem.constants import Peak, Power
+from optlaws.synthesis.problem.constants import Functional, Peak, Power
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, maxima, relaxed_power
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.space import LawSpace
 
 Array = NDArray[np.float64]
@@ -92,17 +93,18 @@ def least_values(problem: Problem, space: LawSpace) -> dict[str, float]:
     terms = [*(leaf for _, leaf in leaves(problem.objective)), *maxima(problem.objective)]
     if problem.symmetric or problem.order > 1:
         change = 0.0 if problem.symmetric else space.velocity_change
-        return {repr(term): _at_least(term, change) for term in terms}
-    lows = {repr(term): min(_at_least(term, 1.0), _at_least(term, -1.0)) for term in terms}
+        return {repr(term): _at_least(term, change, space.boundary) for term in terms}
+    lows = {repr(term): min(_at_least(term, change, space.boundary) for change in (1.0, -1.0)) for term in terms}
     return {name: 0.0 if low >= 0.0 else -inf for name, low in lows.items()}
 
 
-def _at_least(term: Term, change: float) -> float:
+def _at_least(term: Term, change: float, ends: BoundaryConditions) -> float:
     """What a term is at least where the velocity changes by `change`."""
     if isinstance(term, Maximum):
-        return max(sum(weight * _at_least(inner, change) for weight, inner in part.terms) for part in term.parts)
+        sums = (sum(weight * _at_least(inner, change, ends) for weight, inner in part.terms) for part in term.parts)
+        return max(sums)
     if not isinstance(term, Peak) or len(term.signs) != 1:
-        return 0.0
+        return term.floor(ends) if isinstance(term, Functional) else 0.0
     return term.signs[0] * change if term.nu == _ACCELERATION else -inf
 
 
@@ -121,7 +123,7 @@ def means(problem: Problem, space: LawSpace, greatest: Mapping[str, float]) -> l
     for constant in problem.constants:
         size = greatest.get(constant.name, inf)
         root = size**0.5 if isinstance(constant, Power) else size
-        known += [(nu, factor * root) for nu, factor in constant.curbs()]
+        known += [(nu, factor * root + offset) for nu, factor, offset in constant.sizes(space)]
     least: dict[int, float] = {}
     for nu, mean in known:
         if isfinite(mean):

@@ -112,6 +112,23 @@ class LawSpace(ABC):
         """The row RMS of a^(nu) <= slack . x + bound."""
 
     @abstractmethod
+    def columns(self, nu: int, u: Array) -> Array:
+        """The derivative of order nu at places u = 1 - 2k, shape (places, terms + 1): the base law's is the last."""
+
+    @abstractmethod
+    def degree_of(self, nu: int) -> int:
+        """The degree in k of the derivative of order nu, on every piece."""
+
+    @property
+    def edges(self) -> tuple[float, ...]:
+        """The u between which every function is one polynomial, descending."""
+        return (1.0, -1.0)
+
+    def jumps(self, nu: int) -> bool:  # noqa: ARG002 - none where laws are polynomials
+        """Whether the derivative of order nu may jump at an edge."""
+        return False
+
+    @abstractmethod
     def row(self, nu: int, k: float) -> Array:
         """The derivative of order nu at k: free functions, then the base law."""
 

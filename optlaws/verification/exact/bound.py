@@ -20,11 +20,12 @@ from flint import arb, arb_mat, ctx
 from optlaws.errors import InputError
 from optlaws.synthesis.families.names import VariableName
 from optlaws.synthesis.limits.rounding import rounded_up
-from optlaws.synthesis.problem.constants import Peak, Power
+from optlaws.synthesis.problem.constants import Functional, Peak, Power
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate, Contact
-from optlaws.verification.exact.balls import ball, lower, upper
+from optlaws.synthesis.spaces.of_basis import space_of
+from optlaws.verification.enclosing.balls import ball, lower, upper
 from optlaws.verification.exact.rows import ExactRows, Row
 
 Vector = list[arb]
@@ -309,7 +310,10 @@ def _changes(vectors: list[Vector], weights: Vector, slopes: Vector) -> Vector |
 
 def never_negative(problem: Problem) -> bool:
     """Whether every constant of the objective is at least 0: a peak of one sign need not be if the velocity changes."""
-    one_sided = any(isinstance(leaf, Peak) and len(leaf.signs) == 1 for _, leaf in leaves(problem.objective))
+    found = [leaf for _, leaf in leaves(problem.objective)]
+    if any(isinstance(leaf, Functional) and leaf.floor(problem.conditions) < 0.0 for leaf in found):
+        return False
+    one_sided = any(isinstance(leaf, Peak) and len(leaf.signs) == 1 for leaf in found)
     return not one_sided or (problem.boundary is None and problem.order > 1)
 
 
@@ -326,6 +330,8 @@ def least_values(problem: Problem, rows: ExactRows) -> dict[str, Fraction | floa
     for _, leaf in leaves(problem.objective):
         if isinstance(leaf, Peak) and len(leaf.signs) == 1:
             least[repr(leaf)] = -inf if mean is None or leaf.nu != 2 else mean * Fraction(leaf.signs[0])
+        elif isinstance(leaf, Functional) and leaf.floor(problem.conditions) < 0.0:
+            least[repr(leaf)] = leaf.floor(problem.conditions)
     _least_sum(problem.objective, least)
     return least
 
@@ -386,12 +392,13 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
     known(1, "B", 2, -ball(stroke))
     if problem.monotone:
         bounds.setdefault(1, []).append(ball(stroke))
+    space = space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
     for constant in problem.constants:
-        for nu, factor in constant.curbs():
+        for nu, factor, offset in constant.sizes(space):
             name = VariableName.POWER_ROOT if constant == rows.power else constant.name
-            # the factor is rounded
+            # both are rounded
             if name == VariableName.POWER_ROOT or not isinstance(constant, Power):
-                known(nu, name, factor * _ROUNDED)
+                known(nu, name, factor * _ROUNDED, ball(offset * _ROUNDED))
     plain = rows.power is not None and not rows.power.curbs()
     if plain and start is not None and change is not None and start == 0 and start + change == 0:
         # b² <= 2 D k

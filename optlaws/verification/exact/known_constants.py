@@ -5,19 +5,21 @@ from __future__ import annotations
 from fractions import Fraction
 
 from optlaws.errors import InputError
+from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms, FormulaValue
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import Peak, PeakJerk, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Term
 from optlaws.synthesis.problem.named_constants import is_named
 from optlaws.verification.exact.residuals import ResidualConstant
 
-Known = Peak | Power | RootMeanSquare | CombinedPeak | ResidualConstant
+OfFormula = FormulaPeak | FormulaRms | FormulaValue
+Known = Peak | Power | RootMeanSquare | CombinedPeak | ResidualConstant | OfFormula
 
 _OF_CAMS = tuple(f"{name}_cam(" for name in ("B", "C", "C_plus", "C_minus", "D", "J"))
 
 
 def known(term: Term) -> Known:
-    """The constant, if it is a peak, the power or an RMS of a law, a peak or the power of its cam, or a residual.
+    """The constant, if it is one of a law, of its cam, a residual, or of a formula, as optlaws itself defines them.
 
     Raises
     ------
@@ -38,7 +40,10 @@ def known(term: Term) -> Known:
         return term
     if isinstance(term, ResidualConstant) and repr(term).startswith("residual(") and is_named(term):
         return term
+    if type(term) in {FormulaPeak, FormulaRms, FormulaValue} and isinstance(term, OfFormula) and is_named(term):
+        return term
     raise InputError(
-        "exact verification knows peaks, power and RMS of derivatives, constants of cams and residuals as optlaws "
-        f"defines them, not {term!r}: what bounds it is checked with numpy alone, by Certificate.bound"
+        "exact verification knows peaks, power and RMS of derivatives, constants of cams, residuals and constants of "
+        f"formulas as optlaws defines them, not {term!r}: what bounds it is checked with numpy alone, by "
+        "Certificate.bound"
     )

@@ -15,13 +15,15 @@ from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
+from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms, FormulaValue
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import Peak, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
-from optlaws.verification.exact.ball_pieces import PowerPiece, SinePiece
-from optlaws.verification.exact.balls import ball, enclosed, rational
-from optlaws.verification.exact.known_constants import Known, known
-from optlaws.verification.exact.pieces import ExactPiece, Extremes, PolynomialPiece, least_and_greatest
+from optlaws.verification.enclosing.ball_pieces import PowerPiece, SinePiece
+from optlaws.verification.enclosing.balls import ball, enclosed, rational
+from optlaws.verification.enclosing.pieces import ExactPiece, Extremes, PolynomialPiece, least_and_greatest
+from optlaws.verification.exact.formula_values import extremes_of, square_of, value_of
+from optlaws.verification.exact.known_constants import Known, OfFormula, known
 from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
 
 
@@ -193,6 +195,29 @@ class ExactLaw:
         with ctx.workprec(2 * self.precision):
             return ExactResidual(constant).peak(self.polynomials)
 
+    def of_formula(self, constant: OfFormula) -> arb:
+        """A ball that holds a constant of a formula.
+
+        Raises
+        ------
+        InputError
+            If a piece is no polynomial, or the formula has no exact form.
+        """
+        motion = constant.motion
+        if self._impulses(max(motion.orders, default=0)):
+            return arb.pos_inf()
+        with ctx.workprec(self.precision):
+            if isinstance(constant, FormulaRms):
+                whole = ball(Fraction(motion.stop) - Fraction(motion.start))
+                return (square_of(motion, self.polynomials) / whole).sqrt()
+            if isinstance(constant, FormulaValue) or motion.start == motion.stop:
+                value = value_of(motion, self.polynomials)
+                extremes = (value, value)
+            else:
+                extremes = extremes_of(motion, self.polynomials)
+            signs = constant.signs if isinstance(constant, FormulaPeak) else (1.0,)
+            return reduce(arb.max, (extremes[1] if sign > 0 else -extremes[0] for sign in signs))
+
     def term(self, term: Term) -> arb:
         """A ball that holds the value of a constant or a maximum.
 
@@ -211,13 +236,16 @@ class ExactLaw:
             return self.combined_peak(constant)
         if isinstance(constant, CombinedPower):
             return self.combined_power(constant)
+        if isinstance(constant, OfFormula):
+            return self.of_formula(constant)
         if isinstance(constant, ResidualConstant):
             return self.residual(constant)
+        return self._of_derivative(constant)
+
+    def _of_derivative(self, constant: Peak | Power | RootMeanSquare) -> arb:
         if isinstance(constant, Power):
             return self.power()
-        if isinstance(constant, RootMeanSquare):
-            return self.rms(constant.nu)
-        return self._signed_peak(constant)
+        return self.rms(constant.nu) if isinstance(constant, RootMeanSquare) else self._signed_peak(constant)
 
     def _signed_peak(self, constant: Peak) -> arb:
         if len(constant.signs) == 2 or self._impulses(constant.nu):

@@ -9,7 +9,7 @@ from flint import ctx
 from optlaws.synthesis.limits.closed_forms import back_velocity
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.verification.exact.balls import ball, lower
+from optlaws.verification.enclosing.balls import ball, lower
 from optlaws.verification.exact.known_constants import known
 
 _BITS = 192

@@ -13,7 +13,7 @@ from optlaws.kept import kept_property
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
-from optlaws.verification.exact.balls import rational
+from optlaws.verification.enclosing.balls import rational
 from optlaws.verification.exact.space import Condition, ExactSpace, Functions
 
 _HALF = Fraction(1, 2)

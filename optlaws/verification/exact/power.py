@@ -18,7 +18,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate, Contact
 from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step
 from optlaws.synthesis.proof.power.rows import POWER_ROWS, applies
-from optlaws.verification.exact.balls import ball
+from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.exact.rows import ExactRows
 
 Vector = list[arb]

@@ -14,9 +14,9 @@ from typing import Any, Protocol, TypeVar, runtime_checkable
 
 from flint import acb, acb_series, arb, ctx, fmpq
 
-from optlaws.verification.exact.ball_pieces import bisected
-from optlaws.verification.exact.balls import ball
-from optlaws.verification.exact.pieces import PolynomialPiece
+from optlaws.verification.enclosing.ball_pieces import bisected
+from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.exact.space import ExactSpace
 
 #: b and its derivatives at the start and at the end of a piece

@@ -13,8 +13,11 @@ from operator import mul
 from flint import acb, arb
 
 from optlaws.errors import InputError
+from optlaws.formulas.of_motion import Motion
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName
+from optlaws.synthesis.functionals.affine_rows import sides as formula_sides
+from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms
 from optlaws.synthesis.problem.combined import Combined, CombinedPeak, facing
 from optlaws.synthesis.problem.constants import B, Functional, Peak, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
@@ -24,8 +27,9 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.writer import relaxed_power
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate, Contact
 from optlaws.synthesis.spaces.of_basis import space_of
-from optlaws.verification.exact.balls import ball
-from optlaws.verification.exact.known_constants import known
+from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.exact.formula_rows import formula_columns, formula_gauss
+from optlaws.verification.exact.known_constants import OfFormula, known
 from optlaws.verification.exact.of_basis import exact_space
 from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
 
@@ -134,6 +138,8 @@ class ExactRows:
                 self._everywhere(name, partial(self.space.combination, constant.nu, weights), sides, slack, high)
         elif isinstance(constant, ResidualConstant):
             self._residual(constant, slack, high)
+        elif isinstance(constant, OfFormula):
+            self._of_formula(constant, slack, high)
         elif isinstance(constant, RootMeanSquare):
             self._add(constant.name, lambda contact, _: self._norm(constant.nu, contact, slack, high))
         elif isinstance(constant, Peak):
@@ -150,6 +156,42 @@ class ExactRows:
             return Row([value * contact.sign for value in values(k)], slack, -ball(high))
 
         self._add(name, make, signs)
+
+    def _of_formula(self, one: OfFormula, slack: Names, high: float) -> None:
+        symmetric = self.problem.symmetric
+        if isinstance(one, FormulaRms):
+            self._add(one.name, lambda contact, _: self._norm_of(one, contact, slack, high))
+        elif isinstance(one, FormulaPeak):
+            for side in formula_sides(one.motion, one.name, one.signs, symmetric=symmetric):
+                self._part(side.name, side.motion, side.signs, slack, high)
+        else:
+            [motion] = one.parts(symmetric=symmetric)
+            self._part(one.name, motion, (1.0,), slack, high)
+
+    def _part(self, name: str, motion: Motion, signs: tuple[float, ...], slack: Names, high: float) -> None:
+        """Rows of an affine formula on its part of the interval."""
+        start, stop = Fraction(motion.start), Fraction(motion.stop)
+
+        def make(contact: Contact, k: Fraction) -> Row:
+            if start < stop and not start - _NEAR <= k <= stop + _NEAR:
+                raise LookupError
+            found = formula_columns(self.space, motion, min(max(k, start), stop))
+            return Row([one * contact.sign for one in found], slack, -ball(high))
+
+        self._add(name, make, signs)
+
+    def _norm_of(self, constant: FormulaRms, contact: Contact, slack: Names, high: float) -> Row:
+        """As `_norm`, with the values of a formula."""
+        direction = [ball(value) for value in contact.direction]
+        length = sum((one * one for one in direction), arb(0)).sqrt()
+        parts = constant.parts(symmetric=self.problem.symmetric)
+        rule = [one for part in parts for one in formula_gauss(self.space, part)]
+        if len(rule) != len(direction):
+            raise LookupError
+        whole = ball(Fraction(constant.motion.stop) - Fraction(constant.motion.start))
+        weights = [one * (weight / whole).sqrt() / length for one, (_, weight) in zip(direction, rule, strict=True)]
+        columns = zip(*(column for column, _ in rule), strict=True)
+        return Row([sum(map(mul, weights, column), arb(0)) for column in columns], slack, -ball(high))
 
     def _single(self, name: str, constants: Names, high: float | arb) -> None:
         nothing = [arb(0)] * (self.space.terms + 1)

@@ -11,7 +11,7 @@ from flint import arb, fmpq, fmpq_poly
 
 from optlaws.kept import kept_property
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.verification.exact.balls import at, ball, rational
+from optlaws.verification.enclosing.balls import at, ball, rational
 
 Functions = list[fmpq_poly]
 
@@ -84,6 +84,14 @@ class ExactSpace:
     def values(self, nu: int, k: Fraction) -> list[arb]:
         """Values of the derivatives of order nu at k."""
         return values(self.derivative(nu)[self.piece(k)], x_of(k))
+
+    def on_piece(self, nu: int, piece: int, x: arb) -> list[arb]:
+        """Values of the derivatives of order nu at x = 2k - 1, by the polynomials of a piece."""
+        return values(self.derivative(nu)[piece], x)
+
+    def degree_of(self, nu: int) -> int:
+        """The greatest degree of a derivative of order nu."""
+        return max(0, *(one.degree() for part in self.derivative(nu) for one in part))
 
     def combination(self, nu: int, weights: tuple[Fraction, ...], k: Fraction) -> list[arb]:
         """Values of w0 a^(nu) + w1 a^(nu+1) + ... at k."""

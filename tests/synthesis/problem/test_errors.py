@@ -121,7 +121,7 @@ def test_a_wrong_objective_is_named(wrong: object) -> None:
         problem(minimise=wrong)
 
 
-@pytest.mark.parametrize("wrong", ["c", "Q", "CC", "rms_q", "peak"])
+@pytest.mark.parametrize("wrong", ["c", "Q", "CC", "rms_q", "peek"])
 def test_an_unknown_objective_is_named_with_the_known_ones(wrong: str) -> None:
     with pytest.raises(InputError, match=re.escape(f"unknown constant {wrong!r}")):
         problem(minimise=wrong)

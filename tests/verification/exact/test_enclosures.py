@@ -14,7 +14,7 @@ from optlaws.verification import enclosures
 flint = pytest.importorskip("flint")
 
 from optlaws.synthesis.limits.rounding import rounded_down, rounded_up  # noqa: E402
-from optlaws.verification.exact.balls import enclosure, lower, upper  # noqa: E402
+from optlaws.verification.enclosing.balls import enclosure, lower, upper  # noqa: E402
 from optlaws.verification.exact.law import ExactLaw  # noqa: E402
 
 

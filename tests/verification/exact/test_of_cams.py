@@ -12,7 +12,7 @@ from optlaws.errors import InputError
 from optlaws.laws import smoothstep
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.verification import exact_bound, verify
-from optlaws.verification.exact.balls import enclosed
+from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.law import ExactLaw
 
 NU, DAMPING = 12.0, 0.25

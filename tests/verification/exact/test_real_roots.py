@@ -3,7 +3,7 @@
 import pytest
 from flint import fmpq, fmpq_poly
 
-from optlaws.verification.exact.pieces import between, real_roots
+from optlaws.verification.enclosing.pieces import between, real_roots
 
 
 def product(*roots: fmpq | int) -> fmpq_poly:

@@ -12,7 +12,7 @@ from optlaws import Chebyshev, Pieces, Problem, Solution, at_most, residual, syn
 from optlaws.laws import smoothstep
 from optlaws.synthesis.proof.certificate import Certificate, Contact
 from optlaws.verification import exact_bound, verify
-from optlaws.verification.exact.balls import enclosed
+from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.rows import ExactRows
 

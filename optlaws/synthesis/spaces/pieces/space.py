@@ -96,6 +96,24 @@ class PiecewiseSpace(LawSpace):
         matrix = np.sqrt(rule.weights)[:, None] * rule.values
         return NormFamily(name, slack, bound, matrix=self.widened(matrix, len(slack)))
 
+    def columns(self, nu: int, u: Array) -> Array:
+        """The derivative of order nu at places u = 1 - 2k: free functions, then the base law."""
+        self._finite(nu)
+        return self.pieces(nu).values(u)
+
+    def degree_of(self, nu: int) -> int:
+        """The degree of the derivative of order nu on every piece."""
+        return int(self.pieces(nu).series.shape[1]) - 1
+
+    @property
+    def edges(self) -> tuple[float, ...]:
+        """The breaks, of symmetric laws those of the first half."""
+        return tuple(self.pieces(2).breaks.tolist())
+
+    def jumps(self, nu: int) -> bool:
+        """Whether the derivative of order nu may jump at a break."""
+        return nu > self.continuity
+
     def row(self, nu: int, k: float) -> Array:
         """The derivative of order nu at k: free functions, then the base law."""
         return np.asarray(self.pieces(nu).values(np.array([1.0 - 2.0 * k]))[0])

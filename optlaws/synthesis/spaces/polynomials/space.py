@@ -194,6 +194,14 @@ class PolynomialSpace(LawSpace):
         moments = np.asarray(legendre.legvander(u, len(series)), dtype=np.float64)
         return Quadrature(weights / 2.0, values, moments)
 
+    def columns(self, nu: int, u: Array) -> Array:
+        """The derivative of order nu at places u = 1 - 2k: free functions, then the base law."""
+        return np.asarray(chebyshev.chebval(u, self.series(nu)).T)
+
+    def degree_of(self, nu: int) -> int:
+        """The degree of the derivative of order nu."""
+        return len(self.series(nu)) - 1
+
     def row(self, nu: int, k: float) -> Array:
         """The derivative of order nu at k: free functions, then the base law."""
         if k in {0.0, 1.0} and nu < self.order:

@@ -9,7 +9,7 @@ from typing import Any
 from flint import acb, arb, fmpq, fmpq_poly, fmpz_poly
 
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.verification.exact.balls import at, ball, rational
+from optlaws.verification.enclosing.balls import at, ball, rational
 
 Extremes = tuple[arb, arb]
 

@@ -11,8 +11,8 @@ from flint import acb, arb, ctx
 
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.sine import SineSegment
-from optlaws.verification.exact.balls import ball
-from optlaws.verification.exact.pieces import ExactPiece, Extremes, least_and_greatest
+from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.pieces import ExactPiece, Extremes, least_and_greatest
 
 #: when a ball is narrow enough, and after how many tries it is taken as it is
 _NARROW, _MOST = 2.0**-70, 1 << 12

@@ -1,0 +1,75 @@
+"""Formulas that are affine in some of their names: the factor of each, and what is left."""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from dataclasses import dataclass
+
+from optlaws.formulas.slopes import added, multiplied, opposite
+from optlaws.formulas.tree import Formula, Name, Negative, Number, Product, Reciprocal, Sum
+
+
+@dataclass(frozen=True)
+class Affine:
+    """The sum of factors times names, plus what is left; neither has any of the names.
+
+    Attributes
+    ----------
+    factors
+        By name, those that are not 0.
+    rest
+        What is left.
+    """
+
+    factors: tuple[tuple[str, Formula], ...]
+    rest: Formula
+
+    def scaled(self, by: Formula) -> Affine:
+        """Times a formula without the names."""
+        return Affine(tuple((name, multiplied([by, one])) for name, one in self.factors), multiplied([by, self.rest]))
+
+    def opposite(self) -> Affine:
+        """With every sign turned."""
+        return Affine(tuple((name, opposite(one)) for name, one in self.factors), opposite(self.rest))
+
+
+def affine(formula: Formula, names: Collection[str]) -> Affine | None:
+    """The formula as an affine one of these names; None where it is not.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> affine(read("2*(c + k*b) - c + k^2"), "bc")
+    Affine(factors=(('c', 2 - 1), ('b', 2*k)), rest=k^2)
+    >>> affine(read("b*c"), "bc") is None
+    True
+    """
+    if not formula.names() & set(names):
+        return Affine((), formula)
+    if isinstance(formula, Name):
+        return Affine(((formula.name, Number(1.0)),), Number(0.0))
+    if isinstance(formula, Negative):
+        found = affine(formula.of, names)
+        return None if found is None else found.opposite()
+    if isinstance(formula, Sum):
+        return _sum([affine(term, names) for term in formula.terms])
+    if isinstance(formula, Product):
+        moving = [factor for factor in formula.factors if factor.names() & set(names)]
+        if len(moving) > 1 or isinstance(moving[0], Reciprocal):
+            return None
+        found = affine(moving[0], names)
+        still = [factor for factor in formula.factors if factor is not moving[0]]
+        return None if found is None else found.scaled(multiplied(still))
+    return None
+
+
+def _sum(terms: list[Affine | None]) -> Affine | None:
+    gathered: dict[str, list[Formula]] = {}
+    rest = []
+    for term in terms:
+        if term is None:
+            return None
+        rest.append(term.rest)
+        for name, factor in term.factors:
+            gathered.setdefault(name, []).append(factor)
+    return Affine(tuple((name, added(factors)) for name, factors in gathered.items()), added(rest))

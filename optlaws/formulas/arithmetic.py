@@ -1,0 +1,200 @@
+"""Values of formulas, by whatever arithmetic: numpy's arrays, CasADi's symbols, mpmath's numbers, balls."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+from functools import lru_cache, reduce
+from math import pi
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, Product, Reciprocal, Sum, Table
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class Arithmetic:
+    """How numbers of a kind are made and what functions take them.
+
+    Attributes
+    ----------
+    number
+        From a float.
+    functions
+        By name: sin, cos, ..., of one number, and max, min, norm of two.
+    power
+        Of a base and an exponent.
+    table
+        Of a table and the number at which it is asked; None where there are none.
+    """
+
+    number: Callable[[float], Any]
+    functions: Mapping[str, Callable[..., Any]]
+    power: Callable[[Any, Any], Any]
+    table: Callable[[Table, Any], Any] | None = None
+
+
+def evaluate(formula: Formula, names: Mapping[str, Any], arithmetic: Arithmetic) -> Any:  # noqa: ANN401 - its numbers
+    """The value of a formula.
+
+    Parameters
+    ----------
+    formula
+        What is evaluated.
+    names
+        What its names stand for, in numbers of the arithmetic.
+    arithmetic
+        Whose numbers.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> evaluate(read("c + 0.5*b"), {"b": np.array([2.0, 4.0]), "c": 1.0}, NUMPY)
+    array([2., 3.])
+    """
+    if isinstance(formula, Number):
+        return arithmetic.number(formula.value)
+    if isinstance(formula, Name):
+        return arithmetic.number(pi) if formula.name == "pi" and "pi" not in names else names[formula.name]
+    parts = [evaluate(part, names, arithmetic) for part in formula.parts]
+    if isinstance(formula, Negative):
+        return -parts[0]
+    if isinstance(formula, Sum):
+        return reduce(lambda one, other: one + other, parts)
+    if isinstance(formula, Product):
+        return reduce(lambda one, other: one * other, parts)
+    if isinstance(formula, Reciprocal):
+        return arithmetic.number(1.0) / parts[0]
+    if isinstance(formula, Power):
+        return arithmetic.power(*parts)
+    if isinstance(formula, Table):
+        if arithmetic.table is None:
+            raise TypeError("this arithmetic has no tables")
+        return arithmetic.table(formula, parts[0])
+    assert isinstance(formula, Call)  # noqa: S101 - there are no others
+    function = arithmetic.functions[formula.function]
+    return function(parts[0]) if len(parts) == 1 else reduce(function, parts)
+
+
+def _numpy_power(base: Any, exponent: Any) -> Any:  # noqa: ANN401 - numbers or arrays
+    return np.power(np.asarray(base, dtype=np.float64), exponent)
+
+
+def _table(table: Table, at: Any) -> Any:  # noqa: ANN401 - numbers or arrays
+    coefficients, places = pieces(table), np.array(table.places)
+    piece = np.clip(np.searchsorted(places, at, side="right") - 1, 0, len(places) - 2)
+    s, found = np.asarray(at) - places[piece], np.zeros(np.shape(at))
+    for column in coefficients.T[::-1]:
+        found = column[piece] + s * found
+    return found
+
+
+def pieces(table: Table) -> Array:
+    """On each piece of a table powers of (x - start), ascending, of the derivative that it stands for.
+
+    Examples
+    --------
+    >>> pieces(Table(Name("k"), (0.0, 1.0, 3.0), (1.0, 2.0, 6.0))).tolist()
+    [[1.0, 1.0], [2.0, 2.0]]
+    """
+    if not table.smooth:
+        return np.column_stack([table.values[:-1], np.diff(table.values) / np.diff(table.places)])
+    found = spline(table.places, table.values)
+    for _ in range(table.order):
+        found = found[:, 1:] * np.arange(1, found.shape[1]) if found.shape[1] > 1 else np.zeros((len(found), 1))
+    return found
+
+
+def horner(coefficients: Sequence[Any], x: Any) -> Any:  # noqa: ANN401 - numbers of any kind
+    """The sum of powers of x, ascending.
+
+    Examples
+    --------
+    >>> horner([1.0, 2.0], 3.0)
+    7.0
+    """
+    found = coefficients[-1]
+    for value in coefficients[-2::-1]:
+        found = value + found * x
+    return found
+
+
+@lru_cache(maxsize=64)
+def spline(places: tuple[float, ...], values: tuple[float, ...]) -> Array:
+    """The not-a-knot cubic spline: on each piece its powers of (x - start), ascending, one row a piece.
+
+    Examples
+    --------
+    >>> spline((0.0, 1.0, 2.0, 3.0), (0.0, 1.0, 8.0, 27.0)).round(12)[1].tolist()
+    [1.0, 3.0, 3.0, 1.0]
+    """
+    x, y = np.array(places), np.array(values)
+    h, slopes = np.diff(x), np.diff(y) / np.diff(x)
+    count = len(x)
+    matrix, right = np.zeros((count, count)), np.zeros(count)
+    for i in range(1, count - 1):
+        # the slope is continuous at the place; unknown are the second derivatives
+        matrix[i, i - 1 : i + 2] = h[i - 1], 2.0 * (h[i - 1] + h[i]), h[i]
+        right[i] = 6.0 * (slopes[i] - slopes[i - 1])
+    # and so is the third derivative at the places next to the ends
+    matrix[0, :3] = h[1], -(h[0] + h[1]), h[0]
+    matrix[-1, -3:] = h[-1], -(h[-2] + h[-1]), h[-2]
+    bent = np.linalg.solve(matrix, right)
+    found = np.column_stack(
+        [y[:-1], slopes - h * (2.0 * bent[:-1] + bent[1:]) / 6.0, bent[:-1] / 2.0, np.diff(bent) / (6.0 * h)]
+    )
+    found.setflags(write=False)
+    return found
+
+
+NUMPY = Arithmetic(
+    number=np.float64,
+    functions={
+        "sin": np.sin,
+        "cos": np.cos,
+        "tan": np.tan,
+        "atan": np.arctan,
+        "tanh": np.tanh,
+        "exp": np.exp,
+        "log": np.log,
+        "sqrt": np.sqrt,
+        "abs": np.abs,
+        "max": np.maximum,
+        "min": np.minimum,
+        "norm": np.hypot,
+    },
+    power=_numpy_power,
+    table=_table,
+)
+
+
+@lru_cache(maxsize=1)
+def casadi_arithmetic() -> Arithmetic:
+    """CasADi's symbols."""
+    import casadi as ca
+
+    def table(one: Table, at: Any) -> Any:  # noqa: ANN401 - a symbol
+        """The pieces, chosen by their places."""
+        rows = [horner(row, at - x) for x, row in zip(one.places[:-1], pieces(one).tolist(), strict=True)]
+        found = rows[0]
+        for x, row in zip(one.places[1:-1], rows[1:], strict=True):
+            found = ca.if_else(at >= x, row, found)
+        return found
+
+    functions = {name: getattr(ca, name) for name in ("sin", "cos", "tan", "atan", "tanh", "exp", "log", "sqrt")}
+    several = {"abs": ca.fabs, "max": ca.fmax, "min": ca.fmin, "norm": lambda x, y: ca.sqrt(x * x + y * y)}
+    return Arithmetic(float, functions | several, lambda base, exponent: base**exponent, table)
+
+
+@lru_cache(maxsize=1)
+def mpmath_arithmetic() -> Arithmetic:
+    """mpmath's numbers, at the precision at work."""
+    import mpmath as mp  # type: ignore[import-untyped]
+
+    functions = {name: getattr(mp, name) for name in ("sin", "cos", "tan", "atan", "tanh", "exp", "log", "sqrt")}
+    several = {"abs": abs, "max": max, "min": min, "norm": mp.hypot}
+    return Arithmetic(mp.mpf, functions | several, lambda base, exponent: base**exponent)

@@ -1,0 +1,179 @@
+"""Between which values a formula stays while its names stay between theirs: interval arithmetic, many boxes at once."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from functools import reduce
+from math import pi
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.formulas.arithmetic import pieces
+from optlaws.formulas.slopes import constant
+from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, Product, Reciprocal, Sum, Table
+
+Array = NDArray[np.float64]
+
+_PARTS = 256
+#: roundings of a few operations, relative
+_ROUNDED = 2.0**-48
+
+
+@dataclass(frozen=True, eq=False)
+class Interval:
+    """Least and greatest values, an array of each."""
+
+    low: Array
+    high: Array
+
+    def __neg__(self) -> Interval:
+        return Interval(-self.high, -self.low)
+
+    def __add__(self, other: Interval) -> Interval:
+        return Interval(self.low + other.low, self.high + other.high)
+
+    def __mul__(self, other: Interval) -> Interval:
+        with np.errstate(invalid="ignore"):
+            ends = [one * two for one in (self.low, self.high) for two in (other.low, other.high)]
+        # nothing times whatever is nothing
+        ends = [np.where(np.isnan(end), 0.0, end) for end in ends]
+        return Interval(np.minimum.reduce(ends), np.maximum.reduce(ends))
+
+    def outward(self) -> Interval:
+        """A little wider, for rounding; exact zeros and ones stay."""
+        low, high = self.low - _ROUNDED * np.abs(self.low), self.high + _ROUNDED * np.abs(self.high)
+        return Interval(low, high)
+
+    def through(self, function: Callable[[Array], Array]) -> Interval:
+        """The image under a rising function."""
+        with np.errstate(all="ignore"):
+            return Interval(np.asarray(function(self.low)), np.asarray(function(self.high)))
+
+
+def between(value: float) -> Interval:
+    """A single number."""
+    return Interval(np.array(value), np.array(value))
+
+
+def enclosed(formula: Formula, names: Mapping[str, Interval]) -> Interval:
+    """Bounds of a formula over boxes; NaN where it has no value in a part of one.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> found = enclosed(read("(1 + k)^2"), {"k": Interval(np.array(0.0), np.array(1.0))})
+    >>> round(float(found.low), 9), round(float(found.high), 9)
+    (1.0, 4.0)
+    """
+    if isinstance(formula, Number):
+        return between(formula.value)
+    if isinstance(formula, Name):
+        return between(pi).outward() if formula.name == "pi" and "pi" not in names else names[formula.name]
+    parts = [enclosed(part, names) for part in formula.parts]
+    if isinstance(formula, Negative):
+        return -parts[0]
+    if isinstance(formula, Sum):
+        return reduce(lambda one, other: one + other, parts).outward()
+    if isinstance(formula, Product):
+        return reduce(lambda one, other: one * other, parts).outward()
+    if isinstance(formula, Reciprocal):
+        return _reciprocal(parts[0])
+    if isinstance(formula, Power):
+        return _power(parts[0], parts[1], constant(formula.exponent)).outward()
+    if isinstance(formula, Table):
+        return _table(formula, parts[0]).outward()
+    assert isinstance(formula, Call)  # noqa: S101 - there are no others
+    return _call(formula.function, parts).outward()
+
+
+def over_parts(formula: Formula, name: str, start: float, stop: float) -> tuple[float, float]:
+    """Bounds of a formula of one name between two of its values, over many parts of the way.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> over_parts(read("k*(1 - k)"), "k", 0.0, 1.0)[0]
+    0.0
+    """
+    edges = np.linspace(start, stop, _PARTS + 1)
+    found = enclosed(formula, {name: Interval(edges[:-1], edges[1:])})
+    return float(np.min(found.low)), float(np.max(found.high))
+
+
+def _reciprocal(of: Interval) -> Interval:
+    crossing = (of.low < 0.0) & (of.high > 0.0)
+    with np.errstate(divide="ignore"):
+        low = np.where(of.high == 0.0, -np.inf, 1.0 / of.high)
+        high = np.where(of.low == 0.0, np.inf, 1.0 / of.low)
+    return Interval(np.where(crossing, -np.inf, low), np.where(crossing, np.inf, high)).outward()
+
+
+def _power(base: Interval, exponent: Interval, known: float | None) -> Interval:
+    if known is not None and known == int(known):
+        whole = int(known)
+        with np.errstate(all="ignore"):
+            ends = [base.low ** float(abs(whole)), base.high ** float(abs(whole))]
+        low, high = np.minimum(*ends), np.maximum(*ends)
+        if whole % 2 == 0:
+            low = np.where((base.low <= 0.0) & (base.high >= 0.0), 0.0, low)
+        found = Interval(low, high)
+        return found if whole >= 0 else _reciprocal(found)
+    with np.errstate(all="ignore"):
+        ends = [np.power(x, y) for x in (base.low, base.high) for y in (exponent.low, exponent.high)]
+    return Interval(np.minimum.reduce(ends), np.maximum.reduce(ends))
+
+
+def _table(table: Table, at: Interval) -> Interval:
+    """What its pieces are between, each where it is met."""
+    places, rows = np.array(table.places), pieces(table)
+    lows, highs = np.full(np.shape(at.low), np.inf), np.full(np.shape(at.low), -np.inf)
+    for i, row in enumerate(rows):
+        # the first and the last piece go on beyond the table
+        start, stop = (-np.inf if i == 0 else places[i]), (np.inf if i == len(rows) - 1 else places[i + 1])
+        met = (at.low <= stop) & (at.high >= start)
+        s = Interval(np.maximum(at.low, start) - places[i], np.minimum(at.high, stop) - places[i])
+        found = reduce(lambda sum_, value: between(value) + sum_ * s, row[::-1].tolist(), between(0.0))
+        lows = np.where(met, np.minimum(lows, found.low), lows)
+        highs = np.where(met, np.maximum(highs, found.high), highs)
+    return Interval(lows, highs)
+
+
+def _call(function: str, parts: list[Interval]) -> Interval:
+    first = parts[0]
+    if function == "max":
+        return Interval(np.maximum.reduce([p.low for p in parts]), np.maximum.reduce([p.high for p in parts]))
+    if function == "min":
+        return Interval(np.minimum.reduce([p.low for p in parts]), np.minimum.reduce([p.high for p in parts]))
+    if function == "norm":
+        squares = [_power(part, part, 2.0) for part in parts]
+        return reduce(lambda one, other: one + other, squares).through(np.sqrt)
+    if function == "abs":
+        return Interval(np.maximum(np.maximum(first.low, -first.high), 0.0), np.maximum(-first.low, first.high))
+    if function in _RISING:
+        return first.through(_RISING[function])
+    if function == "tan":
+        # a pole lies where the half turns differ
+        same = np.floor(first.low / pi + 0.5) == np.floor(first.high / pi + 0.5)
+        found = first.through(np.tan)
+        return Interval(np.where(same, found.low, -np.inf), np.where(same, found.high, np.inf))
+    quarter = pi / 2.0 if function == "sin" else 0.0
+    return _wave(Interval(first.low - quarter, first.high - quarter))
+
+
+def _wave(turn: Interval) -> Interval:
+    """Of a cosine."""
+    ends = [np.cos(turn.low), np.cos(turn.high)]
+    top = np.floor(turn.high / (2 * pi)) * 2 * pi >= turn.low
+    bottom = np.floor((turn.high - pi) / (2 * pi)) * 2 * pi + pi >= turn.low
+    return Interval(np.where(bottom, -1.0, np.minimum(*ends)), np.where(top, 1.0, np.maximum(*ends)))
+
+
+_RISING: dict[str, Callable[[Array], Array]] = {
+    "atan": np.arctan,
+    "tanh": np.tanh,
+    "exp": np.exp,
+    "log": np.log,
+    "sqrt": np.sqrt,
+}

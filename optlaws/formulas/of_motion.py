@@ -1,0 +1,198 @@
+"""Formulas of a motion: of the law a, its derivatives b, c, j, its power d = b c, and the dimensionless time k."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import partial
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.formulas.affine import Affine, affine
+from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.convexity import Curvature, Judge, Verdict
+from optlaws.formulas.degree import degree
+from optlaws.formulas.reading import read, refused
+from optlaws.formulas.slopes import added, constant, opposite
+from optlaws.formulas.tree import Call, Formula, Name, Number, Product, Reciprocal, Table, substituted
+from optlaws.formulas.vocabulary import ORDERS, VOCABULARY
+from optlaws.kept import kept_property
+from optlaws.series.chebyshev import real_parts_of_roots
+from optlaws.series.interpolation import chebyshev_series
+
+Array = NDArray[np.float64]
+
+_POWER = Product((Name("b"), Name("c")))
+_LATER = added([Number(1.0), opposite(Name("k"))])
+_MIRRORED: dict[str, Formula] = {
+    "k": _LATER,
+    "a": added([Number(1.0), opposite(Name("a"))]),
+    "c": opposite(Name("c")),
+}
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A formula of a motion, over a part of the interval of k.
+
+    Attributes
+    ----------
+    formula
+        In a, b, c, j and k.
+    start, stop
+        The part.
+
+    Examples
+    --------
+    >>> motion = of_text("c + 0.2*b")
+    >>> motion.curvature.value, {nu: str(one) for nu, one in motion.weights.items()}
+    ('affine', {2: '1', 1: '0.2'})
+    """
+
+    formula: Formula
+    start: float = 0.0
+    stop: float = 1.0
+
+    @kept_property
+    def affine(self) -> Affine | None:
+        """It as an affine formula of the law and its derivatives; None where it is not."""
+        return affine(self.formula, ORDERS)
+
+    @property
+    def weights(self) -> dict[int, Formula]:
+        """The factors of an affine formula by order of derivative; empty where it is not affine."""
+        return {} if self.affine is None else {ORDERS[name]: factor for name, factor in self.affine.factors}
+
+    @property
+    def rest(self) -> Formula:
+        """What an affine formula has beside; 0 where it is not affine."""
+        return Number(0.0) if self.affine is None else self.affine.rest
+
+    @property
+    def orders(self) -> tuple[int, ...]:
+        """The orders of the derivatives in it, ascending."""
+        return tuple(sorted(ORDERS[name] for name in self.formula.names() if name in ORDERS))
+
+    @kept_property
+    def verdict(self) -> Verdict:
+        """Whether it is convex at every k of its part, and which rule says so."""
+        return Judge(frozenset(ORDERS), self.start, self.stop).verdict(self.formula)
+
+    @property
+    def curvature(self) -> Curvature:
+        """What it is in the law."""
+        return self.verdict.curvature
+
+    def mirrored(self) -> Motion:
+        """What it says of a symmetric law on the other side: a(1-k) = 1 - a(k), b and j even, c odd about 1/2."""
+        return Motion(substituted(self.formula, _MIRRORED), 1.0 - self.stop, 1.0 - self.start)
+
+    def halves(self) -> tuple[Motion, ...]:
+        """What says the same of a symmetric law on k <= 1/2 alone."""
+        if self.stop <= 0.5:
+            return (self,)
+        if self.start >= 0.5:
+            return (self.mirrored(),)
+        return replace(self, stop=0.5), replace(self, start=0.5).mirrored()
+
+    def values(self, names: Mapping[str, Any]) -> Array:
+        """Its values where a, b, c, j and k have theirs."""
+        with np.errstate(all="ignore"):
+            return np.asarray(evaluate(self.formula, names, NUMPY), dtype=np.float64)
+
+    def constant_weights(self) -> tuple[dict[int, float], float] | None:
+        """The factors and the rest of an affine formula as numbers; None where one depends on k."""
+        found = {nu: constant(one) for nu, one in self.weights.items()}
+        rest = constant(self.rest)
+        if rest is None or None in found.values():
+            return None
+        return {nu: value for nu, value in found.items() if value is not None}, rest
+
+    def degree(self, orders: Mapping[str, int]) -> int | None:
+        """The degree in k where a, b, c, j have these; None where it is no polynomial."""
+        return degree(self.formula, {**orders, "k": 1})
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """The kinks strictly within the part."""
+        return tuple(k for k in self.kinks if self.start < k < self.stop)
+
+    @kept_property
+    def kinks(self) -> tuple[float, ...]:
+        """The k strictly between 0 and 1 at which a factor is not smooth, ascending."""
+        found: set[float] = set()
+        for part in self.formula.walk():
+            if isinstance(part, Table) and not part.names() & ORDERS.keys():
+                found.update(self._knots(part))
+            if isinstance(part, Call) and part.function in {"abs", "max", "min"} and not part.names() & ORDERS.keys():
+                found.update(self._kinks(part))
+        return tuple(sorted(k for k in found if 0.0 < k < 1.0))
+
+    def _knots(self, table: Table) -> list[float]:
+        of = affine(table.of, ("k",))
+        slope = None if of is None else constant(dict(of.factors).get("k", Number(0.0)))
+        rest = None if of is None else constant(of.rest)
+        if not slope or rest is None:
+            raise InputError(f"a table over k must be of k itself or of a multiple and a shift of it, got {table.of}")
+        return [(place - rest) / slope for place in table.places]
+
+    def _kinks(self, call: Call) -> list[float]:
+        first, *others = call.arguments
+        parts = [first] if call.function == "abs" else [added([first, opposite(one)]) for one in others]
+        found: list[float] = []
+        for part in parts:
+            if not part.names():
+                continue
+            series = chebyshev_series(partial(_along, Motion(part)), str(part))
+            found += ((1.0 + real_parts_of_roots(series)) / 2.0).tolist()
+        return found
+
+
+def _along(motion: Motion, x: Array) -> Array:
+    """Values at k = (1 + x)/2."""
+    return np.broadcast_to(motion.values({"k": (1.0 + x) / 2.0}), np.shape(x))
+
+
+def of_text(text: str, start: float = 0.0, stop: float = 1.0) -> Motion:
+    """The formula that a text says, over a part of the interval.
+
+    Raises
+    ------
+    InputError
+        If it says none, has unknown names, or divides by what may be 0 whatever the law is.
+
+    Examples
+    --------
+    >>> of_text("d + 1/(k - 0.5)")
+    Traceback (most recent call last):
+    optlaws.formulas.scanner.FormulaError: k - 0.5 is 0 within k = 0..1, and it is divided by
+      d + 1/(k - 0.5)
+           ^
+    """
+    return checked(Motion(read(text, VOCABULARY), start, stop), text)
+
+
+def checked(motion: Motion, text: str) -> Motion:
+    """The formula with d written as b c, if it has a value for every k.
+
+    Raises
+    ------
+    InputError
+        If it divides by what is 0 at some k, or takes roots and logarithms of what has none; `text` is shown.
+    """
+    k = np.linspace(motion.start, motion.stop, 1025)
+    still = [part for part in motion.formula.walk() if not part.names() & {*ORDERS, "d"}]
+    for part in still:
+        if isinstance(part, Reciprocal):
+            below = Motion(part.of).values({"k": k})
+            if (below == 0.0).any() or np.min(below) < 0.0 < np.max(below):
+                where = f" within k = {motion.start:g}..{motion.stop:g}" if "k" in part.names() else ""
+                raise refused(f"{part.of} is 0{where}, and it is divided by", text, part)
+    for part in still:
+        values = np.broadcast_to(Motion(part).values({"k": k}), k.shape)
+        if not np.isfinite(values).all():
+            raise refused(f"{part} has no finite value at k = {k[~np.isfinite(values)][0]:.4g}", text, part)
+    return replace(motion, formula=substituted(motion.formula, {"d": _POWER}))

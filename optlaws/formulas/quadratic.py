@@ -1,0 +1,125 @@
+"""Formulas that are quadratic in some of their names, and whether the form is semidefinite whatever k is."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from fractions import Fraction
+
+import numpy as np
+
+from optlaws.formulas.intervals import Interval, enclosed
+from optlaws.formulas.slopes import added, constant, multiplied, opposite
+from optlaws.formulas.tree import Formula, Name, Negative, Number, Power, Product, Reciprocal, Sum
+
+#: factors of products of names: none, one or two of them, sorted
+Terms = dict[tuple[str, ...], Formula]
+_MOST = 2
+
+
+def quadratic(formula: Formula, names: Collection[str], most: int = _MOST) -> Terms | None:
+    """The factors of products of up to `most` names; None where the formula has others, or is no polynomial of them.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> quadratic(read("(c + k*b)*b - 3"), "bc")
+    {('b', 'c'): 1, ('b', 'b'): k, (): -3}
+    """
+    if not formula.names() & set(names):
+        return {(): formula}
+    if isinstance(formula, Name):
+        return {(formula.name,): Number(1.0)}
+    if isinstance(formula, Negative):
+        found = quadratic(formula.of, names, most)
+        return None if found is None else {key: opposite(one) for key, one in found.items()}
+    if isinstance(formula, Sum):
+        return _sum([quadratic(term, names, most) for term in formula.terms])
+    if isinstance(formula, Product):
+        return _product([quadratic(one, names, most) for one in formula.factors], most)
+    if isinstance(formula, Power):
+        exponent = constant(formula.exponent)
+        if exponent is None or not 0.0 <= exponent <= most or exponent % 1.0:
+            return None
+        return _product([{(): Number(1.0)}, *[quadratic(formula.base, names, most)] * int(exponent)], most)
+    if isinstance(formula, Reciprocal):
+        return None
+    return None
+
+
+def semidefinite(formula: Formula, names: Collection[str], within: Mapping[str, Interval], sign: int) -> bool:
+    """Whether the formula, times the sign, is a quadratic form that is nowhere negative, at every k.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> semidefinite(read("c^2 + 2*b*c + b^2"), "bc", {}, 1), semidefinite(read("c^2 + 3*b*c + b^2"), "bc", {}, 1)
+    (True, False)
+    """
+    found = quadratic(formula, names)
+    if found is None:
+        return False
+    kept = sorted({name for key in found if len(key) == _MOST for name in key})
+    entries = {
+        (i, j): found.get((one, other), Number(0.0))
+        for i, one in enumerate(kept)
+        for j, other in enumerate(kept)
+        if i <= j
+    }
+    values = {place: constant(one) for place, one in entries.items()}
+    if None not in values.values():
+        return _exactly({place: sign * Fraction(value or 0.0) for place, value in values.items()}, len(kept))
+    return _widely({place: enclosed(one, within) for place, one in entries.items()}, len(kept), sign)
+
+
+def _exactly(entries: Mapping[tuple[int, int], Fraction], size: int) -> bool:
+    """By elimination in exact arithmetic; entries off the diagonal are those of both sides together."""
+    matrix = [[entries[min(i, j), max(i, j)] / (1 if i == j else 2) for j in range(size)] for i in range(size)]
+    for i in range(size):
+        if matrix[i][i] < 0 or (matrix[i][i] == 0 and any(matrix[i][j] for j in range(i + 1, size))):
+            return False
+        for j in range(i + 1, size if matrix[i][i] else 0):
+            share = matrix[j][i] / matrix[i][i]
+            for column in range(i, size):
+                matrix[j][column] -= share * matrix[i][column]
+    return True
+
+
+def _widely(entries: Mapping[tuple[int, int], Interval], size: int, sign: int) -> bool:
+    """By the eigenvalues at the middles of many parts, less what the entries may be off."""
+    count = max(np.size(one.low) for one in entries.values())
+    middles, reach = np.zeros((count, size, size)), np.zeros((count, size, size))
+    for (i, j), one in entries.items():
+        half = 1.0 if i == j else 0.5
+        middles[:, i, j] = middles[:, j, i] = sign * half * (one.low + one.high) / 2.0
+        reach[:, i, j] = reach[:, j, i] = half * (one.high - one.low) / 2.0
+    if not np.isfinite(middles).all() or not np.isfinite(reach).all():
+        return False
+    least = np.linalg.eigvalsh(middles)[:, 0] - np.linalg.norm(reach, axis=(1, 2))
+    return bool(least.min() > 0.0)
+
+
+def _sum(terms: list[Terms | None]) -> Terms | None:
+    gathered: dict[tuple[str, ...], list[Formula]] = {}
+    for term in terms:
+        if term is None:
+            return None
+        for key, factor in term.items():
+            gathered.setdefault(key, []).append(factor)
+    return {key: added(factors) for key, factors in gathered.items()}
+
+
+def _product(factors: list[Terms | None], most: int) -> Terms | None:
+    found: Terms = {(): Number(1.0)}
+    for factor in factors:
+        if factor is None:
+            return None
+        products: list[Terms | None] = [
+            {tuple(sorted((*one, *other))): multiplied([first, second])}
+            for one, first in found.items()
+            for other, second in factor.items()
+        ]
+        together = _sum(products)
+        if together is None or any(len(key) > most for key in together):
+            return None
+        found = together
+    return found

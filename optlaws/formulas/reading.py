@@ -1,0 +1,220 @@
+"""The grammar of formulas. Nothing is ever evaluated as Python, and size and depth are bounded.
+
+sum    = [sign] product { ("+" | "-") product }
+product = signed { ("*" | "/") signed }
+signed = [sign] power
+power  = atom [ ("^" | "**") signed ]
+atom   = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
+         | ("table" | "spline") "(" sum "," place ":" value { "," place ":" value } ")"
+"""
+
+from __future__ import annotations
+
+from collections.abc import Collection
+from itertools import pairwise
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.formulas.scanner import FormulaError, Scanner
+from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, Reciprocal, Table, product, total
+from optlaws.numbers import MAGNITUDE_LIMIT
+from optlaws.suggest import unknown_key
+
+#: functions by name, with the fewest and the most parts that they take
+FUNCTIONS = {
+    **dict.fromkeys(("sin", "cos", "tan", "atan", "tanh", "exp", "log", "sqrt", "abs"), (1, 1)),
+    **dict.fromkeys(("max", "min", "norm"), (2, 12)),
+}
+TABLES = ("spline", "table")
+CONSTANTS = ("pi",)
+LONGEST = 10_000
+DEEPEST = 40
+_FEWEST = {"table": 2, "spline": 4}
+_MOST_PLACES = 400
+
+
+def read(text: str, names: Collection[str] | None = None) -> Formula:
+    """Read a formula such as `c + 0.2*b` or `(1 + sin(2*pi*k))*c^2`.
+
+    Parameters
+    ----------
+    text
+        The formula: + - * / ^, brackets, numbers, pi, sin cos tan atan tanh exp log sqrt abs, max min norm of several
+        parts, and tables: `table(k, 0:1, 0.5:2, 1:1)` of straight lines, `spline(...)` of cubic ones.
+    names
+        The names that may be in it; any unless given.
+
+    Raises
+    ------
+    InputError
+        If the text is no formula; the message shows it and points at the character.
+
+    Examples
+    --------
+    >>> read("c+0.2*b"), read("-(b + 1)^2/2")
+    (c + 0.2*b, -(b + 1)^2/2)
+    >>> read("c + 0.2*v", names="abcjk")
+    Traceback (most recent call last):
+    optlaws.formulas.scanner.FormulaError: unknown name 'v'; known are a, b, c, j, k
+      c + 0.2*v
+              ^
+    """
+    if not isinstance(text, str):
+        raise InputError(f"a formula must be a text, got {shortened(text)}")
+    if len(text) > LONGEST:
+        raise InputError(f"a formula may have {LONGEST} characters, got {len(text)}")
+    scanner = Scanner(text)
+    formula = parse(scanner, names)
+    if scanner.token.kind != "end":
+        scanner.refuse("expected + - * / ^ or the end")
+    return formula
+
+
+def parse(scanner: Scanner, names: Collection[str] | None = None) -> Formula:
+    """The formula that comes next in a text.
+
+    Raises
+    ------
+    FormulaError
+        If there is none.
+    """
+    return _Parser(scanner, names).sum(0)
+
+
+class _Parser:
+    def __init__(self, scanner: Scanner, names: Collection[str] | None) -> None:
+        self.scanner, self.names = scanner, names
+
+    def sum(self, depth: int) -> Formula:
+        place = self._deeper(depth)
+        terms = [self._term(depth)]
+        while self.scanner.token.text in {"+", "-"}:
+            terms.append(self._term(depth))
+        return total(terms, place)
+
+    def _term(self, depth: int) -> Formula:
+        """A product with the sign before it."""
+        place, minus = self.scanner.token.place, False
+        if self.scanner.token.text in {"+", "-"}:
+            minus = self.scanner.take().text == "-"
+        found = self._product(depth)
+        return Negative(found, place=place) if minus else found
+
+    def _product(self, depth: int) -> Formula:
+        place = self.scanner.token.place
+        factors = [self._signed(depth)]
+        while self.scanner.token.text in {"*", "/"}:
+            sign = self.scanner.take()
+            factor = self._signed(depth)
+            factors.append(Reciprocal(factor, place=sign.place) if sign.text == "/" else factor)
+        return product(factors, place)
+
+    def _signed(self, depth: int) -> Formula:
+        place = self._deeper(depth)
+        if self.scanner.token.text in {"+", "-"}:
+            minus = self.scanner.take().text == "-"
+            found = self._signed(depth + 1)
+            return Negative(found, place=place) if minus else found
+        base = self._atom(depth)
+        if not self._raises():
+            return base
+        return Power(base, self._signed(depth + 1), place=place)
+
+    def _raises(self) -> bool:
+        """Take the sign of a power, ^ or **, if it comes next."""
+        token, following = self.scanner.token, self.scanner.following
+        twice = token.text == following.text == "*" and following.place == token.place + 1
+        if token.text != "^" and not twice:
+            return False
+        for _ in range(1 + twice):
+            self.scanner.take()
+        return True
+
+    def _atom(self, depth: int) -> Formula:
+        token = self.scanner.token
+        if token.kind == "number":
+            return Number(self._magnitude(), place=token.place)
+        if token.text == "(":
+            self.scanner.take()
+            found = self.sum(depth + 1)
+            self.scanner.close()
+            return found
+        if token.kind != "name":
+            self.scanner.refuse("expected a number, a name, a function or (")
+        if self.scanner.following.text == "(":
+            return self._call(depth)
+        if self.names is not None and token.text not in self.names and token.text not in CONSTANTS:
+            if token.text in FUNCTIONS or token.text in TABLES:
+                self.scanner.refuse(f"{token.text} needs what it is of, in brackets")
+            self.scanner.refuse(unknown_key(token.text, self.names, "name"))
+        self.scanner.take()
+        return Name(token.text, place=token.place)
+
+    def _call(self, depth: int) -> Formula:
+        token = self.scanner.token
+        if token.text not in FUNCTIONS and token.text not in TABLES:
+            self.scanner.refuse(unknown_key(token.text, (*FUNCTIONS, *TABLES), "function"))
+        self.scanner.take()
+        self.scanner.take()
+        arguments = [self.sum(depth + 1)]
+        if token.text in TABLES:
+            return self._table(token.text, arguments[0], token.place)
+        while self.scanner.token.text == ",":
+            self.scanner.take()
+            arguments.append(self.sum(depth + 1))
+        self.scanner.close()
+        fewest, most = FUNCTIONS[token.text]
+        if not fewest <= len(arguments) <= most:
+            parts = "one part" if most == 1 else f"{fewest} to {most} parts"
+            self.scanner.refuse(f"{token.text} takes {parts}, got {len(arguments)}", token.place)
+        return Call(token.text, tuple(arguments), place=token.place)
+
+    def _table(self, kind: str, of: Formula, place: int) -> Formula:
+        pairs: list[tuple[float, float]] = []
+        while self.scanner.token.text == ",":
+            self.scanner.take()
+            where = self._number()
+            self.scanner.close(":")
+            pairs.append((where, self._number()))
+        self.scanner.close()
+        fewest = _FEWEST[kind]
+        if not fewest <= len(pairs) <= _MOST_PLACES:
+            self.scanner.refuse(f"{kind} needs {fewest} to {_MOST_PLACES} pairs such as 0:1, got {len(pairs)}", place)
+        if any(x >= y for (x, _), (y, _) in pairwise(pairs)):
+            self.scanner.refuse(f"the places of {kind} must ascend", place)
+        return Table(of, tuple(x for x, _ in pairs), tuple(y for _, y in pairs), kind == "spline", place=place)
+
+    def _number(self) -> float:
+        minus = self.scanner.token.text == "-"
+        if minus:
+            self.scanner.take()
+        if self.scanner.token.kind != "number":
+            self.scanner.refuse("expected a number")
+        value = self._magnitude()
+        return -value if minus else value
+
+    def _magnitude(self) -> float:
+        token = self.scanner.token
+        value = float(token.text)
+        if value > MAGNITUDE_LIMIT:
+            self.scanner.refuse(f"numbers may be {MAGNITUDE_LIMIT:g} at most", token.place)
+        self.scanner.take()
+        return value
+
+    def _deeper(self, depth: int) -> int:
+        if depth > DEEPEST:
+            self.scanner.refuse(f"a formula may be nested {DEEPEST} deep", self.scanner.token.place)
+        return self.scanner.token.place
+
+
+def refused(what: str, text: str, part: Formula) -> FormulaError:
+    """The error that points at a part of a formula.
+
+    Examples
+    --------
+    >>> print(refused("no", "c + b", read("c + b").parts[1]))
+    no
+      c + b
+          ^
+    """
+    return FormulaError(what, text, part.place)

@@ -1,0 +1,282 @@
+"""Formulas as trees: frozen values that print themselves as the text they are read from again."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+
+_SUM, _PRODUCT, _SIGNED, _ATOM = range(4)
+
+
+@dataclass(frozen=True, repr=False)
+class Formula:
+    """A part of a formula; `place` is where its text begins, and no part of its value.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> formula = read("c + 0.2*b")
+    >>> formula, sorted(formula.names())
+    (c + 0.2*b, ['b', 'c'])
+    """
+
+    place: int = field(default=0, compare=False, kw_only=True)
+
+    level = _ATOM
+
+    @property
+    def parts(self) -> tuple[Formula, ...]:
+        """What it is made of."""
+        return ()
+
+    def walk(self) -> Iterator[Formula]:
+        """Itself and all that it is made of."""
+        yield self
+        for part in self.parts:
+            yield from part.walk()
+
+    def names(self) -> frozenset[str]:
+        """The names in it."""
+        return frozenset(one.name for one in self.walk() if isinstance(one, Name))
+
+    def within(self, level: int) -> str:
+        """Its text, in brackets where it binds less than its surroundings."""
+        return str(self) if self.level >= level else f"({self})"
+
+    def __repr__(self) -> str:
+        return str(self)
+
+
+@dataclass(frozen=True, repr=False)
+class Number(Formula):
+    """A number of at least 0."""
+
+    value: float
+
+    def __str__(self) -> str:
+        whole = self.value == int(self.value) and self.value < 1e15
+        return str(int(self.value)) if whole else repr(self.value)
+
+
+@dataclass(frozen=True, repr=False)
+class Name(Formula):
+    """A name, whatever it stands for."""
+
+    name: str
+
+    def __str__(self) -> str:
+        return self.name
+
+
+@dataclass(frozen=True, repr=False)
+class Negative(Formula):
+    """The opposite."""
+
+    of: Formula
+    level = _SUM
+
+    @property
+    def parts(self) -> tuple[Formula, ...]:
+        """The one part."""
+        return (self.of,)
+
+    def __str__(self) -> str:
+        return f"-{self.of.within(_PRODUCT)}"
+
+
+@dataclass(frozen=True, repr=False)
+class Sum(Formula):
+    """A sum of two terms at least; what is subtracted is a `Negative`."""
+
+    terms: tuple[Formula, ...]
+    level = _SUM
+
+    @property
+    def parts(self) -> tuple[Formula, ...]:
+        """The terms."""
+        return self.terms
+
+    def __str__(self) -> str:
+        first, *others = self.terms
+        text = str(first) if isinstance(first, Negative) else first.within(_PRODUCT)
+        for one in others:
+            minus = isinstance(one, Negative)
+            text += f" - {one.of.within(_PRODUCT)}" if isinstance(one, Negative) else " + "
+            text += "" if minus else one.within(_PRODUCT)
+        return text
+
+
+@dataclass(frozen=True, repr=False)
+class Reciprocal(Formula):
+    """One divided by a part; within a product, what is divided by."""
+
+    of: Formula
+    level = _PRODUCT
+
+    @property
+    def parts(self) -> tuple[Formula, ...]:
+        """The one part."""
+        return (self.of,)
+
+    def __str__(self) -> str:
+        return f"1/{self.of.within(_SIGNED)}"
+
+
+@dataclass(frozen=True, repr=False)
+class Product(Formula):
+    """A product of two factors at least; what is divided by is a `Reciprocal`."""
+
+    factors: tuple[Formula, ...]
+    level = _PRODUCT
+
+    @property
+    def parts(self) -> tuple[Formula, ...]:
+        """The factors."""
+        return self.factors
+
+    def __str__(self) -> str:
+        first, *others = self.factors
+        text = first.within(_PRODUCT)
+        for one in others:
+            text += f"/{one.of.within(_SIGNED)}" if isinstance(one, Reciprocal) else f"*{one.within(_SIGNED)}"
+        return text
+
+
+@dataclass(frozen=True, repr=False)
+class Power(Formula):
+    """A base with an exponent."""
+
+    base: Formula
+    exponent: Formula
+    level = _SIGNED
+
+    @property
+    def parts(self) -> tuple[Formula, ...]:
+        """Base and exponent."""
+        return self.base, self.exponent
+
+    def __str__(self) -> str:
+        return f"{self.base.within(_ATOM)}^{self.exponent.within(_ATOM)}"
+
+
+@dataclass(frozen=True, repr=False)
+class Call(Formula):
+    """A function of one part or several."""
+
+    function: str
+    arguments: tuple[Formula, ...]
+
+    @property
+    def parts(self) -> tuple[Formula, ...]:
+        """The arguments."""
+        return self.arguments
+
+    def __str__(self) -> str:
+        return f"{self.function}({', '.join(map(str, self.arguments))})"
+
+
+@dataclass(frozen=True, repr=False)
+class Table(Formula):
+    """A function of one part, given by values at places: straight lines between them, which go on beyond them.
+
+    With `smooth` it is the cubic spline through them (not a knot), which goes on as well, or a derivative of it.
+    """
+
+    of: Formula
+    places: tuple[float, ...]
+    values: tuple[float, ...]
+    smooth: bool = False
+    order: int = 0
+
+    @property
+    def parts(self) -> tuple[Formula, ...]:
+        """The one part."""
+        return (self.of,)
+
+    def __str__(self) -> str:
+        pairs = (f"{plain(x)}:{plain(y)}" for x, y in zip(self.places, self.values, strict=True))
+        kind = "spline" if self.smooth else "table"
+        return f"{kind}{chr(39) * self.order}({self.of}, {', '.join(pairs)})"
+
+
+def plain(value: float) -> str:
+    """A number as formulas print it.
+
+    Examples
+    --------
+    >>> plain(3.0), plain(-0.25)
+    ('3', '-0.25')
+    """
+    return f"-{Number(-value)}" if value < 0.0 else str(Number(value))
+
+
+def number(value: float, place: int = 0) -> Formula:
+    """A number of either sign.
+
+    Examples
+    --------
+    >>> number(-2.0)
+    -2
+    """
+    return Negative(Number(-value, place=place), place=place) if value < 0.0 else Number(abs(value), place=place)
+
+
+def total(terms: list[Formula], place: int = 0) -> Formula:
+    """The sum of terms; sums within it are taken apart.
+
+    Examples
+    --------
+    >>> total([Name("c"), Negative(Name("b"))])
+    c - b
+    """
+    flat = [one for term in terms for one in (term.terms if isinstance(term, Sum) else (term,))]
+    return flat[0] if len(flat) == 1 else Sum(tuple(flat), place=place)
+
+
+def product(factors: list[Formula], place: int = 0) -> Formula:
+    """The product of factors; products within it are taken apart.
+
+    Examples
+    --------
+    >>> product([Name("c"), Reciprocal(Name("b"))])
+    c/b
+    """
+    flat = [one for factor in factors for one in (factor.factors if isinstance(factor, Product) else (factor,))]
+    return flat[0] if len(flat) == 1 else Product(tuple(flat), place=place)
+
+
+def substituted(formula: Formula, by: Mapping[str, Formula]) -> Formula:
+    """The formula with other formulas for some of its names.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> substituted(read("c + k*b"), {"k": read("1 - k")})
+    c + (1 - k)*b
+    """
+    if isinstance(formula, Name):
+        return by.get(formula.name, formula)
+    if not formula.names() & by.keys():
+        return formula
+    parts = [substituted(part, by) for part in formula.parts]
+    return rebuilt(formula, parts)
+
+
+def rebuilt(formula: Formula, parts: list[Formula]) -> Formula:
+    """The formula with other parts.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> rebuilt(read("c + b"), [read("c"), read("2*b")])
+    c + 2*b
+    """
+    if isinstance(formula, Sum):
+        return total(parts, formula.place)
+    if isinstance(formula, Product):
+        return product(parts, formula.place)
+    if isinstance(formula, Negative | Reciprocal | Table):
+        return replace(formula, of=parts[0])
+    if isinstance(formula, Power):
+        return replace(formula, base=parts[0], exponent=parts[1])
+    return replace(formula, arguments=tuple(parts)) if isinstance(formula, Call) else formula

@@ -1,0 +1,157 @@
+"""Rows of formulas that are affine in the law: their factors may depend on k."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+from optlaws.formulas.degree import degree
+from optlaws.formulas.of_motion import Motion
+from optlaws.series.gegenbauer import chebyshev_series
+from optlaws.series.interpolation import chebyshev_series as resolved
+from optlaws.synthesis.families.family import LinearFamily
+from optlaws.synthesis.families.names import mirrored
+from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
+
+if TYPE_CHECKING:
+    from optlaws.formulas.tree import Formula
+    from optlaws.synthesis.spaces.space import LawSpace
+
+Array = NDArray[np.float64]
+
+_WHOLE = (1.0, -1.0)
+_SAME = 1e-12
+_PLACES = 7
+
+
+@dataclass(frozen=True)
+class Side:
+    """A formula on the part of the interval that a space's rows speak of, with the name and the signs of its rows."""
+
+    name: str
+    motion: Motion
+    signs: tuple[float, ...]
+
+
+def sides(motion: Motion, name: str, signs: tuple[float, ...], *, symmetric: bool) -> list[Side]:
+    """What rows say of a formula: as it is, or of symmetric laws each half on the first one.
+
+    Where the second half says the same as the first, or its opposite, one side says both.
+    """
+    if not symmetric:
+        return [Side(name, motion, signs)]
+    first, *second = motion.halves()
+    if not second:
+        return [Side(name, first, signs)]
+    [other] = second
+    if (first.start, first.stop) == (other.start, other.stop) and first.affine is not None:
+        here, there = _sampled(first), _sampled(other)
+        size = _SAME * float(np.abs(here).max())
+        if np.abs(here - there).max() <= size:
+            return [Side(name, first, signs)]
+        if np.abs(here + there).max() <= size:
+            return [Side(name, first, tuple(dict.fromkeys((*signs, *(-sign for sign in signs)))))]
+    return [Side(name, first, signs), Side(mirrored(name), other, signs)]
+
+
+def _sampled(motion: Motion) -> Array:
+    """Its values in motions at random."""
+    numbers = np.random.default_rng(0)
+    names = {name: numbers.normal(size=_PLACES) for name in "abcj"}
+    k = motion.start + (motion.stop - motion.start) * numbers.random(_PLACES)
+    return np.broadcast_to(motion.values({**names, "k": k}), (_PLACES,))
+
+
+def columns(space: LawSpace, motion: Motion, u: Array) -> Array:
+    """An affine formula at places u = 1 - 2k: of the free functions, then of the base law with what is left."""
+    k = (1.0 - u) / 2.0
+    found = np.zeros((len(u), space.terms + 1))
+    for nu, factor in motion.weights.items():
+        found += _at(factor, k)[:, None] * space.columns(nu, u)
+    found[:, -1] += _at(motion.rest, k)
+    return found
+
+
+def _at(factor: Formula, k: Array) -> Array:
+    return _spread(Motion(factor).values({"k": k}), k)
+
+
+def _spread(values: Array, like: Array) -> Array:
+    return np.broadcast_to(values, like.shape)
+
+
+def rows(space: LawSpace, side: Side, slack: Array, bound: float) -> LinearFamily:
+    """Rows s f <= slack . x + bound on the side's part of the interval."""
+    motion, domain = side.motion, (1.0 - 2.0 * side.motion.stop, 1.0 - 2.0 * side.motion.start)
+    plain = motion.constant_weights()
+    if plain is not None and not plain[1] and plain[0]:
+        weights, lowest = plain[0], min(plain[0])
+        combined = tuple(weights.get(nu, 0.0) for nu in range(lowest, max(weights) + 1))
+        family = space.combination(lowest, combined, side.name, slack, bound, signs=side.signs)
+        return _within(family, domain)
+    edges = edges_of(space, motion)
+    if edges == _WHOLE:
+        wide = space.widened(_series(space, motion, _WHOLE), len(slack))
+        return LinearFamily(side.name, slack, bound, side.signs, domain, series=wide)
+    series = [_series(space, motion, ends) for ends in pairwise(edges)]
+    stacked = np.zeros((len(series), max(map(len, series)), len(slack) + 1))
+    for i, one in enumerate(series):
+        stacked[i, : len(one)] = space.widened(one, len(slack))
+    pieces = PieceSeries(np.array(edges), stacked)
+    jumps = any(space.jumps(nu) for nu in motion.orders)
+    return PieceFamily(side.name, slack, bound, side.signs, domain, series=np.zeros((1, 1)), pieces=pieces, jumps=jumps)
+
+
+def _within(family: LinearFamily, domain: tuple[float, float]) -> LinearFamily:
+    """The rows on a part of the space's part of the interval."""
+    return replace(family, domain=(max(domain[0], family.domain[0]), min(domain[1], family.domain[1])))
+
+
+def edges_of(space: LawSpace, motion: Motion) -> tuple[float, ...]:
+    """The u between which an affine formula is smooth in every law, descending."""
+    return tuple(sorted({*space.edges, *(1.0 - 2.0 * k for k in motion.kinks)}, reverse=True))
+
+
+def count_of(space: LawSpace, motion: Motion, ends: tuple[float, float]) -> int:
+    """How many Chebyshev coefficients an affine formula needs between two u, for every law."""
+
+    def length(factor: Formula) -> int:
+        known = degree(factor, {"k": 1})
+        if known is not None:
+            return known
+        values = Motion(factor).values
+        return len(resolved(lambda x: _spread(values({"k": (1.0 - _between(ends, x)) / 2.0}), x), str(factor)))
+
+    own = [length(factor) + space.degree_of(nu) for nu, factor in motion.weights.items()]
+    return 1 + max([*own, length(motion.rest)])
+
+
+def _between(ends: tuple[float, float], x: Array) -> Array:
+    """The u of places from -1 to 1."""
+    high, low = ends
+    places: Array = low + (x + 1.0) * (high - low) / 2.0
+    return places
+
+
+def _series(space: LawSpace, motion: Motion, ends: tuple[float, float]) -> Array:
+    """Chebyshev series between two u, in what runs from -1 at the lesser to 1."""
+    count = count_of(space, motion, ends)
+    angle = (np.arange(count) + 0.5) * np.pi / count
+    return chebyshev_series(columns(space, motion, _between(ends, np.cos(angle))), angle)
+
+
+def gauss(space: LawSpace, motion: Motion) -> tuple[Array, Array]:
+    """Places u in the formula's part and weights that add up to its length in k; exact for squares of the formula."""
+    low, high = 1.0 - 2.0 * motion.stop, 1.0 - 2.0 * motion.start
+    inner = [u for u in edges_of(space, motion) if low < u < high]
+    places, weights = [], []
+    for ends in pairwise([high, *inner, low]):
+        x, weight = legendre.leggauss(count_of(space, motion, ends) + 1)
+        places.append(_between(ends, x))
+        weights.append(weight * (ends[0] - ends[1]) / 4.0)
+    return np.concatenate(places), np.concatenate(weights)

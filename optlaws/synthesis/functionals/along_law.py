@@ -1,0 +1,124 @@
+"""What a formula is along a law: its extremes and its integrals over the whole of a part of the interval."""
+
+from __future__ import annotations
+
+from itertools import pairwise
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.vocabulary import ORDERS
+from optlaws.laws import MotionLaw, PolynomialLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws.laws.segments.segment import PolynomialSegment
+from optlaws.series.chebyshev import derivative, real_parts_of_roots, value
+from optlaws.series.interpolation import chebyshev_series as resolved
+from optlaws.series.interpolation import points, transformed
+from optlaws.series.peaks import Peak, extremes
+
+Array = NDArray[np.float64]
+
+_BESIDE = 2.0**-50
+_LARGEST = 400
+
+
+def extremes_along(motion: Motion, law: MotionLaw) -> tuple[Peak, Peak]:
+    """The least and the greatest value of a formula in a law, each with its place; infinite where it has no bound."""
+    found = [_candidates(motion, law, ends) for ends in pairwise(_edges(motion, law))]
+    if not found:
+        k = np.array([motion.start])
+        return extremes(k, _values(motion, law, k))
+    k, values = (np.concatenate(several) for several in zip(*found, strict=True))
+    if not np.isfinite(values).all():
+        worst = float(k[~np.isfinite(values)][0])
+        return Peak(-np.inf, worst), Peak(np.inf, worst)
+    return extremes(k, values)
+
+
+def mean_square_along(motion: Motion, law: MotionLaw) -> float:
+    """The integral over the part of the square of a formula in a law."""
+    return sum(_integral(motion, law, ends, square=True) for ends in pairwise(_edges(motion, law)))
+
+
+def integral_along(motion: Motion, law: MotionLaw) -> float:
+    """The integral over the part of a formula in a law."""
+    return sum(_integral(motion, law, ends, square=False) for ends in pairwise(_edges(motion, law)))
+
+
+def value_along(motion: Motion, law: MotionLaw) -> float:
+    """The formula's value in a law where its part begins."""
+    return float(_values(motion, law, np.array([motion.start]))[0])
+
+
+def _values(motion: Motion, law: MotionLaw, k: Array) -> Array:
+    names = {name: law(k, ORDERS[name]) for name in motion.formula.names() if name in ORDERS}
+    return np.broadcast_to(motion.values({**names, "k": k}), k.shape).astype(np.float64)
+
+
+def _edges(motion: Motion, law: MotionLaw) -> list[float]:
+    """The k between which the formula is smooth along the law."""
+    breaks = law.breaks if isinstance(law, PiecewiseLaw) else ()
+    inner = {k for k in (*breaks, *motion.breaks) if motion.start < k < motion.stop}
+    return sorted({motion.start, motion.stop, *inner})
+
+
+def _on(motion: Motion, law: MotionLaw, ends: tuple[float, float], x: Array) -> tuple[Array, Array]:
+    """The k and the values at places from -1 to 1 of a piece; ends lie just within it."""
+    low, high = ends
+    inside = np.clip(low + (x + 1.0) * (high - low) / 2.0, low + _BESIDE * (low > 0.0), high - _BESIDE * (high < 1.0))
+    return inside, _values(motion, law, inside)
+
+
+def _count(motion: Motion, law: MotionLaw, ends: tuple[float, float]) -> int | None:
+    """How many coefficients the formula has on a piece; None where it is no polynomial."""
+    longest = None
+    if isinstance(law, PolynomialLaw):
+        longest = len(law.acceleration)
+    elif isinstance(law, PiecewiseLaw):
+        segment = law.segments[int(np.searchsorted(law.breaks, sum(ends) / 2.0)) - 1]
+        longest = len(segment.acceleration) if isinstance(segment, PolynomialSegment) else None
+    if longest is None:
+        return None
+    found = motion.degree({name: max(longest + 1 - nu, 0) for name, nu in ORDERS.items()})
+    return None if found is None or found > _LARGEST else found + 1
+
+
+def _series(motion: Motion, law: MotionLaw, ends: tuple[float, float]) -> Array | None:
+    """Chebyshev series on a piece; None where it has no bounded smooth values."""
+    count = _count(motion, law, ends)
+    if count is not None:
+        return transformed(_on(motion, law, ends, points(count))[1])
+    try:
+        return resolved(lambda x: _on(motion, law, ends, x)[1], str(motion.formula))
+    except InputError:
+        return None
+
+
+def _candidates(motion: Motion, law: MotionLaw, ends: tuple[float, float], depth: int = 0) -> tuple[Array, Array]:
+    """Where the formula may be extreme on a piece, and its values there; pieces that are not smooth are cut in two."""
+    edges = np.array([-1.0, 1.0])
+    series = _series(motion, law, ends)
+    if series is not None:
+        return _on(motion, law, ends, np.concatenate([edges, real_parts_of_roots(derivative(series))]))
+    if depth >= _DEEPEST:
+        return _on(motion, law, ends, np.cos(np.linspace(0.0, np.pi, _DENSE)))
+    middle = sum(ends) / 2.0
+    halves = [_candidates(motion, law, half, depth + 1) for half in ((ends[0], middle), (middle, ends[1]))]
+    k, values = (np.concatenate(several) for several in zip(*halves, strict=True))
+    return k, values
+
+
+_DEEPEST, _DENSE = 12, 129
+
+
+def _integral(motion: Motion, law: MotionLaw, ends: tuple[float, float], *, square: bool) -> float:
+    """Over a piece by Gauss's rule, exact where the formula is a polynomial."""
+    series = _series(motion, law, ends)
+    if series is None:
+        return float("inf")
+    x, weights = legendre.leggauss(len(series) + 1)
+    values = np.asarray(value(series, x))
+    return float(weights @ (values**2 if square else values)) * (ends[1] - ends[0]) / 2.0

@@ -1,0 +1,149 @@
+"""What makes constants of formulas: `peak("c + 0.2*b")`, `rms(...)`, `integral(...)`, `value(...)`."""
+
+from __future__ import annotations
+
+from math import nan
+from typing import Any
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.formulas.of_motion import Motion, checked, of_text
+from optlaws.formulas.scanner import FormulaError
+from optlaws.formulas.tree import Formula, plain
+from optlaws.formulas.vocabulary import ORDERS
+from optlaws.numbers import real
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms, FormulaValue
+from optlaws.synthesis.problem.constants import MAKERS, Functional
+
+_SIDES = {"both": (1.0, -1.0), "high": (1.0,), "low": (-1.0,)}
+
+
+def peak(formula: Any, *, side: str = "both", start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
+    """The peak of a formula of the motion, over the whole of the interval or a part of it.
+
+    Parameters
+    ----------
+    formula
+        Text in a, b, c, j (derivatives of the law), d = b c and k, such as "c + 0.2*b" or "(1 + k)*c".
+    side
+        "both" for the greatest magnitude, "high" for the greatest value, "low" for the greatest opposite.
+    start, stop
+        The part of the interval.
+
+    Raises
+    ------
+    InputError
+        If the formula cannot be read or has no peak; the error points at the place in the text.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> peak("c + 3*b"), round(peak("c + 3*b").value(smoothstep(3)), 6)
+    (peak(c + 3*b), 9.009603)
+    """
+    if side not in tuple(_SIDES):
+        raise InputError(unknown_key(side, _SIDES, "side"))
+    motion = _motion(formula, *_part(start, stop))
+    name = _name("peak", motion, [] if side == "both" else [f"side={side}"])
+    return FormulaPeak(name, nan, convex=True, motion=_affine(motion, name), signs=_SIDES[side])
+
+
+def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
+    """The root mean square of a formula of the motion, over the whole of the interval or a part of it.
+
+    Parameters
+    ----------
+    formula
+        Text as `peak` takes it.
+    start, stop
+        The part of the interval.
+
+    Raises
+    ------
+    InputError
+        If the formula cannot be read; the error points at the place in the text.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> round(rms("c").value(smoothstep(2)) ** 2, 9)
+    12.0
+    """
+    motion = _motion(formula, *_part(start, stop))
+    if motion.start == motion.stop:
+        raise InputError(f"rms needs a part of the interval with start < stop, got {start!r} and {stop!r}")
+    name = _name("rms", motion)
+    return FormulaRms(name, nan, convex=True, motion=_affine(motion, name))
+
+
+def value(formula: Any, *, at: float) -> Functional:  # noqa: ANN401
+    """The value of a formula of the motion at one k.
+
+    Parameters
+    ----------
+    formula
+        Text as `peak` takes it.
+    at
+        The k.
+
+    Raises
+    ------
+    InputError
+        If the formula cannot be read; the error points at the place in the text.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> value("c", at=0.25), value("c", at=0.25).value(smoothstep(2))
+    (value(c, at=0.25), 3.0)
+    """
+    place = _place(at, "at")
+    motion = _motion(formula, place, place)
+    name = f"value({motion.formula}, at={plain(place)})"
+    return FormulaValue(name, nan, convex=True, motion=_affine(motion, name))
+
+
+def _motion(formula: Any, start: float, stop: float) -> Motion:  # noqa: ANN401 - it is checked here
+    """The formula that a text or a tree says, which must depend on the law."""
+    if isinstance(formula, Formula):
+        motion, text = checked(Motion(formula, start, stop), str(formula)), str(formula)
+    elif isinstance(formula, str):
+        motion, text = of_text(formula, start, stop), formula
+    else:
+        raise InputError(f"a formula is a text such as 'c + 0.2*b', got {shortened(formula)}")
+    if not motion.formula.names() & ORDERS.keys():
+        raise FormulaError("the formula has none of a, b, c, d, j: no law changes it", text, 0)
+    return motion
+
+
+def _affine(motion: Motion, name: str) -> Motion:
+    if motion.affine is None:
+        raise InputError(f"{name}: {motion.verdict.why}")
+    return motion
+
+
+def _part(start: object, stop: object) -> tuple[float, float]:
+    first, last = _place(start, "start"), _place(stop, "stop")
+    if first > last:
+        raise InputError(f"a part of the interval needs start <= stop, got {start!r} and {stop!r}")
+    return first, last
+
+
+def _place(k: object, name: str) -> float:
+    number = real(k)
+    if number is None or not 0.0 <= number <= 1.0:
+        raise InputError(f"{name} must be a k from 0 to 1, got {shortened(k)}")
+    return float(number)
+
+
+def _name(kind: str, motion: Motion, others: list[str] | None = None) -> str:
+    parts = [str(motion.formula), *(others or [])]
+    parts += [f"start={plain(motion.start)}"] if motion.start != 0.0 else []
+    parts += [f"stop={plain(motion.stop)}"] if motion.stop != 1.0 else []
+    return f"{kind}({', '.join(parts)})"
+
+
+MAKERS.setdefault("peak", peak)
+MAKERS.setdefault("rms", rms)
+MAKERS.setdefault("value", value)

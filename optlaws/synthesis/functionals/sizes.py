@@ -1,0 +1,148 @@
+"""What bounds a law in which a formula is small, and what a formula is at least whatever the law."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.formulas.of_motion import Motion
+from optlaws.synthesis.functionals.affine_rows import columns, gauss
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.spaces.space import LawSpace
+
+Array = NDArray[np.float64]
+
+_ROUNDED = 1.0 + 1e-6
+_INVERSE = 1e-6
+_ORDER = 2
+_POSITIVE = 1e-3
+_RANK = 1e-12
+#: beyond this a bound says nothing
+_LARGEST = 1e13
+
+
+@dataclass(frozen=True, eq=False)
+class Reach:
+    """By how much values of a formula at places move the mean of |c|: sum of pulls times |f| plus the offset.
+
+    Attributes
+    ----------
+    pulls
+        One for each place.
+    offset
+        What is there without the formula.
+    weights
+        Of the places: the sum of weights times f² is the integral of f².
+    turning
+        Weights above 0 whose sum with f is the same in every law, None where there are none; and that sum.
+    """
+
+    pulls: Array
+    offset: float
+    weights: Array
+    turning: tuple[Array, float] | None = None
+
+    def by_peak(self) -> tuple[int, float, float]:
+        """The bound for a formula whose magnitude is at most 1."""
+        return _ORDER, _ROUNDED * float(self.pulls.sum()), _ROUNDED * self.offset
+
+    def by_square(self) -> tuple[int, float, float]:
+        """The bound for a formula whose square's integral is 1, by Cauchy's inequality."""
+        return _ORDER, _ROUNDED * float(np.sqrt((self.pulls**2 / self.weights).sum())), _ROUNDED * self.offset
+
+    def by_one_sign(self, sign: float) -> tuple[int, float, float] | None:
+        """The bound for a formula that is at most 1 with a sign: what is above 0 less what is below is known."""
+        if self.turning is None:
+            return None
+        turning, fixed = self.turning
+        share = float((self.pulls / turning).max())
+        most = 2.0 * share * float(turning.sum())
+        return _ORDER, _ROUNDED * most, _ROUNDED * (self.offset + share * max(-sign * fixed, 0.0))
+
+
+def reach(space: LawSpace, parts: tuple[Motion, ...]) -> Reach | None:
+    """How an affine formula's values bound the laws of a space; None where they do not, or hardly.
+
+    The law's coordinates are a linear function of enough values of the formula, and so is its acceleration.
+    """
+    rules = [gauss(space, part) for part in parts]
+    values = np.vstack([columns(space, part, u) for part, (u, _) in zip(parts, rules, strict=True)])
+    weights = np.concatenate([weight for _, weight in rules])
+    fixed, free = _kept(space)
+    rows, right = values[:, :-1] @ free, -(values[:, :-1] @ fixed + values[:, -1])
+    inverse = np.linalg.pinv(rows)
+    if np.abs(inverse @ rows - np.eye(free.shape[1])).max(initial=0.0) * space.terms > _INVERSE:
+        return None
+    rule = space.quadrature(_ORDER)
+    moved = rule.values[:, :-1] @ free @ inverse
+    pulls = rule.weights @ np.abs(moved)
+    still = rule.values[:, :-1] @ fixed + rule.values[:, -1]
+    offset = float(rule.weights @ np.abs(moved @ right + still))
+    if not float(pulls.sum()) + offset < _LARGEST:
+        return None
+    return Reach(pulls, offset, weights, _turning(rows, right, weights))
+
+
+def _kept(space: LawSpace) -> tuple[Array, Array]:
+    """Coordinates that keep the space's equations, and in which directions they may be left without breaking one."""
+    equations = space.equations()
+    if not equations:
+        return np.zeros(space.terms), np.eye(space.terms)
+    matrix, right = np.array([one.row for one in equations]), np.array([one.right for one in equations])
+    _, sizes, directions = np.linalg.svd(matrix)
+    rank = int((sizes > _RANK * sizes.max()).sum())
+    return np.linalg.lstsq(matrix, right, rcond=None)[0], directions[rank:].T
+
+
+def _turning(rows: Array, right: Array, weights: Array) -> tuple[Array, float] | None:
+    """Weights of the places whose sum with f is the same in every law: of these those nearest to the rule's own."""
+    roots = np.sqrt(weights)
+    scaled = roots[:, None] * rows
+    turning = roots * (roots - scaled @ np.linalg.lstsq(scaled, roots, rcond=None)[0])
+    if (turning <= _POSITIVE * weights).any():
+        return None
+    return turning, -float(turning @ right)
+
+
+def known_values(motion: Motion, conditions: BoundaryConditions) -> list[tuple[float, float]]:
+    """What the end conditions say an affine formula is at an end, or in the mean; each with the size of its terms.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.of_motion import of_text
+    >>> from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+    >>> known_values(of_text("c + 2*b"), BoundaryConditions.rest(3))
+    [(0.0, 0.0), (0.0, 0.0), (2.0, 2.0)]
+    """
+    found = []
+    for k, end in ((0.0, conditions.start), (1.0, conditions.end)):
+        if motion.start <= k <= motion.stop and max(motion.orders, default=0) < len(end):
+            terms = [float(Motion(w).values({"k": k})) * end[nu] for nu, w in motion.weights.items()]
+            terms.append(float(Motion(motion.rest).values({"k": k})))
+            found.append((sum(terms), sum(map(abs, terms))))
+    mean = mean_value(motion, conditions)
+    return found if mean is None else [*found, (mean, _mean_size(motion, conditions))]
+
+
+def mean_value(motion: Motion, conditions: BoundaryConditions) -> float | None:
+    """The mean over the whole interval of a formula whose factors are numbers; None where it is not known."""
+    terms = _mean_terms(motion, conditions)
+    return None if terms is None else sum(terms)
+
+
+def _mean_size(motion: Motion, conditions: BoundaryConditions) -> float:
+    return sum(map(abs, _mean_terms(motion, conditions) or []))
+
+
+def _mean_terms(motion: Motion, conditions: BoundaryConditions) -> list[float] | None:
+    plain = motion.constant_weights()
+    known = range(1, len(conditions.start) + 1)
+    if plain is None or (motion.start, motion.stop) != (0.0, 1.0) or any(nu not in known for nu in plain[0]):
+        return None
+    weights, rest = plain
+    return [*(w * (conditions.end[nu - 1] - conditions.start[nu - 1]) for nu, w in weights.items()), rest]

@@ -1,0 +1,158 @@
+"""The rules of convexity: by what is known, by random motions, and beside cvxpy's own where it is installed."""
+
+from random import Random
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.convexity import Curvature, Judge, judge
+from optlaws.formulas.reading import read
+from tests.formulas.trees import convex_text
+
+RULES = Judge(frozenset("bc"))
+
+
+@pytest.mark.parametrize(
+    ("written", "kind"),
+    [
+        ("k^2 + 3", "constant"),
+        ("c + 0.2*b", "affine"),
+        ("sin(6*k)*c - k", "affine"),
+        ("c^2 + (1 + k)*b^2", "convex"),
+        ("-(c - b)^2", "concave"),
+        ("k*(1 - k)*c^2", "convex"),
+        ("(k - 0.5)*c^2", "not known to be convex"),
+        ("b*c", "not known to be convex"),
+        ("a*c", "not known to be convex"),
+        ("c^2 + b*c + b^2", "convex"),
+        ("c^2 + 2*b*c + b^2", "convex"),
+        ("c^2 + 2.001*b*c + b^2", "not known to be convex"),
+        ("c^2 + k*b*c + b^2", "convex"),
+        ("c^2 + 2*k*b*c + b^2", "not known to be convex"),
+        ("abs(c + b)", "convex"),
+        ("max(c, -2*b, 1)", "convex"),
+        ("min(c, b)", "concave"),
+        ("norm(c, 3*b)", "convex"),
+        ("exp(c^2)", "convex"),
+        ("exp(-c^2)", "not known to be convex"),
+        ("sqrt(c)", "concave"),
+        ("log(b + 2)", "concave"),
+        ("c^3", "not known to be convex"),
+        ("abs(c)^3", "convex"),
+        ("(c^2 + 1)^2", "convex"),
+        ("1/(2 + c^2)", "not known to be convex"),
+        ("sin(c)", "not known to be convex"),
+        ("2^c", "convex"),
+        ("c^2/2 - b", "convex"),
+        ("table(b, 0:1, 1:0, 2:0.5)", "convex"),
+        ("table(b, 0:0, 1:1, 2:0.5)", "concave"),
+        ("table(b, 0:0, 1:1, 2:0, 3:1)", "not known to be convex"),
+        ("spline(b, 0:0, 1:1, 2:4, 3:9)", "convex"),
+    ],
+)
+def test_what_is_known_is_said(written: str, kind: str) -> None:
+    verdict = judge(read(written), "abc")
+    assert verdict.curvature.value == kind, verdict.why
+    assert str(verdict.part) in verdict.why
+
+
+def random_verdicts(seed: int, count: int) -> list[tuple[str, Curvature]]:
+    numbers = Random(seed)  # noqa: S311
+    return [
+        (written, RULES.verdict(read(written)).curvature) for written in (convex_text(numbers, 3) for _ in range(count))
+    ]
+
+
+def test_what_is_called_convex_bends_upward_along_every_way() -> None:
+    numbers, seen = np.random.default_rng(0), 0
+    for written, kind in random_verdicts(5, 600):
+        if kind is Curvature.UNKNOWN:
+            continue
+        ends = numbers.normal(size=(2, 2, 200)) * 2.0
+        with np.errstate(all="ignore"):
+            first, last, middle = (
+                np.broadcast_to(evaluate(read(written), {"b": at[0], "c": at[1]}, NUMPY), 200)
+                for at in (ends[0], ends[1], ends.mean(axis=0))
+            )
+            bend = (first + last) / 2.0 - middle
+            size = 1e-9 * (1.0 + np.abs(first) + np.abs(last) + np.abs(middle))
+        known = np.isfinite(bend) & np.isfinite(size)
+        if kind.convex:
+            assert (bend >= -size)[known].all(), written
+        if kind.concave:
+            assert (bend <= size)[known].all(), written
+        seen += kind not in {Curvature.CONSTANT, Curvature.AFFINE}
+    assert seen > 100
+
+
+def by_cvxpy(written: str) -> str:
+    """The curvature that cvxpy tells of the same text, which this file wrote."""
+    import cvxpy as cp  # type: ignore[import-not-found]
+
+    functions: dict[str, Any] = {
+        "exp": cp.exp,
+        "abs": cp.abs,
+        "sqrt": cp.sqrt,
+        "log": cp.log,
+        "max": cp.maximum,
+        "min": cp.minimum,
+        "norm": lambda x, y: cp.norm(cp.hstack([x, y])),
+        "b": cp.Variable(),
+        "c": cp.Variable(),
+        "Number": cp.Constant,
+    }
+
+    def power(base: Any, exponent: int) -> Any:  # noqa: ANN401 - cvxpy's
+        return cp.power(base, exponent)
+
+    functions["power"] = power
+    import ast
+
+    class Powers(ast.NodeTransformer):
+        def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
+            self.generic_visit(node)
+            if isinstance(node.op, ast.Pow):
+                return ast.Call(ast.Name("power", ast.Load()), [node.left, node.right], [])
+            if isinstance(node.op, ast.Div):
+                return ast.Call(ast.Name("power", ast.Load()), [node.right, ast.Constant(-1)], [])
+            return node
+
+        def visit_Constant(self, node: ast.Constant) -> ast.AST:
+            return ast.Call(ast.Name("Number", ast.Load()), [node], [])
+
+    tree = ast.fix_missing_locations(Powers().visit(ast.parse(written.replace("^", "**"), mode="eval")))
+    expression = eval(compile(tree, "formula", "eval"), {"__builtins__": {}}, functions)  # noqa: S307
+    known = {"CONSTANT", "AFFINE", "CONVEX", "CONCAVE"}
+    return str(expression.curvature) if expression.curvature in known else "UNKNOWN"
+
+
+def compared(seed: int, count: int) -> dict[tuple[str, str], int]:
+    """How often we and cvxpy say what, and no text that cvxpy knows to be convex and we do not."""
+    import warnings
+
+    pytest.importorskip("cvxpy")
+    table: dict[tuple[str, str], int] = {}
+    numbers = Random(seed)  # noqa: S311
+    for _ in range(count):
+        written = convex_text(numbers, 3)
+        ours = RULES.by_rules(read(written)).curvature.name
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore")
+            theirs = by_cvxpy(written)
+        table[ours, theirs] = table.get((ours, theirs), 0) + 1
+        if theirs != "UNKNOWN":
+            # what cancels to an affine formula or to nothing we may say too
+            assert ours in {theirs, "AFFINE", "CONSTANT"}, f"{written}: we say {ours}, cvxpy {theirs}"
+    return table
+
+
+def test_whatever_cvxpy_knows_we_know() -> None:
+    compared(1, 300)
+
+
+@pytest.mark.long
+def test_whatever_cvxpy_knows_we_know_of_ten_thousand() -> None:
+    table = compared(2, 10_000)
+    assert sum(table.values()) == 10_000

@@ -1,0 +1,112 @@
+"""What formulas are worth: numpy, CasADi, mpmath, balls and Python agree; slopes are those of differences."""
+
+import math
+from random import Random
+
+import mpmath  # type: ignore[import-untyped]
+import numpy as np
+import pytest
+from flint import arb
+from scipy.interpolate import CubicSpline
+
+from optlaws import InputError
+from optlaws.formulas.affine import affine
+from optlaws.formulas.arithmetic import NUMPY, casadi_arithmetic, evaluate, mpmath_arithmetic
+from optlaws.formulas.degree import degree
+from optlaws.formulas.intervals import Interval, enclosed
+from optlaws.formulas.quadratic import quadratic
+from optlaws.formulas.reading import read
+from optlaws.formulas.slopes import derivative
+from optlaws.formulas.tree import Formula
+from optlaws.verification.enclosing.ball_formulas import BALLS
+from tests.formulas.by_python import by_python
+from tests.formulas.trees import NAMES, text
+
+
+def drawn(seed: int, depth: int = 4) -> tuple[str, Formula, dict[str, float]]:
+    numbers = Random(seed)  # noqa: S311
+    written = text(numbers, depth)
+    return written, read(written), {name: numbers.uniform(-1.5, 1.5) for name in (*NAMES, "k")}
+
+
+@pytest.mark.parametrize("batch", range(4))
+def test_every_arithmetic_agrees_with_python(batch: int) -> None:
+    import casadi
+
+    for seed in range(40 * batch, 40 * batch + 40):
+        written, formula, values = drawn(seed)
+        wanted = float(by_python(written, values))
+        close = pytest.approx(wanted, rel=1e-11, abs=1e-12)
+        assert float(evaluate(formula, values, NUMPY)) == close, written
+        assert float(evaluate(formula, {n: mpmath.mpf(v) for n, v in values.items()}, mpmath_arithmetic())) == close
+        assert float(casadi.DM(evaluate(formula, values, casadi_arithmetic()))) == close
+        found = evaluate(formula, {n: arb(v) for n, v in values.items()}, BALLS)
+        assert float(found.mid()) == close
+        boxes = {n: Interval(np.array(v - 1e-3), np.array(v + 1e-3)) for n, v in values.items()}
+        around = enclosed(formula, boxes)
+        assert around.low <= wanted <= around.high
+
+
+def test_slopes_are_those_of_differences() -> None:
+    checked = 0
+    for seed in range(200):
+        _, formula, values = drawn(seed, 3)
+        for name in ("b", "k"):
+            try:
+                slope = derivative(formula, name)
+            except InputError:
+                continue
+            h = 1e-6
+            ends = [float(evaluate(formula, {**values, name: values[name] + s * h}, NUMPY)) for s in (1, -1)]
+            wanted = (ends[0] - ends[1]) / (2 * h)
+            assert float(evaluate(slope, values, NUMPY)) == pytest.approx(wanted, rel=1e-5, abs=1e-6)
+            checked += 1
+    assert checked > 150
+
+
+@pytest.mark.parametrize("written", ["abs(b)", "max(b, c)", "table(b, 0:0, 1:1)"])
+def test_what_has_kinks_has_no_slope(written: str) -> None:
+    with pytest.raises(InputError, match="has no derivative"):
+        derivative(read(written), "b")
+
+
+def test_tables_and_splines_are_those_of_numpy_and_scipy() -> None:
+    places, heights = (0.0, 0.2, 0.55, 0.7, 1.0), (1.0, -2.0, 0.5, 3.0, 2.0)
+    pairs = ", ".join(f"{x}:{y}" for x, y in zip(places, heights, strict=True))
+    k = np.linspace(0.0, 1.0, 301)
+    line, spline = (read(f"{kind}(k, {pairs})") for kind in ("table", "spline"))
+    assert evaluate(line, {"k": k}, NUMPY) == pytest.approx(np.interp(k, places, heights), abs=1e-14)
+    wanted = CubicSpline(places, heights)
+    assert evaluate(spline, {"k": k}, NUMPY) == pytest.approx(wanted(k), abs=1e-12)
+    for order in (1, 2):
+        spline = derivative(spline, "k")
+        assert evaluate(spline, {"k": k}, NUMPY) == pytest.approx(wanted(k, order), abs=1e-10)
+    for x in np.linspace(0.01, 0.99, 30):
+        for one in (line, read(f"spline(k, {pairs})")):
+            value = float(evaluate(one, {"k": x}, NUMPY))
+            assert abs(float(evaluate(one, {"k": arb(x)}, BALLS).mid()) - value) < 1e-13
+            assert float(evaluate(one, {"k": x}, casadi_arithmetic())) == pytest.approx(value, abs=1e-13)
+
+
+def test_affine_quadratic_and_polynomial_parts_make_up_the_formula() -> None:
+    numbers = Random(7)  # noqa: S311
+    found = {"affine": 0, "quadratic": 0, "degree": 0}
+    for seed in range(400):
+        _, formula, values = drawn(seed, 3)
+        wanted = float(evaluate(formula, values, NUMPY))
+        straight, square = affine(formula, NAMES), quadratic(formula, NAMES)
+        if straight is not None:
+            terms = [float(evaluate(one, values, NUMPY)) * values[name] for name, one in straight.factors]
+            assert sum(terms) + float(evaluate(straight.rest, values, NUMPY)) == pytest.approx(wanted, abs=1e-9)
+            assert not straight.rest.names() & set(NAMES)
+            found["affine"] += 1
+        if square is not None:
+            total = 0.0
+            for names, one in square.items():
+                total += float(evaluate(one, values, NUMPY)) * math.prod(values[name] for name in names)
+            assert total == pytest.approx(wanted, abs=1e-9)
+            found["quadratic"] += 1
+        known = degree(formula, {name: numbers.randint(0, 2) for name in NAMES} | {"k": 1})
+        if known is not None:
+            found["degree"] += 1
+    assert min(found.values()) > 20
