@@ -100,6 +100,8 @@ declare(
     "constant",
     {
         "optlaws.mechanisms.cam.constants": "B_cam C_cam C_minus_cam C_plus_cam D_cam J_cam",
+        "optlaws.mechanisms.machine.output_constants": "output_peak output_rms",
+        "optlaws.mechanisms.machine.residual_boxes": "mode_residual",
         "optlaws.mechanisms.spectrum.robust": "residual",
         "optlaws.synthesis.functionals.makers": "peak rms value",
     },

@@ -10,7 +10,7 @@ from optlaws.errors import InputError
 
 _TOKEN = re.compile(
     r"""\s*(?:(?P<number>\d+\.?\d*(?:[eE][+-]?\d+)?|\.\d+(?:[eE][+-]?\d+)?)|(?P<name>[A-Za-z_]\w*)"""
-    r"""|(?P<sign>[-+*/(),=^:"']))"""
+    r"""|'(?P<table>\{[^']*\})'|(?P<sign>[-+*/(),=^:"']))"""
 )
 _BLANK = re.compile(r"\s*")
 _SHOWN = 120
@@ -18,7 +18,7 @@ _SHOWN = 120
 
 @dataclass(frozen=True)
 class Token:
-    """A number, name or sign with its place in the text; an empty text ends the list."""
+    """A number, name, table (in JSON, a machine) or sign with its place in the text; an empty text ends the list."""
 
     kind: str
     text: str

@@ -15,10 +15,12 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws import BoundaryConditions, BSplines, Chebyshev, Functional, InputError, MotionLaw, Pieces
+from optlaws import BoundaryConditions, BSplines, Chebyshev, Functional, InputError, Machine, MotionLaw, Pieces
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.mechanisms.cam.constants import CamPeak, CamPower
 from optlaws.mechanisms.loader.constants import LoaderPeak
+from optlaws.mechanisms.machine.output_constants import OutputConstant
+from optlaws.mechanisms.machine.residual_boxes import ModeResidual
 from optlaws.mechanisms.spectrum.robust import Residual
 from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms, FormulaValue, OfFormula
 from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, PLAIN, Peak, Power, RootMeanSquare
@@ -52,7 +54,22 @@ TEXTS = (
     "rms(c + spline(k, 0:0, 0.3:1, 0.6:0, 1:2)*a, start=0.2)",
     "value(c - 2*b, at=0.3)",
 )
-EXAMPLES: dict[str, Functional] = {text: named(text) for text in TEXTS}
+AXIS = Machine.from_masses(
+    {"motor": 1.0, "carriage": 2.0, "tool": 0.5},
+    [("motor", "carriage", 600.0, 4.0), ("carriage", "tool", 250.0, 1.0)],
+    drive="motor",
+    outputs={"motor torque": "drive force", "tool": "acceleration tool"},
+)
+OF_MACHINES: tuple[Functional, ...] = (
+    AXIS.peak("motor torque"),
+    AXIS.peak("tool", within=(0.25, 1.5)),
+    AXIS.peak("tool", cycle=(0.25, 0.5)),
+    AXIS.rms("motor torque", dwell=0.5),
+    AXIS.rms("tool", cycle=(0.0, 0.5)),
+    AXIS.residual(1, "tool"),
+    AXIS.residual(2, "motor torque", spread=0.1, damping=(0.0, 0.1)),
+)
+EXAMPLES: dict[str, Functional] = {text: named(text) for text in TEXTS} | {one.name: one for one in OF_MACHINES}
 ORDER = 5
 SPACES: dict[str, LawSpace] = {
     repr((basis, symmetric)): space_of(basis, BoundaryConditions.rest(ORDER), symmetric=symmetric)
@@ -111,6 +128,8 @@ def sampled(constant: Functional, law: MotionLaw) -> tuple[float, float]:
         return of_loader(constant, law)
     if isinstance(constant, OfFormula):
         return of_formula(constant, law)
+    if isinstance(constant, OutputConstant | ModeResidual):
+        return Judged(law).value(constant), 1e-8  # stepped by matrix exponentials: a grid of its own
     values = signal(constant, law)
     signs = constant.signs if isinstance(constant, Peak | CamPeak) else (1.0, -1.0)
     greatest = max(float((sign * values).max()) for sign in signs)

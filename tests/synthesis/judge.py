@@ -16,10 +16,13 @@ from optlaws import Expression, Functional, MotionLaw, Problem, Range, Solution,
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.tree import Table
 from optlaws.mechanisms.cam.constants import CamPeak, CamPower
+from optlaws.mechanisms.machine.output_constants import OutputConstant
+from optlaws.mechanisms.machine.residual_boxes import ModeResidual
 from optlaws.mechanisms.spectrum.robust import Residual
 from optlaws.synthesis import Maximum
 from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms, FormulaValue, OfFormula
 from tests.formulas.by_python import by_python
+from tests.mechanisms.machine.stepped import machine_value
 from tests.synthesis.independent import DENSE
 
 Array = NDArray[np.float64]
@@ -142,6 +145,8 @@ class Judged:
             return self.residual(constant)
         if isinstance(constant, OfFormula):
             return self.of_formula(constant)
+        if isinstance(constant, OutputConstant | ModeResidual):
+            return machine_value(constant, self.derivatives[0].pieces)
         return self.constants[constant.name]
 
     def cam(self, frequency: float, damping: float) -> list[Curve]:

@@ -14,6 +14,7 @@ from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.machine.dynamics import Drive
 from optlaws.series import interpolation
+from optlaws.synthesis.spaces.pieces.rows import PieceFamily
 from optlaws.synthesis.spaces.space import LawSpace
 
 Array = NDArray[np.float64]
@@ -85,10 +86,8 @@ def backward(drives: Sequence[Drive], start: float, length: float, level: Array)
 
 def _terms(space: LawSpace) -> int:
     """Coefficients that every law of a space has at most, on each piece."""
-    row = space.derivative(1, "b", np.zeros(space.terms))
-    nodes = row.nodes()
-    pieces = len(getattr(space, "breaks", (0.0, 1.0))) - 1
-    return (len(row.series) if nodes is None else len(nodes) // pieces + 2) + 2
+    velocity = space.derivative(1, "b", np.zeros(space.terms))
+    return 2 + (velocity.pieces.series.shape[1] if isinstance(velocity, PieceFamily) else len(velocity.series))
 
 
 def _values(space: LawSpace, nu: int, k: Array) -> Array:

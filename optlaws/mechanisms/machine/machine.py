@@ -4,17 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any, Self
+from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.machine.masses import Link, assembly, named_outputs
+from optlaws.mechanisms.machine.modes import Mode, modes
 from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse
 from optlaws.mechanisms.machine.state_space import SYMBOLS, StateSpace
 from optlaws.mechanisms.machine.systems import matrices
 from optlaws.numbers import not_negative, positive
+
+if TYPE_CHECKING:
+    from optlaws.mechanisms.machine.output_constants import OutputPeak, OutputRms
+    from optlaws.mechanisms.machine.residual_boxes import ModeResidual
 
 
 @dataclass(frozen=True, init=False, repr=False)
@@ -159,6 +165,17 @@ class Machine(StateSpace):
         A, B, C, D = (np.array(one) for one in (self.A, self.B, self.C, self.D))
         return self.from_units(A, B, C, D, duration=duration, inputs=self.inputs, outputs=self.outputs)
 
+    @kept_property
+    def modes(self) -> tuple[Mode, ...]:
+        """The machine's free vibrations, the slowest first; equal roots are one mode.
+
+        Examples
+        --------
+        >>> Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]]).modes
+        (Mode(number=1, frequency=20, damping=0.05),)
+        """
+        return modes(self)
+
     def response(self, law: MotionLaw, *, dwell: float = 0.0) -> MachineResponse:
         """What the machine does during a rise and the dwell after it.
 
@@ -220,3 +237,111 @@ class Machine(StateSpace):
             positive(fall_duration, "fall_duration"),
             not_negative(rest, "rest"),
         )
+
+    def peak(
+        self,
+        output: str | None = None,
+        *,
+        within: tuple[float, float] = (0.0, 1.0),
+        cycle: tuple[float, float] | None = None,
+    ) -> OutputPeak:
+        """The greatest magnitude of an output as a constant of the law, to be minimised or bounded; convex.
+
+        Parameters
+        ----------
+        output
+            Which output; the first one unless given.
+        within
+            The first and the last time that count, in durations of the rise: (0, 1) the rise, (1, 1.5) a dwell after
+            it, (0, 1.5) both.
+        cycle
+            The dwell and the rest of a cycle of rise, dwell, return and rest that repeats; then all of it counts.
+
+        Raises
+        ------
+        InputError
+            If there is no such output, or a time is out of range.
+
+        Examples
+        --------
+        >>> from optlaws import Chebyshev, Problem, synthesize
+        >>> axis = Machine.from_masses(
+        ...     {"motor": 1.0, "load": 2.0}, [("motor", "load", 800.0, 2.0)], drive="motor", outputs=["drive force"]
+        ... )
+        >>> solution = synthesize(Problem(order=3, basis=Chebyshev(7), minimise=axis.peak(), symmetric=False))
+        >>> solution.status.value, solution.objective, axis.response(solution.law).peak("drive force").value
+        ('optimal', 12.652585, 12.652585)
+        """
+        from optlaws.mechanisms.machine.output_constants import output_peak
+
+        return output_peak(of=self, within=within, cycle=cycle, output=output)
+
+    def rms(
+        self, output: str | None = None, *, dwell: float = 0.0, cycle: tuple[float, float] | None = None
+    ) -> OutputRms:
+        """The root mean square of an output as a constant of the law, to be minimised or bounded; convex.
+
+        Parameters
+        ----------
+        output
+            Which output; the first one unless given.
+        dwell
+            How much of the dwell after the rise counts too, in durations of the rise.
+        cycle
+            The dwell and the rest of a cycle of rise, dwell, return and rest that repeats; then all of it counts.
+
+        Raises
+        ------
+        InputError
+            If there is no such output, or a time is out of range.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> round(Machine([[-2.0]], [[2.0]], [[1.0]]).rms().value(smoothstep(4)), 6)
+        0.3
+        """
+        from optlaws.mechanisms.machine.output_constants import output_rms
+
+        return output_rms(of=self, dwell=dwell, cycle=cycle, output=output)
+
+    def residual(
+        self,
+        mode: int = 1,
+        output: str | None = None,
+        *,
+        spread: float = 0.0,
+        damping: tuple[float, float] | float | None = None,
+    ) -> ModeResidual:
+        """The amplitude that a mode is left with after the motion, as a constant of the law; convex.
+
+        Of the free vibration in the output at k = 1, its envelope where damped. With `spread` or `damping` the greatest
+        over a box of frequencies and damping ratios; the mode's share in the output stays as it is, as it does when the
+        whole machine runs faster or slower.
+
+        Parameters
+        ----------
+        mode
+            Number of the mode, as in `modes`.
+        output
+            Which output; the first one unless given.
+        spread
+            Share by which the mode's frequency may be off, either way: 0.1 for 10 %.
+        damping
+            The least and the greatest damping ratio; the mode's own unless given.
+
+        Raises
+        ------
+        InputError
+            If there is no such mode or output, or a number is out of range.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> machine = Machine([[0, 1], [-400, -2]], [[0], [400]], [[-400, -2]], [[400]], outputs=["acceleration"])
+        >>> machine.residual().value(smoothstep(4)), machine.residual(spread=0.1).value(smoothstep(4))
+        (1.650151, 4.516368)
+        """
+        from optlaws.mechanisms.machine.residual_boxes import mode_residual
+
+        return mode_residual(of=self, mode=mode, spread=spread, damping=damping, output=output)

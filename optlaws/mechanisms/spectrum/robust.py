@@ -64,7 +64,7 @@ class Residual(Functional):
         places = np.array([1.0])
         if self.low < self.high:
             u, angle = _nodes(self.low, self.high)
-            phasors = _series(self._phasors(law, self._frequencies(u))[:, None], angle)[:, 0]
+            phasors = complex_series(self._phasors(law, self._frequencies(u))[:, None], angle)[:, 0]
             inner = stationary_places(phasors)
             places = np.concatenate([[-1.0, 1.0], inner])
         frequencies = self._frequencies(places)
@@ -122,14 +122,14 @@ class Residual(Functional):
         u, angle = _nodes(self.low, self.high) if self.low < self.high else (np.ones(1), np.zeros(1))
         frequencies = self._frequencies(u)
         _, w, damped = roots(frequencies, self.damping)
-        k, weights = _rule(space, self.high)
+        k, weights = gauss_rule(space, self.high)
         family = space.derivative(1, "b", np.zeros(space.terms))
         # b of a symmetric law is even about 1/2, and its rows may be those of the first half
         places = np.abs(1.0 - 2.0 * k) if space.symmetric else 1.0 - 2.0 * k
         velocities = family.columns(places)[0]
         transform = np.exp(w[:, None] * (1.0 - k)) @ (weights[:, None] * velocities)
         scale = -1j * frequencies**2 * w.conj() / damped * self._detuning(frequencies)
-        return np.ascontiguousarray(_series(scale[:, None] * transform, angle))
+        return np.ascontiguousarray(complex_series(scale[:, None] * transform, angle))
 
 
 def residual(
@@ -206,11 +206,12 @@ def _nodes(low: float, high: float) -> tuple[Array, Array]:
     return np.cos(angle), angle
 
 
-def _series(values: Complex, angle: Array) -> Complex:
+def complex_series(values: Complex, angle: Array) -> Complex:
+    """Chebyshev coefficients of complex functions known at the Chebyshev points cos(angle); one column a function."""
     return np.asarray(chebyshev_series(values.real, angle) + 1j * chebyshev_series(values.imag, angle))
 
 
-def _rule(space: LawSpace, highest: float) -> tuple[Array, Array]:
+def gauss_rule(space: LawSpace, highest: float) -> tuple[Array, Array]:
     """Gauss points on every piece of the law, enough for a vibration of the highest frequency, and weights."""
     breaks = np.array(getattr(space, "breaks", (0.0, 1.0)))
     degree = len(space.derivative(1, "b", np.zeros(space.terms)).series)

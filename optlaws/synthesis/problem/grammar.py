@@ -5,7 +5,7 @@ product = factor { ("*" | "/") factor }
 factor  = number | constant | "max" "(" sum { "," sum } ")" | "(" sum ")"
 constant = name [ "(" argument { "," argument } ")" ]
 argument = name "=" value, or first a formula, whose grammar is that of optlaws.formulas, perhaps in quotes
-value   = number | name | "(" number "," number ")"
+value   = number | name | "(" number "," number ")" | "'{" anything but a quote "}'"
 """
 
 from __future__ import annotations
@@ -195,7 +195,7 @@ class _Reader(Scanner):
         return given
 
     def _value(self) -> Argument:
-        if self.token.kind == "name":
+        if self.token.kind in {"name", "table"}:
             return self.take().text
         if self.token.text != "(":
             return self._number()

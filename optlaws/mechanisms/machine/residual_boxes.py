@@ -1,0 +1,233 @@
+"""The vibration that a mode is left with, as a constant of a law, over a box of frequencies and damping ratios.
+
+For each root w the complex amplitude is kappa times the integral of exp(w (1 - k)) b(k), affine in the law; kappa, the
+mode's share in the output, stays as it is. That is so when the machine runs at another speed, and it is what is meant
+by a frequency or a damping that is not known well. The integral is analytic in w: over a box of frequencies and damping
+ratios its magnitude is greatest on the edges, each of which is a second-order cone for each of its places.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from math import asin, ceil, nan
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw, Peak
+from optlaws.mechanisms.machine.modes import mode, participation
+from optlaws.mechanisms.machine.state_space import StateSpace
+from optlaws.mechanisms.machine.texts import check_rest, machine_of, text_of
+from optlaws.mechanisms.spectrum.laplace import velocity_transform
+from optlaws.mechanisms.spectrum.robust import complex_series, gauss_rule
+from optlaws.numbers import not_negative, numbers
+from optlaws.synthesis.families.cone import ConeFamily, stationary_places
+from optlaws.synthesis.problem.constants import MAKERS, Functional
+from optlaws.synthesis.spaces.space import LawSpace
+
+Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
+
+_SPARE = 40
+_NEGLIGIBLE = 2.0**-54
+_WIDEST = 1000.0
+_MOST_DAMPING = 0.95
+
+
+@dataclass(frozen=True)
+class Edge:
+    """Roots i nu exp(i angle) with sin(angle) the damping ratio, between two of one frequency or of one angle."""
+
+    first: tuple[float, float]
+    last: tuple[float, float]
+
+    @property
+    def single(self) -> bool:
+        """Whether it is one root only."""
+        return self.first == self.last
+
+    def roots(self, u: Array) -> Complex:
+        """The roots at places from -1 to 1."""
+        share = 0.5 * (1.0 + u)
+        nu, angle = (a + share * (b - a) for a, b in zip(self.first, self.last, strict=True))
+        return np.asarray(1j * nu * np.exp(1j * angle))
+
+    @property
+    def nodes(self) -> tuple[Array, Array]:
+        """Chebyshev points, enough for functions of exponential type 1 in the root, and their angles."""
+        if self.single:
+            return np.ones(1), np.zeros(1)
+        ends = self.roots(np.array([-1.0, 1.0]))
+        count = ceil(0.75 * abs(ends[1] - ends[0])) + _SPARE
+        angle = (np.arange(count) + 0.5) * np.pi / count
+        return np.cos(angle), angle
+
+
+@dataclass(frozen=True, repr=False)
+class ModeResidual(Functional):
+    """Greatest amplitude of a mode in an output after the motion, over a box; made by `Machine.residual`.
+
+    Attributes
+    ----------
+    machine, output, mode
+        Of which machine, in which output, which mode.
+    spread
+        Share by which the mode's frequency may be off, either way.
+    dampings
+        The least and the greatest damping ratio; None for the mode's own.
+    """
+
+    machine: StateSpace = field(compare=False)
+    output: str = field(compare=False)
+    mode: int
+    spread: float
+    dampings: tuple[float, float] | None
+
+    def value(self, law: MotionLaw) -> float:
+        """The greatest over the box."""
+        return self.worst(law).value
+
+    def worst(self, law: MotionLaw) -> Peak:
+        """The greatest over the box; its `k` is the frequency at which it is, in radians in the rise's duration."""
+        found = [_greatest(edge, lambda roots: self.share * velocity_transform(law, roots)) for edge in self.edges]
+        value, root = max(found, key=lambda one: one[0])
+        return Peak(value, abs(root))
+
+    @kept_property
+    def share(self) -> float:
+        """The mode's amplitude in the output over the magnitude of the integral of exp(root (1 - k)) b(k)."""
+        return abs(participation(self.machine, mode(self.machine, self.mode), self.output))
+
+    @kept_property
+    def edges(self) -> tuple[Edge, ...]:
+        """The edges of the box; one where it is thin."""
+        own = mode(self.machine, self.mode)
+        low, high = ((1.0 + sign * self.spread) * own.frequency for sign in (-1.0, 1.0))
+        least, most = (asin(one) for one in self.dampings or (own.damping, own.damping))
+        corners = [(low, least), (high, least), (high, most), (low, most)]
+        sides = [Edge(*sorted((a, b))) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
+        kept = list(dict.fromkeys(one for one in sides if not one.single)) or [Edge(corners[0], corners[0])]
+        return tuple(kept)
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
+        """One cone for each place of each edge. In units of the bound, or of what the base law leaves."""
+        check_rest(self.name, space)
+        found = []
+        for i, edge in enumerate(self.edges):
+            columns = self._columns(space, i)
+            wide = np.zeros((len(columns), len(slack) + 1), dtype=np.complex128)
+            wide[:, : space.terms], wide[:, -1] = columns[:, :-1], columns[:, -1]
+            unit = bound or (float(np.abs(wide[:, -1]).max()) if slack.any() else 0.0) or 1.0
+            domain = (1.0, 1.0) if edge.single else (-1.0, 1.0)
+            name = f"{self.name}, edge {i + 1}" if i else self.name
+            found.append(ConeFamily(name, slack / unit, bound / unit, domain=domain, series=wide / unit))
+        return tuple(found)
+
+    def where(self, k: float) -> str:
+        """The frequency of a place on the first edge."""
+        return f"nu = {abs(self.edges[0].roots(np.array([2.0 * k - 1.0]))[0]):.5g}"
+
+    def _columns(self, space: LawSpace, edge: int) -> Complex:
+        """Chebyshev series of the complex amplitude: free functions, then the base law."""
+        parts = space.cached(
+            ("mode", self.name, edge), lambda: self._computed(space, self.edges[edge]).view(np.float64)
+        )
+        return parts.view(np.complex128)
+
+    def _computed(self, space: LawSpace, edge: Edge) -> Complex:
+        u, angle = edge.nodes
+        roots = edge.roots(u)
+        k, weights = gauss_rule(space, float(np.abs(roots).max()))
+        family = space.derivative(1, "b", np.zeros(space.terms))
+        # b of a symmetric law is even about 1/2, and its rows may be those of the first half
+        places = np.abs(1.0 - 2.0 * k) if space.symmetric else 1.0 - 2.0 * k
+        velocities = weights[:, None] * family.columns(places)[0]
+        transforms = self.share * (np.exp(roots[:, None] * (1.0 - k)) @ velocities)
+        series = complex_series(transforms, angle)
+        kept = np.flatnonzero(np.abs(series).max(axis=1) > _NEGLIGIBLE * np.abs(series).max())
+        return np.ascontiguousarray(series[: kept[-1] + 1])
+
+
+def _greatest(edge: Edge, amplitude: Callable[[Complex], Complex]) -> tuple[float, complex]:
+    """The greatest magnitude on an edge, and its root."""
+    u, angle = edge.nodes
+    if not edge.single:
+        series = complex_series(amplitude(edge.roots(u))[:, None], angle)[:, 0]
+        u = np.concatenate([[-1.0, 1.0], stationary_places(series)])
+    roots = edge.roots(u)
+    sizes = np.abs(amplitude(roots))
+    best = int(np.argmax(sizes))
+    return float(sizes[best]), complex(roots[best])
+
+
+def mode_residual(
+    *,
+    of: str | StateSpace,
+    mode: float = 1,
+    spread: float = 0.0,
+    damping: tuple[float, float] | float | None = None,
+    output: str | None = None,
+) -> ModeResidual:
+    """The greatest amplitude that a mode is left with in an output, over a box of frequencies and damping ratios.
+
+    In units of the output: of the free vibration at k = 1, its envelope where damped.
+
+    Parameters
+    ----------
+    of
+        The machine, or its text with the output.
+    mode
+        Number of the mode.
+    spread
+        Share by which its frequency may be off, either way: 0.1 for 10 %.
+    damping
+        The least and the greatest damping ratio, or the only one; the mode's own unless given.
+    output
+        Which output; the first one unless given.
+
+    Raises
+    ------
+    InputError
+        If there is no such mode or output, or a number is out of range.
+
+    Examples
+    --------
+    >>> from optlaws import Machine, smoothstep
+    >>> machine = Machine([[0, 1], [-400, -2]], [[0], [400]], [[-400, -2]], [[400]], outputs=["acceleration"])
+    >>> mode_residual(of=machine).value(smoothstep(4))
+    1.650151
+    """
+    machine = machine_of(of)
+    name = machine.outputs[machine.place(output)]
+    own = _mode_number(machine, mode, name)
+    share = not_negative(spread, "spread")
+    pair = damping if isinstance(damping, list | tuple) else (damping, damping)
+    dampings = None if damping is None else numbers(pair, "damping")
+    if dampings is not None and (len(dampings) != 2 or not 0.0 <= dampings[0] <= dampings[1] <= _MOST_DAMPING):
+        raise InputError(
+            f"damping must be a ratio, or the least and the greatest of them, from 0 to {_MOST_DAMPING:g}, "
+            f"got {shortened(damping)}"
+        )
+    if share >= 1.0:
+        raise InputError(f"spread is a share of the frequency, below 1, such as 0.1, got {share:g}")
+    said = [f"of={text_of(machine, name)!s}", f"mode={own}"]
+    said += [f"spread={share!r}"] if share else []
+    said += [f"damping=({dampings[0]!r}, {dampings[1]!r})"] if dampings else []
+    text = f"mode_residual({', '.join(said)})"
+    pairs = None if dampings is None else (dampings[0], dampings[1])
+    return ModeResidual(text, nan, convex=True, machine=machine, output=name, mode=own, spread=share, dampings=pairs)
+
+
+def _mode_number(machine: StateSpace, number: float, output: str) -> int:
+    found = mode(machine, number)
+    if found.frequency > _WIDEST * 10.0 or found.damping > _MOST_DAMPING:
+        raise InputError(f"mode {found.number} hardly vibrates: ask for the peak of {output!r} in the dwell instead")
+    participation(machine, found, output)
+    return found.number
+
+
+MAKERS.setdefault("mode_residual", mode_residual)

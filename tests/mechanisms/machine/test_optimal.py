@@ -1,0 +1,215 @@
+"""Optimal laws for machines: proven, never beaten by linear programs on grids, and read again from what is stored."""
+
+import json
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.optimize import linprog
+
+from optlaws import (
+    BoundaryConditions,
+    Certificate,
+    Chebyshev,
+    Functional,
+    InputError,
+    Link,
+    Machine,
+    MotionLaw,
+    Pieces,
+    Problem,
+    at_most,
+    synthesize,
+)
+from optlaws.synthesis.spaces.of_basis import space_of
+from optlaws.verification import verify
+from tests.synthesis.judge import Judged
+
+Array = NDArray[np.float64]
+GRID = np.linspace(0.0, 1.0, 301)
+ANGLES = np.linspace(0.0, 2.0 * np.pi, 48, endpoint=False)
+
+
+def chain(seed: int, masses: int = 3) -> Machine:
+    """A motor that drives masses one behind the other, lightly damped."""
+    rng = np.random.default_rng(seed)
+    names = ["motor", *(f"mass {i}" for i in range(1, masses + 1))]
+    weights = dict(zip(names, rng.uniform(0.3, 2.0, size=masses + 1).tolist(), strict=True))
+    links = [
+        Link(first, second, float(rng.uniform(200.0, 2000.0)), float(rng.uniform(0.0, 3.0)))
+        for first, second in pairwise(names)
+    ]
+    outputs = {"motor torque": "drive force", "last acceleration": f"acceleration {names[-1]}"}
+    return Machine.from_masses(weights, links, drive="motor", outputs=outputs)
+
+
+def constants(machine: Machine, seed: int) -> tuple[Functional, Functional]:
+    """What is minimised, and what is bounded."""
+    objectives = (
+        machine.peak("motor torque"),
+        machine.rms("motor torque", dwell=0.3),
+        machine.peak("last acceleration", within=(0.0, 1.5)),
+    )
+    return objectives[seed % 3], machine.residual(1, "last acceleration", spread=0.05)
+
+
+def on_grid(problem: Problem, machine: Machine, allowed: float) -> float:
+    """The least peak torque on a grid of times, with the residual held in many directions at a few frequencies.
+
+    It asks less than the problem does, so that its optimum is no greater. The laws' outputs are those of responses,
+    which the objective's rows have no part in.
+    """
+    space = space_of(problem.basis, BoundaryConditions.rest(problem.order), symmetric=problem.symmetric)
+    laws = [space.law(one) for one in np.vstack([np.zeros(space.terms), np.eye(space.terms)])]
+    torque = np.array([machine.response(law)["motor torque"](GRID) for law in laws])
+    size = space.terms
+    rows = [np.append(sign * (column[1:] - column[0]), -1.0) for column in torque.T for sign in (1.0, -1.0)]
+    right = [-sign * column[0] for column in torque.T for sign in (1.0, -1.0)]
+    (mode, *_) = machine.modes
+    amplitudes = np.array([_amplitudes(machine, law) for law in laws])
+    for column in amplitudes.T:
+        for angle in ANGLES:
+            turned = (column * np.exp(-1j * angle)).real
+            rows.append(np.append(turned[1:] - turned[0], 0.0))
+            right.append(allowed - turned[0])
+    assert mode.number == 1
+    cost = np.append(np.zeros(size), 1.0)
+    found = linprog(cost, np.array(rows), np.array(right), bounds=(None, None), method="highs")
+    assert found.fun is not None
+    return float(found.fun)
+
+
+def _amplitudes(machine: Machine, law: MotionLaw) -> NDArray[np.complex128]:
+    """Complex amplitudes of the first mode at speeds off by up to 5 %, by eigenvectors from the state at the end."""
+    found = []
+    for factor in np.linspace(0.95, 1.05, 9):
+        # as fast as the mode's frequency is low
+        one = machine.at_speed(1.0 / float(factor))
+        values, right = np.linalg.eig(np.array(one.A))
+        i = int(np.argmin(np.where(values.imag > 1e-6, np.abs(values), np.inf)))
+        row = np.array(one.C[one.outputs.index("last acceleration")])
+        states = Machine(one.A, one.B, np.eye(len(one.A)), inputs=one.inputs)
+        end = np.array([states.response(law, dwell=1e-3)[name](1.0) for name in states.outputs])
+        rest = np.linalg.lstsq(np.array(one.A), -one.load[:, 0] * float(law.a(1.0)), rcond=None)[0]
+        # the output of another speed is that of the nominal machine in its units
+        found.append(2.0 * (row @ right[:, i]) * (np.linalg.inv(right)[i] @ (end - rest)))
+    return np.array(found)
+
+
+@pytest.mark.parametrize("seed", range(6))
+def test_optima_are_proven_kept_and_right(seed: int) -> None:
+    machine = chain(seed, masses=1 + seed % 3)
+    objective, residual = constants(machine, seed)
+    plain = Problem(order=3, basis=Chebyshev(7), minimise=objective, symmetric=bool(seed % 2), B=at_most(3.0))
+    unbounded = synthesize(plain)
+    allowed = 0.3 * residual.value(unbounded.law)
+    solution = synthesize(
+        Problem(
+            order=3,
+            basis=Chebyshev(7),
+            minimise=objective,
+            symmetric=bool(seed % 2),
+            B=at_most(3.0),
+            bounds={residual: at_most(allowed)},
+        )
+    )
+    assert (unbounded.status.value, solution.status.value) == ("optimal", "optimal")
+    assert unbounded.objective <= solution.objective * (1.0 + 1e-9)
+    assert 0.0 <= solution.objective - solution.lower_bound <= 1e-7 * solution.objective
+    judged = Judged(solution.law)
+    assert judged.value(objective) == pytest.approx(solution.objective, rel=1e-8)
+    assert judged.value(residual) <= allowed * (1.0 + 1e-8)
+
+
+@pytest.mark.parametrize("seed", [0, 3])
+def test_optima_are_never_beaten_by_a_linear_program_on_a_grid(seed: int) -> None:
+    machine = chain(seed, masses=1 + seed % 3)
+    residual = machine.residual(1, "last acceleration", spread=0.05)
+    basis = Chebyshev(7)
+    start = synthesize(Problem(order=3, basis=basis, minimise=machine.peak("motor torque"), symmetric=False))
+    allowed = 0.3 * residual.value(start.law)
+    problem = Problem(
+        order=3, basis=basis, minimise=machine.peak(), symmetric=False, bounds={residual: at_most(allowed)}
+    )
+    solution = synthesize(problem)
+    assert solution.status.value == "optimal"
+    relaxed = on_grid(problem, machine, allowed)
+    assert relaxed <= solution.objective * (1.0 + 1e-9)
+    assert relaxed >= solution.objective * 0.97
+
+
+def test_pieces_and_cycles_are_proven_too() -> None:
+    machine = chain(1, masses=1)
+    pieces = Problem(order=3, basis=Pieces(4, 8, 3), minimise=machine.peak("motor torque"))
+    cycle = Problem(order=3, basis=Chebyshev(7), minimise=machine.peak("motor torque", cycle=(0.2, 0.4)), monotone=True)
+    for problem in (pieces, cycle):
+        solution = synthesize(problem)
+        assert solution.status.value == "optimal"
+        assert Judged(solution.law).value(machine_constant(problem)) == pytest.approx(solution.objective, rel=1e-8)
+
+
+def machine_constant(problem: Problem) -> Functional:
+    ((_, term),) = problem.objective.terms
+    assert isinstance(term, Functional)
+    return term
+
+
+def test_a_stored_solution_needs_no_machine_beside_it() -> None:
+    machine = chain(2, masses=1)
+    residual = machine.residual(1, "last acceleration", spread=0.1, damping=(0.0, 0.05))
+    problem = Problem(order=3, basis=Chebyshev(7), minimise=machine.peak(), bounds={residual: at_most(1.0)})
+    solution = synthesize(problem)
+    stored = json.loads(json.dumps(solution.to_dict()))
+    assert Problem.from_dict(stored["problem"]) == problem
+    assert Certificate.from_dict(stored["certificate"]).bound == pytest.approx(solution.lower_bound, rel=1e-12)
+
+
+def test_verification_says_that_it_does_not_know_machines() -> None:
+    machine = chain(2, masses=1)
+    for constant in (machine.peak(), machine.rms(), machine.residual(1, "last acceleration")):
+        solution = synthesize(Problem(order=3, basis=Chebyshev(5), minimise=constant, B=1.9))
+        with pytest.raises(InputError, match="checked with numpy alone"):
+            verify(solution.to_dict())
+
+
+@pytest.mark.parametrize(
+    ("says", "make"),
+    [
+        ("did you mean 'motor torque'", lambda machine: machine.peak("motor torqe")),
+        ("mode must be a whole number from 1 to 1", lambda machine: machine.residual(2)),
+        ("mode must be a whole number", lambda machine: machine.residual(1.5)),
+        ("the first before the last", lambda machine: machine.peak(within=(1.0, 1.0))),
+        ("two times", lambda machine: machine.peak(within=3.0)),
+        ("durations of the rise, from 0", lambda machine: machine.rms(dwell=-1.0)),
+        ("spread is a share", lambda machine: machine.residual(spread=10.0)),
+        ("damping must be a ratio", lambda machine: machine.residual(damping=(0.2, 0.1))),
+        ("rest to rest", lambda machine: synthesize(Problem(order=1, minimise=machine.peak()))),
+        ("needs its matrix B", lambda _: Problem(order=3, minimise="""output_peak(of='{"A": [[-1]]}')""")),
+        ("as JSON text", lambda _: Problem(order=3, minimise="output_rms(of='{A}')")),
+        ("must be a machine", lambda _: Problem(order=3, minimise="output_rms(of=3)")),
+        ("unstable", lambda _: Problem(order=3, minimise="""output_rms(of='{"A": [[1]], "B": [[1]], "C": [[1]]}')""")),
+    ],
+)
+def test_wrong_constants_are_named(says: str, make: object) -> None:
+    assert callable(make)
+    with pytest.raises(InputError, match=says):
+        make(chain(2, masses=1))
+
+
+def test_decays_and_defective_modes_have_no_residual() -> None:
+    decaying = Machine([[-3.0]], [[3.0]], [[1.0]])
+    assert decaying.modes == ()
+    with pytest.raises(InputError, match="no mode that vibrates"):
+        decaying.residual()
+    one = np.array([[-0.1, 9.0], [-9.0, -0.1]])
+    driving = Machine(np.block([[one, np.eye(2)], [np.zeros((2, 2)), one]]), np.ones((4, 1)), np.eye(4))
+    (only,) = driving.modes
+    assert only.frequency == pytest.approx(np.hypot(9.0, 0.1), rel=1e-7)
+    with pytest.raises(InputError, match="defective"):
+        driving.residual()
+    # side by side they are one vibration, with an amplitude
+    beside = Machine(np.kron(np.eye(2), one), np.ones((4, 1)), np.array([[1.0, 0.0, 1.0, 0.0]]))
+    alone = Machine(one, np.ones((2, 1)), np.array([[2.0, 0.0]]))
+    law = synthesize(Problem(order=3, basis=Chebyshev(5))).law
+    assert beside.residual().value(law) == pytest.approx(alone.residual().value(law), rel=1e-10)
