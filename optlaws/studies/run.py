@@ -84,7 +84,7 @@ def run_study(
     check(study, points)
     directory, seen = StudyDirectory(Path(out)), watch or Silent()
     with directory.locked():
-        directory.claim(study, points)
+        points = Points.of(study, directory.claim(study, points))
         if not _finished(directory, points):
             with closing(Journal(directory.journal)) as journal:
                 journal.open()
@@ -118,7 +118,7 @@ def task(study: StudyFile, points: Points, number: int) -> dict[str, Any]:
     return {
         "chunk": number,
         "problem": study.problem.given(),
-        "points": [(index, points.inputs(index)) for index in points.of_chunk(number)],
+        "points": list(points.chunk_inputs(number).items()),
         "bound": study.bound,
         "time_limit": study.time_limit,
         "imports": study.imports,

@@ -60,7 +60,7 @@ class Study:
     @kept_property
     def _points(self) -> Points:
         """The points, by index."""
-        points = Points.of(self.file)
+        points = Points.of(self.file, self._about["chunk"])
         if len(points) != len(self):
             raise InputError(
                 f"{self._directory.about} is damaged: it says {len(self)} points, its study has {len(points)}"
@@ -159,7 +159,7 @@ class Study:
         _needed("pyarrow", "to_arrow")
         if self._directory.table.exists():
             return self._parquet().read()
-        return table.arrow(self._rows(), table.schema(self._points))
+        return table.arrow(list(table.rows_in_order(self._journal(), self._points)), table.schema(self._points))
 
     def to_pandas(self) -> pd.DataFrame:
         """All rows that are done as a data frame.
@@ -191,7 +191,7 @@ class Study:
 
     def _rows(self) -> Iterator[Row]:
         if not self._directory.table.exists():
-            yield from table.rows_in_order(self._journal(), self._points)
+            yield from map(table.plain, table.rows_in_order(self._journal(), self._points))
             return
         for batch in self._parquet().iter_batches(batch_size=table.GROUP):
             for row in batch.to_pylist():

@@ -16,6 +16,7 @@ from optlaws.laws import MotionLaw
 from optlaws.synthesis.arrays import constants
 from optlaws.synthesis.arrays.found import NO_CONTACT, Found
 from optlaws.synthesis.arrays.problems import ProblemArray
+from optlaws.synthesis.arrays.stored_laws import stored_laws
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.program.writer import Model, model_of
@@ -165,6 +166,16 @@ class SolutionArray:
             known = known_limit(self.problems.problem(place))
             found[place] = np.nan if known is None else known
         return _frozen(found.reshape(self.shape))
+
+    def stored_laws(self) -> list[dict[str, Any] | None]:
+        """Each law as its `to_dict` gives it, in the order of the flattened array; None where there is none."""
+        found: list[dict[str, Any] | None] = [None] * self.size
+        for part in self.parts:
+            for place, law in zip(part.places.tolist(), stored_laws(part.model.space, _coordinates(part)), strict=True):
+                found[place] = law
+        for place, one in self.others.items():
+            found[place] = one.law.to_dict() if isinstance(one, Solution) else None
+        return found
 
     @kept_property
     def z_series(self) -> Array:

@@ -35,6 +35,10 @@ class Axis:
     def __len__(self) -> int:
         return len(self.columns[0])
 
+    def values(self, name: str) -> Sequence[Any]:
+        """The values of an entry; none where it does not vary here."""
+        return self.columns[self.names.index(name)] if name in self.names else ()
+
     def inputs(self, place: int) -> dict[str, Any]:
         """The values at one place."""
         return {name: column[place] for name, column in zip(self.names, self.columns, strict=True)}

@@ -4,18 +4,25 @@ from __future__ import annotations
 
 import hashlib
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from math import ceil, prod
 from typing import Any
 
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_POINTS, whole
 from optlaws.studies.points.axes import Axis, axes
-from optlaws.studies.points.study_file import StudyFile
+from optlaws.studies.points.study_file import StudyFile, entries
+from optlaws.synthesis import FUNCTIONALS, Problem
 
 # a cold start costs some warm ones; proofs of tight bounds cost more than any start
 _CHUNK, _TIGHT_CHUNK, _CHUNKS = 64, 4, 16
+#: of problems that are solved as arrays, where what many share costs most
+_TOGETHER = 4096
 
 
 @dataclass(frozen=True)
@@ -35,11 +42,12 @@ class Points:
 
     study: StudyFile
     axes: tuple[Axis, ...]
+    given: int | None = None
 
     @classmethod
-    def of(cls, study: StudyFile) -> Points:
-        """The points of a study; InputError where they are more than a thousand million."""
-        points = cls(study, tuple(axes(study)))
+    def of(cls, study: StudyFile, chunk: int | None = None) -> Points:
+        """The points of a study, in chunks of a given size; InputError where they are more than a thousand million."""
+        points = cls(study, tuple(axes(study)), chunk)
         whole(prod(points.shape), "the number of points", most=MOST_POINTS)
         return points
 
@@ -53,9 +61,24 @@ class Points:
 
     @kept_property
     def chunk(self) -> int:
-        """How many points are solved in turn; it depends on the study alone, so that results do."""
-        most = _TIGHT_CHUNK if self.study.bound == "tight" else _CHUNK
+        """How many points are solved in turn, or together; it depends on the study alone, so that results do."""
+        if self.given is not None:
+            return self.given
+        most = _TIGHT_CHUNK if self.study.bound == "tight" else _TOGETHER if self._together else _CHUNK
         return self.study.chunk or min(most, ceil(len(self) / _CHUNKS))
+
+    @property
+    def _together(self) -> bool:
+        """Whether every point is of a convex problem, so that many are solved as arrays."""
+        if not all(map(_only_numbers, self.study.names())):
+            return False
+        base, first = self.study.problem.given(), self.inputs(0)
+        objectives = [value for axis in self.axes for value in axis.values("minimise")] or [base.get("minimise", "C")]
+        try:
+            asked = (Problem.from_dict(entries(base, {**first, "minimise": one})) for one in objectives)
+            return all(problem.convex for problem in asked)
+        except InputError:
+            return False
 
     @property
     def chunks(self) -> int:
@@ -64,24 +87,46 @@ class Points:
 
     def of_chunk(self, number: int) -> list[int]:
         """The indices of a chunk's points, in the order in which they are solved."""
+        return list(self.chunk_inputs(number))
+
+    def chunk_inputs(self, number: int) -> dict[int, dict[str, Any]]:
+        """What varies at the points of a chunk, by their indices, in the order in which they are solved."""
         begin = number * self.chunk
-        return [self.index(position) for position in range(begin, min(begin + self.chunk, len(self)))]
+        positions = np.arange(begin, min(begin + self.chunk, len(self)))
+        digits = self._snake(positions)
+        indices: list[int] = np.ravel_multi_index(tuple(digits), self.shape).tolist()
+        columns: dict[str, list[Any]] = {}
+        for axis, own in zip(self.axes, digits, strict=True):
+            places, where = np.unique(own, return_inverse=True)
+            for name, column in zip(axis.names, axis.columns, strict=True):
+                values = [column[place] for place in places.tolist()]
+                columns[name] = [values[i] for i in where.tolist()]
+        rows = (dict(zip(columns, values, strict=True)) for values in zip(*columns.values(), strict=True))
+        return dict(zip(indices, rows, strict=True))
+
+    def _snake(self, positions: NDArray[np.int64]) -> list[NDArray[np.int64]]:
+        """The places on each axis of the points that are solved at these positions."""
+        found, before = [], np.zeros_like(positions)
+        for digits, length in zip(np.unravel_index(positions, self.shape), self.shape, strict=True):
+            # an axis runs backwards where those before it have made an odd number of steps
+            found.append(np.where(before % 2, length - 1 - digits, digits))
+            before = before * length + digits
+        return found
 
     def chunk_of(self, index: int) -> int:
         """The chunk in which a point is solved."""
-        position = 0
-        for digit, length in zip(self._digits(index), self.shape, strict=True):
-            position = position * length + (length - 1 - digit if position % 2 else digit)
-        return position // self.chunk
+        return int(self.chunks_of(np.array([index]))[0])
+
+    def chunks_of(self, indices: NDArray[np.int64]) -> NDArray[np.int64]:
+        """The chunks in which points are solved."""
+        positions = np.zeros_like(indices)
+        for digits, length in zip(np.unravel_index(indices, self.shape), self.shape, strict=True):
+            positions = positions * length + np.where(positions % 2, length - 1 - digits, digits)
+        return positions // self.chunk
 
     def index(self, position: int) -> int:
         """The index of the point that is solved at this position."""
-        index, before = 0, 0
-        for digit, length in zip(self._digits(position), self.shape, strict=True):
-            # an axis runs backwards where those before it have made an odd number of steps
-            index = index * length + (length - 1 - digit if before % 2 else digit)
-            before = before * length + digit
-        return index
+        return int(np.ravel_multi_index(tuple(self._snake(np.array([position]))), self.shape)[0])
 
     def inputs(self, index: int) -> dict[str, Any]:
         """What varies, at one point."""
@@ -100,6 +145,14 @@ class Points:
         return digits[::-1]
 
 
+def _only_numbers(name: str) -> bool:
+    """Whether different values of what varies leave a convex problem convex."""
+    if name == "D":
+        return False
+    constant = FUNCTIONALS.get(name.removeprefix("bounds."))
+    return constant is None or constant.convex
+
+
 def key(asked: Mapping[str, Any]) -> str:
     """What identifies a point whatever its study: a hash of the entries of its problem.
 
@@ -108,4 +161,21 @@ def key(asked: Mapping[str, Any]) -> str:
     >>> key({"order": 4, "B": 1.8}) == key({"B": 1.8, "order": 4})
     True
     """
-    return hashlib.blake2b(json.dumps(asked, sort_keys=True).encode(), digest_size=8).hexdigest()
+    return _hash(json.dumps(asked, sort_keys=True))
+
+
+def keys_along(asked: Mapping[str, Any], name: str, values: Iterable[float]) -> Iterator[str]:
+    """The keys of points that differ in one number.
+
+    Examples
+    --------
+    >>> list(keys_along({"order": 4, "B": 1.8}, "B", [1.6])) == [key({"order": 4, "B": 1.6})]
+    True
+    """
+    place = "\0"
+    head, tail = json.dumps({**asked, name: place}, sort_keys=True).split(json.dumps(place))
+    return (_hash(f"{head}{json.dumps(value)}{tail}") for value in values)
+
+
+def _hash(text: str) -> str:
+    return hashlib.blake2b(text.encode(), digest_size=8).hexdigest()

@@ -41,6 +41,8 @@ class Processes:
 
         A point that takes longer than the time limit is given up, and its process with it. A chunk whose process dies
         is begun again, so that its rows come out as they would have; a point that has lost three processes is given up.
+        Points that are solved together have a time limit together; where they exceed it, or lose three processes, each
+        is solved alone.
 
         Raises
         ------
@@ -59,7 +61,10 @@ class Processes:
             if reason is None or place == len(task.points):
                 continue
             strikes[place] += 1
-            if isinstance(reason, TookTooLong):
+            if not task.alone and (isinstance(reason, TookTooLong) or strikes[place] == STRIKES):
+                # of points that are solved together nobody knows which one it was
+                task, strikes = msgspec.structs.replace(task, alone=True), Counter()
+            elif isinstance(reason, TookTooLong):
                 found.append(
                     failed(task, place, TIME_LIMIT, f"no answer within {task.time_limit:g} s", task.time_limit)
                 )

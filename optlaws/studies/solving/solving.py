@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import importlib
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from time import perf_counter
 from typing import Any
@@ -11,10 +11,11 @@ from typing import Any
 import msgspec
 
 from optlaws.echo import cut
-from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.numbers import bounded
-from optlaws.studies.points.points import key
+from optlaws.studies.points.points import key, keys_along
 from optlaws.studies.points.study_file import entries
+from optlaws.studies.solving import together
 from optlaws.synthesis import Problem, Solution, synthesize
 from optlaws.synthesis.problem.mixtures import meant
 
@@ -25,6 +26,7 @@ STATUSES = (*SOLVED, INFEASIBLE, NOT_FOUND, WRONG_INPUT, TIME_LIMIT, DIED, ERROR
 _CONSTANTS = ("B", "C", "D", "J")
 
 Row = dict[str, Any]
+Run = Sequence[tuple[int, Mapping[str, Any]]]
 
 
 class Task(msgspec.Struct, kw_only=True):
@@ -36,6 +38,7 @@ class Task(msgspec.Struct, kw_only=True):
     bound: str = "quick"
     time_limit: float = 60.0
     imports: list[str] = []
+    alone: bool = False
 
 
 def in_process(task: Mapping[str, Any]) -> list[bytes]:
@@ -44,18 +47,58 @@ def in_process(task: Mapping[str, Any]) -> list[bytes]:
 
 
 def rows(task: Task, begin: int = 0) -> Iterator[bytes]:
-    """The rows of a chunk from one of its points on, one JSON text each; convex neighbours start each other.
+    """The rows of a chunk from one of its points on, one JSON text each."""
+    for block in blocks(task, begin):
+        yield from block
 
-    A chunk begins cold, and so does a point after one without a law: its rows depend on nothing solved before it.
+
+def blocks(task: Task, begin: int = 0) -> Iterator[list[bytes]]:
+    """The rows of a chunk from one of its points on, those that came together in one list.
+
+    Convex problems that differ in B are solved together, unless the task wants each alone; others in turn. A chunk
+    begins cold, and so does a point after one without a law: its rows depend on nothing solved before it.
     """
     encode = msgspec.json.Encoder().encode
     for module in task.imports:
         importlib.import_module(module)
+    for run in together.runs(task.points[begin:]):
+        found = _together(task, run)
+        if found is not None:
+            yield [encode(row) for row in found]
+        else:
+            yield from ([encode(row)] for row in _in_turn(task, run))
+
+
+def _together(task: Task, run: Run) -> Iterator[Row] | None:
+    """The rows of points that are solved as arrays; None where they cannot be."""
+    problems = None if task.alone or len(run) == 1 else together.convex_array(task.problem, run)
+    if problems is None:
+        return None
+    try:
+        found, seconds = together.solved_rows(problems, task.bound)
+    except Exception:  # noqa: BLE001 - whichever point it is of, alone it spoils its own row only
+        return None
+    blanks = _blanks(task, run)
+    return (
+        {**blank, **(_of_error(row, seconds) if isinstance(row, OptlawsError) else {**row, "seconds": seconds})}
+        for blank, row in zip(blanks, found, strict=True)
+    )
+
+
+def _in_turn(task: Task, run: Run) -> Iterator[Row]:
     previous: Solution | None = None
-    for index, inputs in task.points[begin:]:
+    for index, inputs in run:
         solved = solve(task, inputs, previous)
         previous = solved.solution
-        yield encode({**blank(task, index, inputs), **solved.row})
+        yield {**blank(task, index, inputs), **solved.row}
+
+
+def _blanks(task: Task, run: Run) -> Iterator[Row]:
+    """The rows of points that differ in B alone before anything is known of them."""
+    index, inputs = run[0]
+    first, asked = blank(task, index, inputs), entries(task.problem, inputs)
+    keys = keys_along(asked, "B", [inputs["B"] for _, inputs in run])
+    return ({**first, "index": i, "key": key, "inputs": own} for (i, own), key in zip(run, keys, strict=True))
 
 
 @dataclass(frozen=True)
@@ -90,19 +133,22 @@ def solve(task: Task, inputs: Mapping[str, Any], previous: Solution | None) -> S
         with meant():
             solution = synthesize(problem, start=start, bound=task.bound)
         row = _row(solution)
-    except InfeasibleProblem as error:
-        return Solved(_without(INFEASIBLE, error.args[0], began))
-    except InputError as error:
-        return Solved(_without(WRONG_INPUT, str(error), began))
-    except SolverFailure as error:
-        return Solved(_without(NOT_FOUND, error.args[0], began))
     except Exception as error:  # noqa: BLE001 - a point must not end the study; its row keeps what happened
-        return Solved(_without(ERROR, f"{type(error).__name__}: {error}", began))
+        return Solved(_of_error(error, perf_counter() - began))
     return Solved({**row, "seconds": perf_counter() - began}, solution)
 
 
-def _without(status: str, error: str, began: float) -> Row:
-    return {"status": status, "error": cut(error), "seconds": perf_counter() - began}
+def _of_error(error: Exception, seconds: float) -> Row:
+    """The row of a point without a law."""
+    if isinstance(error, InfeasibleProblem):
+        status, text = INFEASIBLE, error.args[0]
+    elif isinstance(error, SolverFailure):
+        status, text = NOT_FOUND, error.args[0]
+    elif isinstance(error, InputError):
+        status, text = WRONG_INPUT, str(error)
+    else:
+        status, text = ERROR, f"{type(error).__name__}: {error}"
+    return {"status": status, "error": cut(text), "seconds": seconds}
 
 
 def _row(solution: Solution) -> Row:

@@ -7,6 +7,7 @@ import signal
 import subprocess
 import sys
 import tempfile
+from collections import deque
 from collections.abc import Iterator
 from contextlib import suppress
 from queue import Empty, SimpleQueue
@@ -23,7 +24,7 @@ from optlaws.studies.solving.worker_process import DONE, ERROR, READY
 _START_SECONDS = 300.0
 _END_SECONDS = 5.0
 _LOOK_SECONDS = 0.25
-_READ_BYTES = 1 << 16
+_READ_BYTES = 1 << 20
 _THREADS = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
 
 
@@ -53,7 +54,8 @@ class SolverProcess:
         )
         self._input, self._output = _pipes(self._process)
         self._cleared = False
-        self._lines: SimpleQueue[bytes] = SimpleQueue()
+        self._came: SimpleQueue[list[bytes]] = SimpleQueue()
+        self._waiting: deque[bytes] = deque()
         self._reader = Thread(target=self._read, daemon=True)
         self._reader.start()
 
@@ -129,27 +131,27 @@ class SolverProcess:
         text = b""
         while not self._cleared and (more := os.read(self._output.fileno(), _READ_BYTES)):
             *lines, text = (text + more).split(b"\n")
-            for line in lines:
-                self._lines.put(line)
-        self._lines.put(b"")
+            if lines:
+                self._came.put(lines)
+        self._came.put([b""])
 
     def _line(self, seconds: float) -> bytes:
         until = monotonic() + seconds
-        while True:
+        while not self._waiting:
             gone = self._process.poll() is not None
             left = until - monotonic()
             try:
-                line = self._lines.get(timeout=min(max(left, 0.0), _LOOK_SECONDS))
+                self._waiting.extend(self._came.get(timeout=min(max(left, 0.0), _LOOK_SECONDS)))
             except Empty:
                 if gone:
                     # its pipe is held open by a process that it started
                     raise Died(self._end()) from None
                 if left <= _LOOK_SECONDS:
                     raise TookTooLong from None
-                continue
-            if not line:
-                raise Died(self._end())
-            return line
+        line = self._waiting.popleft()
+        if not line:
+            raise Died(self._end())
+        return line
 
     def _end(self) -> str:
         try:

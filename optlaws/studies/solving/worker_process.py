@@ -21,7 +21,7 @@ def main() -> None:
 
     import msgspec
 
-    from optlaws.studies.solving.solving import Task, rows
+    from optlaws.studies.solving.solving import Task, blocks
 
     decode = msgspec.json.Decoder(tuple[int, Task]).decode
     output.write(READY + b"\n")
@@ -30,8 +30,8 @@ def main() -> None:
         begin, task = decode(tasks.get())
         last = DONE
         try:
-            for row in rows(task, begin):
-                output.write(row + b"\n")
+            for block in blocks(task, begin):
+                output.write(b"\n".join([*block, b""]))
                 output.flush()
         except Exception as error:  # noqa: BLE001 - whoever asked must hear of it
             last = ERROR + " ".join(f"{type(error).__name__}: {error}".split()).encode()

@@ -29,6 +29,7 @@ class _About(msgspec.Struct):
     hash: str
     versions: dict[str, str]
     points: Annotated[int, msgspec.Meta(ge=1)]
+    chunk: Annotated[int, msgspec.Meta(ge=1)]
     study: dict[str, Any]
 
 
@@ -67,8 +68,8 @@ class StudyDirectory:
             raise InputError(f"{self.about} is damaged: {error}; put a whole copy in its place") from None
         return about, read_study(about["study"])
 
-    def claim(self, study: StudyFile, points: Points) -> None:
-        """Make the directory this study's, or see that it is.
+    def claim(self, study: StudyFile, points: Points) -> int:
+        """Make the directory this study's, or see that it is, and return the number of points of its chunks.
 
         Raises
         ------
@@ -79,7 +80,7 @@ class StudyDirectory:
         if not self.about.exists():
             about = {"about": writing.MARK, "title": study.title, **mine, "points": len(points), "chunk": points.chunk}
             writing.write(self.about, json.dumps({**about, "study": msgspec.to_builtins(study)}, indent=1) + "\n")
-            return
+            return points.chunk
         about, _ = self.read()
         if about["hash"] != mine["hash"]:
             raise InputError(
@@ -91,6 +92,7 @@ class StudyDirectory:
                 f"{self.path} was begun with {_listed(about['versions'])}; now there are {_listed(versions())}: "
                 "finish it with the former, or give the study another directory"
             )
+        return int(about["chunk"])
 
     @contextmanager
     def locked(self) -> Iterator[None]:

@@ -6,14 +6,15 @@ import hashlib
 import json
 import os
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import suppress
 from functools import lru_cache
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import msgspec
+import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.files import writing
@@ -33,6 +34,9 @@ OTHERS = ("index", "key", "status", "iterations", "law", "error")
 _COLUMNS = {Kind.WHOLE: "whole", Kind.TEXT: "text", Kind.BASIS: "text", Kind.SWITCH: "switch"}
 #: rows of one group in the Parquet file
 GROUP = 4096
+#: rows of the journal that are in memory at a time
+_IN_MEMORY = 1024
+_NONE = b"null"
 
 
 class NotInstalled(InputError, ImportError):  # noqa: N818 - as SolverFailure
@@ -76,17 +80,43 @@ def column(name: str) -> str:
     return f"{name} asked" if name in (*NUMBERS, *OTHERS) else name
 
 
-def rows_in_order(journal: Journal, points: Points) -> Iterator[Row]:
+class StoredRow(msgspec.Struct):
+    """A row of the journal, whose law stays the text that it is."""
+
+    index: int
+    key: str
+    inputs: dict[str, Any]
+    status: str
+    objective: float | None
+    lower_bound: float | None
+    gap: float | None
+    limit: float | None
+    B: float | None
+    C: float | None
+    D: float | None
+    J: float | None
+    rms_c: float | None
+    iterations: int | None
+    seconds: float
+    law: msgspec.Raw
+    error: str | None
+
+
+_stored = msgspec.json.Decoder(StoredRow)
+
+
+def rows_in_order(journal: Journal, points: Points) -> Iterator[StoredRow]:
     """The rows that a journal has, in the order of the points; a few chunks are in memory at a time."""
 
-    @lru_cache(maxsize=16)
-    def chunk(number: int) -> dict[int, Row]:
-        return {row["index"]: row for row in map(msgspec.json.decode, journal.rows(number))}
+    @lru_cache(maxsize=max(3, _IN_MEMORY // points.chunk))
+    def chunk(number: int) -> dict[int, StoredRow]:
+        return {row.index: row for row in map(_stored.decode, journal.rows(number))}
 
-    for index in range(len(points)):
-        number = points.chunk_of(index)
-        if number in journal.done:
-            yield chunk(number)[index]
+    for begin in range(0, len(points), GROUP):
+        indices = np.arange(begin, min(begin + GROUP, len(points)))
+        for index, number in zip(indices.tolist(), points.chunks_of(indices).tolist(), strict=True):
+            if number in journal.done:
+                yield chunk(number)[index]
 
 
 def compact(directory: StudyDirectory, points: Points) -> None:
@@ -203,20 +233,28 @@ def kind(axis: Axis, name: str) -> str:
     return "number"
 
 
-def arrow(rows: Iterable[Row], shape: pa.Schema) -> pa.Table:
+def arrow(rows: Sequence[StoredRow], shape: pa.Schema) -> pa.Table:
     """Rows as an Arrow table."""
     import pyarrow as pa
 
-    flat = [_flat(row, shape) for row in rows]
-    return pa.table({name: [row.get(name) for row in flat] for name in shape.names}, schema=shape)
+    inputs = {column(name): name for name in (rows[0].inputs if rows else ())}
+    columns: dict[str, list[Any]] = {}
+    for name in shape.names:
+        if name in inputs:
+            asked = inputs[name]
+            columns[name] = [row.inputs[asked] for row in rows]
+            if str(shape.field(name).type) == "string":
+                columns[name] = [one if isinstance(one, str) else json.dumps(one) for one in columns[name]]
+        elif name == "law":
+            columns[name] = [None if row.law == _NONE else bytes(row.law).decode() for row in rows]
+        else:
+            columns[name] = [getattr(row, name) for row in rows]
+    return pa.table(columns, schema=shape)
 
 
-def _flat(row: Row, shape: pa.Schema) -> Row:
-    found = {name: value for name, value in row.items() if name not in {"inputs", "law"}}
-    for name, value in row["inputs"].items():
-        plain = isinstance(value, str) or str(shape.field(column(name)).type) != "string"
-        found[column(name)] = value if plain else json.dumps(value)
-    return found | {"law": None if row["law"] is None else json.dumps(row["law"])}
+def plain(row: StoredRow) -> Row:
+    """A row of the journal as plain data."""
+    return {**msgspec.structs.asdict(row), "law": msgspec.json.decode(row.law)}
 
 
 def unflat(row: Row, points: Points) -> Row:

@@ -122,11 +122,16 @@ class PolynomialSpace(LawSpace):
 
     def law(self, coordinates: Array) -> PolynomialLaw:
         """The law with the given coordinates (one for each free function)."""
-        columns = self.series(2)
-        series = columns[:, :-1] @ coordinates + columns[:, -1]
-        series[1::2] *= -1.0
-        start = self._start @ np.append(coordinates, 1.0)
+        (series,), (start,) = self.laws(coordinates[None])
         return PolynomialLaw(series, a0=float(self.boundary.start[0]), b0=float(start))
+
+    def laws(self, coordinates: Array) -> tuple[Array, Array]:
+        """Accelerations of the laws with the coordinates in each row, as series in 2k - 1, and their b(0)."""
+        columns = self.series(2)
+        # one law after the other: in a product of matrices the rounding of one would depend on the others
+        series = np.stack([columns[:, :-1] @ row for row in coordinates]) + columns[:, -1]
+        series[:, 1::2] *= -1.0
+        return series, coordinates @ self._start[:-1] + self._start[-1]
 
     @kept_property
     def _start(self) -> Array:
