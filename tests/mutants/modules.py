@@ -1,6 +1,10 @@
 """The modules whose mutants are tried, each with the tests that speak of it; its own doctests run too."""
 
-BOUNDS = ("tests/synthesis/proof/test_certificate_by_hand.py", "tests/synthesis/proof/test_certificate.py")
+BOUNDS = (
+    "tests/synthesis/proof/test_duality.py",
+    "tests/synthesis/proof/test_certificate_by_hand.py",
+    "tests/synthesis/proof/test_certificate.py",
+)
 LAWS = ("tests/contracts/test_laws.py", "tests/laws/test_exactness.py")
 SERIES = ("tests/series", *LAWS)
 
@@ -10,7 +14,10 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.synthesis.proof.certificate": BOUNDS,
     "optlaws.synthesis.proof.duality": BOUNDS,
     "optlaws.synthesis.proof.below_claim": BOUNDS,
-    "optlaws.synthesis.proof.power.certificate": ("tests/synthesis/proof/power/test_certificate.py",),
+    "optlaws.synthesis.proof.power.certificate": (
+        "tests/synthesis/proof/power/test_certificate_by_hand.py",
+        "tests/synthesis/proof/power/test_certificate.py",
+    ),
     "optlaws.verification.exact.bound": (
         "tests/verification/exact/test_bound_by_hand.py",
         "tests/verification/test_verify.py",

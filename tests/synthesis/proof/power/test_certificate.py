@@ -153,6 +153,7 @@ def test_a_proof_of_another_problem_proves_nothing_here(first: Solution) -> None
         {"steps": [{"variable": 0}]},
         {"steps": [{"variable": 0, "at": inf}]},
         {"steps": [{"variable": 0, "side": 0, "contacts": [], "equations": [], "claim": 0.0}]},
+        {"steps": [{"variable": 0, "side": 1, "contacts": [], "equations": [], "claim": 0.0, "at": 0.5}]},
         {"problem": {"order": 0}},
     ],
 )
