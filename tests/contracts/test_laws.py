@@ -8,6 +8,7 @@ import dataclasses
 import itertools
 import json
 import pickle
+from functools import cache
 from typing import Any
 
 import mpmath  # type: ignore[import-untyped]
@@ -109,8 +110,15 @@ def far_from_breaks(law: MotionLaw, k: float, reach: float) -> bool:
     return not inside or min(abs(k - place) for place in inside) > reach
 
 
+@cache
+def dense(law: MotionLaw, nu: int) -> np.ndarray:
+    values = law(DENSE, nu)
+    values.setflags(write=False)
+    return values
+
+
 def size(law: MotionLaw, nu: int) -> float:
-    return float(np.abs(law(DENSE, nu)).max())
+    return float(np.abs(dense(law, nu)).max())
 
 
 @every_law
@@ -177,7 +185,7 @@ def test_power_peak_is_no_less_than_samples_and_no_more_than_their_spacing_allow
 @every_order
 def test_extrema_bracket_the_samples_and_make_the_peak(law: MotionLaw, nu: int) -> None:
     low, high = law.extrema(nu)
-    values = law(DENSE, nu)
+    values = dense(law, nu)
     slack = 1e-13 * size(law, nu)
     assert low.value <= values.min() + slack
     assert high.value >= values.max() - slack
@@ -548,7 +556,7 @@ def test_peaks_are_those_of_many_digits(name: str, nu: int) -> None:
     law = LAWS[name]
     assert isinstance(law, PiecewiseLaw)
     with mpmath.workdps(30):
-        best = mpmath.mpf(0)
+        greatest = []
         for i, (low, high) in enumerate(itertools.pairwise(law.breaks)):
             f = exact(law, i, nu)
             length = mpmath.mpf(high) - mpmath.mpf(low)
@@ -557,7 +565,9 @@ def test_peaks_are_those_of_many_digits(name: str, nu: int) -> None:
             at = [edge + (length - 2 * edge) * n / 24 for n in range(25)]
             values = [abs(f(s)) for s in at]
             n = max(range(25), key=values.__getitem__)
-            best = max(best, refined(f, at[max(n - 1, 0)], at[min(n + 1, 24)]))
+            greatest.append((values[n], i, f, at[max(n - 1, 0)], at[min(n + 1, 24)]))
+        # the grid misses a peak by less than 2 % of it
+        best = max(refined(*place) for value, _, *place in greatest if value >= 0.98 * max(greatest)[0])
     assert law.peak(nu).value == pytest.approx(float(best), rel=1e-11)
 
 
