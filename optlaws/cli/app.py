@@ -35,6 +35,10 @@ COMMANDS = {
         "Look a law up in the atlas: the nearest point that keeps what is asked, then the law as asked."
     ),
     "synthesis.front": "Find the laws that exchange constants for one another: each the best of its own problem.",
+    "synthesis.ledger": (
+        "Show printed numbers, formulas, figures and claims, computed again, with their verdicts.\n\n"
+        "Ends with 0 if every verdict that is declared holds, 1 if one does not, 2 if an item cannot be computed."
+    ),
     "synthesis.run": "Do the jobs of problem files and write their results.",
     "synthesis.solve": "Find the law with the least peak constant or mixture of constants, and prove it.",
     "synthesis.study": "Solve every point of a study; the same command goes on where an interrupted one stopped.",

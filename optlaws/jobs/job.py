@@ -19,6 +19,7 @@ _MODULES = {
     "dwell types": "dwell.types",
     "follower": "follower.follower",
     "fronts": "laws.fronts",
+    "ledger": "ledger.ledger",
     "lever drawing": "lever.drawing",
     "lever nomogram": "lever.nomogram",
     "lever parametric": "lever.parametric",

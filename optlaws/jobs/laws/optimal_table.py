@@ -151,7 +151,7 @@ def _check(spec: Table, lines: Sequence[Mapping[str, str]], where: str) -> None:
 
 
 def _solved(spec: Table, lines: Sequence[Mapping[str, str]]) -> tuple[list[Row], Curves]:
-    laws = [_printed_law(spec, line) for line in lines]
+    laws = [printed_law(spec, line) for line in lines]
     values = [float(line["B"]) for line in lines]
     solved = {degree: _by_velocity(spec, degree, values) for degree in {*spec.degrees, *spec.figure.degrees}}
     richer = [{degree: solved[degree][B] for degree in spec.degrees} for B in values]
@@ -180,7 +180,8 @@ def _same_shape(spec: Table, line: Mapping[str, str], B: float, found: Mapping[i
     return solution
 
 
-def _printed_law(spec: Table, line: Mapping[str, str]) -> PolynomialLaw:
+def printed_law(spec: Table, line: Mapping[str, str]) -> PolynomialLaw:
+    """The law that the Z(k) of a printed row gives."""
     base = spec.bases[line["base"]]
     z = [Fraction(text) for text in line["z"].split()]
     powers = construct(BoundaryConditions.rest(base.order), base.z).exact_powers()
@@ -198,15 +199,9 @@ def _filled(powers: Sequence[Fraction], size: int) -> list[Fraction]:
 
 def _verdicts(spec: Table, rows: Sequence[Row]) -> list[printed.Verdict]:
     wrong = {(m.row, m.quantity): m for m in spec.misprint}
-    grid = np.linspace(0.0, 1.0, spec.grid + 1)
     verdicts = []
     for row in rows:
-        constants = row.law.constants
-        on_grid = {
-            "B": float(np.abs(row.law.b(grid)).max()),
-            "C": float(np.abs(row.law.c(grid)).max()),
-            "D": float(np.abs(row.law.d(grid)).max()),
-        }
+        constants, on_grid = row.law.constants, on_paper_grid(spec, row.law)
         for name, peak in (("B", constants.B), ("C", constants.C), ("D", constants.D)):
             text = row.cells[name]
             misprint = wrong.get((row.cells["B"], name))
@@ -220,6 +215,12 @@ def _verdicts(spec: Table, rows: Sequence[Row]) -> list[printed.Verdict]:
             if m.row == row.cells["B"] and m.means is not None
         ]
     return verdicts
+
+
+def on_paper_grid(spec: Table, law: MotionLaw) -> dict[str, float]:
+    """B, C and D as the paper has them: the greatest values at the points of its grid, of c without the deceleration."""
+    grid = np.linspace(0.0, 1.0, spec.grid + 1)
+    return {"B": float(law.b(grid).max()), "C": float(law.c(grid).max()), "D": float(np.abs(law.d(grid)).max())}
 
 
 def _cells(spec: Table, rows: Sequence[Row]) -> tuple[list[str], list[list[tables.Cell]]]:

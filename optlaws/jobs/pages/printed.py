@@ -46,9 +46,9 @@ def judge(
     off = abs(exact / float(printed) - 1.0)
     if misprint is not None:
         return Verdict(row, quantity, printed, exact, on_grid, MISPRINT, misprint)
-    if _same_digits(printed, exact, ROUND_HALF_UP):
+    if same_digits(printed, exact, ROUND_HALF_UP):
         return Verdict(row, quantity, printed, exact, on_grid, REPRODUCED, "")
-    if on_grid is not None and _same_digits(printed, on_grid, ROUND_HALF_UP, ROUND_DOWN):
+    if on_grid is not None and same_digits(printed, on_grid, ROUND_HALF_UP, ROUND_DOWN):
         reason = (
             f"printed is the greatest value at the grid's points; the peak between them is off by {100 * off:.2g} %"
         )
@@ -95,7 +95,7 @@ def number(text: str, where: str) -> float:
     return float(value)
 
 
-def _same_digits(printed: str, exact: float, *roundings: str) -> bool:
+def same_digits(printed: str, exact: float, *roundings: str) -> bool:
     unit = Decimal(1).scaleb(Decimal(printed).as_tuple().exponent)  # type: ignore[arg-type] # finite: it is parsed
     # what a table prints as 1.53 may come out as 1.5299999999
     tried = Decimal(repr(round(exact, 9)))

@@ -1,0 +1,65 @@
+"""The command `optlaws ledger`: printed numbers, formulas, figures and claims, each with its verdict."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import TYPE_CHECKING
+
+from optlaws.cli.app import NotProven
+from optlaws.cli.options import AsJson
+from optlaws.cli.show import busy, print_json, show, table
+
+if TYPE_CHECKING:
+    from optlaws.jobs.ledger.verdicts import Judged
+
+
+def ledger(
+    paper: str | None = None,
+    *,
+    kind: str | None = None,
+    verdict: str | None = None,
+    id: str | None = None,  # noqa: A002 - the option's name
+    file: Path = Path("problems/ledger.toml"),
+    as_json: AsJson = False,
+) -> None:
+    """Show printed numbers, formulas, figures and claims, computed again, with their verdicts.
+
+    Ends with 0 if every verdict that is declared holds, 1 if one does not, 2 if an item cannot be computed.
+
+    Parameters
+    ----------
+    paper
+        savin, loader, lever, dwell or optimal; all unless given.
+    kind
+        formula, cell, number, figure, claim or procedure.
+    verdict
+        Items of which this is declared: "misprint", "contradicted", "undecidable", ...
+    id
+        One item.
+    file
+        The problem file of the ledger.
+    as_json
+        Print a list of the items on stdout and nothing else.
+    """
+    from optlaws.jobs.ledger.ledger import chosen, entries
+    from optlaws.jobs.ledger.verdicts import judge
+
+    asked = chosen(entries(file), paper=paper, kind=kind, verdict=verdict, name=id)
+    with busy(f"{len(asked)} items"):
+        judged = [judge(item, name, file.parent) for name, item in asked]
+    if as_json:
+        print_json([one.to_dict() for one in judged])
+    else:
+        _show(judged)
+    broken = [f"{one.paper} {one.item.id}: declared {one.item.verdict!s}, found {one.verdict!s}" for one in judged]
+    if not all(one.holds for one in judged):
+        raise NotProven("\n".join(text for one, text in zip(judged, broken, strict=True) if not one.holds))
+
+
+def _show(judged: list[Judged]) -> None:
+    rows = table("paper", "item", "kind", "printed", "computed", "verdict")
+    for one in judged:
+        computed = "" if one.computed is None else f"{one.computed:.10g}"
+        rows.add_row(one.paper, one.item.id, one.item.kind, one.item.printed, computed, str(one.verdict))
+    told = [f"{one.item.id}: {why}" for one in judged if (why := one.item.reason or one.item.lost)]
+    show(rows, *told, f"{len(judged)} items")

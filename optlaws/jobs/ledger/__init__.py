@@ -1,0 +1,1 @@
+"""The ledger: every printed number, formula, figure and claim of the papers, each with a verdict that is computed."""

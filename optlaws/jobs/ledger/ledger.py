@@ -1,0 +1,180 @@
+"""The job "ledger": every printed item of the papers with its verdict, as tables and one page."""
+
+from __future__ import annotations
+
+from collections import Counter
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from itertools import groupby
+from pathlib import Path
+from typing import Annotated, Any
+
+import msgspec
+
+from optlaws.errors import InputError
+from optlaws.files import reading, tables, writing
+from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.ledger import item as items
+from optlaws.jobs.ledger.item import Verdict
+from optlaws.jobs.ledger.verdicts import Judged, judge
+from optlaws.jobs.pages.page import Page
+from optlaws.suggest import unknown_key
+
+KINDS = ("formula", "cell", "number", "figure", "claim", "procedure")
+HEADINGS = ("paper", "id", "kind", "printed", "computed", "verdict", "reason", "confidence")
+#: so many cells of which the same is said stand on one line
+_MANY = 4
+#: what needs no word on the page
+_PLAIN = {Verdict.REPRODUCED, Verdict.ON_GRID, Verdict.AGREES, Verdict.CONFIRMED}
+
+
+class Ledger(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The problem file."""
+
+    job: str
+    title: Text
+    papers: Annotated[list[Text], msgspec.Meta(min_length=1)]
+    text: str = ""
+
+
+@dataclass(frozen=True)
+class Entry:
+    """A paper of the ledger: its name, its title and its items as they are declared."""
+
+    name: str
+    title: str
+    items: Sequence[items.Item]
+
+
+def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
+    """Do the job and return the files written.
+
+    Raises
+    ------
+    InputError
+        If an item's verdict does not hold; the message names all of them.
+    """
+    spec = convert(data, Ledger, file)
+    papers = list(_papers(spec, file))
+    judged = [judge(item, paper.name, file.parent) for paper in papers for item in paper.items]
+    wrong = [_broken(one) for one in judged if not one.holds]
+    if wrong:
+        raise InputError("verdicts do not hold:\n" + "\n".join(wrong))
+    about = f"{spec.title}; from {file.name}"
+    return [
+        writing.write(out / "ledger.csv", tables.to_csv(HEADINGS, [_cells(one) for one in judged], about=about)),
+        writing.write(out / "summary.csv", tables.to_csv(*_summary(papers, judged), about=about)),
+        writing.write(out / "ledger.md", str(_page(spec, papers, judged))),
+    ]
+
+
+def entries(file: Path) -> list[Entry]:
+    """The papers of a ledger's problem file.
+
+    Raises
+    ------
+    InputError
+        If it is not one, or an item is wrong.
+    """
+    return list(_papers(convert(reading.toml(file), Ledger, file), file))
+
+
+def chosen(
+    papers: Sequence[Entry], *, paper: str | None, kind: str | None, verdict: str | None, name: str | None
+) -> list[tuple[str, items.Item]]:
+    """Items of some papers, by the paper's name, kind, declared verdict and id; None is any.
+
+    Raises
+    ------
+    InputError
+        If a paper, kind, verdict or id is not known.
+    """
+    for what, asked, known in (
+        ("paper", paper, [one.name for one in papers]),
+        ("kind", kind, KINDS),
+        ("verdict", verdict, [str(one) for one in Verdict]),
+        ("id", name, [item.id for one in papers for item in one.items]),
+    ):
+        if asked is not None and asked not in known:
+            raise InputError(unknown_key(asked, known, what))
+    return [
+        (one.name, item)
+        for one in papers
+        for item in one.items
+        if paper in {None, one.name}
+        and kind in {None, item.kind}
+        and verdict in {None, str(item.verdict)}
+        and name in {None, item.id}
+    ]
+
+
+def _papers(spec: Ledger, file: Path) -> Iterator[Entry]:
+    for name in spec.papers:
+        source = file.parent / name
+        paper, found = items.read(source)
+        yield Entry(source.stem, paper.title, found)
+
+
+def _broken(one: Judged) -> str:
+    return f"{one.paper} {one.item.id}: declared {one.item.verdict!s}, found {one.verdict!s} ({one.said})"
+
+
+def _cells(one: Judged) -> list[tables.Cell]:
+    item = one.item
+    return [one.paper, item.id, item.kind, item.printed, one.computed, str(one.verdict), item.reason, item.confidence]
+
+
+def _summary(papers: Sequence[Entry], judged: Sequence[Judged]) -> tuple[list[str], list[list[tables.Cell]]]:
+    counts = Counter((one.paper, one.item.kind, one.verdict) for one in judged)
+    headings = ["paper", "kind", "items", *(str(verdict) for verdict in Verdict)]
+    rows: list[list[tables.Cell]] = []
+    for paper in [*(entry.name for entry in papers), "all"]:
+        for kind in [*KINDS, "all"]:
+            by_verdict = [
+                sum(
+                    count
+                    for (name, of_kind, found), count in counts.items()
+                    if found is verdict and paper in {name, "all"} and kind in {of_kind, "all"}
+                )
+                for verdict in Verdict
+            ]
+            if sum(by_verdict):
+                rows.append([paper, kind, sum(by_verdict), *by_verdict])
+    return headings, rows
+
+
+def _page(spec: Ledger, papers: Sequence[Entry], judged: Sequence[Judged]) -> Page:
+    headings, rows = _summary(papers, judged)
+    page = Page(spec.title).text(spec.text).table(headings, rows)
+    for paper in papers:
+        other = [one for one in judged if one.paper == paper.name and one.verdict not in _PLAIN]
+        if other:
+            page.heading(paper.title)
+            groups = [list(group) for _, group in groupby(other, key=_told_alike)]
+            lines = [_line(group[0]) if len(group) < _MANY else _together(group) for group in _apart(groups)]
+            page.table(["item", "printed", "computed", "verdict", "why"], lines)
+    return page
+
+
+def _told_alike(one: Judged) -> tuple[str, ...]:
+    """Cells of which the same is said stand together."""
+    return (one.item.kind, str(one.verdict), one.item.reason) if one.verdict is Verdict.PERCENT else (one.item.id,)
+
+
+def _apart(groups: Sequence[list[Judged]]) -> Iterator[list[Judged]]:
+    for group in groups:
+        yield from [group] if len(group) >= _MANY else [[one] for one in group]
+
+
+def _together(group: Sequence[Judged]) -> list[tables.Cell]:
+    ids = f"{group[0].item.id} to {group[-1].item.id}, {len(group)} cells"
+    return [ids, "", None, f"to {max(one.item.within for one in group):g} %", group[0].item.reason]
+
+
+def _line(one: Judged) -> list[tables.Cell]:
+    item = one.item
+    verdict = f"to {item.within:g} %" if one.verdict is Verdict.PERCENT else str(one.verdict)
+    means = f"means {item.means}" if item.means else ""
+    why = "; ".join(part for part in (means, item.reason, item.lost) if part)
+    computed = one.computed if item.kind in {"number", "cell", "claim", "procedure"} else None
+    return [item.id, item.printed.replace("|", "\\|"), computed, verdict, why.replace("|", "\\|")]

@@ -1,0 +1,134 @@
+"""The ledger: every declared verdict is what is computed, nothing is missing, and a changed digit is noticed."""
+
+import re
+from collections.abc import Mapping
+from functools import cache
+from pathlib import Path
+
+import msgspec
+import numpy as np
+import pytest
+
+from optlaws.errors import InputError
+from optlaws.jobs.ledger import item as items
+from optlaws.jobs.ledger.item import VERDICTS, Item, Verdict
+from optlaws.jobs.ledger.ledger import entries
+from optlaws.jobs.ledger.verdicts import Judged, judge
+from tests.documents import ROOT
+
+PROBLEMS = ROOT / "problems"
+LEDGER = PROBLEMS / "ledger.toml"
+PAPERS = {paper.name: paper for paper in entries(LEDGER)}
+#: rows and columns of the printed tables
+CELLS = {"optimal": 13 * 3 + 67}
+#: the last of the equations that are numbered without gaps
+EQUATIONS = {"optimal": 10}
+
+
+@cache
+def judged(paper: str) -> Mapping[str, Judged]:
+    """All items of a paper, computed once for all tests."""
+    return {item.id: judge(item, paper, PROBLEMS) for item in PAPERS[paper].items}
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_every_declared_verdict_is_the_computed_one(paper: str) -> None:
+    broken = {name: one.said for name, one in judged(paper).items() if not one.holds}
+    assert broken == {}
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_no_cell_and_no_equation_is_missing(paper: str) -> None:
+    names = [item.id for item in PAPERS[paper].items]
+    assert sum(item.kind == "cell" for item in PAPERS[paper].items) == CELLS[paper]
+    numbers = {int(found[1]) for name in names if (found := re.match(r"\((\d+)\b", name))}
+    assert numbers == set(range(1, EQUATIONS[paper] + 1))
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_a_changed_digit_changes_the_verdict(paper: str) -> None:
+    draw = np.random.default_rng(7)
+    numbers = [item for item in PAPERS[paper].items if re.fullmatch(r"-?\d+\.\d+", item.printed) and item.compute]
+    for item in draw.choice(np.array(numbers, dtype=object), size=min(40, len(numbers)), replace=False):
+        place = draw.choice([i for i, letter in enumerate(item.printed) if letter.isdigit()][:4])
+        digit = str((int(item.printed[place]) + 3) % 10)
+        wrong = msgspec.structs.replace(item, printed=item.printed[:place] + digit + item.printed[place + 1 :])
+        if item.verdict in {Verdict.MISPRINT, Verdict.CONTRADICTED}:
+            continue
+        assert not judge(wrong, paper, PROBLEMS).holds, wrong
+
+
+@pytest.mark.parametrize("paper", PAPERS)
+def test_a_changed_formula_changes_the_verdict(paper: str) -> None:
+    formulas = [item for item in PAPERS[paper].items if item.kind == "formula" and item.verdict is Verdict.AGREES]
+    for item in formulas:
+        left, _, right = item.printed.rpartition("=")
+        wrong = msgspec.structs.replace(item, printed=f"{left}= 1.001*({right}) + 0.001")
+        assert judge(wrong, paper, PROBLEMS).verdict is Verdict.CONTRADICTED, item.id
+
+
+NUMBER = Item(
+    id="C of S3", kind="number", printed="5.774", compute="optimal.smooth_constant",
+    arguments={"order": 3, "name": "C", "steps": 20}, verdict=Verdict.REPRODUCED,
+)  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("changed", "verdict"),
+    [
+        ({}, Verdict.REPRODUCED),
+        ({"printed": "5.76"}, Verdict.ON_GRID),
+        ({"printed": "5.79", "verdict": Verdict.PERCENT, "within": 0.3}, Verdict.PERCENT),
+        ({"printed": "5.79", "verdict": Verdict.PERCENT, "within": 0.5}, Verdict.CONTRADICTED),
+        ({"printed": "5.74", "verdict": Verdict.MISPRINT, "means": "5.774", "reason": "a digit"}, Verdict.MISPRINT),
+        ({"printed": "5.74", "verdict": Verdict.MISPRINT, "means": "5.775", "reason": "a digit"}, Verdict.PERCENT),
+        ({"verdict": Verdict.MISPRINT, "means": "5.774", "reason": "a digit"}, Verdict.REPRODUCED),
+        ({"verdict": Verdict.MISREAD, "as_read": "5774", "reason": "a point"}, Verdict.MISREAD),
+        ({"verdict": Verdict.MISREAD, "as_read": "5.774", "reason": "a point"}, Verdict.REPRODUCED),
+        ({"printed": "57.74"}, Verdict.CONTRADICTED),
+        ({"printed": "inf"}, Verdict.CONTRADICTED),
+        ({"printed": "0.000"}, Verdict.CONTRADICTED),
+    ],
+)
+def test_a_verdict_is_found_whatever_is_declared(changed: dict[str, object], verdict: Verdict) -> None:
+    assert judge(msgspec.structs.replace(NUMBER, **changed), "optimal", PROBLEMS).verdict is verdict
+
+
+@pytest.mark.parametrize(
+    ("changed", "said"),
+    [
+        ({"compute": "optimal.smoth_constant"}, "did you mean 'optimal.smooth_constant'"),
+        ({"compute": "nobody.constant"}, "unknown computation"),
+        ({"arguments": {"order": 3, "nam": "C", "steps": 20}}, "has no argument nam"),
+        ({"arguments": {"order": 3}}, "needs the argument name"),
+        ({"kind": "claim"}, "computes no claim"),
+        ({"kind": "formula", "printed": "C = 1"}, "has no argument draw"),
+        ({"printed": "five"}, "'five' is not a number"),
+    ],
+)
+def test_what_cannot_be_computed_is_refused(changed: dict[str, object], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        judge(msgspec.structs.replace(NUMBER, **changed), "optimal", PROBLEMS)
+
+
+@pytest.mark.parametrize(
+    ("lines", "said"),
+    [
+        ('verdict = "misprint"', "needs the entry means"),
+        ('verdict = "to p percent"', "needs the entry within"),
+        ('verdict = "undecidable"', "needs the entry lost"),
+        ('verdict = "agrees"', "a number cannot be agrees"),
+        ('verdict = "correct"', "correct"),
+        ('verdict = "reproduced to its digits"\nprintd = "2"', "did you mean 'printed'"),
+    ],
+)
+def test_an_item_that_lacks_what_its_verdict_needs_is_refused(lines: str, said: str, tmp_path: Path) -> None:
+    file = tmp_path / "paper.toml"
+    item = 'id = "one"\nkind = "number"\nprinted = "1"\ncompute = "optimal.range"'
+    file.write_text(f'title = "T"\nsource = "S"\n[[item]]\n{item}\n{lines}\n', "utf-8")
+    with pytest.raises(InputError, match=said):
+        items.read(file)
+
+
+def test_each_kind_can_be_undecidable() -> None:
+    assert all(Verdict.UNDECIDABLE in verdicts for verdicts in VERDICTS.values())
