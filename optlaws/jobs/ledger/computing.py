@@ -7,7 +7,7 @@ has a parameter `problems` gets the folder of the problem files.
 from __future__ import annotations
 
 import inspect
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from importlib import import_module
 from math import isfinite
@@ -97,8 +97,20 @@ def claim(item: Item, problems: Path) -> Claim:
     return value
 
 
-def quantities(item: Item, problems: Path, draw: np.random.Generator) -> Quantities:
-    """Values of the names in an item's formula, for data drawn at random; errors as those of `number`."""
+def samples(item: Item, problems: Path) -> Sequence[Quantities]:
+    """Values of the names in an item's formula, for data drawn at random several times; errors as those of `number`."""
+    key = (item.compute, tuple(sorted((name, str(value)) for name, value in item.arguments.items())), problems)
+    if key not in _SAMPLES:
+        draw = np.random.default_rng(1)
+        _SAMPLES[key] = [_quantities(item, problems, draw) for _ in range(_POINTS)]
+    return _SAMPLES[key]
+
+
+_POINTS = 7
+_SAMPLES: dict[object, Sequence[Quantities]] = {}
+
+
+def _quantities(item: Item, problems: Path, draw: np.random.Generator) -> Quantities:
     values = _called(item, problems, draw=draw)
     if not isinstance(values, Mapping) or not all(isfinite(value) for value in values.values()):
         raise InputError(f"{item.id}: {item.compute} computes no finite values by name")

@@ -8,8 +8,6 @@ from decimal import Decimal
 from math import inf, isnan
 from pathlib import Path
 
-import numpy as np
-
 from optlaws.errors import InputError
 from optlaws.files import reading
 from optlaws.jobs.job import JOBS
@@ -20,7 +18,6 @@ from optlaws.jobs.pages import printed
 
 #: a printed number that is off by more than so many percent is contradicted
 MOST_PERCENT = 2.0
-_POINTS = 7
 _SAME = 1e-9
 _DIFFERS = 1e-6
 
@@ -152,8 +149,7 @@ def _next(off: float) -> Decimal:
 
 
 def _formula(item: Item, problems: Path) -> _Said:
-    draw = np.random.default_rng(1)
-    points = [computing.quantities(item, problems, draw) for _ in range(_POINTS)]
+    points = computing.samples(item, problems)
     if item.verdict is Verdict.UNDECIDABLE:
         left = greatest(item.means, points, item.id)
         verdict = Verdict.UNDECIDABLE if left <= _SAME else Verdict.CONTRADICTED
@@ -164,7 +160,7 @@ def _formula(item: Item, problems: Path) -> _Said:
     if item.verdict is Verdict.MISREAD:
         return _mended(item, points, item.as_read, item.printed, Verdict.MISREAD)
     verdict = Verdict.AGREES if printed_off <= _SAME else Verdict.CONTRADICTED
-    return verdict, printed_off, None, f"both sides differ by {printed_off:.1e} at most, at {_POINTS} points"
+    return verdict, printed_off, None, f"both sides differ by {printed_off:.1e} at most, at {len(points)} points"
 
 
 def _mended(item: Item, points: Sequence[Mapping[str, float]], wrong: str, right: str, verdict: Verdict) -> _Said:

@@ -1,0 +1,260 @@
+"""Computations for the paper on balancing cam mechanisms for links that dwell: its formulas, its rule, its claims."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from functools import cache
+from itertools import pairwise
+from math import tau
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.files import reading
+from optlaws.jobs.ledger.computing import Claim, Number, Quantities, computation
+from optlaws.laws import MotionLaw
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.savin.savin import savin
+from optlaws.mechanisms.angles import deg
+from optlaws.mechanisms.dwell.choice import compare_dwell_mechanisms
+from optlaws.mechanisms.dwell.clutch import Clutch
+from optlaws.mechanisms.dwell.mechanism import DwellMechanism, dwell_mechanism
+from optlaws.mechanisms.dwell.sections import Section
+
+_DWELLS = (45, 60, 75, 90, 105, 120, 135, 150)
+
+
+@cache
+def _mechanism(kind: str, dwell: float = 90.0, clutch: float = 15.0, rise: float | None = None) -> DwellMechanism:
+    """One of the mechanisms behind the figures: angles in degrees, rise and dwell half a turn unless given."""
+    return dwell_mechanism(
+        kind,
+        law=catalogue["K"].law,
+        dwell=deg(dwell),
+        rise=deg(180.0 - dwell if rise is None else rise),
+        clutch_angle=deg(clutch),
+        swing=deg(20.0),
+        radius_ratio=0.35 / deg(20.0),
+        inertia_ratio=0.1,
+    )
+
+
+def _at_speed(kind: str, rpm: float) -> DwellMechanism:
+    """A mechanism whose clutch needs 20 ms, at a speed of its cam shaft."""
+    return _mechanism(kind, 90.0, 6.0 * rpm * 0.02, 90.0)
+
+
+def _drawn(kind: str, draw: np.random.Generator) -> DwellMechanism:
+    law, other, third = (savin(family, float(draw.uniform(0.0, 5.0))) for family in ("III", "II", "IV"))
+    return dwell_mechanism(
+        kind,
+        law=law,
+        law_1=third if kind == "III" else other,
+        law_2=other,
+        dwell=deg(float(draw.uniform(60.0, 140.0))),
+        rise=deg(float(draw.uniform(50.0, 110.0))),
+        clutch_angle=deg(float(draw.uniform(5.0, 15.0))),
+        swing=deg(float(draw.uniform(8.0, 25.0))),
+        radius_ratio=float(draw.uniform(0.5, 2.5)),
+        inertia_ratio=float(draw.uniform(0.05, 0.3)),
+    )
+
+
+@computation("dwell.mechanism")
+def mechanism(kind: str, draw: np.random.Generator) -> Quantities:
+    """A mechanism drawn at random at a random speed, in physical units: angles, ways, times, torques, teeth."""
+    one = _drawn(kind, draw)
+    omega, L, I = draw.uniform(5.0, 20.0), draw.uniform(0.1, 0.5), draw.uniform(0.01, 0.1)
+    S = one.swing * L
+    told = {"omega": omega, "L": L, "I": I, "I1": one.inertia_ratio * I, "r0": one.radius_ratio * S, "S": S}
+    told |= {"g_S": one.swing, "ph_v": one.rise, "ph_S": one.rise, "ph_p": one.dwell, "ph_sp": one.clutch_angle}
+    told |= {"ph1": one.phi1, "ph2": one.phi2, "T_v": one.rise / omega, "T_p": one.dwell / omega}
+    told |= {"T": tau / omega, "T_S": one.rise / omega, "T1": one.phi1 / omega, "T2": one.phi2 / omega}
+    told |= {"t_sp": _duration(one, "clutch", omega), "S1": one.S1 * S, "S2": one.S2 * S, "S_sp": one.S_sp * S}
+    told |= {"g1": one.S1 * one.swing, "g2": one.S2 * one.swing, "g_sp": one.S_sp * one.swing}
+    told |= {"w_max": _fastest(one) * one.swing * omega, "a": one.a, "rmax2": (one.radius_ratio + 1.0) * S}
+    told |= {"rmax1": one.a * (one.radius_ratio + 1.0) * S, "b": one.b} | _peaks(one)
+    return told | _torques(one, told) | _teeth(one, draw)
+
+
+def _duration(one: DwellMechanism, name: str, omega: float) -> float:
+    return next((section.angle for section in one.sections if section.name == name), 0.0) / omega
+
+
+def _fastest(one: DwellMechanism) -> float:
+    """Greatest speed of the loader's rocker in the rise, S per radian, from its composed motion."""
+    low, high = one.motion.extrema(1, (0.0, one.rise / one.cycle))
+    return max(abs(low.value), abs(high.value)) / one.cycle
+
+
+def _peaks(one: DwellMechanism) -> dict[str, float]:
+    laws = {"": one.law, "1": one.law_1, "2": one.law_2}
+    told = {f"{name}{i}": getattr(law.constants, name).value for i, law in laws.items() for name in "BCD"}
+    return told | {"B": one.loader.B}
+
+
+def _torques(one: DwellMechanism, given: Quantities) -> dict[str, float]:
+    """Greatest torques on the shaft of the cam and of the rocker, from the composed motion itself."""
+    sections = [section for section in one.sections if section.name in {"reverse", "run-out", "run-up"}]
+    if not sections:
+        return {"M1": 0.0, "M2": _most(one.law, 1.0, given["ph_v"], given["omega"]) * given["I"] * one.swing**2}
+    strongest = max(sections, key=lambda section: _power(section, given["omega"]))
+    scale, whole = strongest.scale, strongest.angle / (strongest.end - strongest.start)
+    turned = given["omega"] / whole
+    law = strongest.law
+    assert law is not None  # noqa: S101 - these sections have laws
+    return {
+        "M1": _power(strongest, given["omega"]) * given["I1"] * one.swing**2 / given["omega"],
+        "M1_driven": given["I1"] * one.swing * abs(scale) * law.peak(2).value * turned**2,
+        "M2": _most(one.law, 1.0, given["ph_v"], given["omega"]) * given["I"] * one.swing**2 / given["omega"],
+        "M2_driven": given["I"] * one.swing * one.law.peak(2).value * (given["omega"] / given["ph_v"]) ** 2,
+    }
+
+
+def _power(section: Section, omega: float) -> float:
+    assert section.law is not None  # noqa: S101 - only sections with laws are asked
+    return _most(section.law, abs(section.scale), section.angle / (section.end - section.start), omega)
+
+
+def _most(law: MotionLaw, scale: float, angle: float, omega: float) -> float:
+    """Greatest velocity times acceleration in time, from a dense grid and a parabola at its top."""
+    k = np.linspace(0.0, 1.0, 20_001)
+    values = np.abs(law.d(k))
+    i = int(np.clip(np.argmax(values), 1, len(k) - 2))
+    left, top, right = values[i - 1 : i + 2]
+    bend = left - 2.0 * top + right
+    peak = top - (right - left) ** 2 / (8.0 * bend) if bend else top
+    return float(peak * scale**2 * (omega / angle) ** 3)
+
+
+def _teeth(one: DwellMechanism, draw: np.random.Generator) -> dict[str, float]:
+    if one.kind == "I":
+        return {}
+    clutch, N = Clutch(one), float(draw.integers(20, 100))
+    turns = {"g_load": clutch.loader_turn, "g_rock": clutch.rocker_turn}
+    return turns | {"N": N, "p": clutch.ratio * N, "g_z": tau / N}
+
+
+@computation("dwell.study")
+def study(name: str, place: float, problems: Path) -> Number:
+    """A swing or clutch angle of the study behind the figures, degrees."""
+    return Number(float(reading.toml(problems / "dwell_types.toml")[name][int(place)]))
+
+
+@computation("dwell.drift")
+def drift() -> Claim:
+    """Way that the rocker of type I is off after a turn whose lower dwell is 60 instead of 90 degrees, in S."""
+    one = _mechanism("I")
+    refused = _refused(lambda: dwell_mechanism("I", **_data(one), lower_dwell=deg(60.0)))
+    return Claim(one.speed * (one.dwell - deg(60.0)) if refused else 0.0, ">=", 0.1)
+
+
+@computation("dwell.step_of_speed")
+def step_of_speed() -> Claim:
+    """Step of the loader's speed, as a share, if the return of type I took 60 degrees and the rise 90."""
+    one = _mechanism("I")
+    refused = _refused(lambda: dwell_mechanism("I", **_data(one), return_angle=deg(60.0)))
+    return Claim(one.rise / deg(60.0) - 1.0 if refused else 0.0, ">=", 0.1)
+
+
+def _data(one: DwellMechanism) -> dict[str, Any]:
+    names = ("law", "dwell", "rise", "clutch_angle", "swing", "radius_ratio", "inertia_ratio")
+    return {name: getattr(one, name) for name in names}
+
+
+def _refused(make: Callable[[], object]) -> bool:
+    try:
+        make()
+    except InputError:
+        return True
+    return False
+
+
+@computation("dwell.size")
+def size(kind: str, dwell: float) -> Claim:
+    """Criterion a of a type at a dwell in degrees, beside 1.5: the cam grows by half."""
+    return Claim(_mechanism(kind, dwell).a, ">=", 1.5)
+
+
+@computation("dwell.torque_over_speed")
+def torque_over_speed() -> Claim:
+    """Torque of the loader's rocker in the dwell at twice the speed over that at the speed, type III."""
+    one = _mechanism("III")
+    run_out = next(section for section in one.sections if section.name == "run-out")
+    return Claim(_power(run_out, 2.0) / 2.0 / _power(run_out, 1.0), ">=", 1.01)
+
+
+@computation("dwell.size_over_speed")
+def size_over_speed(kind: str, clutch: str) -> Claim:
+    """How much a changes from 60 to 180 rpm, with the clutch in a fixed angle or a fixed time of 20 ms."""
+    made = {rpm: _at_speed(kind, rpm) if clutch == "time" else _mechanism(kind) for rpm in (60.0, 120.0, 180.0)}
+    sizes = [_size_in_time(one, rpm * tau / 60.0) for rpm, one in made.items()]
+    return Claim(max(sizes) / min(sizes) - 1.0, "<=", 1e-9)
+
+
+def _size_in_time(one: DwellMechanism, omega: float) -> float:
+    """Criterion a of types I and III from speeds and times: the rocker's greatest speed for the time it keeps it."""
+    fastest = _fastest(one) * omega
+    way = fastest * one.dwell / omega if one.kind == "I" else one.S2 + 2.0 * fastest * _duration(one, "clutch", omega)
+    return 1.0 + way / (one.radius_ratio + 1.0)
+
+
+@computation("dwell.longer_way_back")
+def longer_way_back() -> Claim:
+    """The least of S2 - S1 over 50 mechanisms of type II drawn at random, in S."""
+    draw = np.random.default_rng(3)
+    drawn = [_drawn("II", draw) for _ in range(50)]
+    return Claim(min(one.S2 - one.S1 for one in drawn), ">=", 0.0)
+
+
+@computation("dwell.falls")
+def falls(kind: str, criterion: str) -> Claim:
+    """The greatest rise of a criterion from one dwell to the next, 45 to 150 degrees by 15, as a share."""
+    values = _over_dwells(kind, criterion)
+    return Claim(max(after / before - 1.0 for before, after in pairwise(values)), "<=", 0.0)
+
+
+@computation("dwell.grows")
+def grows(kind: str, criterion: str) -> Claim:
+    """The least rise of a criterion from one dwell to the next, as a share."""
+    values = _over_dwells(kind, criterion)
+    return Claim(min(after / before - 1.0 for before, after in pairwise(values)), ">=", 0.0)
+
+
+def _over_dwells(kind: str, criterion: str) -> Sequence[float]:
+    return [getattr(_mechanism(kind, float(dwell)), criterion) for dwell in _DWELLS]
+
+
+@computation("dwell.torque_ratio_grows_with_speed")
+def torque_ratio_grows_with_speed(kind: str) -> Claim:
+    """The least rise of b from 60 over 120 to 180 rpm with a clutch that needs 20 ms, as a share."""
+    values = [_at_speed(kind, rpm).b for rpm in (60.0, 120.0, 180.0)]
+    return Claim(min(after / before - 1.0 for before, after in pairwise(values)), ">=", 0.0)
+
+
+@computation("dwell.self_adjusting")
+def self_adjusting(kind: str) -> Claim:
+    """How much b changes from a speed to twice the speed, with a clutch in a fixed angle, from the torques."""
+    one = _mechanism(kind)
+    moving = max((s for s in one.sections if s.name in {"reverse", "run-out"}), key=lambda s: _power(s, 1.0))
+    ratios = [_power(moving, omega) / _most(one.law, 1.0, one.rise, omega) for omega in (10.0, 20.0)]
+    return Claim(abs(ratios[1] / ratios[0] - 1.0), "<=", 1e-9)
+
+
+@computation("dwell.teeth_over_clutch")
+def teeth_over_clutch() -> Claim:
+    """How much p/N of type II changes while the clutch angle goes from 5 to 20 degrees, as it would with the speed."""
+    ratios = [Clutch(_mechanism("II", 90.0, clutch)).ratio for clutch in (5.0, 20.0)]
+    return Claim(abs(ratios[1] / ratios[0] - 1.0), "<=", 1e-9)
+
+
+@computation("dwell.choice")
+def choice() -> Claim:
+    """a of the chosen type less the least a among the types with a small enough b."""
+    one = _mechanism("III")
+    compared = compare_dwell_mechanisms(**_data(one), most_torque=1.0)
+    usable = [made.a for made in compared.mechanisms.values() if made.b <= 1.0]
+    chosen = compared.mechanisms[compared.chosen or ""]
+    return Claim(chosen.a - min(usable), "<=", 0.0)
