@@ -75,7 +75,7 @@ class Item(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
     `printed` is what stands in print, `as_read` what the scan shows where that is something else, and `means` what a
     misprint should read. `compute` names a computation of `computing`; a figure names the job, the file and the curves
-    that show it instead. `within` is in percent.
+    that show it instead. `within` is in percent; of a formula with a series that is cut it is what the rest may be worth.
     """
 
     id: Text
@@ -112,7 +112,8 @@ class Cells(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A printed table: an item for each row of its data, whose columns stand in braces in `id` and `arguments`.
 
     With `each` the column has several numbers, each is an item, and {i} counts them from 0. Cells with another verdict
-    than the table's stand in `but`; those that only differ in it in `reproduced`, `on_grid` and `percent`.
+    than the table's stand in `but`; those that only differ in it in `reproduced`, `on_grid`,
+    `percent` and `contradicted`.
     """
 
     id: Text
@@ -126,6 +127,7 @@ class Cells(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     reproduced: list[str] = []
     on_grid: list[str] = []
     percent: dict[str, float] = {}
+    contradicted: list[str] = []
     reason: str = ""
     but: dict[str, Changed] = {}
 
@@ -137,6 +139,7 @@ class Cells(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
             name: Changed(verdict=Verdict.PERCENT, within=within, reason=self.reason)
             for name, within in self.percent.items()
         }
+        plain |= {name: Changed(verdict=Verdict.CONTRADICTED, reason=self.reason) for name in self.contradicted}
         return plain | off | self.but
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
-from decimal import Decimal
+from decimal import ROUND_UP, Decimal
 from math import inf, isnan
 from pathlib import Path
 
@@ -111,7 +111,7 @@ def compared(text: str, value: computing.Number) -> tuple[Verdict, str]:
     >>> compared("5.91", computing.Number(5.9195846, on_grid=5.9131398))[0]
     <Verdict.ON_GRID: "on the paper's grid">
     >>> compared("10.52", computing.Number(10.351918))
-    (<Verdict.PERCENT: 'to p percent'>, 'to 2 %')
+    (<Verdict.PERCENT: 'to p percent'>, 'to 1.7 %')
     """
     if text == "inf":
         return (Verdict.REPRODUCED, "infinite") if value.exact == inf else (Verdict.CONTRADICTED, "it is finite")
@@ -130,22 +130,17 @@ def compared(text: str, value: computing.Number) -> tuple[Verdict, str]:
 
 
 def percent(text: str, exact: float) -> float:
-    """How far a printed number is off, in percent, rounded up to one digit; infinite where the right one is 0.
+    """How far a printed number is off, in percent, rounded up to two digits; infinite where the right one is 0.
 
     Examples
     --------
     >>> percent("0.053", 0.052734)
-    0.6
+    0.51
     """
     if exact == 0.0:
         return inf
-    off = 100.0 * abs(float(text) / exact - 1.0)
-    return float(Decimal(f"{off:.0e}") if Decimal(f"{off:.0e}") >= Decimal(off) else _next(off))
-
-
-def _next(off: float) -> Decimal:
-    rounded = Decimal(f"{off:.0e}")
-    return rounded + Decimal(1).scaleb(rounded.as_tuple().exponent)  # type: ignore[arg-type] # finite
+    off = Decimal(100.0 * abs(float(text) / exact - 1.0))
+    return float(off.quantize(Decimal(1).scaleb(off.adjusted() - 1), ROUND_UP))
 
 
 def _formula(item: Item, problems: Path) -> _Said:
@@ -159,7 +154,7 @@ def _formula(item: Item, problems: Path) -> _Said:
         return _mended(item, points, item.printed, item.means, Verdict.MISPRINT)
     if item.verdict is Verdict.MISREAD:
         return _mended(item, points, item.as_read, item.printed, Verdict.MISREAD)
-    verdict = Verdict.AGREES if printed_off <= _SAME else Verdict.CONTRADICTED
+    verdict = Verdict.AGREES if printed_off <= max(_SAME, item.within / 100.0) else Verdict.CONTRADICTED
     return verdict, printed_off, None, f"both sides differ by {printed_off:.1e} at most, at {len(points)} points"
 
 

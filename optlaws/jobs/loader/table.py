@@ -79,7 +79,7 @@ class Row:
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec = convert(data, Table, file)
-    rows = [_row(one, spec.grid) for one in printed.rows(file.parent / spec.printed, COLUMNS)]
+    rows = [recomputed(one, spec.grid) for one in printed.rows(file.parent / spec.printed, COLUMNS)]
     judged = [verdict for row in rows for verdict in _verdicts(row)]
     about = f"{spec.title}; from {file.name}"
     headings = ("row", "quantity", "printed", "exact", "on grid", "verdict", "reason")
@@ -92,7 +92,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     ]
 
 
-def _row(given: Mapping[str, str], grid: int) -> Row:
+def recomputed(given: Mapping[str, str], grid: int) -> Row:
+    """A printed row with its loader and what the paper's grid shows of it."""
     for name in CONSTANTS:
         if given[name] != "inf":
             printed.number(given[name], f"row {given['code']}, {name}")

@@ -1,0 +1,135 @@
+"""Computations for the paper on inertial loaders: its formulas, the trapezium that stands for a law, its twelve rows."""
+
+from __future__ import annotations
+
+from functools import cache
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+from scipy.integrate import quad
+
+from optlaws.errors import InputError
+from optlaws.files import reading
+from optlaws.jobs.ledger.computing import Claim, Number, Quantities, computation
+from optlaws.jobs.loader import table
+from optlaws.jobs.pages import printed
+from optlaws.laws import MotionLaw
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.savin.savin import savin
+from optlaws.mechanisms.loader.loader import Loader, loader
+from optlaws.mechanisms.loader.trapezium import TrapeziumSubstitute
+
+_TABLE = "loader_table.toml"
+#: laws of which trapezia are close, and those whose acceleration ends with no slope
+_SMOOTH_TURN = ("KC00", "KC05", "0307(1,5)", "0317(1,5)", "0312(1,75)")
+
+
+@cache
+def _rows(problems: Path) -> dict[str, table.Row]:
+    spec = reading.toml(problems / _TABLE)
+    given = printed.rows(problems / spec["printed"], table.COLUMNS)
+    return {row["code"]: table.recomputed(row, spec["grid"]) for row in given}
+
+
+@computation("loader.constant")
+def constant(row: str, name: str, problems: Path) -> Number:
+    """B, C or D of the loader of a law, exact and as the greatest value at the paper's grid."""
+    one = _rows(problems)[row]
+    return Number(one.exact[name], one.on_grid[name])
+
+
+@computation("loader.codes")
+def codes(problems: Path) -> Number:
+    """The number of coded laws in the table."""
+    return Number(float(len(_rows(problems))))
+
+
+@computation("loader.law")
+def law(draw: np.random.Generator) -> Quantities:
+    """A symmetric law and its loader at one k before the turn, with peaks and with masses drawn at random."""
+    executive: MotionLaw = savin("II", float(draw.uniform(0.0, 5.0)))
+    made, k = loader(executive), float(draw.uniform(0.05, 0.45))
+    B = executive.peak(1).value
+    area, _ = quad(lambda x: np.sqrt(np.maximum(B**2 - executive.b(x) ** 2, 0.0)), 0.0, k, epsabs=1e-13, epsrel=1e-13)
+    told = {"k": k, "a_l": made.law(k), "b_l": made.law.b(k), "c_l": made.law.c(k), "d_l": made.law.d(k)}
+    told |= {"b": executive.b(k), "c": executive.c(k), "d": executive.d(k), "B": B, "Y": made.Y, "area": float(area)}
+    power = executive.power_peak()
+    told |= {"D": power.value, "B_l": made.B, "C_l": made.C, "D_l": -abs(made.law.d(power.k)), "j05": -executive.j(0.5)}
+    told |= {"C": executive.peak(2).value} | _masses(made, draw)
+    return told
+
+
+def _masses(made: Loader, draw: np.random.Generator) -> dict[str, float]:
+    mass, stroke, own = (float(part) for part in draw.uniform(0.1, 2.0, 3))
+    loaded = made.mass(executive_mass=mass, executive_stroke=stroke, stroke=own)
+    return {"m_e": mass, "S_e": stroke, "m_l": loaded, "S_l": own}
+
+
+@computation("loader.trapezium")
+def trapezium(part: str, draw: np.random.Generator) -> Quantities:
+    """A trapezium and its loader at one k on its ramp, its plateau or its fall."""
+    one = _trapezium(draw)
+    m, n, A, Y = one.m, one.n, one.A, loader(one.law).Y
+    low, high = {"ramp": (0.05 * m, 0.6 * m), "plateau": (m, m + n), "fall": (m + n, 0.499)}[part]
+    k = float(draw.uniform(low, high))
+    B, C = one.law.peak(1).value, one.law.peak(2).value
+    moved = loader(one.law).law
+    told = {"e": one.e13, "g": one.gamma_w, "m": m, "n": n, "L": 0.5 - m - n, "A": A, "B": B, "C": C, "Y": Y, "k": k}
+    told |= {"b": one.law.b(k), "c": one.law.c(k), "b_l": moved.b(k), "k1": 0.5 - k, "c_k1": one.law.c(k)}
+    told |= {"b_k1": B - one.law.b(k), "a_l": moved(k), "a_m": moved(m), "a_mn": moved(m + n), "a_half": moved(0.5)}
+    return told
+
+
+def _trapezium(draw: np.random.Generator) -> TrapeziumSubstitute:
+    while True:
+        try:
+            one = TrapeziumSubstitute(float(draw.uniform(0.5, 0.66)), float(draw.uniform(0.26, 0.4)))
+        except InputError:
+            continue
+        if min(one.m, one.n, 0.5 - one.m - one.n) > 0.02:
+            return one
+
+
+@computation("loader.growth")
+def growth(over: str) -> Claim:
+    """The least rise of Y along e13, or the greatest along gamma_w, from one trapezium of a grid to the next."""
+    e13, gamma_w = np.linspace(0.56, 0.62, 7), np.linspace(0.27, 0.31, 5)
+    Y = np.array([[TrapeziumSubstitute(float(e), float(g)).Y for e in e13] for g in gamma_w])
+    if over == "e13":
+        return Claim(min(float(after - before) for line in Y for before, after in pairwise(line)), ">=", 0.0)
+    return Claim(max(float(after - before) for line in Y.T for before, after in pairwise(line)), "<=", 0.0)
+
+
+@computation("loader.series")
+def series() -> Claim:
+    """The greatest relative error of Y by (25), with four terms of the series, over 50 trapezia drawn at random."""
+    draw = np.random.default_rng(4)
+    made = [_trapezium(draw) for _ in range(50)]
+    return Claim(max(abs(one.Y / loader(one.law).Y - 1.0) for one in made), "<=", 1e-5)
+
+
+@computation("loader.substitute")
+def substitute() -> Claim:
+    """The greatest relative error of Y by the trapezium that stands for a law of the table, where there is one."""
+    errors = []
+    for name in (*_SMOOTH_TURN, "K", "Co", "3-4-5 polynomial"):
+        try:
+            errors.append(abs(TrapeziumSubstitute.of(catalogue[name].law).Y / loader(catalogue[name].law).Y - 1.0))
+        except InputError:
+            continue
+    return Claim(max(errors), "<=", 0.01)
+
+
+@computation("loader.half_way")
+def half_way() -> Claim:
+    """The greatest distance of the loader's way at the turn from one half, over the laws of the table."""
+    laws = [catalogue[name].law for name in (*_SMOOTH_TURN, "K", "Co", "3-4-5 polynomial")]
+    return Claim(max(abs(loader(one).law(0.5) - 0.5) for one in laws), "<=", 1e-9)
+
+
+@computation("loader.peak_at_turn")
+def peak_at_turn() -> Claim:
+    """C of the loader of KC00 by the paper's formula, over the true peak: 1, if the formula were general."""
+    made = loader(catalogue["KC00"].law)
+    return Claim(made.C_at_turn / made.C, ">=", 0.99)
