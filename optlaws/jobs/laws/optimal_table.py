@@ -218,7 +218,7 @@ def _verdicts(spec: Table, rows: Sequence[Row]) -> list[printed.Verdict]:
 
 
 def on_paper_grid(spec: Table, law: MotionLaw) -> dict[str, float]:
-    """B, C and D as the paper has them: the greatest values at the points of its grid, of c without the deceleration."""
+    """B, C and D as the paper has them: the greatest values at the points of its grid, C without the deceleration."""
     grid = np.linspace(0.0, 1.0, spec.grid + 1)
     return {"B": float(law.b(grid).max()), "C": float(law.c(grid).max()), "D": float(np.abs(law.d(grid)).max())}
 

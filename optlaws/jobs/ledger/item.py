@@ -75,7 +75,7 @@ class Item(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
     `printed` is what stands in print, `as_read` what the scan shows where that is something else, and `means` what a
     misprint should read. `compute` names a computation of `computing`; a figure names the job, the file and the curves
-    that show it instead. `within` is in percent; of a formula with a series that is cut it is what the rest may be worth.
+    that show it instead. `within` is in percent; of a formula whose series is cut it is what the rest may be worth.
     """
 
     id: Text

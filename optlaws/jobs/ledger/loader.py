@@ -1,4 +1,4 @@
-"""Computations for the paper on inertial loaders: its formulas, the trapezium that stands for a law, its twelve rows."""
+"""Computations for the paper on inertial loaders: its formulas, its trapezium, its twelve rows."""
 
 from __future__ import annotations
 

@@ -96,10 +96,17 @@ def number(text: str, where: str) -> float:
 
 
 def same_digits(printed: str, exact: float, *roundings: str) -> bool:
+    """Whether a number has the printed digits once it is rounded, half up unless told otherwise.
+
+    Examples
+    --------
+    >>> same_digits("2.187", 2.1875), same_digits("2.187", 2.1875, ROUND_DOWN)
+    (False, True)
+    """
     unit = Decimal(1).scaleb(Decimal(printed).as_tuple().exponent)  # type: ignore[arg-type] # finite: it is parsed
     # what a table prints as 1.53 may come out as 1.5299999999
     tried = Decimal(repr(round(exact, 9)))
-    return Decimal(printed) in {tried.quantize(unit, rounding) for rounding in roundings}
+    return Decimal(printed) in {tried.quantize(unit, rounding) for rounding in roundings or (ROUND_HALF_UP,)}
 
 
 def _percent(off: float) -> str:

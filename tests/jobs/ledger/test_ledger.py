@@ -78,7 +78,7 @@ NUMBER = Item(
     [
         ({}, Verdict.REPRODUCED),
         ({"printed": "5.76"}, Verdict.ON_GRID),
-        ({"printed": "5.79", "verdict": Verdict.PERCENT, "within": 0.3}, Verdict.PERCENT),
+        ({"printed": "5.79", "verdict": Verdict.PERCENT, "within": 0.29}, Verdict.PERCENT),
         ({"printed": "5.79", "verdict": Verdict.PERCENT, "within": 0.5}, Verdict.CONTRADICTED),
         ({"printed": "5.74", "verdict": Verdict.MISPRINT, "means": "5.774", "reason": "a digit"}, Verdict.MISPRINT),
         ({"printed": "5.74", "verdict": Verdict.MISPRINT, "means": "5.775", "reason": "a digit"}, Verdict.PERCENT),
