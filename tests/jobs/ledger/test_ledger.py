@@ -20,9 +20,9 @@ PROBLEMS = ROOT / "problems"
 LEDGER = PROBLEMS / "ledger.toml"
 PAPERS = {paper.name: paper for paper in entries(LEDGER)}
 #: rows and columns of the printed tables
-CELLS = {"dwell": 0, "loader": 12 * 3, "optimal": 13 * 3 + 67}
+CELLS = {"dwell": 0, "loader": 12 * 3, "lever": 14 * 10, "optimal": 13 * 3 + 67}
 #: the last of the equations that are numbered without gaps
-EQUATIONS = {"dwell": 35, "loader": 25, "optimal": 10}
+EQUATIONS = {"dwell": 35, "loader": 25, "lever": 21, "optimal": 10}
 
 
 @cache
