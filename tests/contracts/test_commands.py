@@ -25,6 +25,7 @@ CALLS = {
     "follower": "0050 --nu 20",
     "front": "--order 2 --degree 3 --points 2",
     "law": "0050 --at 0.5",
+    "ledger": f"optimal --kind figure --file {ROOT}/problems/ledger.toml",
     "lever": "--beta 0.75 --lam 1 --swing 60",
     "loader": "0050",
     "run": "problem.toml",

@@ -94,6 +94,29 @@ over = ["C", "J"]
 front = [{ label = "B = 1.641", B = 1.641 }]
 """
 LEVER_PRINTED = "coefficient,beta,lambda,printed\nQ,0.5,,0.375\nR,1,3,0.000\nR,1.5,10,0.172\nP,0.25,,0.234\n"
+LEDGER = """
+job = "ledger"
+title = "Two items"
+papers = ["paper.toml"]
+"""
+LEDGER_PAPER = """
+title = "A paper"
+source = "none"
+[[item]]
+id = "C of S3"
+kind = "number"
+printed = "5.774"
+compute = "optimal.smooth_constant"
+arguments = { order = 3, name = "C", steps = 20 }
+verdict = "reproduced to its digits"
+[[item]]
+id = "Z of S3"
+kind = "formula"
+printed = "Z = -3 + 6*k"
+compute = "optimal.known_law"
+arguments = { order = 3 }
+verdict = "agrees"
+"""
 LEVER_TABLES = """
 job = "lever tables"
 title = "Few"
@@ -291,6 +314,20 @@ EXAMPLES = {
             ("[30, 100]", "[170]", "no combination of beta, lambda, rho, nu and swing"),
             ("[30, 100]", "[200]", "swing"),
             ("lambda", "lamda", "did you mean 'lambda'"),
+        ),
+    ),
+    "ledger": Example(
+        LEDGER,
+        (
+            ("papers", "paper", "did you mean 'papers'"),
+            ('["paper.toml"]', "[]", "papers"),
+        ),
+        {"paper.toml": LEDGER_PAPER},
+        (
+            ("5.774", "5.775", "verdicts do not hold.*C of S3: declared reproduced to its digits, found to p percent"),
+            ("6*k", "7*k", "Z of S3: declared agrees, found contradicted"),
+            ("known_law", "know_law", "did you mean 'optimal.known_law'"),
+            ('verdict = "agrees"', 'verdict = "confirmed"', "a formula cannot be confirmed"),
         ),
     ),
     "lever tables": Example(

@@ -65,6 +65,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "ledger.csv", tables.to_csv(HEADINGS, [_cells(one) for one in judged], about=about)),
         writing.write(out / "summary.csv", tables.to_csv(*_summary(papers, judged), about=about)),
         writing.write(out / "ledger.md", str(_page(spec, papers, judged))),
+        *(writing.write(out / f"misprints_{paper.name}.md", str(_misprints(paper, judged))) for paper in papers),
     ]
 
 
@@ -154,6 +155,17 @@ def _page(spec: Ledger, papers: Sequence[Entry], judged: Sequence[Judged]) -> Pa
             lines = [_line(group[0]) if len(group) < _MANY else _together(group) for group in _apart(groups)]
             page.table(["item", "printed", "computed", "verdict", "why"], lines)
     return page
+
+
+def _misprints(paper: Entry, judged: Sequence[Judged]) -> Page:
+    """The misprints and misreadings of a paper, for the page of its theory."""
+    wrong = {Verdict.MISPRINT, Verdict.MISREAD}
+    lines = [
+        [one.item.id, one.item.as_read or one.item.printed, one.item.means or one.item.printed, one.item.reason]
+        for one in judged
+        if one.paper == paper.name and one.verdict in wrong
+    ]
+    return Page(f"Misprints: {paper.title}").table(["item", "reads", "should read", "why"], lines)
 
 
 def _told_alike(one: Judged) -> tuple[str, ...]:
