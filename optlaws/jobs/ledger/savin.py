@@ -192,7 +192,7 @@ def left_vibration() -> Claim:
 
 @computation("savin.direct_cosine")
 def direct_cosine() -> Claim:
-    """Least dynamic factor of a cosine law cut directly over the greatest of families III and IV corrected, undamped."""
+    """Least dynamic factor of a cosine law cut directly over the greatest of III and IV corrected, undamped."""
     K = catalogue["simple harmonic"].law
     direct = [Follower(20.0 / (1.0 + s / 100.0)).response(K).dynamic_factor(reference=K) for s in (-10.0, 0.0, 10.0)]
     return Claim(min(direct) / max(*_off_design("III", 7.2, 0.0), *_off_design("IV", 11.0, 0.0)), ">=", 1.2)
@@ -257,10 +257,9 @@ def chain() -> Claim:
 def choice() -> Claim:
     """The greatest distance of B, C or D from what is asked of a member that is chosen by it."""
     off = [abs(savin("II", B=1.7).constants.B.value - 1.7)]
-    for alpha in SavinFamily.of("III").alphas(D=7.0):
-        off.append(abs(savin("III", alpha).constants.D.value - 7.0))
-    for alpha in SavinFamily.of("III").alphas(C=7.0):
-        off.append(abs(savin("III", alpha).constants.C.value - 7.0))
+    one = SavinFamily.of("III")
+    off += [abs(one.law(alpha).constants.D.value - 7.0) for alpha in one.alphas(D=7.0)]
+    off += [abs(one.law(alpha).constants.C.value - 7.0) for alpha in one.alphas(C=7.0)]
     return Claim(max(off), "<=", 1e-8)
 
 
@@ -268,9 +267,8 @@ def choice() -> Claim:
 def any_end_velocity() -> Claim:
     """The greatest breach of b = 0.4 at both ends and a(1) = 1 by laws with that end velocity."""
     laws = [with_end_velocity(one, 0.4) for one in (savin("I", 2.0), savin("IV", 8.0), catalogue["cycloidal"].law)]
-    return Claim(
-        max(max(abs(one.b(0.0) - 0.4), abs(one.b(1.0) - 0.4), abs(one(1.0) - 1.0)) for one in laws), "<=", 1e-9
-    )
+    breaches = [part for one in laws for part in (one.b(0.0) - 0.4, one.b(1.0) - 0.4, one(1.0) - 1.0)]
+    return Claim(max(abs(part) for part in breaches), "<=", 1e-9)
 
 
 @computation("savin.usable")
@@ -291,7 +289,7 @@ def usable() -> Claim:
 def starts() -> Claim:
     """c(0) of the cam of family III over that of family IV, which must be nothing: 1 if III starts with it alone."""
     third, fourth = (polydyne(savin(name, alpha), 20.0).c(0.0) for name, alpha in (("III", 7.2), ("IV", 11.0)))
-    return Claim(float(abs(third) > 1.0 and abs(fourth) <= 1e-9), ">=", 1.0)  # noqa: PLR2004
+    return Claim(float(abs(third) > 1.0 and abs(fourth) <= 1e-9), ">=", 1.0)
 
 
 @computation("savin.no_free_vibration")
