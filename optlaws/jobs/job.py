@@ -21,6 +21,7 @@ _MODULES = {
     "fronts": "laws.fronts",
     "ledger": "ledger.ledger",
     "lever drawing": "lever.drawing",
+    "lever moments": "lever.moments",
     "lever nomogram": "lever.nomogram",
     "lever parametric": "lever.parametric",
     "lever tables": "lever.tables",

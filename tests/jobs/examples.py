@@ -126,6 +126,22 @@ coefficient = "P"
 beta = "0.25"
 reason = "the sign"
 """
+LEVER_MOMENTS = """
+job = "lever moments"
+title = "Two"
+[[panel]]
+beta = 0.5
+swing = 60
+[[panel.curve]]
+lambda = 1
+rho = 0.15
+nu = 0.15
+[[panel.curve]]
+beta = 1
+lambda = 2
+rho = 0.05
+nu = 0.3
+"""
 LEVER_PARAMETRIC = """
 job = "lever parametric"
 title = "Few"
@@ -328,6 +344,14 @@ EXAMPLES = {
             ("6*k", "7*k", "Z of S3: declared agrees, found contradicted"),
             ("known_law", "know_law", "did you mean 'optimal.known_law'"),
             ('verdict = "agrees"', 'verdict = "confirmed"', "a formula cannot be confirmed"),
+        ),
+    ),
+    "lever moments": Example(
+        LEVER_MOMENTS,
+        (
+            ("lambda = 1", "lamda = 1", "did you mean 'lambda'"),
+            ("swing = 60", "swing = 170", "curve 1 of the panel beta = 0.5"),
+            ("rho = 0.15", "rho = -0.15", "rho"),
         ),
     ),
     "lever tables": Example(
