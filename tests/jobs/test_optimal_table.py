@@ -24,7 +24,7 @@ VERDICTS = {
     "1.75": (DIGITS, GRID, GRID),
     "1.859": (DIGITS, GRID, DIGITS),
     "1.969": (DIGITS, GRID, DIGITS),
-    "2.078": (DIGITS, "reproduced to 0.6 %", DIGITS),
+    "2.078": (DIGITS, GRID, DIGITS),  # the greatest c; the deceleration is greater by 0.6 %
     "2.187": (DIGITS, GRID, GRID),
     "2.297": (DIGITS, GRID, DIGITS),
     "2.406": (DIGITS, GRID, DIGITS),

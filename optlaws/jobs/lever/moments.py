@@ -24,7 +24,9 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
-HEADINGS = ("panel", "curve", "swing, deg", "chi01, deg", "chi02, deg", "M_R at chi01", "M_R at chi02", "off the tangent, %")
+HEADINGS = (
+    "panel", "curve", "swing, deg", "chi01, deg", "chi02, deg", "M_R at chi01", "M_R at chi02", "off the tangent, %",
+)  # fmt: skip
 _POINTS = 121
 
 
@@ -87,10 +89,10 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     drawn = [_drawn(panel, i, curve) for panel in spec.panel for i, curve in enumerate(panel.curve, 1)]
     rows = [_row(one) for one in drawn]
     about = f"{spec.title}; from {file.name}"
-    page = Page(spec.title).text(spec.text).figure("moments", "Moment of the bars over the deviation").table(HEADINGS, rows)
+    page = Page(spec.title).text(spec.text).figure("moments", "Moment of the bars over the deviation")
     return [
         writing.write(out / "moments.csv", tables.to_csv(HEADINGS, rows, about=about)),
-        writing.write(out / "moments.md", str(page)),
+        writing.write(out / "moments.md", str(page.table(HEADINGS, rows))),
         *drawing.save_picture(draw(drawn), out / "moments"),
     ]
 
@@ -132,5 +134,6 @@ def _panel(axes: Axes, beta: float, drawn: Sequence[Drawn]) -> None:
         axes.plot(np.degrees(chi), one.lever.moment(chi), color=colour, linestyle=dashes, label=one.name)
     axes.axhline(0.0, color=drawing.GREY, linewidth=0.8)
     axes.axvline(0.0, color=drawing.GREY, linewidth=0.8)
-    axes.set(xlabel="deviation of the driven link (degrees)", ylabel="moment M_R / c1 (radians)", title=f"beta = {beta:g}")
+    axes.set(xlabel="deviation of the driven link (degrees)", ylabel="moment M_R / c1 (radians)")
+    axes.set_title(f"beta = {beta:g}")
     axes.legend(loc="upper left", fontsize=8.0)
