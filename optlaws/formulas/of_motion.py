@@ -20,8 +20,7 @@ from optlaws.formulas.slopes import added, constant, opposite
 from optlaws.formulas.tree import Call, Formula, Name, Number, Product, Reciprocal, Table, substituted
 from optlaws.formulas.vocabulary import ORDERS, VOCABULARY
 from optlaws.kept import kept_property
-from optlaws.series.chebyshev import real_parts_of_roots
-from optlaws.series.interpolation import chebyshev_series
+from optlaws.series.chebyshev import interpolated, real_parts_of_roots
 
 Array = NDArray[np.float64]
 
@@ -146,7 +145,7 @@ class Motion:
         for part in parts:
             if not part.names():
                 continue
-            series = chebyshev_series(partial(_along, Motion(part)), str(part))
+            series = interpolated(partial(_along, Motion(part)), str(part))
             found += ((1.0 + real_parts_of_roots(series)) / 2.0).tolist()
         return found
 

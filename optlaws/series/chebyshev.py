@@ -1,18 +1,101 @@
-"""Chebyshev series in x = 2k - 1: values, derivative, integral, product and roots."""
+"""Chebyshev series in x = 2k - 1: values, derivative, integral, product and roots; and how functions become series."""
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import lru_cache
 from math import fsum
 from typing import TypeVar
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebpts1
 from numpy.typing import NDArray
+
+from optlaws.errors import InputError
 
 Array = NDArray[np.float64]
 Place = TypeVar("Place", float, Array)
+Values = TypeVar("Values", Array, NDArray[np.complex128])
 
 NEGLIGIBLE = 2.0**-52
+FEWEST, MOST = 17, 1025
+RESOLVED = 2.0**-50  # what is left of the last tenth of the coefficients, relative to the largest
+
+
+@lru_cache(maxsize=256)
+def nodes(count: int) -> Array:
+    """The Chebyshev nodes in (-1, 1), falling, where values fix a series of so many terms.
+
+    Examples
+    --------
+    >>> nodes(3).round(6) + 0.0
+    array([ 0.866025,  0.      , -0.866025])
+    """
+    places = np.ascontiguousarray(chebpts1(count)[::-1])
+    places.setflags(write=False)
+    return places
+
+
+def from_values(values: Values) -> Values:
+    """Series of functions known at as many nodes as they have terms; a row a node, and a column a function if several.
+
+    Examples
+    --------
+    >>> from_values(3.0 * nodes(2)).round(12) + 0.0
+    array([0., 3.])
+    """
+    return np.asarray(_transform(len(values)) @ values, dtype=values.dtype)
+
+
+@lru_cache(maxsize=64)
+def _transform(count: int) -> Array:
+    # whole multiples of a quarter turn / count, taken modulo a turn before they are rounded
+    quarters = np.multiply.outer(np.arange(count), 2 * np.arange(count) + 1) % (4 * count)
+    matrix: Array = np.cos(quarters * (0.5 * np.pi / count)) * (2.0 / count)
+    matrix[0] *= 0.5
+    matrix.setflags(write=False)
+    return matrix
+
+
+def interpolated(function: Callable[[Array], Array], name: str) -> Array:
+    """Series in x, |x| <= 1, of a smooth function of an array of x, to rounding; `name` is what an error calls it.
+
+    The number of nodes is doubled until the last coefficients are rounding; those are then left out.
+
+    Raises
+    ------
+    InputError
+        If a value is not finite, or 1025 nodes do not resolve the function.
+
+    Examples
+    --------
+    >>> interpolated(lambda x: 2 * x * x, "f").round(12) + 0.0
+    array([1., 0., 1.])
+    """
+    count = FEWEST
+    while True:
+        values = np.asarray(function(nodes(count)), dtype=np.float64)
+        if not np.isfinite(values).all():
+            raise InputError(f"{name} must have finite values on the whole interval")
+        series = from_values(values)
+        noise = RESOLVED * float(np.abs(values).max())
+        if np.abs(series[-max(2, count // 10) :]).max() <= noise:
+            return shortened(series, noise)
+        if count >= MOST:
+            raise InputError(f"{name} must be smooth on the whole interval: {count} points do not resolve it")
+        count = 2 * count - 1
+
+
+def shortened(series: Array, noise: float) -> Array:
+    """The series without what is at most noise at its end.
+
+    Examples
+    --------
+    >>> shortened(np.array([1.0, 0.0, 2.0, 1e-17]), 1e-16)
+    array([1., 0., 2.])
+    """
+    kept = np.flatnonzero(np.abs(series) > noise)
+    return series[: kept[-1] + 1] if len(kept) else np.zeros(1)
 
 
 def value(series: Array, x: Place) -> Place:

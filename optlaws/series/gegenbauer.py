@@ -1,4 +1,4 @@
-"""Gegenbauer polynomials and Chebyshev series: the well-conditioned coordinates of polynomial laws."""
+"""Gegenbauer polynomials: the well-conditioned coordinates of polynomial laws."""
 
 from __future__ import annotations
 
@@ -51,12 +51,3 @@ def even_gegenbauer_jet(index: float, terms: int, t: Array) -> Array:
             following -= up * down2 * rows[m]
         rows[m + 1] = following / (up * up2)
     return rows.transpose(1, 2, 0)
-
-
-def chebyshev_series(values: Array, angle: Array) -> Array:
-    """Chebyshev coefficients of functions known at x = cos(angle), the Chebyshev points; one column a function."""
-    count = len(angle)
-    transform = np.cos(np.outer(np.arange(count), angle)) * (2.0 / count)
-    transform[0] /= 2.0
-    series: Array = transform @ values
-    return series

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from functools import lru_cache
 from itertools import pairwise
+from math import ceil
 
 import numpy as np
 from numpy.typing import NDArray
@@ -16,41 +16,60 @@ from optlaws.series.peaks import polished
 
 Array = NDArray[np.float64]
 Function = Callable[[Array], Array]
+#: whether a panel of this series and this length is short enough
+Short = Callable[[Array, float], bool]
 
-COUNT = 33
+TERMS = 33
 RESOLVED = 2e-15
 SMALLEST = 1e-6
+RADIANS, WAVE_TERMS = 10.0, 41  # so many terms resolve so many radians of a sine, and of its square, to rounding
 
 
 @dataclass(frozen=True, slots=True)
 class Panels:
-    """Edges of panels, short enough for the function they were made for."""
+    """Edges of panels, and how many terms of a series resolve a function on each of them.
+
+    Examples
+    --------
+    >>> waves = Panels((0.0, 1.0, 2.0, 3.0))
+    >>> bool(np.abs(waves.roots(np.cos, lambda t: -np.sin(t)) - np.pi / 2).min() < 1e-15)
+    True
+    >>> round(waves.square(np.cos), 12) == round(1.5 + 0.25 * float(np.sin(6.0)), 12)
+    True
+    """
 
     edges: tuple[float, ...]
+    terms: int = TERMS
 
-    def series(self, f: Function) -> list[Array]:
-        """Chebyshev series of a function on each panel."""
-        return [_series(f, low, high) for low, high in pairwise(self.edges)]
+    def series(self, f: Function) -> Array:
+        """Chebyshev series of a function, a column for each panel."""
+        low, high = np.array(self.edges[:-1]), np.array(self.edges[1:])
+        if not len(low):
+            return np.zeros((self.terms, 0))
+        t = _places(low, high, chebyshev.nodes(self.terms)[:, None])
+        return chebyshev.from_values(f(t.ravel()).reshape(t.shape))
 
     def roots(self, f: Function, slope: Function) -> Array:
         """Every place among which is each root of f; `slope` is its derivative."""
-        found = []
-        for (low, high), values in zip(pairwise(self.edges), self.series(f), strict=True):
-            half = 0.5 * (high - low)
+        return self.roots_of(self.series(f), f, slope)
 
-            def local(x: Array, low: float = low, high: float = high, half: float = half) -> tuple[Array, Array]:
-                t = np.clip(low + half * (x + 1.0), low, high)
-                return f(t), half * slope(t)
+    def roots_of(self, series: Array, f: Function, slope: Function) -> Array:
+        """The same where the series of f on every panel are known."""
+        found = [chebyshev.real_parts_of_roots(column) for column in series.T]
+        counts = [len(x) for x in found]
+        low, high = (np.repeat(np.array(edges), counts) for edges in (self.edges[:-1], self.edges[1:]))
 
-            x = polished(chebyshev.real_parts_of_roots(values), local)
-            found.append(np.clip(low + half * (x + 1.0), low, high))
-        return np.concatenate(found) if found else np.empty(0)
+        def residual(x: Array) -> tuple[Array, Array]:
+            t = _places(low, high, x)
+            return f(t), 0.5 * (high - low) * slope(t)
+
+        return _places(low, high, polished(np.concatenate(found), residual)) if sum(counts) else np.empty(0)
 
     def square(self, f: Function) -> float:
         """Integral of f²."""
         return sum(
             (high - low) * chebyshev.mean_product(one, one)
-            for (low, high), one in zip(pairwise(self.edges), self.series(f), strict=True)
+            for (low, high), one in zip(pairwise(self.edges), self.series(f).T, strict=True)
         )
 
 
@@ -73,32 +92,73 @@ class Integral:
         return found
 
 
-def panels(f: Function, low: float, high: float, scale: float) -> Panels:
+def equal(low: float, high: float, count: int, terms: int = TERMS) -> Panels:
+    """As many panels of one length.
+
+    Examples
+    --------
+    >>> equal(0.0, 1.0, 2).edges
+    (0.0, 0.5, 1.0)
+    """
+    return Panels(tuple(np.linspace(low, high, count + 1).tolist()), terms)
+
+
+def of_waves(frequency: float, length: float) -> Panels:
+    """Panels of u = s / length on which waves of at most this frequency in s are resolved, and their squares.
+
+    Examples
+    --------
+    >>> of_waves(20.0, 1.0).edges
+    (0.0, 0.5, 1.0)
+    """
+    return equal(0.0, 1.0, max(1, ceil(frequency * length / RADIANS)), WAVE_TERMS)
+
+
+def resolved(f: Function, first: Panels, short: Short) -> tuple[Panels, Array]:
+    """Panels halved until each is short enough for the series that f has there; and these series, a column each.
+
+    Examples
+    --------
+    >>> halves, series = resolved(np.exp, Panels((0.0, 4.0), 9), lambda series, length: length <= 1.0)
+    >>> halves.edges, series.shape
+    ((0.0, 1.0, 2.0, 3.0, 4.0), (9, 4))
+    """
+    waiting = list(pairwise(first.edges))[::-1]
+    edges, found = list(first.edges[:1]), []
+    while waiting:
+        low, high = waiting.pop()
+        series = Panels((low, high), first.terms).series(f)[:, 0]
+        if short(series, high - low):
+            edges.append(high)
+            found.append(series)
+        else:
+            middle = 0.5 * (low + high)
+            waiting += [(middle, high), (low, middle)]
+    return Panels(tuple(edges), first.terms), np.array(found).T
+
+
+def of_root(f: Function, low: float, high: float, scale: float) -> Panels:
     """Panels from low to high on which f = sqrt(scale² - b²) is resolved to rounding; none where low = high.
 
     Where f is small next to its scale, rounding of b is all the larger in it, and nothing finer is asked.
     """
     if not low < high:
         return Panels(())
-    if not np.isfinite(f(np.linspace(low, high, COUNT))).all():
+    if not np.isfinite(f(np.linspace(low, high, TERMS))).all():
         raise SolverFailure(f"the velocity of the loader is not finite between t = {low:g} and {high:g}")
-    waiting, edges = [(low, high)], [low]
-    while waiting:
-        start, end = waiting.pop()
-        values = np.abs(_series(f, start, end))
+
+    def short(series: Array, length: float) -> bool:
+        values = np.abs(series)
         rounding = RESOLVED * scale * max(1.0, scale / max(float(values[0]), 1e-9 * scale))
-        if values[-3:].max() <= rounding or end - start < SMALLEST:
-            edges.append(end)
-        else:
-            middle = 0.5 * (start + end)
-            waiting += [(middle, end), (start, middle)]
-    return Panels(tuple(edges))
+        return bool(values[-3:].max() <= rounding) or length < SMALLEST
+
+    return resolved(f, Panels((low, high)), short)[0]
 
 
 def integral(f: Function, on: Panels) -> Integral:
     """The integral of f from the first edge on."""
     total, parts = 0.0, []
-    for (low, high), values in zip(pairwise(on.edges), on.series(f), strict=True):
+    for (low, high), values in zip(pairwise(on.edges), on.series(f).T, strict=True):
         one = chebyshev.integral(values * (high - low), 0.0)
         one[0] += total
         total = float(one.sum())
@@ -106,14 +166,6 @@ def integral(f: Function, on: Panels) -> Integral:
     return Integral(on.edges, tuple(parts))
 
 
-def _series(f: Function, low: float, high: float) -> Array:
-    x, change = _interpolation()
-    return change @ f(np.clip(low + 0.5 * (high - low) * (x + 1.0), low, high))
-
-
-@lru_cache(maxsize=1)
-def _interpolation() -> tuple[Array, Array]:
-    x: Array = np.cos((np.arange(COUNT) + 0.5) * (np.pi / COUNT))
-    change = chebyshev.basis_values(x, COUNT).T * (2.0 / COUNT)
-    change[0] *= 0.5
-    return x, change
+def _places(low: Array, high: Array, x: Array) -> Array:
+    """Where x in [-1, 1] is between the edges of its panel."""
+    return np.clip(low + 0.5 * (high - low) * (x + 1.0), low, high)

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping
+from functools import partial
 from math import inf, log
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.series.halving import halved
+
 Array = NDArray[np.float64]
 Sum = Mapping[float, float]  # exponent: coefficient
 
 ONE = 1e-9  # exponents nearer than this were the same number before they were rounded
-_HALVINGS = 70
 
 
 def gathered(terms: Iterable[tuple[float, float]]) -> dict[float, float]:
@@ -106,7 +108,7 @@ def roots(powers: Sum, low: float, high: float) -> list[float]:
     heights = [_at(divided, v) for v in marks]
     found = [v for v, height in zip(marks[1:-1], heights[1:-1], strict=True) if height == 0.0]
     found += [
-        _halved(divided, start, end, before)
+        sum(halved(partial(_same_sign, divided, before), start, end)) / 2.0
         for start, end, before, after in zip(marks, marks[1:], heights, heights[1:], strict=False)
         if before * after < 0.0
     ]
@@ -117,11 +119,5 @@ def _at(powers: Sum, v: float) -> float:
     return float(sum(factor * v**exponent for exponent, factor in powers.items()))
 
 
-def _halved(powers: Sum, low: float, high: float, before: float) -> float:
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        if not low < middle < high:
-            break
-        here = _at(powers, middle)
-        low, high = (middle, high) if here * before > 0.0 else (low, middle)
-    return 0.5 * (low + high)
+def _same_sign(powers: Sum, height: float, v: float) -> bool:
+    return _at(powers, v) * height > 0.0

@@ -18,7 +18,7 @@ from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import fractions
-from optlaws.series import chebyshev, exact, interpolation
+from optlaws.series import chebyshev, exact
 
 Array = NDArray[np.float64]
 Multiplier = Sequence[Any] | NDArray[Any] | Callable[[float], float]
@@ -71,7 +71,7 @@ def multiplied(law: MotionLaw, y: Multiplier) -> MotionLaw:
 def _even(y: Multiplier) -> list[Fraction]:
     """The Chebyshev series of y in 2k - 1, without the odd part that rounding left."""
     if callable(y):
-        found = interpolation.chebyshev_series(lambda x: np.array([float(y(k)) for k in 0.5 * (x + 1.0)]), "y")
+        found = chebyshev.interpolated(lambda x: np.array([float(y(k)) for k in 0.5 * (x + 1.0)]), "y")
         given = fractions(found, "y")
     else:
         given = exact.exact_chebyshev(fractions(y, "y"))
@@ -94,7 +94,7 @@ def _even(y: Multiplier) -> list[Fraction]:
 def _of_polynomial(law: PolynomialLaw, y: Sequence[Fraction]) -> PolynomialLaw:
     powers = law.exact_powers()
     c = [n * (n - 1) * value for n, value in enumerate(powers)][2:] or [Fraction(0)]
-    product = _convolved(c, exact.exact_powers(y))
+    product = exact.times(c, exact.exact_powers(y))
     swing = [value / ((n + 1) * (n + 2)) for n, value in enumerate(product)]
     change = sum((value / (n + 1) for n, value in enumerate(product)), start=Fraction(0))
     _check_still(float(change), law)
@@ -124,16 +124,8 @@ def _of_pieces(law: PiecewiseLaw, y: Array) -> PiecewiseLaw:
 
 def _restricted(y: Array, start: float, end: float) -> Array:
     """The series on a part of the interval: of the same degree, so that as many points fix it."""
-    x = interpolation.points(len(y))
-    return interpolation.transformed(chebyshev.value(y, start + end - 1.0 + (end - start) * x))
-
-
-def _convolved(first: Sequence[Fraction], second: Sequence[Fraction]) -> list[Fraction]:
-    total = [Fraction(0)] * (len(first) + len(second) - 1)
-    for i, one in enumerate(first):
-        for n, other in enumerate(second):
-            total[i + n] += one * other
-    return total
+    x = chebyshev.nodes(len(y))
+    return chebyshev.from_values(chebyshev.value(y, start + end - 1.0 + (end - start) * x))
 
 
 def _check_still(change: float, law: MotionLaw) -> None:

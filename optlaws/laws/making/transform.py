@@ -11,7 +11,7 @@ from optlaws.laws.law import MotionLaw
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.numbers import finite
-from optlaws.series import interpolation
+from optlaws.series import chebyshev
 
 Array = NDArray[np.float64]
 
@@ -120,7 +120,7 @@ def as_polynomial(law: MotionLaw) -> PolynomialLaw:
     >>> as_polynomial(PiecewiseLaw([0, 1], [SineSegment(6.28, 6.28)])).degree > 15
     True
     """
-    found = interpolation.chebyshev_series(lambda x: law.c(0.5 * (x + 1.0)), f"c of {type(law).__name__}")
+    found = chebyshev.interpolated(lambda x: law.c(0.5 * (x + 1.0)), f"c of {type(law).__name__}")
     return PolynomialLaw(found, law.a(0.0), law.b(0.0))
 
 

@@ -12,12 +12,12 @@ from optlaws.errors import InputError
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.savin.peaks import acceleration_peak, least_power, power_peak
 from optlaws.numbers import MOST_EXPONENT, finite, fractions, whole
+from optlaws.series.halving import halved
 from optlaws.series.peaks import Peak
 from optlaws.suggest import unknown_key
 
 ROUNDING = Fraction(1, 2**51)  # an end of a range such as 44/3 is no float, but means itself
 
-_HALVINGS = 200
 
 FAMILIES = {"I": 0, "II": 1, "III": 2, "IV": 3}
 
@@ -256,14 +256,4 @@ def _check_reachable(family: SavinFamily, name: str, value: float, least: float,
 
 def _root(excess: Callable[[float], float], inner: float, outer: float) -> float:
     """The place between, to the last digit: excess is below zero at the inner end and not below at the outer one."""
-    if excess(outer) == 0.0:
-        return outer
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (inner + outer)
-        if middle in (inner, outer):
-            break
-        if excess(middle) < 0.0:
-            inner = middle
-        else:
-            outer = middle
-    return outer
+    return outer if excess(outer) == 0.0 else halved(lambda place: excess(place) < 0.0, inner, outer)[1]

@@ -9,14 +9,13 @@ from __future__ import annotations
 from fractions import Fraction
 from math import sqrt
 
-import numpy as np
-from numpy.typing import NDArray
+from numpy.polynomial import Polynomial
 
-from optlaws.series import chebyshev
-from optlaws.series.peaks import Peak, polished
+from optlaws.series.panels import Panels
+from optlaws.series.peaks import Peak
 
-Array = NDArray[np.float64]
-Polynomial = tuple[float, ...]  # ascending powers of p
+_p, _q = Polynomial([0.0, 1.0]), Polynomial([0.25, -1.0])
+_TERMS = 5  # of a quartic: the cubics are of less
 
 
 def acceleration_peak(u: int, H: int, M: float, alpha: Fraction) -> Peak:
@@ -59,21 +58,12 @@ def power_peak(u: int, H: int, M: Fraction, alpha: Fraction) -> Peak:
     """
     first = float(1 + alpha * M)
     slope = float(alpha)
-    y: Polynomial = (first, -slope)
-    F: Polynomial = (first / (u + 1), -slope / (u + 2))
-    p, q = (0.0, 1.0), (0.25, -1.0)
-    both = _product(y, F)
-    parts = [
-        _product((0.0, -1.0), both),
-        _product((4.0 * u + 2.0,), _product(q, both)),
-        _product((-2.0 * slope,), _product(_product(p, q), F)),
-        _product((-2.0 * slope / (u + 2),), _product(_product(p, q), y)),
-    ]
-    cubic = np.sum([np.pad(one, (0, 4 - len(one))) for one in parts], axis=0)
+    y, F = Polynomial([first, -slope]), Polynomial([first / (u + 1), -slope / (u + 2)])
+    cubic = -_p * y * F + (4 * u + 2) * _q * y * F - 2.0 * slope * _p * _q * F - 2.0 * slope / (u + 2) * _p * _q * y
 
     def d(p: float) -> float:
         q = max(0.25 - p, 0.0)
-        return 0.5 * H * H * sqrt(q) * p ** (2 * u + 1) * (first - slope * p) * (F[0] + F[1] * p)
+        return 0.5 * H * H * sqrt(q) * p ** (2 * u + 1) * float(y(p)) * float(F(p))
 
     return max(
         (Peak(d(p), 0.5 - sqrt(max(0.25 - p, 0.0))) for p in _roots(cubic, 0.0, 0.25)), key=lambda one: one.value
@@ -92,28 +82,14 @@ def least_power(u: int, M: Fraction) -> float:
     2.286235382
     """
     low, high = float(M), float(M * Fraction(u + 2, u + 1))
-    p, q, above, below = (0.0, 1.0), (0.25, -1.0), (high, -1.0), (-low, 1.0)
-    cubic = (
-        -0.5 * np.array(_product(p, _product(above, below)))
-        + (2 * u + 3) * np.array(_product(q, _product(above, below)))
-        + np.array(_product(p, _product(q, below)))
-        - np.array(_product(p, _product(q, above)))
-    )
+    above, below = Polynomial([high, -1.0]), Polynomial([-low, 1.0])
+    cubic = -0.5 * _p * above * below + (2 * u + 3) * _q * above * below + _p * _q * below - _p * _q * above
     # the cubic is negative at M and positive at M'; among the candidates are real parts of its complex roots
-    root = min(_roots(cubic, low, high), key=lambda one: abs(float(np.polynomial.polynomial.polyval(one, cubic))))
+    root = min(_roots(cubic, low, high), key=lambda place: abs(float(cubic(place))))
     rest = low / (u + 1) - root / (u + 2)
     return -((low - root) / (u + 1) + rest) / (2.0 * (low - root) * rest)
 
 
-def _product(first: Polynomial, second: Polynomial) -> Polynomial:
-    return tuple(np.convolve(first, second).tolist())
-
-
-def _roots(powers: Array, low: float, high: float) -> list[float]:
-    """Roots of a polynomial in [low, high]; leading coefficients that are nearly zero do no harm."""
-    half, middle = 0.5 * (high - low), 0.5 * (high + low)
-    inner = np.polynomial.Polynomial(powers)(np.polynomial.Polynomial([middle, half]))
-    slope = inner.deriv()
-    found = chebyshev.real_parts_of_roots(np.polynomial.chebyshev.poly2cheb(inner.coef).astype(np.float64))
-    x = polished(found, lambda x: (np.asarray(inner(x)), np.asarray(slope(x))))
-    return [float(one) for one in np.clip(middle + half * x, low, high)]
+def _roots(polynomial: Polynomial, low: float, high: float) -> list[float]:
+    """Every place in [low, high] among which is each root."""
+    return [float(place) for place in Panels((low, high), _TERMS).roots(polynomial, polynomial.deriv())]

@@ -17,7 +17,7 @@ from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.storage import contents, known_fields
 from optlaws.lazy import Registry
 from optlaws.numbers import finite, numbers
-from optlaws.series import chebyshev, interpolation
+from optlaws.series import chebyshev
 
 Array = NDArray[np.float64]
 
@@ -118,7 +118,7 @@ class Segment(ABC):
         def c(x: Array) -> Array:
             return self.derivative(0.5 * (x + 1.0), length, 2) * chebyshev.value(y, x)
 
-        series = interpolation.chebyshev_series(c, f"acceleration of the {self.kind} segment times y")
+        series = chebyshev.interpolated(c, f"acceleration of the {self.kind} segment times y")
         return PolynomialSegment(tuple(series.tolist()), self.velocity(length))
 
     def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:
@@ -137,7 +137,7 @@ class Segment(ABC):
             orders = ((2, 1.0), (3, once), (4, twice))
             return np.asarray(sum(factor * self.derivative(u, length, order) for order, factor in orders))
 
-        series = interpolation.chebyshev_series(c, f"acceleration of the cam under the {self.kind} segment")
+        series = chebyshev.interpolated(c, f"acceleration of the cam under the {self.kind} segment")
         return PolynomialSegment(tuple(series.tolist()), self._velocity_plus(length, once, twice))
 
     def at_rest(self, length: float, share: float) -> Segment:  # noqa: ARG002 - for kinds whose c may be infinite
@@ -169,7 +169,7 @@ class Segment(ABC):
         def c(x: Array) -> Array:
             return self.derivative(0.5 * (x + 1.0), length, 2)
 
-        series = interpolation.chebyshev_series(c, f"acceleration of the {self.kind} segment")
+        series = chebyshev.interpolated(c, f"acceleration of the {self.kind} segment")
         return PolynomialSegment(tuple(series.tolist()), self.velocity(length))
 
     def velocity(self, length: float, *, last: bool = False) -> float:

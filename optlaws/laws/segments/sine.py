@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws.segments.segment import Segment, Wave, Waves
-from optlaws.series.waves import wave_roots, wave_square
+from optlaws.series.panels import of_waves
 
 Array = NDArray[np.float64]
 
@@ -112,7 +112,7 @@ class SineSegment(Segment, kind="sine"):
         return power_candidates(self, self.frequency, length)
 
     def square(self, length: float, nu: int) -> float:  # noqa: D102
-        return wave_square(lambda u: self.derivative(u, length, nu), self.frequency, length)
+        return length * of_waves(self.frequency, length).square(lambda u: self.derivative(u, length, nu))
 
 
 @dataclass(frozen=True)
@@ -160,7 +160,7 @@ class HarmonicSegment(Segment, kind="harmonics"):
         return power_candidates(self, max(self.frequencies), length)
 
     def square(self, length: float, nu: int) -> float:  # noqa: D102
-        return wave_square(lambda u: self.derivative(u, length, nu), max(self.frequencies), length)
+        return length * of_waves(max(self.frequencies), length).square(lambda u: self.derivative(u, length, nu))
 
     def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
         amplitudes = tuple(scale * one for one in self.amplitudes)
@@ -196,8 +196,8 @@ def candidates(wave: Segment, frequency: float, length: float, nu: int) -> Array
     >>> 0.523599 in candidates(SineSegment(1.0, 3.0), 3.0, 1.0, 2).round(6)
     True
     """
-    return wave_roots(
-        lambda u: (wave.derivative(u, length, nu + 1), wave.derivative(u, length, nu + 2)), frequency, length
+    return of_waves(frequency, length).roots(
+        lambda u: wave.derivative(u, length, nu + 1), lambda u: length * wave.derivative(u, length, nu + 2)
     )
 
 
@@ -210,11 +210,15 @@ def power_candidates(wave: Segment, frequency: float, length: float) -> Array:
     True
     """
 
-    def slope(u: Array) -> tuple[Array, Array]:
-        b, c, j, s = (wave.derivative(u, length, nu) for nu in (1, 2, 3, 4))
-        return c * c + b * j, 3.0 * c * j + b * s
+    def slope(u: Array) -> Array:
+        b, c, j = (wave.derivative(u, length, nu) for nu in (1, 2, 3))
+        return c * c + b * j
 
-    return wave_roots(slope, frequency, length)
+    def curvature(u: Array) -> Array:
+        b, c, j, s = (wave.derivative(u, length, nu) for nu in (1, 2, 3, 4))
+        return length * (3.0 * c * j + b * s)
+
+    return of_waves(frequency, length).roots(slope, curvature)
 
 
 def _turned(frequency: float, phase: float, length: float) -> float:

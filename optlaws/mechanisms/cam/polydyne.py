@@ -15,7 +15,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.cam.smoothness import check_mass_law
 from optlaws.mechanisms.checks import motion_law
 from optlaws.numbers import not_negative, positive
-from optlaws.series import interpolation
+from optlaws.series import chebyshev
 
 Array = NDArray[np.float64]
 
@@ -69,7 +69,7 @@ def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
         k = 0.5 * (x + 1.0)
         return law(k, 2) + once * law(k, 3) + twice * law(k, 4)
 
-    return PolynomialLaw(interpolation.chebyshev_series(c, "acceleration of the cam"), float(law.a(0.0)))
+    return PolynomialLaw(chebyshev.interpolated(c, "acceleration of the cam"), float(law.a(0.0)))
 
 
 def mass_law(cam: MotionLaw, nu: float, damping: float = 0.0) -> PolynomialLaw:

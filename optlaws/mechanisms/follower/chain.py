@@ -13,11 +13,13 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.particular import RADIANS, Stretch, stretches
 from optlaws.mechanisms.follower.vibration import Oscillator
-from optlaws.series import chebyshev, interpolation
-from optlaws.series.peaks import polished
+from optlaws.series import chebyshev
+from optlaws.series.panels import Panels, equal, resolved
 
 Array = NDArray[np.float64]
 State = tuple[float, float]
+#: of a slope on a stretch by its number, at times since its start: the slope itself, or its derivative
+Slope = Callable[[int, Array, int], Array]
 
 RESOLVED = (
     1e-9  # what a series misses by, relative to the whole motion, where roots are looked for; Newton does the rest
@@ -26,7 +28,7 @@ EXACT = 1e-14  # and where squares are integrated, relative to the stretch
 DEEPEST = 5
 MANY = 64
 COUNT = 41
-SAMPLES = 0.5 - 0.5 * np.cos((np.arange(17) + 0.5) * (np.pi / 17.0))
+SAMPLES = 0.5 - 0.5 * chebyshev.nodes(17)
 
 
 @dataclass(frozen=True, eq=False)
@@ -116,16 +118,15 @@ class Motion:
     def candidates(self, order: int) -> tuple[Array, Array]:
         """Times, and values there, among which the extremes of the derivative of order `order` are."""
         return self._gathered(
-            lambda i, s: self._values(i, s, order),
-            lambda i, s: (self._values(i, s, order + 1), self._values(i, s, order + 2)),
+            lambda i, s: self._values(i, s, order), lambda i, s, nu: self._values(i, s, order + 1 + nu)
         )
 
     def power_candidates(self) -> tuple[Array, Array]:
         """Times, and values there, among which the extremes of the kinetic power d = b c are."""
 
-        def slope(i: int, s: Array) -> tuple[Array, Array]:
-            b, c, j, jounce = (self._values(i, s, order) for order in (1, 2, 3, 4))
-            return c * c + b * j, 3.0 * c * j + b * jounce
+        def slope(i: int, s: Array, nu: int) -> Array:
+            b, c, j = (self._values(i, s, order) for order in (1, 2, 3))
+            return 3.0 * c * j + b * self._values(i, s, 4) if nu else c * c + b * j
 
         return self._gathered(lambda i, s: self._values(i, s, 1) * self._values(i, s, 2), slope)
 
@@ -136,27 +137,14 @@ class Motion:
 
     def _square(self, i: int, length: float, order: int) -> float:
         """Integral over a stretch, halved until the product of its series is known to rounding."""
-        x = interpolation.points(COUNT)
-        count, deepest = self._panels(length)
-        waiting = [(part / count * length, length / count, 0) for part in range(count)]
         negligible = EXACT * float(np.abs(self._values(i, length * SAMPLES, order)).max())
-        total = 0.0
-        while waiting:
-            start, span, depth = waiting.pop()
-            s = np.clip(start + 0.5 * span * (x + 1.0), 0.0, length)
-            series = interpolation.transformed(self._values(i, s, order))
-            if np.abs(series[-3:]).max() > negligible and depth < deepest:
-                half = 0.5 * span
-                waiting += [(start, half, depth + 1), (start + half, half, depth + 1)]
-                continue
-            total += span * chebyshev.mean_product(series, series)
-        return total
+        panels, series = self._resolved(lambda s: self._values(i, s, order), length, negligible)
+        pieces = zip(np.diff(panels.edges).tolist(), series.T, strict=True)
+        return sum(span * chebyshev.mean_product(column, column) for span, column in pieces)
 
-    def _gathered(
-        self, values: Callable[[int, Array], Array], slope: Callable[[int, Array], tuple[Array, Array]]
-    ) -> tuple[Array, Array]:
-        """Both ends of every stretch and its roots of a slope, given with its derivative, with the values there."""
-        slopes = [slope(i, one.length * SAMPLES)[0] for i, one in enumerate(self.stretches)]
+    def _gathered(self, values: Callable[[int, Array], Array], slope: Slope) -> tuple[Array, Array]:
+        """Both ends of every stretch and its roots of a slope, with the values there."""
+        slopes = [slope(i, one.length * SAMPLES, 0) for i, one in enumerate(self.stretches)]
         negligible = RESOLVED * float(max(np.abs(one).max() for one in slopes))
         times, found = [], []
         for i, one in enumerate(self.stretches):
@@ -180,32 +168,19 @@ class Motion:
             value = -twice * value - square * off(m)
         return value
 
-    def _stops(self, i: int, slope: Callable[[int, Array], tuple[Array, Array]], negligible: float) -> Array:
+    def _stops(self, i: int, slope: Slope, negligible: float) -> Array:
         """Points of a stretch where a slope is zero, each found by a Chebyshev series there."""
-        one = self.stretches[i]
-        x = interpolation.points(COUNT)
-        count, deepest = self._panels(one.length)
-        waiting = [(part / count * one.length, one.length / count, 0) for part in range(count)]
-        found = [np.empty(0)]
-        while waiting:
-            start, length, depth = waiting.pop()
+        panels, series = self._resolved(lambda s: slope(i, s, 0), self.stretches[i].length, negligible)
+        return panels.roots_of(series, lambda s: slope(i, s, 0), lambda s: slope(i, s, 1))
 
-            def residual(x: Array, start: float = start, length: float = length) -> tuple[Array, Array]:
-                value, curvature = slope(i, np.clip(start + 0.5 * length * (x + 1.0), 0.0, one.length))
-                return value, 0.5 * length * curvature
+    def _resolved(self, f: Callable[[Array], Array], length: float, negligible: float) -> tuple[Panels, Array]:
+        """Panels of a stretch on which a function is known but for what is negligible, and its series there."""
+        count, deepest = max(1, ceil(self.oscillator.fastest * length / RADIANS)), DEEPEST
+        if count > MANY:  # a vibration that has died out needs no short panels
+            count, deepest = 1, DEEPEST + ceil(log2(count))
+        shortest = 1.5 * length / count / 2**deepest
 
-            coefficients = interpolation.transformed(residual(x)[0])
-            if np.abs(coefficients[-3:]).max() > negligible and depth < deepest:
-                half = 0.5 * length
-                waiting += [(start, half, depth + 1), (start + half, half, depth + 1)]
-                continue
-            roots = polished(chebyshev.real_parts_of_roots(coefficients), residual)
-            found.append(np.clip(start + 0.5 * length * (roots + 1.0), 0.0, one.length))
-        return np.concatenate(found)
+        def short(series: Array, span: float) -> bool:
+            return bool(np.abs(series[-3:]).max() <= negligible) or span < shortest
 
-    def _panels(self, length: float) -> tuple[int, int]:
-        """How many panels a stretch is cut in at first, and how often each may be halved."""
-        count = max(1, ceil(self.oscillator.fastest * length / RADIANS))
-        if count <= MANY:
-            return count, DEEPEST
-        return 1, DEEPEST + ceil(log2(count))  # a vibration that has died out needs no short panels
+        return resolved(f, equal(0.0, length, count, COUNT), short)

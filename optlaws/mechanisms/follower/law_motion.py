@@ -13,7 +13,8 @@ from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment, Wave, Waves
 from optlaws.mechanisms.follower.cam_motion import Forcing
-from optlaws.series import chebyshev, interpolation
+from optlaws.series import chebyshev
+from optlaws.series.panels import Panels, resolved
 
 Array = NDArray[np.float64]
 
@@ -82,18 +83,16 @@ class _Frame:
         return Forcing(*self._place(low, high), self.stroke / self.length * waves.b0, c, tuple(sines))
 
     def _interpolated(self, velocity: Callable[[Array], Array], low: float, high: float) -> list[Forcing]:
-        x = interpolation.points(COUNT)
-        found: list[Forcing] = []
-        waiting = [(low, high)]
-        size = float(np.abs(velocity(0.5 * (low + high) + 0.5 * (high - low) * x)).max()) or 1.0
-        while waiting:
-            first, last = waiting.pop()
-            middle, half = 0.5 * (first + last), 0.5 * (last - first)
-            b = interpolation.transformed(velocity(middle + half * x))
+        ends = 0.5 * (low + high) + 0.5 * (high - low) * chebyshev.nodes(COUNT)
+        size = float(np.abs(velocity(ends)).max()) or 1.0
+
+        def short(b: Array, length: float) -> bool:
             missed = float(np.abs(b[-4:]).max()) / size
-            if missed > RESOLVED and missed * half > ABSORBED:
-                waiting += [(middle, last), (first, middle)]
-                continue
-            c = tuple((chebyshev.derivative(b) / (2.0 * half)).tolist())
+            return missed <= RESOLVED or 0.5 * missed * length <= ABSORBED
+
+        panels, series = resolved(velocity, Panels((low, high), COUNT), short)
+        found = []
+        for (first, last), b in zip(pairwise(panels.edges), series.T, strict=True):
+            c = tuple((chebyshev.derivative(b) / (last - first)).tolist())
             found.append(self._forcing(Waves(c, float(chebyshev.value(b, -1.0))), first, last))
         return found

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.vibration import Oscillator
-from optlaws.series import chebyshev, interpolation
+from optlaws.series import chebyshev
 
 Array = NDArray[np.float64]
 
@@ -180,12 +180,12 @@ def _solved(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
     count = max(1, ceil(fastest * forcing.length / RADIANS))
     length = forcing.length / count
     size = terms + SPARE
-    x = interpolation.points(terms)
+    x = chebyshev.nodes(terms)
     offsets = length * np.arange(count)
     s = np.minimum(offsets + 0.5 * length * (x[:, None] + 1.0), forcing.length)
     values = forcing.derivative(s, 2) + 2.0 * oscillator.n * forcing.derivative(s, 1)
     load = np.zeros((size, count))
-    load[:terms] = interpolation.transformed(values)
+    load[:terms] = chebyshev.from_values(values)
     integral = length * _integration(size)
     matrix = np.eye(size) + 2.0 * oscillator.n * integral + oscillator.nu**2 * (integral @ integral)
     found: Array = np.asarray(np.linalg.solve(matrix, -load), dtype=np.float64)

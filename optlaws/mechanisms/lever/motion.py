@@ -202,8 +202,5 @@ class LeverMotion:
 
 def _fitted(function: Callable[[Array], Array], count: int) -> tuple[float, ...]:
     """Chebyshev series of an entire function on [-1, 1], without the coefficients that rounding makes."""
-    angles = (np.arange(count) + 0.5) * pi / count
-    found = 2.0 / count * (np.cos(np.multiply.outer(np.arange(count), angles)) @ function(np.cos(angles)))
-    found[0] *= 0.5
-    kept = np.flatnonzero(np.abs(found) > _NOISE * np.abs(found).max())
-    return tuple(found[: kept[-1] + 1].tolist())
+    series = chebyshev.from_values(function(chebyshev.nodes(count)))
+    return tuple(chebyshev.shortened(series, _NOISE * float(np.abs(series).max())).tolist())

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError, OptlawsError
 from optlaws.mechanisms.lever.lever import TorsionLever
+from optlaws.series.halving import halved
 
 Array = NDArray[np.float64]
 Quantity = Callable[[TorsionLever], float]
@@ -85,10 +86,7 @@ def _samples(line: Line) -> tuple[Array, Array]:
 
 
 def _edge(line: Line, inside: float, outside: float) -> float:
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (inside + outside)
-        inside, outside = (middle, outside) if np.isfinite(line.value(middle)) else (inside, middle)
-    return float(inside)
+    return float(halved(lambda length: bool(np.isfinite(line.value(length))), inside, outside, _HALVINGS)[0])
 
 
 def within(

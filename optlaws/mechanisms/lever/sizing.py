@@ -10,6 +10,7 @@ from numpy.polynomial import Polynomial
 
 from optlaws.errors import InputError
 from optlaws.mechanisms.lever.linkage import FourBar
+from optlaws.series.peaks import polished
 
 LEAST_SHARE, GREATEST_SHARE = 0.2, 0.8  # of the swing, between which chi01 is looked for
 
@@ -54,14 +55,9 @@ def sized(linkage: FourBar, rho: float, nu: float, swing: float) -> Sizing:
             f"eq. (13) has no root chi01 between {LEAST_SHARE} and {GREATEST_SHARE} of the swing, {degrees(swing):.6g} "
             f"deg, with {linkage!r}: the asymptotic formulas do not reach so far; reduce swing"
         )
-    found = _polished(quartic, swing * float(inside[np.argmin(np.abs(inside - 0.5))]))
+    share = polished(
+        inside[[np.argmin(np.abs(inside - 0.5))]], lambda x: (quartic(swing * x), swing * quartic.deriv()(swing * x))
+    )
+    found = swing * float(share[0])
     rocker = float(gamma01(found))
     return Sizing(found, rocker, beta * rocker * (1.0 + rho) / ((swing - found) * (1.0 + nu)))
-
-
-def _polished(polynomial: Polynomial, root: float) -> float:
-    slope = polynomial.deriv()
-    for _ in range(2):
-        steep = float(slope(root))
-        root -= float(polynomial(root)) / steep if steep else 0.0
-    return root

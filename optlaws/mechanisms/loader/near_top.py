@@ -47,13 +47,10 @@ class Germ:
 
     def roots(self, order: int) -> Array:
         """Every t in (0, reach) where the derivative of some order may be zero."""
-        values = self._factored(order)[1]
-        top = self.reach**self.step
-        x = np.cos(np.pi * (np.arange(TERMS) + 0.5) / TERMS)
-        fitted = chebyshev.basis_values(x, TERMS).T @ np.polynomial.polynomial.polyval(0.5 * top * (x + 1.0), values)
-        fitted *= 2.0 / TERMS
-        fitted[0] *= 0.5
-        return np.asarray((0.5 * top * (chebyshev.real_parts_of_roots(fitted) + 1.0)) ** (1.0 / self.step))
+        half = 0.5 * self.reach**self.step
+        powers = half * (chebyshev.nodes(TERMS) + 1.0)
+        series = chebyshev.from_values(np.polynomial.polynomial.polyval(powers, self._factored(order)[1]))
+        return np.asarray((half * (chebyshev.real_parts_of_roots(series) + 1.0)) ** (1.0 / self.step))
 
     def square(self, order: int) -> float:
         """Integral over 0 <= t <= reach of the square of the derivative of some order; inf where it diverges."""

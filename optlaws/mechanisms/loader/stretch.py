@@ -108,7 +108,7 @@ class Stretch:
 
     @kept_property
     def _panels(self) -> panels.Panels:
-        return panels.panels(lambda t: self.value(t, 0), max(self._root_reach, 0.0), self.length, self.B)
+        return panels.of_root(lambda t: self.value(t, 0), max(self._root_reach, 0.0), self.length, self.B)
 
     @kept_property
     def _far_integral(self) -> panels.Integral:

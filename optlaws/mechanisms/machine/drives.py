@@ -13,7 +13,7 @@ from optlaws.laws import MotionLaw
 from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.machine.dynamics import Drive
-from optlaws.series import interpolation
+from optlaws.series import chebyshev
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily
 from optlaws.synthesis.spaces.space import LawSpace
 
@@ -63,12 +63,12 @@ def of_space(space: LawSpace) -> list[Drive]:
     [0.0, 0.0, 1.0]
     """
     breaks: Sequence[float] = getattr(space, "breaks", (0.0, 1.0))
-    x = interpolation.points(_terms(space))
+    x = chebyshev.nodes(_terms(space))
     found = []
     for low, high in pairwise(breaks):
         k = low + 0.5 * (high - low) * (x + 1.0)
         values = np.stack([_values(space, nu, k) for nu in range(3)], axis=1)
-        series = interpolation.transformed(values.reshape(len(k), -1)).reshape(values.shape)
+        series = chebyshev.from_values(values.reshape(len(k), -1)).reshape(values.shape)
         found.append(Drive(float(low), float(high - low), np.ascontiguousarray(series)))
     return found
 
@@ -107,11 +107,11 @@ def _drives(forcing: Forcing) -> list[Drive]:
     count = max(1, ceil(fastest * forcing.length / _RADIANS))
     length = forcing.length / count
     terms = max(len(forcing.acceleration) + 2, _COUNT if forcing.sines else 0)
-    places = 0.5 * length * (interpolation.points(terms) + 1.0)
+    places = 0.5 * length * (chebyshev.nodes(terms) + 1.0)
     found = []
     for i in range(count):
         s = np.minimum(i * length + places, forcing.length)
         values = np.column_stack([forcing.derivative(s, order) for order in range(3)])
-        series = np.asarray(interpolation.transformed(values))[:, :, None]
+        series = np.asarray(chebyshev.from_values(values))[:, :, None]
         found.append(Drive(forcing.start + i * length, length, series))
     return found

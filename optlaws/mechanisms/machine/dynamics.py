@@ -15,7 +15,7 @@ from math import ceil, inf, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.series import interpolation
+from optlaws.series import chebyshev
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -47,9 +47,9 @@ class Drive:
         if (low, high) == (0.0, 1.0):
             return self.series
         count, _, columns = self.series.shape
-        x = low + 0.5 * (high - low) * (interpolation.points(count) + 1.0)
+        x = low + 0.5 * (high - low) * (chebyshev.nodes(count) + 1.0)
         values = np.polynomial.chebyshev.chebvander(2.0 * x - 1.0, count - 1) @ self.series.reshape(count, -1)
-        return np.asarray(interpolation.transformed(values)).reshape(count, 3, columns)
+        return np.asarray(chebyshev.from_values(values)).reshape(count, 3, columns)
 
     @property
     def ends(self) -> tuple[Array, Array]:

@@ -23,8 +23,9 @@ from optlaws.mechanisms.machine.modes import mode, participation
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import check_rest, machine_of, text_of
 from optlaws.mechanisms.spectrum.laplace import velocity_transform
-from optlaws.mechanisms.spectrum.robust import complex_series, gauss_rule
+from optlaws.mechanisms.spectrum.robust import gauss_rule
 from optlaws.numbers import not_negative, numbers
+from optlaws.series import chebyshev
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 from optlaws.synthesis.spaces.space import LawSpace
@@ -57,14 +58,13 @@ class Edge:
         return np.asarray(1j * nu * np.exp(1j * angle))
 
     @property
-    def nodes(self) -> tuple[Array, Array]:
-        """Chebyshev points, enough for functions of exponential type 1 in the root, and their angles."""
+    def nodes(self) -> Array:
+        """Chebyshev nodes, enough for functions of exponential type 1 in the root."""
         if self.single:
-            return np.ones(1), np.zeros(1)
+            return np.ones(1)
         ends = self.roots(np.array([-1.0, 1.0]))
         count = ceil(0.75 * abs(ends[1] - ends[0])) + _SPARE
-        angle = (np.arange(count) + 0.5) * np.pi / count
-        return np.cos(angle), angle
+        return chebyshev.nodes(count)
 
 
 @dataclass(frozen=True, repr=False)
@@ -139,7 +139,7 @@ class ModeResidual(Functional):
         return parts.view(np.complex128)
 
     def _computed(self, space: LawSpace, edge: Edge) -> Complex:
-        u, angle = edge.nodes
+        u = edge.nodes
         roots = edge.roots(u)
         k, weights = gauss_rule(space, float(np.abs(roots).max()))
         family = space.derivative(1, "b", np.zeros(space.terms))
@@ -147,16 +147,16 @@ class ModeResidual(Functional):
         places = np.abs(1.0 - 2.0 * k) if space.symmetric else 1.0 - 2.0 * k
         velocities = weights[:, None] * family.columns(places)[0]
         transforms = self.share * (np.exp(roots[:, None] * (1.0 - k)) @ velocities)
-        series = complex_series(transforms, angle)
+        series = chebyshev.from_values(transforms)
         kept = np.flatnonzero(np.abs(series).max(axis=1) > _NEGLIGIBLE * np.abs(series).max())
         return np.ascontiguousarray(series[: kept[-1] + 1])
 
 
 def _greatest(edge: Edge, amplitude: Callable[[Complex], Complex]) -> tuple[float, complex]:
     """The greatest magnitude on an edge, and its root."""
-    u, angle = edge.nodes
+    u = edge.nodes
     if not edge.single:
-        series = complex_series(amplitude(edge.roots(u))[:, None], angle)[:, 0]
+        series = chebyshev.from_values(amplitude(edge.roots(u)))
         u = np.concatenate([[-1.0, 1.0], stationary_places(series)])
     roots = edge.roots(u)
     sizes = np.abs(amplitude(roots))

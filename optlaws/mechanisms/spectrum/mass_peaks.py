@@ -16,7 +16,7 @@ from optlaws.laws import MotionLaw
 from optlaws.mechanisms.follower.cam_motion import Forcing
 from optlaws.mechanisms.follower.law_motion import forcings
 from optlaws.mechanisms.spectrum.bessel import legendre_from_chebyshev, moments
-from optlaws.series import interpolation
+from optlaws.series import chebyshev
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -79,12 +79,12 @@ def _peaks(pieces: tuple[Forcing, ...], nu: Array, w: Complex) -> Array:
 
 def _panels(piece: Forcing, fastest: float) -> tuple[int, Array, Array, Array, Array]:
     """Number of equal panels, Legendre series of b and c on each (rows), b and c at their ends."""
-    x = interpolation.points(TERMS)
+    x = chebyshev.nodes(TERMS)
     count = max(1, ceil(fastest * piece.length / RADIANS))
     while True:
         starts = np.arange(count) / count * piece.length
         s = starts[:, None] + 0.5 * piece.length / count * (x + 1.0)
-        b, c = (interpolation.transformed(piece.derivative(s, order).T).T for order in (1, 2))
+        b, c = (chebyshev.from_values(piece.derivative(s, order).T).T for order in (1, 2))
         size = float(np.abs(c).max())
         if np.abs(c[:, -2:]).max() <= RESOLVED * size and np.abs(c[:, 4:]).max() <= QUINTIC * size:
             break

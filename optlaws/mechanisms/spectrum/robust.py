@@ -19,7 +19,7 @@ from optlaws.laws import MotionLaw
 from optlaws.mechanisms.cam.constants import check_order
 from optlaws.mechanisms.spectrum.residual import residual_phasor, roots
 from optlaws.numbers import not_negative, positive
-from optlaws.series.gegenbauer import chebyshev_series
+from optlaws.series.chebyshev import from_values, nodes
 from optlaws.series.peaks import Peak
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
 from optlaws.synthesis.problem.constants import MAKERS, Functional
@@ -63,8 +63,7 @@ class Residual(Functional):
         """The greatest over the whole interval; its `k` is the frequency at which it is."""
         places = np.array([1.0])
         if self.low < self.high:
-            u, angle = _nodes(self.low, self.high)
-            phasors = complex_series(self._phasors(law, self._frequencies(u))[:, None], angle)[:, 0]
+            phasors = from_values(self._phasors(law, self._frequencies(_nodes(self.low, self.high))))
             inner = stationary_places(phasors)
             places = np.concatenate([[-1.0, 1.0], inner])
         frequencies = self._frequencies(places)
@@ -119,7 +118,7 @@ class Residual(Functional):
         return parts.view(np.complex128)
 
     def _computed(self, space: LawSpace) -> Complex:
-        u, angle = _nodes(self.low, self.high) if self.low < self.high else (np.ones(1), np.zeros(1))
+        u = _nodes(self.low, self.high) if self.low < self.high else np.ones(1)
         frequencies = self._frequencies(u)
         _, w, damped = roots(frequencies, self.damping)
         k, weights = gauss_rule(space, self.high)
@@ -129,7 +128,7 @@ class Residual(Functional):
         velocities = family.columns(places)[0]
         transform = np.exp(w[:, None] * (1.0 - k)) @ (weights[:, None] * velocities)
         scale = -1j * frequencies**2 * w.conj() / damped * self._detuning(frequencies)
-        return np.ascontiguousarray(complex_series(scale[:, None] * transform, angle))
+        return np.ascontiguousarray(from_values(scale[:, None] * transform))
 
 
 def residual(
@@ -199,16 +198,9 @@ def residual(
     )
 
 
-def _nodes(low: float, high: float) -> tuple[Array, Array]:
-    """Chebyshev points of [-1, 1], enough for functions of exponential type 1 in nu, and their angles."""
-    count = ceil(0.75 * (high - low)) + _SPARE
-    angle = (np.arange(count) + 0.5) * np.pi / count
-    return np.cos(angle), angle
-
-
-def complex_series(values: Complex, angle: Array) -> Complex:
-    """Chebyshev coefficients of complex functions known at the Chebyshev points cos(angle); one column a function."""
-    return np.asarray(chebyshev_series(values.real, angle) + 1j * chebyshev_series(values.imag, angle))
+def _nodes(low: float, high: float) -> Array:
+    """Chebyshev nodes, enough for functions of exponential type 1 in nu."""
+    return nodes(ceil(0.75 * (high - low)) + _SPARE)
 
 
 def gauss_rule(space: LawSpace, highest: float) -> tuple[Array, Array]:

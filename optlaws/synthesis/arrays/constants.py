@@ -8,6 +8,8 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from optlaws.series.chebyshev import from_values, nodes
+
 Array = NDArray[np.float64]
 
 #: points for each degree of the series: between them a peak rises by a share of less than 1/26 (Bernstein)
@@ -39,9 +41,8 @@ def power_peaks(velocity: Array, acceleration: Array) -> Array:
 def product(first: Array, second: Array) -> Array:
     """Products of Chebyshev series, law by law."""
     count = first.shape[1] + second.shape[1]
-    u, back = _interpolation(count)
-    values = [one @ chebyshev.chebvander(u, one.shape[1] - 1).T for one in (first, second)]
-    return np.asarray((values[0] * values[1]) @ back)
+    values = [one @ chebyshev.chebvander(nodes(count), one.shape[1] - 1).T for one in (first, second)]
+    return from_values((values[0] * values[1]).T).T
 
 
 def root_mean_squares(series: Array) -> Array:
@@ -49,15 +50,6 @@ def root_mean_squares(series: Array) -> Array:
     u, weights = np.polynomial.legendre.leggauss(series.shape[1] + 1)
     values = series @ chebyshev.chebvander(u, series.shape[1] - 1).T
     return np.asarray(np.sqrt(values**2 @ weights / 2.0))
-
-
-@lru_cache(maxsize=32)
-def _interpolation(count: int) -> tuple[Array, Array]:
-    """Chebyshev points, and the matrix from values there to coefficients."""
-    angle = (np.arange(count) + 0.5) * np.pi / count
-    back = np.cos(np.outer(angle, np.arange(count))) * (2.0 / count)
-    back[:, 0] /= 2.0
-    return np.asarray(np.cos(angle), dtype=np.float64), np.asarray(back, dtype=np.float64)
 
 
 @lru_cache(maxsize=32)

@@ -49,7 +49,7 @@ class ConeFamily(Family):
             return None
         sizes = np.abs(self.series).max(axis=1)
         count = max(int((sizes > _NODES * sizes.max()).sum()), 3)
-        return np.asarray(np.cos(np.arange(count) * np.pi / (count - 1)))
+        return np.asarray(chebyshev.chebpts2(count)[::-1])
 
     @kept_property
     def _derivatives(self) -> tuple[Complex, Complex, Complex]:

@@ -11,7 +11,7 @@ from functools import reduce
 from typing import Self
 
 import numpy as np
-from numpy.polynomial import legendre
+from numpy.polynomial import chebyshev, legendre
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
@@ -192,7 +192,7 @@ class EnergyFamily(Family):
         if low == high:
             return None
         count = 2 * len(self.slack) + 8
-        places: Array = 0.5 * (high + low) + 0.5 * (high - low) * np.cos(np.arange(count) * np.pi / (count - 1))
+        places: Array = 0.5 * (high + low) + 0.5 * (high - low) * chebyshev.chebpts2(count)[::-1]
         return places
 
     def jet(self, x: Array, u: Array, s: Array) -> Jet:

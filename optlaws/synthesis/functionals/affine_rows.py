@@ -12,8 +12,7 @@ from numpy.typing import NDArray
 
 from optlaws.formulas.degree import degree
 from optlaws.formulas.of_motion import Motion
-from optlaws.series.gegenbauer import chebyshev_series
-from optlaws.series.interpolation import chebyshev_series as resolved
+from optlaws.series.chebyshev import from_values, interpolated, nodes
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.families.names import mirrored
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
@@ -125,7 +124,7 @@ def count_of(space: LawSpace, motion: Motion, ends: tuple[float, float]) -> int:
         if known is not None:
             return known
         values = Motion(factor).values
-        return len(resolved(lambda x: _spread(values({"k": (1.0 - _between(ends, x)) / 2.0}), x), str(factor)))
+        return len(interpolated(lambda x: _spread(values({"k": (1.0 - _between(ends, x)) / 2.0}), x), str(factor)))
 
     own = [length(factor) + space.degree_of(nu) for nu, factor in motion.weights.items()]
     return 1 + max([*own, length(motion.rest)])
@@ -141,8 +140,7 @@ def _between(ends: tuple[float, float], x: Array) -> Array:
 def _series(space: LawSpace, motion: Motion, ends: tuple[float, float]) -> Array:
     """Chebyshev series between two u, in what runs from -1 at the lesser to 1."""
     count = count_of(space, motion, ends)
-    angle = (np.arange(count) + 0.5) * np.pi / count
-    return chebyshev_series(columns(space, motion, _between(ends, np.cos(angle))), angle)
+    return from_values(columns(space, motion, _between(ends, nodes(count))))
 
 
 def gauss(space: LawSpace, motion: Motion) -> tuple[Array, Array]:

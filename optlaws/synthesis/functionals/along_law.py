@@ -14,9 +14,7 @@ from optlaws.formulas.vocabulary import ORDERS
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.series.chebyshev import derivative, real_parts_of_roots, value
-from optlaws.series.interpolation import chebyshev_series as resolved
-from optlaws.series.interpolation import points, transformed
+from optlaws.series.chebyshev import derivative, from_values, interpolated, nodes, real_parts_of_roots, value
 from optlaws.series.peaks import Peak, extremes
 
 Array = NDArray[np.float64]
@@ -90,9 +88,9 @@ def _series(motion: Motion, law: MotionLaw, ends: tuple[float, float]) -> Array 
     """Chebyshev series on a piece; None where it has no bounded smooth values."""
     count = _count(motion, law, ends)
     if count is not None:
-        return transformed(_on(motion, law, ends, points(count))[1])
+        return from_values(_on(motion, law, ends, nodes(count))[1])
     try:
-        return resolved(lambda x: _on(motion, law, ends, x)[1], str(motion.formula))
+        return interpolated(lambda x: _on(motion, law, ends, x)[1], str(motion.formula))
     except InputError:
         return None
 

@@ -16,9 +16,11 @@ from itertools import islice
 from math import inf
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.series.halving import halved
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Family, NormFamily, Program
 from optlaws.synthesis.families.names import at_least
@@ -217,7 +219,7 @@ def places(problem: Problem, family: Family) -> Array:
     if problem.mirrored:
         low = (low + high) / 2.0
     count = _PLACES if problem.symmetric or problem.mirrored else 2 * _PLACES - 1
-    return (low + high) / 2.0 + (high - low) / 2.0 * np.cos(np.linspace(0.0, np.pi, count))
+    return np.asarray((low + high) / 2.0 + (high - low) / 2.0 * chebpts2(count)[::-1])
 
 
 def between(model: Model, plain: ActiveSet, constant: Functional, low: float) -> Iterator[ActiveSet]:
@@ -266,11 +268,5 @@ def _without(problem: Problem, constant: Functional) -> Problem:
 
 def _met(value: Callable[[Array], float], low: float, short: Array, beyond: Array) -> Array:
     """On the way from a law with too little to one with enough, the first found that has enough: by halving."""
-    begin, end = 0.0, 1.0
-    for _ in range(_HALVINGS):
-        middle = (begin + end) / 2.0
-        if value(short + middle * (beyond - short)) < low:
-            begin = middle
-        else:
-            end = middle
-    return short + end * (beyond - short)
+    _, share = halved(lambda share: value(short + share * (beyond - short)) < low, 0.0, 1.0, _HALVINGS)
+    return short + share * (beyond - short)

@@ -6,6 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.laws import MotionLaw
+from optlaws.series.chebyshev import nodes
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Family, Program
 from optlaws.synthesis.families.names import RowName
@@ -47,7 +48,7 @@ def coordinates(model: Model, law: MotionLaw) -> Array:
     family = model.space.derivative(1, RowName.VELOCITY, np.zeros(model.program.size))
     u = family.nodes()
     if u is None:
-        u = np.cos((np.arange(2 * model.space.terms + 16) + 0.5) * np.pi / (2 * model.space.terms + 16))
+        u = nodes(2 * model.space.terms + 16)
     columns = family.columns(u)[0]
     velocities = np.array([float(law.b(k)) for k in np.clip(family.k(u), 0.0, 1.0).tolist()]) - columns[:, -1]
     solution = np.linalg.lstsq(columns[:, : model.space.terms], velocities, rcond=None)[0]

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
+from optlaws.series.chebyshev import nodes
 from optlaws.synthesis.families.family import EvenFamily, Family, Points, Program
 from optlaws.synthesis.method.tolerances import NEARLY_BINDING
 
@@ -32,13 +34,13 @@ def _points(family: Family, size: int, even_share: float) -> Points:
     for i, sign in enumerate(family.signs):
         if isinstance(family, EvenFamily):
             count = int(even_share * size) + 4
-            places = np.cos(np.arange(count) * np.pi / (count - 1))
+            places = chebpts2(count)[::-1]
         elif low == 0.0:
             count = int((1.5, 0.75)[i] * size) + 4
-            places = high * np.cos((np.arange(count) + 0.5) * np.pi / (2 * count))
+            places = high * nodes(2 * count)[:count]
         else:
             count = int(1.5 * size) + 4
-            places = (high + low) / 2 + (high - low) / 2 * np.cos((np.arange(count) + 0.5) * np.pi / count)
+            places = (high + low) / 2 + (high - low) / 2 * nodes(count)
         u.append(places)
         s.append(np.full(count, sign))
     return Points(np.concatenate(u), np.concatenate(s))

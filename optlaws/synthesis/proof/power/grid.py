@@ -8,6 +8,7 @@ from math import inf
 from typing import Any
 
 import numpy as np
+from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily
@@ -68,7 +69,7 @@ class Grid:
         self._seen: dict[str, list[float]] = {}
         last = 0.5 if rows.space.symmetric else 1.0
         count = _PLACES + 2 * rows.terms
-        k = last * (1.0 - np.cos(np.pi * np.arange(1, count + 1) / (count + 1))) / 2.0
+        k = last * (1.0 + chebpts2(count + 2)[1:-1]) / 2.0
         for family in rows.model.program.families:
             if isinstance(family, NormFamily):
                 self._norm(family, x)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
-from optlaws.series.gegenbauer import chebyshev_series
+from optlaws.series.chebyshev import from_values, nodes
 from optlaws.synthesis.spaces.pieces.rows import PieceSeries
 from optlaws.synthesis.spaces.polynomials.below_peak import chord, kink
 
@@ -35,12 +35,11 @@ def below_peak(acceleration: PieceSeries, jerk: PieceSeries, centre: float, *, s
     divided = np.zeros((len(breaks) - 1, count, acceleration.series.shape[2]))
     power = 2 if smooth else 1
     touching = [i for i in range(len(divided)) if breaks[i + 1] <= centre <= breaks[i]]
-    angle = (np.arange(count) + 0.5) * np.pi / count
     for i in touching:
         low, high = breaks[i + 1], breaks[i]
-        u = low + (high - low) * (1.0 + np.cos(angle)) / 2.0
+        u = low + (high - low) * (1.0 + nodes(count)) / 2.0
         of = chord if smooth else kink
-        divided[i] = chebyshev_series(of(_extended(jerk if smooth else acceleration, i), u, centre, count - 1), angle)
+        divided[i] = from_values(of(_extended(jerk if smooth else acceleration, i), u, centre, count - 1))
     for i in (*range(touching[0] - 1, -1, -1), *range(touching[-1] + 1, len(divided))):
         inner, end = (i + 1, -1.0) if breaks[i + 1] >= centre else (i - 1, 1.0)
         near, behind = (breaks[i + 1], inner) if end < 0.0 else (breaks[i], inner)

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.polynomial import chebyshev, legendre
 from numpy.typing import NDArray
 
-from optlaws.series.gegenbauer import chebyshev_series
+from optlaws.series.chebyshev import from_values, nodes
 from optlaws.synthesis.spaces.pieces.rows import PieceSeries
 
 Array = NDArray[np.float64]
@@ -36,10 +36,9 @@ def above_rest(velocity: PieceSeries, derivative: PieceSeries, order: int) -> Pi
 
 def _divided(derivative: PieceSeries, piece: int, count: int, power: int) -> Array:
     """-b / w on the first or the last piece, by Taylor's remainder, so that nothing cancels."""
-    angle = (np.arange(count) + 0.5) * np.pi / count
     # the share of the piece's length that a place is away from the end of the interval
     side = 1.0 if piece == 0 else -1.0
-    away = (1.0 - side * np.cos(angle)) / 2.0
+    away = (1.0 - side * nodes(count)) / 2.0
     x, weights = legendre.leggauss(count // 2 + 2)
     share = (1.0 + x) / 2.0
     local = side * (1.0 - 2.0 * np.outer(away, share))
@@ -47,4 +46,4 @@ def _divided(derivative: PieceSeries, piece: int, count: int, power: int) -> Arr
     values = columns.T.reshape(count, len(share), -1)
     means = np.einsum("psc,s->pc", values, weights * (1.0 - share) ** (power - 1) / 2.0)
     length = (derivative.breaks[piece] - derivative.breaks[piece + 1]) / 2.0
-    return np.asarray(-chebyshev_series(means, angle) * (side * length) ** power / factorial(power - 1))
+    return np.asarray(-from_values(means) * (side * length) ** power / factorial(power - 1))

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.series.gegenbauer import chebyshev_series
+from optlaws.series.chebyshev import from_values, nodes
 from optlaws.synthesis.families.family import Family
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
@@ -64,13 +64,12 @@ class PieceSpace(PiecewiseSpace):
         inner = np.repeat(breaks[1:-1], multiplicity)
         knots = np.concatenate([np.repeat(breaks[0], order + 1), inner, np.repeat(breaks[-1], order + 1)])
         count = len(knots) - order - 1
-        angle = (np.arange(order + 1) + 0.5) * np.pi / (order + 1)
         series = np.zeros((len(breaks) - 1, order + 1, count + 1))
         splines = BSpline(knots, np.eye(count), order)
         for i, (low, high) in enumerate(pairwise(breaks.tolist())):
             # the local variable falls with k
-            values = splines(low + (high - low) * (1.0 - np.cos(angle)) / 2.0)
-            series[i, :, :-1] = chebyshev_series(values, angle)
+            values = splines(low + (high - low) * (1.0 - nodes(order + 1)) / 2.0)
+            series[i, :, :-1] = from_values(values)
         return series
 
     def pieces(self, nu: int) -> PieceSeries:

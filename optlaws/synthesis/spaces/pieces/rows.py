@@ -11,7 +11,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.series.chebyshev import product, real_parts_of_roots
+from optlaws.series.chebyshev import nodes, product, real_parts_of_roots
 from optlaws.synthesis.families.family import LinearFamily, ProductFamily
 
 Array = NDArray[np.float64]
@@ -81,7 +81,7 @@ class PieceFamily(LinearFamily):
     def nodes(self) -> Array:
         """Corners, and inside each piece as many points as its degree."""
         count = self.pieces.series.shape[1]
-        local = np.cos((np.arange(count) + 0.5) * np.pi / count) if count > 2 else np.empty(0)
+        local = nodes(count) if count > 2 else np.empty(0)
         inner = [self.pieces.global_places(i, local) for i in range(len(self.pieces.breaks) - 1)]
         places = np.concatenate([self.corners, *inner])
         return places[(places >= self.domain[0]) & (places <= self.domain[1])]

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.series.gegenbauer import chebyshev_series
+from optlaws.series.chebyshev import from_values, nodes
 from optlaws.synthesis.families.family import Family
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions, construct
@@ -71,12 +71,11 @@ class SplineSpace(PiecewiseSpace):
     def _series(self, parts: tuple[float, ...], degree: int, values: Callable[[int, Array], Array]) -> Array:
         """Chebyshev series between `parts`, which may divide the pieces, of functions of a degree."""
         count = max(degree, 0) + 1
-        angle = (np.arange(count) + 0.5) * np.pi / count
         pieces = []
         for low, high in pairwise(parts):
             piece = int(np.searchsorted(self.breaks, low, side="right")) - 1
-            k = low + (high - low) * (1.0 + np.cos(angle)) / 2.0
-            pieces.append(chebyshev_series(values(piece, k), angle))
+            k = low + (high - low) * (1.0 + nodes(count)) / 2.0
+            pieces.append(from_values(values(piece, k)))
         return np.stack(pieces)
 
     def _derivative(self, nu: int, piece: int, k: Array) -> Array:

@@ -15,7 +15,8 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
-from optlaws.series.gegenbauer import chebyshev_series, gegenbauer
+from optlaws.series.chebyshev import from_values, nodes
+from optlaws.series.gegenbauer import gegenbauer
 from optlaws.synthesis.families.family import (
     EvenFamily,
     Family,
@@ -69,8 +70,7 @@ class PolynomialSpace(LawSpace):
         self.index = np.arange(2, degree + 2, 2) if symmetric else np.arange(1, degree + 2)
         self.terms = len(self.index)
         count = 2 * self.order + degree + 3
-        self._angle = (np.arange(count) + 0.5) * np.pi / count
-        self._u = np.cos(self._angle)
+        self._u = nodes(count)
         self._series: dict[int, Array] = {}
 
     @kept_property
@@ -108,7 +108,7 @@ class PolynomialSpace(LawSpace):
                 base = self.base(self._k, nu)
                 values = np.column_stack([(self._shapes[nu] * self.scale[:, None]).T, base])
                 # what lies beyond the degree is rounding
-                series = chebyshev_series(values, self._angle)[: 2 * self.order + self.degree + 1 - nu]
+                series = from_values(values)[: 2 * self.order + self.degree + 1 - nu]
                 if self.symmetric:
                     # a - 1/2 and c are odd about the middle, b is even: rounding must not blur it
                     series[(1 if nu == 1 else (2 if nu == 0 else 0)) :: 2] = 0.0
@@ -142,7 +142,7 @@ class PolynomialSpace(LawSpace):
 
     def z_series(self, coordinates: Array) -> Array:
         """Chebyshev series of Z in 2k - 1."""
-        series = chebyshev_series((self._shapes[3] * self.scale[:, None]).T, self._angle)[: self.degree + 1]
+        series = from_values((self._shapes[3] * self.scale[:, None]).T)[: self.degree + 1]
         mirrored: Array = series @ coordinates
         mirrored[1::2] *= -1.0
         if self.symmetric:
@@ -234,7 +234,7 @@ class PolynomialSpace(LawSpace):
     def _below(self, centre: float) -> Array:
         j = self.series(3)
         values = chord(lambda u: np.asarray(chebyshev.chebval(u, j).T), self._u, centre, len(self.series(1)) - 1)
-        return chebyshev_series(values, self._angle)[: max(len(self.series(1)) - 2, 1)]
+        return from_values(values)[: max(len(self.series(1)) - 2, 1)]
 
     def forward(self, slack: Array) -> Family:
         """Rows b >= 0, from rest to rest as b / (k(1-k))^(l-1) >= 0 (in units of the base law's)."""
@@ -242,7 +242,7 @@ class PolynomialSpace(LawSpace):
             return self.derivative(1, RowName.FORWARD, slack, signs=(-1.0,))
         scale = np.append(self._ratio_scale, 1.0)
         columns = gegenbauer(self.order - 0.5, int(self.index[-1]), self._u)[np.append(self.index, 0)] * scale[:, None]
-        series = -chebyshev_series(columns.T, self._angle)
+        series = -from_values(columns.T)
         if not self.symmetric:
             return LinearFamily(RowName.RATIO, slack, domain=self.domain, series=self.widened(series, len(slack)))
         ratio = self.widened(series[::2], len(slack))
@@ -278,8 +278,7 @@ def polynomial_space(boundary: BoundaryConditions, degree: int, *, symmetric: bo
 def _chord(even: Array) -> Array:
     # T_2m(x) - T_2m(0) = -2 (-1)^m sin²(m p) with x = sin p: the division by x² has a closed form
     rows = len(even)
-    angle = (np.arange(rows) + 0.5) * np.pi / rows
-    p = np.arcsin(np.cos(angle / 2))
+    p = np.arcsin(nodes(2 * rows)[:rows])
     m = np.arange(rows)
     kernel = 2.0 * (-1.0) ** m * (np.sin(np.outer(p, m)) / np.sin(p)[:, None]) ** 2
-    return chebyshev_series(kernel @ even, angle)
+    return from_values(kernel @ even)
