@@ -36,6 +36,11 @@ def test_several_functions_are_transformed_at_once_complex_ones_too() -> None:
     assert chebyshev.from_values(x + 1j * x).tolist() == pytest.approx([0, 1 + 1j, *[0] * 7], abs=1e-15)
 
 
+@pytest.mark.parametrize("count", [6, 33, 64])
+def test_a_constant_has_no_other_term(count: int) -> None:
+    assert chebyshev.from_values(np.full(count, 0.1)).tolist() == [0.1] + [0.0] * (count - 1)
+
+
 def test_what_cannot_be_resolved_is_said_by_name() -> None:
     with pytest.raises(InputError, match="c of it must be smooth on the whole interval: 1025 points"):
         chebyshev.interpolated(np.abs, "c of it")

@@ -16,8 +16,9 @@ from optlaws.synthesis.method.on_points.ipopt import Answer
 
 Array = NDArray[np.float64]
 
-#: a row binds if its multiplier exceeds its distance times this, in units in which it has length 1
-_FEWER = (1.0, 1e2, 1e4)
+#: a row binds if its multiplier exceeds its distance times this, in units in which it has length 1; the more rows hold
+#: together, the better they say where x is: as few as their own number, hardly independent, miss by 1e-10 in between
+_FEWER = (1e-2, 1.0, 1e2, 1e4)
 _MORE = (1.0, 1e-2, 1e-4, 1e-6, 1e-8)
 _GAP = 1e-9
 _RANK = 1e-12
