@@ -140,7 +140,7 @@ class Motion:
         negligible = EXACT * float(np.abs(self._values(i, length * SAMPLES, order)).max())
         panels, series = self._resolved(lambda s: self._values(i, s, order), length, negligible)
         pieces = zip(np.diff(panels.edges).tolist(), series.T, strict=True)
-        return sum(span * chebyshev.mean_product(column, column) for span, column in pieces)
+        return float(sum(span * chebyshev.mean_product(column, column) for span, column in pieces))
 
     def _gathered(self, values: Callable[[int, Array], Array], slope: Slope) -> tuple[Array, Array]:
         """Both ends of every stretch and its roots of a slope, with the values there."""
