@@ -9,6 +9,7 @@ import optlaws
 from optlaws.cli.options import AsJson, Whole, check_picture
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import busy, print_json, show, table
+from optlaws.numbers import whole
 
 
 @asks_for_a_problem(
@@ -20,6 +21,7 @@ def front(
     over: str = "B,C",
     points: Whole = 50,
     between: tuple[float, float] | None = None,
+    gap: float | None = None,
     as_json: AsJson = False,
     csv: Path | None = None,
     plot: Path | None = None,
@@ -34,6 +36,9 @@ def front(
         How many laws.
     between
         Least and greatest value of the first constant; where it pays unless given.
+    gap
+        Prove the front of two constants at every value between, to this gap relative to the objective; points are then
+        values that are shown, and --json is what `optlaws verify` proves.
     as_json
         Print one JSON object on stdout and nothing else.
     csv
@@ -42,28 +47,48 @@ def front(
         Draw the front into this file, PNG or SVG.
     """
     check_picture(plot)
-    problem = optlaws.Problem.from_dict(entries)
+    problem, names = optlaws.Problem.from_dict(entries), tuple(over.split(","))
     with busy("solving"):
-        found = optlaws.pareto_front(problem, tuple(over.split(",")), points=points, between=between)
+        found = (
+            optlaws.pareto_front(problem, names, points=points, between=between)
+            if gap is None
+            else optlaws.proven_front(problem, names, between=between, gap=gap)
+        )
+    headings, rows = _table(found, whole(points, "points", least=2))
     if csv is not None:
-        _save_table(found, csv)
+        _save_table(found, csv, headings, rows)
     if plot is not None:
         _save_picture(found, plot)
     if as_json:
         print_json(found.to_dict())
     else:
-        _show(found)
+        _show(found, headings, rows)
 
 
-def _show(found: optlaws.Front) -> None:
-    from optlaws.synthesis.front import HEADINGS
+Rows = list[list[Any]]
 
-    rows = table(*HEADINGS)
-    for row in found.rows:
+
+def _table(found: optlaws.Front | optlaws.ProvenFront, points: int) -> tuple[tuple[str, ...], Rows]:
+    if isinstance(found, optlaws.Front):
+        from optlaws.synthesis.front import HEADINGS
+
+        return HEADINGS, found.rows
+    low, high = found.between
+    values = [low + (high - low) * i / (points - 1) for i in range(points - 1)]
+    some = [found(value) for value in [*values, high]]
+    return (*found.over, "lower bound", "gap"), [[one.value, one.objective, one.lower_bound, one.gap] for one in some]
+
+
+def _show(found: optlaws.Front | optlaws.ProvenFront, headings: tuple[str, ...], lines: Rows) -> None:
+    rows = table(*headings)
+    for line in lines:
         rows.add_row(
-            *(_cell(cell, ".0e" if name == "gap" else ".7g") for cell, name in zip(row, HEADINGS, strict=True))
+            *(_cell(cell, ".0e" if name == "gap" else ".7g") for cell, name in zip(line, headings, strict=True))
         )
     show(rows)
+    if isinstance(found, optlaws.ProvenFront):
+        show(f"{found!r}")
+        return
     if found.failed:
         values = ", ".join(f"{value:.6g}" for value in found.failed)
         show(f"no law was found at {found.over[0]} = {values}")
@@ -73,19 +98,20 @@ def _cell(cell: float | str | None, form: str) -> str:
     return "" if cell is None else cell if isinstance(cell, str) else format(cell, form)
 
 
-def _save_table(found: optlaws.Front, file: Path) -> None:
+def _save_table(found: optlaws.Front | optlaws.ProvenFront, file: Path, headings: tuple[str, ...], lines: Rows) -> None:
     from optlaws.files import tables, writing
-    from optlaws.synthesis.front import HEADINGS
 
-    about = f"{' and '.join(found.over)} exchanged: {found[0].problem!r}"
-    writing.write(file, tables.to_csv(HEADINGS, found.rows, about=about))
+    problem = found[0].problem if isinstance(found, optlaws.Front) else found.problem
+    about = f"{' and '.join(found.over)} exchanged: {problem!r}"
+    writing.write(file, tables.to_csv(headings, lines, about=about))
 
 
-def _save_picture(found: optlaws.Front, file: Path) -> None:
+def _save_picture(found: optlaws.Front | optlaws.ProvenFront, file: Path) -> None:
     from optlaws import drawing
     from optlaws.files import writing
 
     with drawing.style():
         figure = drawing.figure()
-        drawing.draw_front(found, figure.subplots(), color=drawing.BLUES[3])
+        draw: Any = drawing.draw_front if isinstance(found, optlaws.Front) else drawing.draw_proven_front
+        draw(found, figure.subplots(), color=drawing.BLUES[3])
         writing.write(file, drawing.rendered(figure, file.suffix[1:]))

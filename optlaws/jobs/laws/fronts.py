@@ -5,6 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
+from math import inf
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -25,6 +26,8 @@ from optlaws.synthesis import FUNCTIONALS, Problem
 from optlaws.synthesis.front import HEADINGS, Front
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.pareto import pareto_front
+from optlaws.synthesis.proven.front import ProvenFront
+from optlaws.synthesis.proven.refine import proven_front
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -237,6 +240,8 @@ def _point(law: MotionLaw, picture: Picture) -> Ends:
 
 
 _MARGIN = 0.06
+#: a gap that no picture shows
+_DRAWN = 1e-4
 
 
 def draw(picture: Picture, fronts: Sequence[Front]) -> Figure:
@@ -247,7 +252,7 @@ def draw(picture: Picture, fronts: Sequence[Front]) -> Figure:
         axes = figure.subplots()
         shades = drawing.BLUES[-len(fronts) :]
         for curve, front, shade in zip(picture.front, fronts, shades, strict=True):
-            drawing.draw_front(front, axes, color=shade, label=curve.label, marker="o", markersize=2.2, zorder=4)
+            _draw_curve(axes, front, color=shade, label=curve.label)
         draw_beside(axes, picture, x, y)
         if picture.limits and picture.over[0] == "B":
             _limit_curves(axes, picture, fronts, x)
@@ -256,6 +261,32 @@ def draw(picture: Picture, fronts: Sequence[Front]) -> Figure:
         axes.set(xlim=x, ylim=y, title=picture.title)
         figure.legend(loc="outside right upper")
         return figure
+
+
+def _draw_curve(axes: Axes, front: Front, **style: Any) -> None:  # noqa: ANN401 - matplotlib's
+    """The points of a front, and between them the front itself; straight lines where it is not convex."""
+    dots = {**style, "marker": "o", "markersize": 2.2, "zorder": 4}
+    exact = _exact(front)
+    if exact is None:
+        drawing.draw_front(front, axes, **dots)
+    else:
+        drawing.draw_proven_front(exact, axes, **style, zorder=4)
+        drawing.draw_front(front, axes, **{**dots, "label": "_nolegend_", "linestyle": "none"})
+
+
+def _exact(front: Front) -> ProvenFront | None:
+    """The front at every value, where it is known."""
+    name, minimised = front.over
+    ends = [_asked(point.problem, name) for point in (front[0], front[len(front) - 1])]
+    if not front[0].problem.convex or not ends[0] < ends[1]:
+        return None
+    free = _freed(front[0].problem, name)
+    return proven_front(free, (name, minimised), between=(ends[0], ends[1]), gap=_DRAWN)
+
+
+def _asked(problem: Problem, name: str) -> float:
+    asked = problem.range(name)
+    return inf if asked is None else asked.high
 
 
 def _window(picture: Picture, fronts: Sequence[Front], axis: int) -> Ends:
