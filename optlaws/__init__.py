@@ -44,7 +44,7 @@ _load, __dir__, __all__ = face(
         "optlaws.studies.study": "open_study",
         "optlaws.synthesis.arrays.problems": "ProblemArray each",
         "optlaws.synthesis.front": "Front",
-        "optlaws.synthesis.functionals.makers": "peak rms value",
+        "optlaws.synthesis.functionals.makers": "integral peak rms value",
         "optlaws.synthesis.limits.closed_forms": "acceleration_limit limit",
         "optlaws.synthesis.limits.laws": "limit_law",
         "optlaws.synthesis.pareto": "pareto_front",
@@ -103,7 +103,7 @@ declare(
         "optlaws.mechanisms.machine.output_constants": "output_peak output_rms",
         "optlaws.mechanisms.machine.residual_boxes": "mode_residual",
         "optlaws.mechanisms.spectrum.robust": "residual",
-        "optlaws.synthesis.functionals.makers": "peak rms value",
+        "optlaws.synthesis.functionals.makers": "integral peak rms value",
     },
 )
 

@@ -15,6 +15,9 @@ from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, 
 
 Array = NDArray[np.float64]
 
+#: keeps the slope of a norm finite where it vanishes
+_NOTHING = 1e-24
+
 
 @dataclass(frozen=True)
 class Arithmetic:
@@ -101,9 +104,8 @@ def pieces(table: Table) -> Array:
     >>> pieces(Table(Name("k"), (0.0, 1.0, 3.0), (1.0, 2.0, 6.0))).tolist()
     [[1.0, 1.0], [2.0, 2.0]]
     """
-    if not table.smooth:
-        return np.column_stack([table.values[:-1], np.diff(table.values) / np.diff(table.places)])
-    found = spline(table.places, table.values)
+    lines = np.column_stack([table.values[:-1], np.diff(table.values) / np.diff(table.places)])
+    found = spline(table.places, table.values) if table.smooth else lines
     for _ in range(table.order):
         found = found[:, 1:] * np.arange(1, found.shape[1]) if found.shape[1] > 1 else np.zeros((len(found), 1))
     return found
@@ -186,7 +188,7 @@ def casadi_arithmetic() -> Arithmetic:
         return found
 
     functions = {name: getattr(ca, name) for name in ("sin", "cos", "tan", "atan", "tanh", "exp", "log", "sqrt")}
-    several = {"abs": ca.fabs, "max": ca.fmax, "min": ca.fmin, "norm": lambda x, y: ca.sqrt(x * x + y * y)}
+    several = {"abs": ca.fabs, "max": ca.fmax, "min": ca.fmin, "norm": lambda x, y: ca.sqrt(x * x + y * y + _NOTHING)}
     return Arithmetic(float, functions | several, lambda base, exponent: base**exponent, table)
 
 

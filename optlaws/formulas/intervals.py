@@ -143,9 +143,9 @@ def _table(table: Table, at: Interval) -> Interval:
 def _call(function: str, parts: list[Interval]) -> Interval:
     first = parts[0]
     if function == "max":
-        return Interval(np.maximum.reduce([p.low for p in parts]), np.maximum.reduce([p.high for p in parts]))
+        return reduce(lambda p, q: Interval(np.maximum(p.low, q.low), np.maximum(p.high, q.high)), parts)
     if function == "min":
-        return Interval(np.minimum.reduce([p.low for p in parts]), np.minimum.reduce([p.high for p in parts]))
+        return reduce(lambda p, q: Interval(np.minimum(p.low, q.low), np.minimum(p.high, q.high)), parts)
     if function == "norm":
         squares = [_power(part, part, 2.0) for part in parts]
         return reduce(lambda one, other: one + other, squares).through(np.sqrt)

@@ -11,10 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.formulas.affine import Affine, affine
+from optlaws.formulas.affine import Affine, affine, degree
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.convexity import Curvature, Judge, Verdict
-from optlaws.formulas.degree import degree
 from optlaws.formulas.reading import read, refused
 from optlaws.formulas.slopes import added, constant, opposite
 from optlaws.formulas.tree import Call, Formula, Name, Number, Product, Reciprocal, Table, substituted

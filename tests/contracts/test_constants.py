@@ -22,7 +22,7 @@ from optlaws.mechanisms.loader.constants import LoaderPeak
 from optlaws.mechanisms.machine.output_constants import OutputConstant
 from optlaws.mechanisms.machine.residual_boxes import ModeResidual
 from optlaws.mechanisms.spectrum.robust import Residual
-from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms, FormulaValue, OfFormula
+from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula
 from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, PLAIN, Peak, Power, RootMeanSquare
 from optlaws.synthesis.problem.named_constants import expression, is_named, named
 from optlaws.synthesis.spaces.of_basis import space_of
@@ -53,6 +53,18 @@ TEXTS = (
     "rms(c + 3*b)",
     "rms(c + spline(k, 0:0, 0.3:1, 0.6:0, 1:2)*a, start=0.2)",
     "value(c - 2*b, at=0.3)",
+    "peak(c^2 + (1 + k)*b^2)",
+    "peak(norm(c, 3*b), start=0.05, stop=0.9)",
+    "peak(abs(c) + 2*abs(b))",
+    "peak(max(c, 3*b, -a), side=high)",
+    "peak((1 + a^2)*c + a*b^2)",
+    "peak(b*c + 0.1*abs(b), side=high)",
+    "rms(c^2 + b^2)",
+    "rms(b*c)",
+    "integral(c^2 + (1 + k)*b^2)",
+    "integral(exp(c/40), start=0.3)",
+    "integral(a*c, start=0.2, stop=0.8)",
+    "value(c^2 + b*j, at=0.3)",
 )
 AXIS = Machine.from_masses(
     {"motor": 1.0, "carriage": 2.0, "tool": 0.5},
@@ -183,6 +195,10 @@ def of_formula(constant: OfFormula, law: MotionLaw) -> tuple[float, float]:
     motion = constant.motion
     k = motion.start + (motion.stop - motion.start) * GRID
     values = np.broadcast_to(motion.values({"k": k, **{name: law(k, nu) for name, nu in ORDERS.items()}}), k.shape)
+    if isinstance(constant, FormulaIntegral):
+        whole = float(np.trapezoid(values, k))
+        spare = 1e-5 * float(np.abs(values).max())
+        return whole - spare, 2.0 * spare
     if isinstance(constant, FormulaRms):
         return sqrt(float(np.trapezoid(values**2, GRID))) * (1.0 - 1e-5), 2e-5 * float(np.abs(values).max())
     if isinstance(constant, FormulaValue):
@@ -247,7 +263,7 @@ def excess(name: str, where: str, seed: int, share: float) -> float:
     space, value = SPACES[where], EXAMPLES[name].value
     one, other = (point(where, seed + i, quiet(name))[0] for i in (0, 1))
     first, middle, last = (value(space.law(one + part * share * (other - one))) for part in (0.0, 0.5, 1.0))
-    return 2.0 * middle / (first + last) - 1.0
+    return (2.0 * middle - first - last) / (abs(first) + abs(last))
 
 
 @every_constant

@@ -13,8 +13,10 @@ from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces
 from optlaws.mechanisms.loader.constants import B_loader, C_loader, D_loader
 from optlaws.mechanisms.spectrum.robust import residual
 from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.curved import OfFormula
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import Family, ProductFamily
+from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.spaces.bases import Basis
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
@@ -54,6 +56,11 @@ def vibration(laws: LawSpace) -> Family:
     return residual(nu=(11, 14), damping=0.02).families(laws, slack(laws), BOUND)[0]
 
 
+def of_text(text: str, laws: LawSpace, room: Array) -> Family:
+    """The first rows of a constant of a formula."""
+    return named(text).families(laws, room, BOUND)[0]
+
+
 SPACES = {
     "polynomials": space(Chebyshev(6)),
     "symmetric polynomials": space(Chebyshev(7), symmetric=True),
@@ -74,6 +81,13 @@ MAKERS: dict[str, Callable[[LawSpace, Array], Family]] = {
     "from rest": lambda laws, room: laws.from_rest("b / sqrt(2k)", room),
     "to rest": lambda laws, room: laws.from_rest("b / sqrt(2 - 2k)", room, backward=True),
     "vibration": lambda laws, _: vibration(laws),
+    "affine formula": lambda laws, room: of_text("peak(c + sin(3*k)*b)", laws, room),
+    "affine formula with kinks": lambda laws, room: of_text(
+        "peak(c + table(k, 0:0, 0.3:1, 1:0)*b, stop=0.45)", laws, room
+    ),
+    "curved formula": lambda laws, room: of_text("peak((1 + a^2)*c + a*b^2 + k*b, side=high, start=0.05)", laws, room),
+    "integrated formula": lambda laws, room: of_text("integral(c^2 + a*b)", laws, room),
+    "rooted integral": lambda laws, room: of_text("rms(2 + c^2 + b^2)", laws, room),
     "velocity, loader": lambda laws, room: B_loader.families(laws, room, BOUND)[0],
     "acceleration, loader": lambda laws, room: C_loader.families(laws, room, BOUND)[0],
     "power, loader": lambda laws, room: D_loader.families(laws, room, BOUND)[0],
@@ -257,7 +271,8 @@ def test_other_units_change_nothing(family: Family) -> None:
     x, u, unit = point(family), inside(family), 2.5
     units = np.random.default_rng(8).uniform(0.2, 5.0, len(x))
     other = family.in_units(units, unit)
-    divisor = unit * unit if isinstance(family, ProductFamily) else 1.0 if isinstance(family, EnergyFamily) else unit
+    own = EnergyFamily | OfFormula
+    divisor = unit * unit if isinstance(family, ProductFamily) else 1.0 if isinstance(family, own) else unit
     assert other.room(x / units) * divisor == pytest.approx(family.room(x), rel=1e-12)
     assert other.value(x / units, u) * divisor == pytest.approx(family.value(x, u), rel=1e-10)
     greatest = other.extremes(x / units)[2].max() * divisor

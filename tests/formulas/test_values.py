@@ -10,9 +10,8 @@ from flint import arb
 from scipy.interpolate import CubicSpline
 
 from optlaws import InputError
-from optlaws.formulas.affine import affine
+from optlaws.formulas.affine import affine, degree
 from optlaws.formulas.arithmetic import NUMPY, casadi_arithmetic, evaluate, mpmath_arithmetic
-from optlaws.formulas.degree import degree
 from optlaws.formulas.intervals import Interval, enclosed
 from optlaws.formulas.quadratic import quadratic
 from optlaws.formulas.reading import read

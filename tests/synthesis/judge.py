@@ -20,7 +20,7 @@ from optlaws.mechanisms.machine.output_constants import OutputConstant
 from optlaws.mechanisms.machine.residual_boxes import ModeResidual
 from optlaws.mechanisms.spectrum.robust import Residual
 from optlaws.synthesis import Maximum
-from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms, FormulaValue, OfFormula
+from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula
 from tests.formulas.by_python import by_python
 from tests.mechanisms.machine.stepped import machine_value
 from tests.synthesis.independent import DENSE
@@ -211,6 +211,12 @@ class Judged:
                 for low, high in pairwise(edges)
             )
             return sqrt(total / (motion.stop - motion.start))
+        if isinstance(constant, FormulaIntegral):
+            x, weights = np.polynomial.legendre.leggauss(80)
+            return sum(
+                float(weights @ signal(low + (high - low) * (1.0 + x) / 2.0)) * (high - low) / 2.0
+                for low, high in pairwise(edges)
+            )
         assert isinstance(constant, FormulaPeak)
         return max(self._highest(signal, sign, edges) for sign in constant.signs)
 

@@ -65,6 +65,16 @@ def maximum_part(number: int, maximum: str) -> str:
     return f"part {number} of {maximum}"
 
 
+def branch(number: int, name: str) -> str:
+    """One of the smooth formulas, counted from 1, of which a constant's is the greatest."""
+    return f"branch {number} of {name}"
+
+
+def envelope(number: int, name: str, sign: float) -> str:
+    """One of the convex formulas, counted from 1, that a formula is nowhere below, times a sign."""
+    return f"beneath {number} of {name}, {_SIDES[sign]}"
+
+
 def mirrored(name: str) -> str:
     """The same rows for the mirror image: of symmetric laws they speak of the other half."""
     return f"{name} mirrored"

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from optlaws.formulas.degree import degree
+from optlaws.formulas.affine import degree
 from optlaws.formulas.of_motion import Motion
 from optlaws.series.chebyshev import from_values, interpolated, nodes
 from optlaws.synthesis.families.family import LinearFamily
@@ -48,7 +48,7 @@ def sides(motion: Motion, name: str, signs: tuple[float, ...], *, symmetric: boo
     if not second:
         return [Side(name, first, signs)]
     [other] = second
-    if (first.start, first.stop) == (other.start, other.stop) and first.affine is not None:
+    if (first.start, first.stop) == (other.start, other.stop):
         here, there = _sampled(first), _sampled(other)
         size = _SAME * float(np.abs(here).max())
         if np.abs(here - there).max() <= size:

@@ -8,13 +8,13 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from optlaws.errors import InputError
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.series.chebyshev import derivative, from_values, interpolated, nodes, real_parts_of_roots, value
+from optlaws.series.candidates import candidates, series_between
+from optlaws.series.chebyshev import value
 from optlaws.series.peaks import Peak, extremes
 
 Array = NDArray[np.float64]
@@ -63,10 +63,10 @@ def _edges(motion: Motion, law: MotionLaw) -> list[float]:
     return sorted({motion.start, motion.stop, *inner})
 
 
-def _on(motion: Motion, law: MotionLaw, ends: tuple[float, float], x: Array) -> tuple[Array, Array]:
-    """The k and the values at places from -1 to 1 of a piece; ends lie just within it."""
+def _on(motion: Motion, law: MotionLaw, ends: tuple[float, float], k: Array) -> tuple[Array, Array]:
+    """Places of a piece, its ends just within it, and the values there."""
     low, high = ends
-    inside = np.clip(low + (x + 1.0) * (high - low) / 2.0, low + _BESIDE * (low > 0.0), high - _BESIDE * (high < 1.0))
+    inside = np.clip(k, low + _BESIDE * (low > 0.0), high - _BESIDE * (high < 1.0))
     return inside, _values(motion, law, inside)
 
 
@@ -84,37 +84,15 @@ def _count(motion: Motion, law: MotionLaw, ends: tuple[float, float]) -> int | N
     return None if found is None or found > _LARGEST else found + 1
 
 
-def _series(motion: Motion, law: MotionLaw, ends: tuple[float, float]) -> Array | None:
-    """Chebyshev series on a piece; None where it has no bounded smooth values."""
-    count = _count(motion, law, ends)
-    if count is not None:
-        return from_values(_on(motion, law, ends, nodes(count))[1])
-    try:
-        return interpolated(lambda x: _on(motion, law, ends, x)[1], str(motion.formula))
-    except InputError:
-        return None
-
-
-def _candidates(motion: Motion, law: MotionLaw, ends: tuple[float, float], depth: int = 0) -> tuple[Array, Array]:
-    """Where the formula may be extreme on a piece, and its values there; pieces that are not smooth are cut in two."""
-    edges = np.array([-1.0, 1.0])
-    series = _series(motion, law, ends)
-    if series is not None:
-        return _on(motion, law, ends, np.concatenate([edges, real_parts_of_roots(derivative(series))]))
-    if depth >= _DEEPEST:
-        return _on(motion, law, ends, np.cos(np.linspace(0.0, np.pi, _DENSE)))
-    middle = sum(ends) / 2.0
-    halves = [_candidates(motion, law, half, depth + 1) for half in ((ends[0], middle), (middle, ends[1]))]
-    k, values = (np.concatenate(several) for several in zip(*halves, strict=True))
-    return k, values
-
-
-_DEEPEST, _DENSE = 12, 129
+def _candidates(motion: Motion, law: MotionLaw, ends: tuple[float, float]) -> tuple[Array, Array]:
+    """Where the formula may be extreme on a piece, and its values there."""
+    inner = candidates(lambda k: _on(motion, law, ends, k)[1], ends, _count(motion, law, ends))
+    return _on(motion, law, ends, np.concatenate([np.array(ends), inner]))
 
 
 def _integral(motion: Motion, law: MotionLaw, ends: tuple[float, float], *, square: bool) -> float:
     """Over a piece by Gauss's rule, exact where the formula is a polynomial."""
-    series = _series(motion, law, ends)
+    series = series_between(lambda k: _on(motion, law, ends, k)[1], ends, _count(motion, law, ends))
     if series is None:
         return float("inf")
     x, weights = legendre.leggauss(len(series) + 1)

@@ -1,21 +1,43 @@
-"""Constants made of a formula: its peak, its root mean square, its value at a place."""
+"""Constants made of a formula: its peak, its root mean square, its integral, its value at a place."""
 
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from math import inf, isfinite
 from typing import TYPE_CHECKING
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.formulas.branches import smooth
+from optlaws.formulas.convexity import Judge
 from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.tree import Negative
+from optlaws.formulas.vocabulary import ORDERS
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.affine_rows import columns, gauss, rows, sides
-from optlaws.synthesis.functionals.along_law import extremes_along, mean_square_along, value_along
+from optlaws.synthesis.functionals.along_law import (
+    extremes_along,
+    integral_along,
+    mean_square_along,
+    value_along,
+)
+from optlaws.synthesis.functionals.curved_rows import (
+    Boxes,
+    Branch,
+    branch_rows,
+    envelopes,
+    integral_rows,
+    split,
+    squared,
+)
 from optlaws.synthesis.functionals.sizes import known_values, reach
-from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.problem.constants import Asked, Functional
+from optlaws.synthesis.problem.ranges import as_range
 
 if TYPE_CHECKING:
     from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
@@ -44,6 +66,16 @@ class OfFormula(Functional):
         """The rule that says whether the constant is convex."""
         return self.motion.verdict.why
 
+    @property
+    def affine(self) -> bool:
+        """Whether the formula is affine in the law."""
+        return self.motion.affine is not None
+
+    @kept_property
+    def sign(self) -> int:
+        """1 where the formula is nowhere below 0 whatever the law, -1 where nowhere above, 0 where neither is known."""
+        return Judge(frozenset(ORDERS), self.motion.start, self.motion.stop).sign(self.motion.formula)
+
     def parts(self, *, symmetric: bool) -> tuple[Motion, ...]:
         """The formula, or of symmetric laws what says the same on the first half."""
         return self.motion.halves() if symmetric else (self.motion,)
@@ -56,6 +88,28 @@ class OfFormula(Functional):
     def _size(self, space: LawSpace) -> tuple[int, float, float] | None:  # noqa: ARG002
         """An order, a factor and an offset; None where the constant does not bound the law."""
         return None
+
+    def convex_families(self, space: LawSpace, slack: Array, bound: float, problem: Asked) -> tuple[Family, ...]:
+        """The rows themselves where they are convex; else convex ones beneath, and what the constant is at least."""
+        if self.convex:
+            return self.families(space, slack, bound)
+        floor = self.floor(space.boundary)
+        found = self._envelopes(space, slack, bound, boxes_of(problem))
+        if isfinite(floor) and slack.any():
+            row = np.append(-slack, 0.0)[None, :]
+            least = LinearFamily(names.at_least(self.name), 0.0 * slack, -floor, (1.0,), (1.0, 1.0), series=row)
+            return (*found, least)
+        return found
+
+    def _envelopes(
+        self,
+        space: LawSpace,  # noqa: ARG002
+        slack: Array,  # noqa: ARG002
+        bound: float,  # noqa: ARG002
+        boxes: Boxes,  # noqa: ARG002
+    ) -> tuple[Family, ...]:
+        """Convex rows that hold where the constant is at most slack . x + bound."""
+        return ()
 
     @abstractmethod
     def value(self, law: MotionLaw) -> float:
@@ -72,61 +126,124 @@ class FormulaPeak(OfFormula):
 
     signs: tuple[float, ...] = _BOTH
 
+    @property
+    def counted(self) -> tuple[float, ...]:
+        """The signs that may count: of what is nowhere below 0 only one."""
+        return (float(self.sign),) if len(self.signs) == 2 and self.sign and not self.affine else self.signs
+
     def floor(self, conditions: BoundaryConditions) -> float:
         """A peak of one sign may be below 0; what the end conditions say of the formula it is not below."""
-        if len(self.signs) == 2:
+        if len(self.signs) == 2 or self.sign == self.signs[0]:
             return 0.0
-        return max(low for _, low in self._known(conditions)) if self._known(conditions) else -np.inf
-
-    def _known(self, conditions: BoundaryConditions) -> list[tuple[float, float]]:
-        """What the formula, times the sign, is at the ends and in the mean, with what it is no less than rounded."""
         [sign] = self.signs
-        return [(sign * one, sign * one - _ROUNDED * size) for one, size in known_values(self.motion, conditions)]
+        known = known_values(self.motion, conditions)
+        return max((sign * value - _ROUNDED * size for value, size in known), default=-inf)
 
     def value(self, law: MotionLaw) -> float:
         """The peak over the whole part."""
-        lowest, highest = extremes_along(self.motion, law)
-        return max(highest.value if sign > 0.0 else -lowest.value for sign in self.signs)
+        if smooth(self.motion.formula, ORDERS):
+            lowest, highest = extremes_along(self.motion, law)
+            return max(highest.value if sign > 0.0 else -lowest.value for sign in self.signs)
+        ends = ((branch.sign, extremes_along(branch.motion, law)) for branch in self.branches(symmetric=False))
+        return max(highest.value if sign > 0.0 else -lowest.value for sign, (lowest, highest) in ends)
 
     def _size(self, space: LawSpace) -> tuple[int, float, float] | None:
         """Of a peak of one sign only if some mean of the formula is the same in every law."""
-        found = reach(space, self.parts(symmetric=space.symmetric)) if self.motion.start < self.motion.stop else None
+        if not self.affine or self.motion.start == self.motion.stop:
+            return None
+        found = reach(space, self.parts(symmetric=space.symmetric))
         if found is None:
             return None
         return found.by_peak() if len(self.signs) == 2 else found.by_one_sign(self.signs[0])
 
+    def branches(self, *, symmetric: bool) -> list[Branch]:
+        """The smooth formulas whose rows hold the peak."""
+        found = []
+        for side in sides(self.motion, self.name, self.counted, symmetric=symmetric):
+            for sign in side.signs:
+                found += split(side.motion, sign, side.name) or []
+        return found
+
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """One family; two where symmetric laws count on half the interval but the formula is not symmetric."""
-        found = sides(self.motion, self.name, self.signs, symmetric=space.symmetric)
-        return tuple(rows(space, side, slack, bound) for side in found)
+        if self.affine:
+            found = sides(self.motion, self.name, self.signs, symmetric=space.symmetric)
+            return tuple(rows(space, side, slack, bound) for side in found)
+        return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
+
+    def _envelopes(self, space: LawSpace, slack: Array, bound: float, boxes: Boxes) -> tuple[Family, ...]:
+        beneath = self.beneath(boxes, symmetric=space.symmetric)
+        return tuple(branch_rows(space, branch, slack, bound) for branch in beneath)
+
+    def beneath(self, boxes: Boxes, *, symmetric: bool) -> list[Branch]:
+        """Convex formulas that those of the peak are nowhere below, with the peak's convex ones themselves."""
+        found = []
+        for branch in self.branches(symmetric=symmetric):
+            if branch.convex:
+                found.append(branch)
+                continue
+            motion = branch.motion
+            signed = motion if branch.sign > 0.0 else replace(motion, formula=Negative(motion.formula))
+            under = [replace(signed, formula=formula) for formula in envelopes(signed, boxes)]
+            found += [
+                Branch(motion, 1.0, names.envelope(i, branch.name, branch.sign))
+                for i, motion in enumerate(under, 1)
+                if motion.curvature.convex
+            ]
+        return found
 
 
 @dataclass(frozen=True, repr=False)
 class FormulaRms(OfFormula):
     """Root mean square of a formula over its part of the interval; made by `rms`."""
 
+    @property
+    def length(self) -> float:
+        """Of the part."""
+        return self.motion.stop - self.motion.start
+
     def value(self, law: MotionLaw) -> float:
         """The root of the mean square, by Gauss's rule, exact where the formula is a polynomial of k."""
-        length = self.motion.stop - self.motion.start
-        return float(np.sqrt(mean_square_along(self.motion, law) / length))
+        return float(np.sqrt(mean_square_along(self.motion, law) / self.length))
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
-        """A norm of the coordinates."""
+        """A norm of the coordinates, or the root of an integral."""
+        if not self.affine:
+            root = float(np.sqrt(self.length))
+            square = squared(self.motion)
+            family = integral_rows(space, square, self.name, slack * root, bound * root, root=True, convex=self.convex)
+            return (family,)
         matrix = np.vstack([self._roots(space, half) for half in self.parts(symmetric=space.symmetric)])
         return (NormFamily(self.name, slack, bound, matrix=space.widened(matrix, len(slack))),)
 
     def _size(self, space: LawSpace) -> tuple[int, float, float] | None:
         """By Cauchy's inequality."""
-        found = reach(space, self.parts(symmetric=space.symmetric))
+        found = reach(space, self.parts(symmetric=space.symmetric)) if self.affine else None
         if found is None:
             return None
         order, factor, offset = found.by_square()
-        return order, factor * float(np.sqrt(self.motion.stop - self.motion.start)), offset
+        return order, factor * float(np.sqrt(self.length)), offset
 
     def _roots(self, space: LawSpace, motion: Motion) -> Array:
         u, weights = gauss(space, motion)
-        share = weights / (self.motion.stop - self.motion.start)
-        return np.sqrt(share)[:, None] * columns(space, motion, u)
+        return np.sqrt(weights / self.length)[:, None] * columns(space, motion, u)
+
+
+@dataclass(frozen=True, repr=False)
+class FormulaIntegral(OfFormula):
+    """Integral of a formula over its part of the interval; made by `integral`."""
+
+    def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002
+        """Of what is nowhere below 0 it is not either."""
+        return 0.0 if self.sign > 0 else -inf
+
+    def value(self, law: MotionLaw) -> float:
+        """By Gauss's rule, exact where the formula is a polynomial of k."""
+        return integral_along(self.motion, law)
+
+    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+        """One row."""
+        return (integral_rows(space, self.motion, self.name, slack, bound, root=False, convex=self.convex),)
 
 
 @dataclass(frozen=True, repr=False)
@@ -134,15 +251,61 @@ class FormulaValue(OfFormula):
     """Value of a formula at one k; made by `value`."""
 
     def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002
-        """A value may be below 0."""
-        return -np.inf
+        """A value may be below 0 unless its formula is nowhere."""
+        return 0.0 if self.sign > 0 else -inf
 
     def value(self, law: MotionLaw) -> float:
         """The value."""
         return value_along(self.motion, law)
 
+    def branches(self, *, symmetric: bool) -> list[Branch]:
+        """The smooth formulas whose rows hold the value."""
+        [motion] = self.parts(symmetric=symmetric)
+        return split(motion, 1.0, self.name) or []
+
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
-        """One row."""
-        [motion] = self.parts(symmetric=space.symmetric)
-        row = space.widened(columns(space, motion, np.array([1.0 - 2.0 * motion.start])), len(slack))
-        return (LinearFamily(self.name, slack, bound, (1.0,), (1.0, 1.0), series=row),)
+        """One row, or one for each branch."""
+        return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
+
+
+def refusal(constant: OfFormula) -> str | None:
+    """Why a formula cannot be minimised or bounded; None where it can.
+
+    Its kinks must make it the greatest of smooth formulas, or there must be none.
+    """
+    motion = constant.motion
+    if isinstance(constant, FormulaPeak | FormulaValue):
+        signs = constant.counted if isinstance(constant, FormulaPeak) else (1.0,)
+        bad = [sign for sign in signs if split(motion, sign, constant.name) is None]
+        if not bad:
+            return None
+        hint = '; side="high" may be' if len(signs) == 2 and len(bad) == 1 else ""
+        return f"{motion.formula} has kinks, but not those of a maximum: it is neither smooth nor known{hint}"
+    if smooth(motion.formula, ORDERS):
+        return None
+    return f"{motion.formula} has kinks in the law: an integral needs a smooth formula"
+
+
+def boxes_of(problem: Asked) -> dict[str, tuple[float, float]]:
+    """Between which values derivatives are in every law of a problem, as far as it says.
+
+    Examples
+    --------
+    >>> from optlaws import Chebyshev, Problem, at_most
+    >>> boxes_of(Problem(B=1.8, C=at_most(6), order=4, basis=Chebyshev(5), monotone=True))
+    {'b': (0.0, 1.8), 'c': (-6.0, 6.0), 'a': (0.0, 1.0)}
+    """
+    found = {}
+    for name, constant in (("b", "B"), ("c", "C"), ("j", "J")):
+        asked = as_range(getattr(problem, constant, None), constant)
+        if asked is not None and isfinite(asked.high):
+            found[name] = (-asked.high, asked.high)
+    if problem.monotone:
+        found["b"] = (0.0, found.get("b", (0.0, inf))[1])
+        if getattr(problem, "boundary", None) is None:
+            found["a"] = (0.0, 1.0)
+    elif "b" in found and getattr(problem, "boundary", None) is None:
+        # a is at most B k from its start, and from its end
+        most = (1.0 + found["b"][1]) / 2.0
+        found["a"] = (1.0 - most, most)
+    return {name: box for name, box in found.items() if all(map(isfinite, box))}

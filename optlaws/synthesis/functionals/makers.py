@@ -2,18 +2,27 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from math import nan
 from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.formulas.branches import smooth_itself
 from optlaws.formulas.of_motion import Motion, checked, of_text
 from optlaws.formulas.scanner import FormulaError
 from optlaws.formulas.tree import Formula, plain
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.numbers import real
 from optlaws.suggest import unknown_key
-from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms, FormulaValue
+from optlaws.synthesis.functionals.kinds import (
+    FormulaIntegral,
+    FormulaPeak,
+    FormulaRms,
+    FormulaValue,
+    OfFormula,
+    refusal,
+)
 from optlaws.synthesis.problem.constants import MAKERS, Functional
 
 _SIDES = {"both": (1.0, -1.0), "high": (1.0,), "low": (-1.0,)}
@@ -46,7 +55,9 @@ def peak(formula: Any, *, side: str = "both", start: float = 0.0, stop: float = 
         raise InputError(unknown_key(side, _SIDES, "side"))
     motion = _motion(formula, *_part(start, stop))
     name = _name("peak", motion, [] if side == "both" else [f"side={side}"])
-    return FormulaPeak(name, nan, convex=True, motion=_affine(motion, name), signs=_SIDES[side])
+    found = FormulaPeak(name, nan, convex=True, motion=motion, signs=_SIDES[side])
+    convex = motion.affine is not None or all(branch.convex for branch in found.branches(symmetric=False))
+    return _checked(replace(found, convex=convex), formula)
 
 
 def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
@@ -74,7 +85,39 @@ def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  
     if motion.start == motion.stop:
         raise InputError(f"rms needs a part of the interval with start < stop, got {start!r} and {stop!r}")
     name = _name("rms", motion)
-    return FormulaRms(name, nan, convex=True, motion=_affine(motion, name))
+    found = FormulaRms(name, nan, convex=True, motion=motion)
+    kind = motion.curvature
+    convex = motion.affine is not None or (kind.convex and found.sign > 0) or (kind.concave and found.sign < 0)
+    return _checked(replace(found, convex=convex), formula)
+
+
+def integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
+    """The integral of a formula of the motion, over the whole of the interval or a part of it.
+
+    Parameters
+    ----------
+    formula
+        Text as `peak` takes it.
+    start, stop
+        The part of the interval.
+
+    Raises
+    ------
+    InputError
+        If the formula cannot be read; the error points at the place in the text.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> energy = integral("c^2 + (1 + k)*b^2")
+    >>> round(energy.value(smoothstep(2)), 9), energy.convexity
+    (13.8, 'convex: every term of c^2 + (1 + k)*b^2 is convex')
+    """
+    motion = _motion(formula, *_part(start, stop))
+    if motion.start == motion.stop:
+        raise InputError(f"integral needs a part of the interval with start < stop, got {start!r} and {stop!r}")
+    found = FormulaIntegral(_name("integral", motion), nan, convex=motion.curvature.convex, motion=motion)
+    return _checked(found, formula)
 
 
 def value(formula: Any, *, at: float) -> Functional:  # noqa: ANN401
@@ -101,7 +144,7 @@ def value(formula: Any, *, at: float) -> Functional:  # noqa: ANN401
     place = _place(at, "at")
     motion = _motion(formula, place, place)
     name = f"value({motion.formula}, at={plain(place)})"
-    return FormulaValue(name, nan, convex=True, motion=_affine(motion, name))
+    return _checked(FormulaValue(name, nan, convex=motion.curvature.convex, motion=motion), formula)
 
 
 def _motion(formula: Any, start: float, stop: float) -> Motion:  # noqa: ANN401 - it is checked here
@@ -117,10 +160,14 @@ def _motion(formula: Any, start: float, stop: float) -> Motion:  # noqa: ANN401 
     return motion
 
 
-def _affine(motion: Motion, name: str) -> Motion:
-    if motion.affine is None:
-        raise InputError(f"{name}: {motion.verdict.why}")
-    return motion
+def _checked(constant: OfFormula, formula: Any) -> OfFormula:  # noqa: ANN401 - what was given
+    """The constant, if it can be minimised and bounded."""
+    why = refusal(constant)
+    if why is not None:
+        text = formula if isinstance(formula, str) else str(formula)
+        kinked = next(part for part in constant.motion.formula.walk() if not smooth_itself(part))
+        raise FormulaError(why, text, kinked.place)
+    return constant
 
 
 def _part(start: object, stop: object) -> tuple[float, float]:
@@ -144,6 +191,7 @@ def _name(kind: str, motion: Motion, others: list[str] | None = None) -> str:
     return f"{kind}({', '.join(parts)})"
 
 
+MAKERS.setdefault("integral", integral)
 MAKERS.setdefault("peak", peak)
 MAKERS.setdefault("rms", rms)
 MAKERS.setdefault("value", value)

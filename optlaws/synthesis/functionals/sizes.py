@@ -9,6 +9,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.vocabulary import ORDERS
 from optlaws.synthesis.functionals.affine_rows import columns, gauss
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
@@ -110,21 +111,20 @@ def _turning(rows: Array, right: Array, weights: Array) -> tuple[Array, float] |
 
 
 def known_values(motion: Motion, conditions: BoundaryConditions) -> list[tuple[float, float]]:
-    """What the end conditions say an affine formula is at an end, or in the mean; each with the size of its terms.
+    """What the end conditions say a formula is at an end, or in the mean; each with a size that its rounding has.
 
     Examples
     --------
     >>> from optlaws.formulas.of_motion import of_text
     >>> from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
     >>> known_values(of_text("c + 2*b"), BoundaryConditions.rest(3))
-    [(0.0, 0.0), (0.0, 0.0), (2.0, 2.0)]
+    [(0.0, 1.0), (0.0, 1.0), (2.0, 2.0)]
     """
     found = []
     for k, end in ((0.0, conditions.start), (1.0, conditions.end)):
         if motion.start <= k <= motion.stop and max(motion.orders, default=0) < len(end):
-            terms = [float(Motion(w).values({"k": k})) * end[nu] for nu, w in motion.weights.items()]
-            terms.append(float(Motion(motion.rest).values({"k": k})))
-            found.append((sum(terms), sum(map(abs, terms))))
+            value = motion.values({"k": k, **{name: end[nu] for name, nu in ORDERS.items() if nu < len(end)}})
+            found.append((float(value), 1.0 + abs(float(value))))
     mean = mean_value(motion, conditions)
     return found if mean is None else [*found, (mean, _mean_size(motion, conditions))]
 
@@ -142,7 +142,8 @@ def _mean_size(motion: Motion, conditions: BoundaryConditions) -> float:
 def _mean_terms(motion: Motion, conditions: BoundaryConditions) -> list[float] | None:
     plain = motion.constant_weights()
     known = range(1, len(conditions.start) + 1)
-    if plain is None or (motion.start, motion.stop) != (0.0, 1.0) or any(nu not in known for nu in plain[0]):
+    whole = motion.affine is not None and (motion.start, motion.stop) == (0.0, 1.0)
+    if plain is None or not whole or any(nu not in known for nu in plain[0]):
         return None
     weights, rest = plain
     return [*(w * (conditions.end[nu - 1] - conditions.start[nu - 1]) for nu, w in weights.items()), rest]

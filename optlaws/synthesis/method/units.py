@@ -12,6 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.curved import OfFormula
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import Family, ProductFamily, Program
 
@@ -89,6 +90,6 @@ def units_of(program: Program) -> Units | None:
 
 
 def _row_unit(family: Family, size: float) -> float:
-    if isinstance(family, EnergyFamily):
+    if isinstance(family, EnergyFamily | OfFormula):
         return 1.0
     return size**2 if isinstance(family, ProductFamily) else size

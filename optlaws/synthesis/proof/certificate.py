@@ -22,6 +22,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import bounded
 from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.curved import OfFormula
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
 from optlaws.synthesis.problem.problem import Problem
@@ -238,6 +239,10 @@ def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
             direction = np.array(contact.direction)
             row = family.tangent(float(u[0]), direction / max(float(np.linalg.norm(direction)), 1.0))
             return row[:-1] - family.slack, family.bound - float(row[-1])
+        if isinstance(family, OfFormula):
+            row = family.tangent_row(float(u[0]), contact.sign, contact.direction)
+            if row is not None:
+                return row[:-1] - family.slack, family.bound - float(row[-1])
         if isinstance(family, EnergyFamily) and family.convex and len(contact.direction) <= program.size:
             row = family.minorant(_on_equations(program, np.array(contact.direction)))
             return row[:-1] - family.slack, family.bound - float(row[-1])

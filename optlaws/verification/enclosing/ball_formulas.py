@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from functools import reduce
 from itertools import pairwise
 from typing import Any
@@ -64,9 +65,16 @@ def exact_pieces(table: Table) -> list[list[fmpq]]:
     [[0, 2], [1, -2]]
     """
     if table.smooth:
-        return [[rational(float(value)) for value in row] for row in pieces(table)]
+        rows = [[rational(float(value)) for value in row] for row in pieces(replace(table, order=0))]
+        return [_differentiated(row, table.order) for row in rows]
     points = [(rational(x), rational(y)) for x, y in zip(table.places, table.values, strict=True)]
-    return [[y, (z - y) / (w - x)] for (x, y), (w, z) in pairwise(points)]
+    return [_differentiated([y, (z - y) / (w - x)], table.order) for (x, y), (w, z) in pairwise(points)]
+
+
+def _differentiated(row: list[fmpq], order: int) -> list[fmpq]:
+    for _ in range(order):
+        row = [i * value for i, value in enumerate(row)][1:] or [fmpq(0)]
+    return row
 
 
 BALLS = Arithmetic(

@@ -207,7 +207,8 @@ class _System:
             real, imaginary = contact.direction
             for turn in (float(_NEAR), -float(_NEAR)):
                 yield replace(contact, direction=(real - turn * imaginary, imaginary + turn * real)), k
-        if _NEAR < k < 1 - _NEAR and (cone or not contact.direction):
+        placed = cone or contact.constraint in self.rows.tangents or not contact.direction
+        if _NEAR < k < 1 - _NEAR and placed:
             for near in (k - _NEAR, k + _NEAR):
                 if cone or self._share_a_piece(near, k):
                     yield contact, near

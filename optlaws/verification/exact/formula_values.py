@@ -26,6 +26,9 @@ _LENGTH = 7
 
 def extremes_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Extremes:
     """Balls that hold the least and the greatest value of a formula on its part of the interval."""
+    if motion.start == motion.stop:
+        value = value_of(motion, pieces)
+        return value, value
     found: list[arb] = []
     for piece, low, high in _parts(motion, pieces):
         composed = _polynomial(motion, piece, low, high)
@@ -45,6 +48,17 @@ def square_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
         If the formula is no polynomial of k along the law.
     """
     return _integral(motion, pieces, square=True)
+
+
+def integral_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
+    """A ball that holds the integral of a formula over its part.
+
+    Raises
+    ------
+    InputError
+        If the formula is no polynomial of k along the law.
+    """
+    return _integral(motion, pieces, square=False)
 
 
 def _integral(motion: Motion, pieces: Sequence[PolynomialPiece], *, square: bool) -> arb:

@@ -5,14 +5,15 @@ from __future__ import annotations
 from fractions import Fraction
 
 from optlaws.errors import InputError
-from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms, FormulaValue
+from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import Peak, PeakJerk, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Term
 from optlaws.synthesis.problem.named_constants import is_named
 from optlaws.verification.exact.residuals import ResidualConstant
 
-OfFormula = FormulaPeak | FormulaRms | FormulaValue
+OfFormula = FormulaIntegral | FormulaPeak | FormulaRms | FormulaValue
+_OF_FORMULAS = {FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue}
 Known = Peak | Power | RootMeanSquare | CombinedPeak | ResidualConstant | OfFormula
 
 _OF_CAMS = tuple(f"{name}_cam(" for name in ("B", "C", "C_plus", "C_minus", "D", "J"))
@@ -40,7 +41,7 @@ def known(term: Term) -> Known:
         return term
     if isinstance(term, ResidualConstant) and repr(term).startswith("residual(") and is_named(term):
         return term
-    if type(term) in {FormulaPeak, FormulaRms, FormulaValue} and isinstance(term, OfFormula) and is_named(term):
+    if type(term) in _OF_FORMULAS and isinstance(term, OfFormula) and is_named(term):
         return term
     raise InputError(
         "exact verification knows peaks, power and RMS of derivatives, constants of cams, residuals and constants of "

@@ -15,14 +15,14 @@ from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
-from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms, FormulaValue
+from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaRms
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import Peak, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.verification.enclosing.ball_pieces import PowerPiece, SinePiece
 from optlaws.verification.enclosing.balls import ball, enclosed, rational
 from optlaws.verification.enclosing.pieces import ExactPiece, Extremes, PolynomialPiece, least_and_greatest
-from optlaws.verification.exact.formula_values import extremes_of, square_of, value_of
+from optlaws.verification.exact.formula_values import extremes_of, integral_of, square_of
 from optlaws.verification.exact.known_constants import Known, OfFormula, known
 from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
 
@@ -207,16 +207,19 @@ class ExactLaw:
         if self._impulses(max(motion.orders, default=0)):
             return arb.pos_inf()
         with ctx.workprec(self.precision):
-            if isinstance(constant, FormulaRms):
-                whole = ball(Fraction(motion.stop) - Fraction(motion.start))
-                return (square_of(motion, self.polynomials) / whole).sqrt()
-            if isinstance(constant, FormulaValue) or motion.start == motion.stop:
-                value = value_of(motion, self.polynomials)
-                extremes = (value, value)
-            else:
-                extremes = extremes_of(motion, self.polynomials)
-            signs = constant.signs if isinstance(constant, FormulaPeak) else (1.0,)
-            return reduce(arb.max, (extremes[1] if sign > 0 else -extremes[0] for sign in signs))
+            if isinstance(constant, FormulaRms | FormulaIntegral):
+                return self._integral(constant)
+            found = []
+            for branch in constant.branches(symmetric=False):
+                least, greatest = extremes_of(branch.motion, self.polynomials)
+                found.append(greatest if branch.sign > 0 else -least)
+            return reduce(arb.max, found)
+
+    def _integral(self, constant: FormulaRms | FormulaIntegral) -> arb:
+        if isinstance(constant, FormulaIntegral):
+            return integral_of(constant.motion, self.polynomials)
+        whole = ball(Fraction(constant.motion.stop) - Fraction(constant.motion.start))
+        return (square_of(constant.motion, self.polynomials) / whole).sqrt()
 
     def term(self, term: Term) -> arb:
         """A ball that holds the value of a constant or a maximum.

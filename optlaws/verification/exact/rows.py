@@ -17,7 +17,8 @@ from optlaws.formulas.of_motion import Motion
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName
 from optlaws.synthesis.functionals.affine_rows import sides as formula_sides
-from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaRms
+from optlaws.synthesis.functionals.curved_rows import Branch, squared
+from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, boxes_of
 from optlaws.synthesis.problem.combined import Combined, CombinedPeak, facing
 from optlaws.synthesis.problem.constants import B, Functional, Peak, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
@@ -28,7 +29,7 @@ from optlaws.synthesis.program.writer import relaxed_power
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate, Contact
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.verification.enclosing.balls import ball
-from optlaws.verification.exact.formula_rows import formula_columns, formula_gauss
+from optlaws.verification.exact.formula_rows import formula_columns, formula_gauss, tangent_columns, tangent_integral
 from optlaws.verification.exact.known_constants import OfFormula, known
 from optlaws.verification.exact.of_basis import exact_space
 from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
@@ -90,6 +91,8 @@ class ExactRows:
         self.power = relaxed_power(problem) if self.relaxed else None
         #: constants that are magnitudes of complex numbers, whose contacts' k is no place of the law
         self.cones: set[str] = set()
+        #: formulas that are not affine, whose contacts say where a tangent touches
+        self.tangents: set[str] = set()
         self.names: list[str] = []
         self.cost: dict[str, float] = {}
         self._makers: dict[tuple[str, float], list[Maker]] = {}
@@ -157,16 +160,59 @@ class ExactRows:
 
         self._add(name, make, signs)
 
-    def _of_formula(self, one: OfFormula, slack: Names, high: float) -> None:
+    def _of_formula(self, constant: OfFormula, slack: Names, high: float) -> None:
         symmetric = self.problem.symmetric
-        if isinstance(one, FormulaRms):
-            self._add(one.name, lambda contact, _: self._norm_of(one, contact, slack, high))
-        elif isinstance(one, FormulaPeak):
-            for side in formula_sides(one.motion, one.name, one.signs, symmetric=symmetric):
+        if not constant.convex:
+            self._beneath(constant, slack, high)
+        elif isinstance(constant, FormulaRms | FormulaIntegral):
+            self._integral(constant, slack, high)
+        elif isinstance(constant, FormulaPeak) and constant.affine:
+            for side in formula_sides(constant.motion, constant.name, constant.signs, symmetric=symmetric):
                 self._part(side.name, side.motion, side.signs, slack, high)
         else:
-            [motion] = one.parts(symmetric=symmetric)
-            self._part(one.name, motion, (1.0,), slack, high)
+            for branch in constant.branches(symmetric=symmetric):
+                self._branch(branch, slack, high)
+
+    def _beneath(self, constant: OfFormula, slack: Names, high: float) -> None:
+        """Of what is not convex: convex rows beneath, and what it is at least."""
+        if isinstance(constant, FormulaPeak):
+            for branch in constant.beneath(boxes_of(self.problem), symmetric=self.problem.symmetric):
+                self._branch(branch, slack, high)
+        floor = constant.floor(self.problem.conditions)
+        if isfinite(floor) and slack:
+            self._single(names.at_least(constant.name), slack, -ball(floor))
+
+    def _branch(self, branch: Branch, slack: Names, high: float) -> None:
+        """Rows of an affine formula, or the tangents of a convex one."""
+        motion = branch.motion
+        if motion.affine is not None:
+            self._part(branch.name, motion, (branch.sign,), slack, high)
+            return
+        start, stop = Fraction(motion.start), Fraction(motion.stop)
+
+        def make(contact: Contact, k: Fraction) -> Row:
+            if start < stop and not start - _NEAR <= k <= stop + _NEAR:
+                raise LookupError
+            found = tangent_columns(self.space, branch, contact.direction, min(max(k, start), stop))
+            return Row(found, slack, -ball(high))
+
+        self.tangents.add(branch.name)
+        self._add(branch.name, make, (branch.sign,))
+
+    def _integral(self, constant: FormulaRms | FormulaIntegral, slack: Names, high: float) -> None:
+        motion, name = constant.motion, constant.name
+        if isinstance(constant, FormulaRms) and constant.affine:
+            self._add(name, lambda contact, _: self._norm_of(constant, contact, slack, high))
+            return
+        root = isinstance(constant, FormulaRms)
+        unit = ball(constant.length).sqrt() if isinstance(constant, FormulaRms) else arb(1)
+
+        def make(contact: Contact, _: Fraction) -> Row:
+            squares = squared(motion) if root else motion
+            found = tangent_integral(self.space, squares, contact.direction, root=root)
+            return Row([value / unit for value in found], slack, -ball(high))
+
+        self._add(name, make)
 
     def _part(self, name: str, motion: Motion, signs: tuple[float, ...], slack: Names, high: float) -> None:
         """Rows of an affine formula on its part of the interval."""

@@ -10,8 +10,10 @@ from numpy.typing import NDArray
 
 from optlaws.locks import process_lock
 from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.curved import OfFormula
 from optlaws.synthesis.families.energy import LEAST_ROOT, EnergyFamily
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Points, ProductFamily, Program
+from optlaws.synthesis.method.on_points.formulas import FormulaShape, expression_of, numbers_of, shape_of, symbols_of
 from optlaws.synthesis.method.tolerances import EMPTY_ROW
 
 Array = NDArray[np.float64]
@@ -39,7 +41,7 @@ _FINE = {"ipopt.tol": 1e-12, "ipopt.compl_inf_tol": 1e-12, "ipopt.dual_inf_tol":
 _USUAL = {"ipopt.tol": 1e-9}
 
 
-_KINDS: tuple[type[Family], ...] = (LinearFamily, ProductFamily, ConeFamily, NormFamily, EnergyFamily)
+_KINDS: tuple[type[Family], ...] = (LinearFamily, ProductFamily, ConeFamily, NormFamily, EnergyFamily, OfFormula)
 _CONE_SHARE = 2.0  # the cone's row as IPOPT sees it is twice as steep as the magnitude itself
 
 
@@ -60,11 +62,13 @@ class _Counts:
     cones: int
     norms: tuple[int, ...]
     shared: tuple[_Shared, ...] = ()
+    formulas: tuple[FormulaShape, ...] = ()
 
     @property
     def rows(self) -> int:
         """The rows of all kinds."""
-        return self.linear + self.products + self.cones + len(self.norms) + sum(one.places for one in self.shared)
+        own = sum(one.places for one in self.shared) + sum(one.rows for one in self.formulas)
+        return self.linear + self.products + self.cones + len(self.norms) + own
 
 
 @dataclass(frozen=True)
@@ -128,13 +132,17 @@ def solve_on_points(
     shared = [(f, p) for f, p in pairs if isinstance(f, EnergyFamily)]
     real, imaginary, room = _cone_rows([(f, p) for f, p in pairs if isinstance(f, ConeFamily)], program.size)
     kinds = tuple(_shape(family, p) for family, p in shared)
-    counts = _Counts(program.size, len(rows), len(first), len(room), tuple(len(f.matrix) for f in norms), kinds)
+    formulas = [(f, p) for f, p in pairs if isinstance(f, OfFormula)]
+    shapes = tuple(shape_of(family, p) for family, p in formulas)
+    lengths = tuple(len(f.matrix) for f in norms)
+    counts = _Counts(program.size, len(rows), len(first), len(room), lengths, kinds, shapes)
     parts = [rows / length[:, None], first, second, slack, real, imaginary, room]
     parts += [*(f.matrix for f in norms), *(f.slack[None] for f in norms)]
     parts += [part for family, p in shared for part in _shared_rows(family, p)]
+    parts += [part for family, p in formulas for part in numbers_of(family, p)]
     parameters = np.concatenate([*(part.ravel(order="F") for part in parts), program.objective])
     upper = np.concatenate([right / length, bound, np.zeros(len(room)), [f.bound for f in norms]])
-    upper = np.concatenate([upper, *(np.full(len(p.u), f.bound) for f, p in shared)])
+    upper = np.concatenate([upper, *(np.full(len(p.u), f.bound) for f, p in (*shared, *formulas))])
     lower = np.full(len(upper), -np.inf)
     equations = slice(len(rows) - len(program.right), len(rows))
     lower[equations] = upper[equations]
@@ -222,7 +230,8 @@ def _split(pairs: list[tuple[Any, Points]], weights: Array, rows: int, equations
     products = sum(len(p.u) for f, p in pairs if isinstance(f, ProductFamily))
     cones = sum(len(p.u) for f, p in pairs if isinstance(f, ConeFamily))
     norms = sum(isinstance(f, NormFamily) for f, _ in pairs)
-    begins = np.cumsum([0, rows, products, cones, norms]).tolist()
+    energies = sum(len(p.u) for f, p in pairs if isinstance(f, EnergyFamily))
+    begins = np.cumsum([0, rows, products, cones, norms, energies]).tolist()
     split = []
     for family, points in pairs:
         kind = next(i for i, kind_of_row in enumerate(_KINDS) if isinstance(family, kind_of_row))
@@ -266,7 +275,9 @@ def _build(counts: _Counts, *, careful: bool, fine: bool) -> Any:  # noqa: ANN40
         *(ca.MX.sym("room", 1, size) for _ in norms),
     ]
     shared = [_energy_symbols(size, one) for one in counts.shared]
-    symbols += [*(symbol for of_family in shared for symbol in of_family), ca.MX.sym("objective", size)]
+    formulas = [symbols_of(size, shape) for shape in counts.formulas]
+    symbols += [symbol for of_family in (*shared, *formulas) for symbol in of_family]
+    symbols.append(ca.MX.sym("objective", size))
     rows, first, second, slack, real, imaginary, room = symbols[:7]
     matrices, rooms = symbols[7 : 7 + len(norms)], symbols[7 + len(norms) : 7 + 2 * len(norms)]
     p = ca.vertcat(*(ca.vec(s) for s in symbols))
@@ -277,6 +288,7 @@ def _build(counts: _Counts, *, careful: bool, fine: bool) -> Any:  # noqa: ANN40
         curved.append(((real @ point) ** 2 + (imaginary @ point) ** 2) / wide - wide)
     curved += [ca.sqrt(ca.sumsqr(m @ point) + _SMOOTH) - room @ x for m, room in zip(matrices, rooms, strict=True)]
     curved += [_energy_rows(x, own, one) for own, one in zip(shared, counts.shared, strict=True)]
+    curved += [expression_of(x, own, shape) for own, shape in zip(formulas, counts.formulas, strict=True)]
     program: Any = {"x": x, "p": p, "f": ca.dot(symbols[-1], x), "g": ca.vertcat(rows @ x, *curved)}
     options: Any = {**_QUIET, **_LEAN, **_REPEATABLE, **(_FINE if fine else _USUAL)}
     if not curved:

@@ -1,0 +1,202 @@
+"""Rows of formulas that are not affine in the law, and of what they are not below where derivatives are bounded."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from itertools import product as every
+from typing import TYPE_CHECKING
+
+import numpy as np
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
+
+from optlaws.formulas.branches import branches
+from optlaws.formulas.convexity import Judge
+from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.quadratic import quadratic
+from optlaws.formulas.tree import Formula, Name, Negative, Number, Power, number, product, total
+from optlaws.formulas.vocabulary import ORDERS
+from optlaws.synthesis.families import names
+from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
+from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.functionals.affine_rows import Side, edges_of, rows
+
+if TYPE_CHECKING:
+    from optlaws.synthesis.spaces.space import LawSpace
+
+Array = NDArray[np.float64]
+
+_SPARE = 40
+_MOST = 8
+
+#: between which values derivatives are, by name
+Boxes = Mapping[str, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Branch:
+    """A smooth formula that a sign of another is at least, with the signs with which its tangents bound it."""
+
+    motion: Motion
+    sign: float
+    name: str
+
+    @property
+    def convex(self) -> bool:
+        """Whether it is convex, with its sign."""
+        kind = self.motion.curvature
+        return kind.convex if self.sign > 0.0 else kind.concave
+
+
+def split(motion: Motion, sign: float, name: str) -> list[Branch] | None:
+    """The smooth formulas of which `sign` times the formula is the greatest; None where it is no such maximum."""
+    judge = Judge(frozenset(ORDERS), motion.start, motion.stop)
+    formula = motion.formula if sign > 0.0 else Negative(motion.formula)
+    found = branches(formula, ORDERS, judge.sign)
+    if found is None:
+        return None
+    if len(found) == 1:
+        return [Branch(motion, sign, name)]
+    return [Branch(replace(motion, formula=one), 1.0, names.branch(i, name)) for i, one in enumerate(found, 1)]
+
+
+def branch_rows(space: LawSpace, branch: Branch, slack: Array, bound: float) -> Family:
+    """Rows of one branch on a part of the space's part of the interval."""
+    motion = branch.motion
+    if motion.affine is not None:
+        return rows(space, Side(branch.name, motion, (branch.sign,)), slack, bound)
+    nothing = np.zeros(len(slack))
+    parts = []
+    for name in sorted(motion.formula.names() & ORDERS.keys()):
+        single = Side(name, Motion(Name(name), motion.start, motion.stop), (1.0,))
+        parts.append((name, rows(space, single, nothing, 0.0)))
+    degrees = {name: space.degree_of(nu) for name, nu in ORDERS.items() if name in motion.formula.names()}
+    return CurvedFamily(
+        branch.name,
+        slack,
+        bound,
+        (branch.sign,),
+        (1.0 - 2.0 * motion.stop, 1.0 - 2.0 * motion.start),
+        formula=motion.formula,
+        parts=tuple(parts),
+        tangents=(branch.sign,) if branch.convex else (),
+        degree=motion.degree(degrees),
+        edges=edges_of(space, motion),
+    )
+
+
+def integral_rows(
+    space: LawSpace, motion: Motion, name: str, slack: Array, bound: float, *, root: bool, convex: bool
+) -> IntegralFamily:
+    """The row that the integral of a formula over its part, or its root, is at most slack . x + bound."""
+    used = tuple(sorted(motion.formula.names() & ORDERS.keys()))
+    k, weights = integral_rule(space, motion)
+    columns = np.stack([space.widened(columns_at(space, one, k), len(slack)) for one in used])
+    return IntegralFamily(
+        name,
+        slack,
+        bound,
+        formula=motion.formula,
+        names=used,
+        columns=columns,
+        places=k,
+        weights=weights,
+        root=root,
+        convex=convex,
+    )
+
+
+def integral_rule(space: LawSpace, motion: Motion) -> tuple[Array, Array]:
+    """Gauss's places k over the formula's part and their weights; exact where the formula is a polynomial of k."""
+    count = rule_length(space, motion)
+    x, share = legendre.leggauss(count)
+    places, weights = [], []
+    for low, high in pairwise(rule_edges(space, motion)):
+        places.append(low + (high - low) * (1.0 + x) / 2.0)
+        weights.append(share * (high - low) / 2.0)
+    return np.concatenate(places), np.concatenate(weights)
+
+
+def rule_length(space: LawSpace, motion: Motion) -> int:
+    """How many places a piece needs."""
+    degrees = {name: space.degree_of(nu) for name, nu in ORDERS.items() if name in motion.formula.names()}
+    degree = motion.degree(degrees)
+    return _SPARE + max(degrees.values(), default=0) if degree is None else degree // 2 + 1
+
+
+def rule_edges(space: LawSpace, motion: Motion) -> list[float]:
+    """The k between which the formula is smooth along every law, over its part."""
+    edges = [(1.0 - u) / 2.0 for u in space.edges]
+    both = {*edges, *(1.0 - k for k in edges)} if space.symmetric else set(edges)
+    inner = {k for k in (*both, *motion.kinks) if motion.start < k < motion.stop}
+    return sorted({motion.start, motion.stop, *inner})
+
+
+def columns_at(space: LawSpace, name: str, k: Array) -> Array:
+    """A derivative at places anywhere in [0, 1]: of symmetric laws the second half is the first one's mirror image."""
+    nu = ORDERS[name]
+    if not space.symmetric:
+        return space.columns(nu, 1.0 - 2.0 * k)
+    found = space.columns(nu, np.abs(1.0 - 2.0 * k))
+    if nu % 2 == 0:
+        later = k > 0.5
+        found[later] *= -1.0
+        if nu == 0:
+            found[later, -1] += 1.0
+    return found
+
+
+def envelopes(motion: Motion, boxes: Boxes) -> list[Formula]:
+    """Convex formulas that a quadratic one is nowhere below while derivatives are in their boxes (McCormick 1976).
+
+    None where the formula is not quadratic, a factor changes its sign or a derivative in a product has no bounds.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.of_motion import of_text
+    >>> envelopes(of_text("b*c + b"), {"b": (0.0, 2.0), "c": (-4.0, 4.0)})
+    [1*(0*c + -4*b - 0*-4) + 1*b, 1*(2*c + 4*b - 2*4) + 1*b]
+    """
+    terms = quadratic(motion.formula, ORDERS)
+    judge = Judge(frozenset(ORDERS), motion.start, motion.stop)
+    choices: list[list[Formula]] = []
+    for key, factor in (terms or {}).items():
+        plain = product([factor, *map(Name, key)]) if key else factor
+        if len(key) < 2 or (key[0] == key[1] and judge.sign(factor) > 0):
+            choices.append([plain])
+            continue
+        sign = judge.sign(factor)
+        if not sign or not all(name in boxes for name in key):
+            return []
+        choices.append([product([factor, bound]) for bound in _bounds(*key, boxes, above=sign < 0)])
+    count = int(np.prod([len(choice) for choice in choices])) if choices else 0
+    return [total(list(chosen)) for chosen in every(*choices)] if 0 < count <= _MOST else []
+
+
+def _bounds(first: str, second: str, boxes: Boxes, *, above: bool) -> list[Formula]:
+    """Affine bounds of a product."""
+    (l1, u1), (l2, u2) = boxes[first], boxes[second]
+    corners = [(u1, l2), (l1, u2)] if above else [(l1, l2), (u1, u2)]
+    if first == second:
+        corners = corners[:1] if above else corners
+    return [
+        total(
+            [
+                product([_plain(one), Name(second)]),
+                product([_plain(other), Name(first)]),
+                Negative(product([_plain(one), _plain(other)])),
+            ]
+        )
+        for one, other in corners
+    ]
+
+
+def _plain(value: float) -> Formula:
+    return number(value)
+
+
+def squared(motion: Motion) -> Motion:
+    """The square of a formula."""
+    return replace(motion, formula=Power(motion.formula, Number(2.0)))
