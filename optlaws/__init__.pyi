@@ -53,6 +53,7 @@ from optlaws.studies.study import open_study as open_study
 from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
 from optlaws.synthesis.arrays.problems import each as each
 from optlaws.synthesis.front import Front as Front
+from optlaws.synthesis.functionals.makers import integral as integral
 from optlaws.synthesis.functionals.makers import peak as peak
 from optlaws.synthesis.functionals.makers import rms as rms
 from optlaws.synthesis.functionals.makers import value as value
@@ -173,6 +174,7 @@ __all__ = [
     "dwell_mechanism",
     "each",
     "find_torsion_levers",
+    "integral",
     "jounce",
     "limit",
     "limit_law",

@@ -170,13 +170,14 @@ def envelopes(motion: Motion, boxes: Boxes) -> list[Formula]:
         sign = judge.sign(factor)
         if not sign or not all(name in boxes for name in key):
             return []
-        choices.append([product([factor, bound]) for bound in _bounds(*key, boxes, above=sign < 0)])
+        choices.append([product([factor, bound]) for bound in _bounds(key, boxes, above=sign < 0)])
     count = int(np.prod([len(choice) for choice in choices])) if choices else 0
     return [total(list(chosen)) for chosen in every(*choices)] if 0 < count <= _MOST else []
 
 
-def _bounds(first: str, second: str, boxes: Boxes, *, above: bool) -> list[Formula]:
+def _bounds(names_of: tuple[str, ...], boxes: Boxes, *, above: bool) -> list[Formula]:
     """Affine bounds of a product."""
+    first, second = names_of
     (l1, u1), (l2, u2) = boxes[first], boxes[second]
     corners = [(u1, l2), (l1, u2)] if above else [(l1, l2), (u1, u2)]
     if first == second:

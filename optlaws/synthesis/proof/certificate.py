@@ -240,9 +240,9 @@ def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
             row = family.tangent(float(u[0]), direction / max(float(np.linalg.norm(direction)), 1.0))
             return row[:-1] - family.slack, family.bound - float(row[-1])
         if isinstance(family, OfFormula):
-            row = family.tangent_row(float(u[0]), contact.sign, contact.direction)
-            if row is not None:
-                return row[:-1] - family.slack, family.bound - float(row[-1])
+            tangent = family.tangent_row(float(u[0]), contact.sign, contact.direction)
+            if tangent is not None:
+                return tangent[:-1] - family.slack, family.bound - float(tangent[-1])
         if isinstance(family, EnergyFamily) and family.convex and len(contact.direction) <= program.size:
             row = family.minorant(_on_equations(program, np.array(contact.direction)))
             return row[:-1] - family.slack, family.bound - float(row[-1])

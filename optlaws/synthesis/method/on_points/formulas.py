@@ -45,6 +45,7 @@ def shape_of(family: OfFormula, points: Points) -> FormulaShape:
     """The shape of a family's rows at points."""
     if isinstance(family, IntegralFamily):
         return FormulaShape(family.formula, family.names, len(family.places), 1, family.root)
+    assert isinstance(family, CurvedFamily)  # noqa: S101 - there are no others
     return FormulaShape(family.formula, family.names, len(points.u), len(points.u))
 
 
