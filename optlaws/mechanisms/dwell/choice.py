@@ -11,6 +11,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.dwell.mechanism import KINDS, DwellMechanism, dwell_mechanism
+from optlaws.numbers import real
 
 SHORT, LONG = pi / 4.0, 5.0 * pi / 9.0
 
@@ -131,7 +132,8 @@ def _compared(
     make: Callable[[str], DwellMechanism], most_torque: float, most_size: float, by_rule: str
 ) -> DwellComparison:
     for name, limit in (("most_torque", most_torque), ("most_size", most_size)):
-        if not limit > 0.0:
+        number = real(limit)
+        if number is None or not number > 0.0:
             raise InputError(f"{name} must be positive, got {shortened(limit)}")
     made, refused = buildable(make)
     if not made:

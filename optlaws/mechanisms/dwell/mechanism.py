@@ -14,6 +14,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.dwell.section_laws import REST, check_law, loader_of, peak_power, peak_velocity, top
 from optlaws.mechanisms.dwell.sections import Section, composed, excursion
 from optlaws.mechanisms.loader.loader import Loader
+from optlaws.numbers import finite, real
 
 KINDS = ("I", "II", "III")
 LAWS = ("law", "law_1", "law_2", "return_law")
@@ -207,11 +208,11 @@ def _check(one: DwellMechanism) -> None:
     if one.kind not in KINDS:
         raise InputError(f"kind must be one of {', '.join(KINDS)}, got {shortened(one.kind)}")
     for name in (*POSITIVE, *NOT_NEGATIVE):
-        value = getattr(one, name)
-        if not (0.0 < value < inf or (name in NOT_NEGATIVE and value == 0.0)):
+        number = real(getattr(one, name))
+        if number is None or not (0.0 < number < inf or (name in NOT_NEGATIVE and number == 0.0)):
             least = "at least 0" if name in NOT_NEGATIVE else "positive"
-            raise InputError(f"{name} must be {least} and finite, got {shortened(value)}")
-    if not 0.0 < one.reverse_share < 1.0:
+            raise InputError(f"{name} must be {least} and finite, got {shortened(getattr(one, name))}")
+    if not 0.0 < finite(one.reverse_share, "reverse_share") < 1.0:
         raise InputError(f"reverse_share must be between 0 and 1, got {shortened(one.reverse_share)}")
     for name in LAWS:
         check_law(name, getattr(one, name))

@@ -58,5 +58,7 @@ def test_reasons_are_given() -> None:
 def test_wrong_data_are_refused() -> None:
     with pytest.raises(InputError, match="most_torque must be positive"):
         compared(60, most_torque=0.0)
+    with pytest.raises(InputError, match="most_torque must be positive, got '1'"):
+        compared(60, most_torque="1")  # type: ignore[arg-type]
     with pytest.raises(InputError, match="swing must be positive"):
         compared(60, swing=-1.0)
