@@ -28,6 +28,13 @@ BEST = (
 Named = Literal["I", "II", "III", "IV"] | Annotated[int, msgspec.Meta(ge=0, le=20)]
 
 
+class Multiplier(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """What the picture of the multiplier shows: a family, and two or three members."""
+
+    family: Named
+    alpha: Annotated[list[float], msgspec.Meta(min_length=1, max_length=3)]
+
+
 class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """The problem file."""
 
@@ -37,6 +44,7 @@ class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     rows: Annotated[int, msgspec.Meta(ge=2, le=1000)]
     points: Annotated[int, msgspec.Meta(ge=2, le=10000)] = 201
     text: str = ""
+    multiplier: Multiplier | None = None
 
 
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
@@ -49,8 +57,10 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "table.csv", tables.to_csv(HEADINGS, lines, about=about)),
         writing.write(out / "table.md", str(_page(spec, families, lines))),
     ]
-    figure = draw(spec.title, families, spec.points)
-    return written + drawing.save_picture(figure, out / "figure")
+    written += drawing.save_picture(draw(spec.title, families, spec.points), out / "figure")
+    if spec.multiplier is not None:
+        written += drawing.save_picture(draw_multiplier(spec.multiplier), out / "multiplier")
+    return written
 
 
 def _lines(family: SavinFamily, rows: int) -> list[list[tables.Cell]]:
@@ -161,3 +171,27 @@ def _derivative(family: SavinFamily) -> str:
 
 def _note(axes: Axes, text: str, place: dict[str, Any]) -> None:
     axes.text(0.02, 1.06, text, color=drawing.GREY, **place)
+
+
+def draw_multiplier(shown: Multiplier) -> Figure:
+    """The accelerations of a family's base law and of members, and the multipliers between them (Savin's Fig. 1)."""
+    family, k = SavinFamily.of(shown.family), np.linspace(0.0, 1.0, 201)
+    laws = {alpha: family.law(alpha) for alpha in (0.0, *shown.alpha)}
+    with drawing.style():
+        figure = drawing.figure(9.2, 3.8)
+        left, right = figure.subplots(1, 2)
+        for (alpha, law), colour in zip(laws.items(), (drawing.GREY, *_OF_MEMBERS), strict=False):
+            label = "base law" if alpha == 0.0 else f"alpha = {alpha:g}"
+            left.plot(k, law.c(k), color=colour, label=label, linestyle="--" if alpha == 0.0 else "-")
+            right.plot(
+                k, 1.0 + alpha * (k * k - k + float(family.M)), color=colour, linestyle="--" if alpha == 0.0 else "-"
+            )
+        left.set(ylabel="acceleration c (dimensionless)", title=f"Members of {family}")
+        right.set(ylabel="multiplier y (dimensionless)", title="What the base law is multiplied by")
+        for axes in (left, right):
+            axes.set_xlabel("k (dimensionless time)")
+        left.legend(loc="upper right")
+        return figure
+
+
+_OF_MEMBERS = (drawing.BLUES[-1], drawing.WARM, drawing.GREEN)
