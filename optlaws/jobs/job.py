@@ -31,6 +31,7 @@ _MODULES = {
     "loader table": "loader.table",
     "optimal polydyne": "follower.optimal_polydyne",
     "optimal table": "laws.optimal_table",
+    "own search": "laws.own_search",
     "savin families": "laws.savin_families",
     "solutions": "laws.solutions",
 }

@@ -142,6 +142,15 @@ lambda = 2
 rho = 0.05
 nu = 0.3
 """
+OWN_SEARCH = """
+job = "own search"
+title = "One"
+order = 4
+B = [1.969]
+[[start]]
+name = "ones"
+z = [1, 1, 1, 1]
+"""
 LEVER_PARAMETRIC = """
 job = "lever parametric"
 title = "Few"
@@ -352,6 +361,14 @@ EXAMPLES = {
             ("lambda = 1", "lamda = 1", "did you mean 'lambda'"),
             ("swing = 60", "swing = 170", "curve 1 of the panel beta = 0.5"),
             ("rho = 0.15", "rho = -0.15", "rho"),
+        ),
+    ),
+    "own search": Example(
+        OWN_SEARCH,
+        (
+            ("1.969", "0.969", "B"),
+            ("z = [1, 1, 1, 1]", "z = [1]", "z"),
+            ("order = 4", "ordre = 4", "did you mean 'order'"),
         ),
     ),
     "lever tables": Example(
