@@ -1,0 +1,178 @@
+"""The laws of a path at many t: from the states that the walk left, each proven optimal by itself.
+
+Where a structure's places and multipliers do not depend on t its laws are affine in t, and two that are verified
+verify all between: constraints are convex, and what multipliers prove is affine. Elsewhere a state is interpolated
+between Chebyshev nodes and one step of Newton's method makes it exact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.arrays.dual_bounds import lower_bounds
+from optlaws.synthesis.arrays.found import Found
+from optlaws.synthesis.arrays.newton_steps import States, clipped, converged, step
+from optlaws.synthesis.arrays.programs import Path
+from optlaws.synthesis.arrays.rows import Structure
+from optlaws.synthesis.arrays.verified import judged
+from optlaws.synthesis.arrays.walk import Segment, Walk
+
+Array = NDArray[np.float64]
+
+_NODES = 16
+_DEEPEST = 12
+#: of the size of what is interpolated: one step of Newton's method makes the square of it
+_TAIL = 1e-8
+_CHUNK = 1024
+_STARTS = np.array([0.0, 0.5, 0.25, 0.75, 1.0])
+#: of the objective
+_GAP = 1e-10
+_EXACT = 1e-9
+
+
+def laws_along(path: Path, t: Array) -> Found:
+    """The optima at ascending t, as far as they are proven here.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis.arrays.programs import between
+    >>> from optlaws.synthesis.problem.problem import Problem
+    >>> path = between(Problem(B=1.6, order=4), Problem(B=1.7, order=4))
+    >>> laws_along(path, np.array([0.0, 0.2])).objective.round(6).tolist()
+    [5.262224, 5.173677]
+    """
+    segments = Walk(path, float(t[0]), float(t[-1])).whole(t[0] + _STARTS * (t[-1] - t[0]))
+    most = max((segment.structure.count for segment in segments), default=0)
+    program = path.model.program
+    found = Found.none(len(t), program.size, most, len(program.right))
+    begins = np.array([segment.begin for segment in segments])
+    owner = np.searchsorted(begins, t, side="right") - 1
+    for i, segment in enumerate(segments):
+        # what lies between two segments, nearer than they are known, is tried with the first
+        places = np.flatnonzero(owner == i)
+        if len(places):
+            _fill(found, path, segment, places, t[places])
+    return found
+
+
+def _fill(found: Found, path: Path, segment: Segment, places: NDArray[np.intp], t: Array) -> None:
+    structure = segment.structure
+    if structure.affine and path.one_cost and segment.begin < segment.end:
+        _affine(found, path, segment, places, t)
+        return
+    for own, guess in _guesses(path, segment, t, (segment.begin, segment.end)):
+        for i in range(0, len(own), _CHUNK):
+            chunk = slice(i, i + _CHUNK)
+            _solve(found, path, structure, places[own[chunk]], t[own[chunk]], guess.taken(chunk))
+
+
+def _solve(
+    found: Found, path: Path, structure: Structure, places: NDArray[np.intp], t: Array, guess: States
+) -> None:
+    """Enter the laws that one step of Newton's method from a guess leads to, or several, as far as they are proven."""
+    numbers = path.numbers(t)
+    states, sizes = step(structure, numbers, guess)
+    left = np.flatnonzero(np.isfinite(sizes))
+    for again in (True, False):
+        states = clipped(structure, states.taken(left))
+        judgement = judged(path, structure, numbers.taken(left), states)
+        sound = np.flatnonzero(judgement.sound)
+        proven = (judgement.objective[sound], judgement.bound[sound], judgement.excess[sound])
+        _put(found, structure, places[left[sound]], states.taken(sound), proven)
+        if again:
+            missing = np.ones(len(t), dtype=np.bool_)
+            missing[left[sound]] = False
+            states, done = converged(structure, numbers.taken(missing), guess.taken(missing))
+            numbers, places = numbers.taken(missing), places[missing]
+            left = np.flatnonzero(done)
+        if not len(left):
+            return
+
+
+def _guesses(
+    path: Path, segment: Segment, t: Array, ends: tuple[float, float], depth: int = 0
+) -> Iterator[tuple[NDArray[np.intp], States]]:
+    """Which of some t, with states near to theirs: interpolated on pieces of a segment as short as they need to be."""
+    begin, end = ends
+    inside = (t <= end) | (end == segment.end)
+    own = np.flatnonzero(inside & ((t > begin) | (begin == segment.begin)))
+    if not len(own):
+        return
+    if len(own) <= _NODES or begin >= end or depth == _DEEPEST:
+        yield own, segment.guessed(t[own])
+        return
+    middle, half = (begin + end) / 2.0, (end - begin) / 2.0
+    nodes = middle + half * np.cos(np.arange(_NODES) * np.pi / (_NODES - 1))[::-1]
+    nodes[0], nodes[-1] = begin, end
+    states, done = converged(segment.structure, path.numbers(nodes), segment.guessed(nodes))
+    if done.all() and _settled(states.packed):
+        yield own, States.unpacked(_barycentric(nodes, t[own]) @ states.packed, segment.structure)
+        return
+    segment.joined(nodes[done], states.packed[done])
+    yield from _guesses(path, segment, t, (begin, middle), depth + 1)
+    yield from _guesses(path, segment, t, (middle, end), depth + 1)
+
+
+def _settled(rows: Array) -> bool:
+    """Whether the polynomial through values at Chebyshev nodes has hardly any share of the highest degrees."""
+    angle = np.arange(_NODES) * np.pi / (_NODES - 1)
+    weights = np.ones(_NODES)
+    weights[[0, -1]] = 0.5
+    highest = np.cos(np.outer(np.arange(_NODES - 4, _NODES), angle)) * weights @ rows * (2.0 / (_NODES - 1))
+    return bool((np.abs(highest) <= _TAIL * np.maximum(1.0, np.abs(rows).max(axis=0))).all())
+
+
+def _affine(found: Found, path: Path, segment: Segment, places: NDArray[np.intp], t: Array) -> None:
+    """Enter laws between the ends of a segment along which they are affine."""
+    structure = segment.structure
+    inside = t <= segment.end
+    places, t = places[inside], t[inside]
+    if not len(t):
+        return
+    ends = States.unpacked(segment.rows[[0, -1]], structure)
+    numbers = path.numbers(np.array([segment.begin, segment.end]))
+    excess = float(judged(path, structure, numbers, ends).excess.max())
+    share = ((t - segment.begin) / (segment.end - segment.begin))[:, None]
+    first = ends.taken(slice(0, 1))
+    x = ends.x[0] + share * (ends.x[1] - ends.x[0])
+    value = structure.jets(first.x, first.u)[0]
+    value[:, :, :-1] -= structure.slack
+    own = path.numbers(t)
+    bound = lower_bounds(path, structure, own, first, value)
+    objective = path.model.unit * (x @ own.cost[0])
+    sound = np.abs(objective - bound) <= _GAP * np.maximum(np.abs(objective), _EXACT)
+    one = (np.broadcast_to(part, (len(t), part.shape[1])) for part in (first.u, first.weights, first.equations))
+    states = States(x, *one).taken(sound)
+    _put(found, structure, places[sound], states, (objective[sound], bound[sound], np.full(int(sound.sum()), excess)))
+
+
+def _put(
+    found: Found, structure: Structure, places: NDArray[np.intp], states: States, proven: tuple[Array, Array, Array]
+) -> None:
+    count = structure.count
+    found.x[places] = states.x
+    found.family[places, :count] = structure.family
+    found.u[places, :count] = states.u
+    found.sign[places, :count] = structure.sign
+    found.free[places, :count] = structure.free
+    found.multiplier[places, :count] = np.maximum(states.weights, 0.0)
+    found.equations[places] = states.equations
+    found.objective[places], found.bound[places], found.excess[places] = proven
+
+
+def _barycentric(nodes: Array, t: Array) -> Array:
+    """The matrix from values at nodes to those of the polynomial through them at t."""
+    if len(nodes) == 1:
+        return np.ones((len(t), 1))
+    span = (nodes[-1] - nodes[0]) / 4.0
+    apart = (nodes[:, None] - nodes) / span
+    np.fill_diagonal(apart, 1.0)
+    weights = 1.0 / apart.prod(axis=1)
+    away = (t[:, None] - nodes) / span
+    hit = away == 0.0
+    shares = weights / np.where(hit, 1.0, away)
+    shares = np.where(hit.any(axis=1)[:, None], hit, shares)
+    return np.asarray(shares / shares.sum(axis=1)[:, None])

@@ -1,0 +1,81 @@
+"""What contacts and multipliers prove of many objectives at once, by the arithmetic of certificates, rounded outward."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from math import inf
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.arrays.newton_steps import States
+from optlaws.synthesis.arrays.programs import Numbers, Path
+from optlaws.synthesis.arrays.rows import Structure
+from optlaws.synthesis.program.writer import Model
+from optlaws.synthesis.proof.below_claim import greatest_values, least_values, moments
+
+Array = NDArray[np.float64]
+
+_UNIT = 2.0**-53
+#: roundings in a row before it is weighted, as certificates count them
+_IN_A_ROW = 9
+
+
+def lower_bounds(path: Path, structure: Structure, numbers: Numbers, states: States, value: Array) -> Array:
+    """What no law of each problem is below; negative multipliers count as zero.
+
+    Parameters
+    ----------
+    path, structure, numbers, states
+        The laws' programs and their states; one state may stand for all, if its contacts and multipliers are theirs
+        and their costs are one.
+    value
+        The rows of the contacts, less the right sides' variables, shape (laws, contacts, variables + 1).
+    """
+    program = path.model.program
+    weights, equations = np.maximum(states.weights, 0.0), states.equations
+    cost = numbers.cost[: len(states)]
+    rows = value[:, :, :-1]
+    slope = cost + _weighted(weights, rows) + equations @ program.equalities
+    right = value[:, :, -1] - numbers.bounds[:, structure.family]
+    plain = (weights * right).sum(axis=1) - (equations * numbers.right).sum(axis=1)
+    count = _UNIT * (_IN_A_ROW + structure.count + len(program.equalities) + 2)
+    sizes = np.abs(equations)
+    blur = _weighted(weights, np.abs(rows)) + sizes @ np.abs(program.equalities) + np.abs(cost)
+    blur = count * blur + weights @ structure.rounding[:, :-1]
+    hidden = (weights * np.abs(right)).sum(axis=1) + (sizes * np.abs(numbers.right)).sum(axis=1)
+    hidden = count * hidden + weights @ structure.rounding[:, -1]
+    claim = path.model.unit * float(plain.max(initial=0.0))
+    return np.asarray(path.model.unit * (plain - hidden - _charge(path, slope, blur, claim)))
+
+
+def _weighted(weights: Array, rows: Array) -> Array:
+    return np.asarray(np.matmul(weights[:, None, :], rows)[:, 0])
+
+
+def _charge(path: Path, slope: Array, blur: Array, claim: float) -> Array:
+    """Most that the slope can be worth in laws up to the claim, as a certificate charges it, for each law."""
+    greatest = _greatest(path, claim)
+    least = least_values(path.model.problem, path.model.space)
+    terms, beyond = path.model.space.terms, np.zeros(len(slope))
+    for name, place in path.model.places.items():
+        own = slope[:, place]
+        down = np.maximum(blur[:, place] - own, 0.0) * greatest.get(name, inf)
+        low = least.get(name, 0.0)
+        up = np.maximum(own + blur[:, place], 0.0) * max(-low, 0.0) if low < 0.0 else 0.0
+        beyond += down + up
+    reaches = [
+        (np.abs(slope[:, :terms] @ extension.T) + blur[:, :terms] @ np.abs(extension).T) @ most
+        for most, extension in moments(path.model, greatest)
+    ]
+    return beyond + (np.min(reaches, axis=0) if reaches else inf)
+
+
+def _greatest(path: Path, claim: float) -> dict[str, float]:
+    """The greatest values of variables and constants in laws of the path below the claim."""
+    found: dict[str, float] = {}
+    for problem in path.problems:
+        model: Model = replace(path.model, problem=problem)
+        for name, value in greatest_values(model, max(claim, 0.0)).items():
+            found[name] = max(found.get(name, 0.0), value)
+    return found

@@ -1,0 +1,105 @@
+"""Programs that differ in right sides, bounds and costs alone, as stacks of arrays along a path."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.family import LinearFamily, Program
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import Model, model_of
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True, eq=False)
+class Numbers:
+    """What a stack of programs does not share.
+
+    Attributes
+    ----------
+    right
+        Right sides of the equations, shape (programs, equations).
+    bounds
+        Bounds of the families, shape (programs, families).
+    cost
+        What is minimised, shape (programs, variables).
+    """
+
+    right: Array
+    bounds: Array
+    cost: Array
+
+    def __len__(self) -> int:
+        return len(self.right)
+
+    def taken(self, rows: NDArray[np.intp] | NDArray[np.bool_] | slice) -> Numbers:
+        """Those of some of the programs."""
+        return Numbers(self.right[rows], self.bounds[rows], self.cost[rows])
+
+
+@dataclass(frozen=True, eq=False)
+class Path:
+    """Programs along a straight path: their numbers are affine in t, all else is that of the model.
+
+    Attributes
+    ----------
+    model
+        The program of one of them.
+    problems
+        The problems at its ends.
+    begin, slope
+        The numbers at t = 0, and what they change by as t does; each for one program.
+    """
+
+    model: Model
+    problems: tuple[Problem, ...]
+    begin: Numbers
+    slope: Numbers
+
+    @property
+    def one_cost(self) -> bool:
+        """Whether the same is minimised all along."""
+        return not self.slope.cost.any()
+
+    def numbers(self, t: Array) -> Numbers:
+        """The numbers at many t."""
+        ways = ("right", "bounds", "cost")
+        return Numbers(*(getattr(self.begin, one) + t[:, None] * getattr(self.slope, one) for one in ways))
+
+    def program(self, t: float) -> Program:
+        """The program at one t."""
+        own, program = self.numbers(np.array([t])), self.model.program
+        families = tuple(
+            replace(family, bound=float(bound)) for family, bound in zip(program.families, own.bounds[0], strict=True)
+        )
+        return Program(families, program.equalities, own.right[0], own.cost[0])
+
+
+def numbers_of(program: Program) -> Numbers:
+    """Those of one program."""
+    bounds = np.array([[family.bound for family in program.families]])
+    return Numbers(program.right[None, :], bounds.reshape(1, -1), program.objective[None, :])
+
+
+def between(first: Problem, last: Problem) -> Path | None:
+    """The path from one problem at t = 0 to another at t = 1; None where their programs differ in more than numbers."""
+    begin, end = model_of(first), model_of(last)
+    one, other = begin.program, end.program
+    families = len(one.families) == len(other.families) and all(map(_alike, one.families, other.families))
+    equal = one.equalities.shape == other.equalities.shape and np.array_equal(one.equalities, other.equalities)
+    if not families or not equal or begin.places != end.places or begin.unit != end.unit:
+        return None
+    here, there = numbers_of(one), numbers_of(other)
+    slope = Numbers(there.right - here.right, there.bounds - here.bounds, there.cost - here.cost)
+    return Path(begin, (first, last), here, slope)
+
+
+def _alike(one: object, other: object) -> bool:
+    if not isinstance(one, LinearFamily) or type(one) is not type(other) or not isinstance(other, LinearFamily):
+        return False
+    plain = (one.name, one.signs, one.domain, one.held) == (other.name, other.signs, other.domain, other.held)
+    same = one.series is other.series or np.array_equal(one.series, other.series)
+    return plain and same and np.array_equal(one.slack, other.slack)

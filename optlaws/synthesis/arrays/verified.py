@@ -1,0 +1,111 @@
+"""Whether states are laws that keep every row everywhere, and what they prove: each law judged by itself."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.arrays.cells import Cells, Touching, excess
+from optlaws.synthesis.arrays.dual_bounds import lower_bounds
+from optlaws.synthesis.arrays.newton_steps import States
+from optlaws.synthesis.arrays.programs import Numbers, Path
+from optlaws.synthesis.arrays.rows import Columns, Structure, columns_of
+
+Array = NDArray[np.float64]
+
+#: of a right side, or 1: by so much a row may be broken
+_EXCESS = 1e-11
+#: of the objective
+_GAP = 9e-11
+#: of the greatest multiplier: by so much one may be below 0, for which the bound counts it as 0
+_PULL = 1e-12
+_REACH = 2.0
+
+
+@dataclass(frozen=True, eq=False)
+class Judgement:
+    """Objectives, lower bounds and what is broken of many laws.
+
+    Attributes
+    ----------
+    objective, bound
+        What each law is worth, and what is proven that no law is below.
+    excess
+        By how much a row may be broken anywhere, relative to its right side or 1.
+    pull
+        How far the least multiplier is below 0, relative to the greatest; negative above it.
+    inward
+        How fast a residual grows from a contact that is held at an end; negative where it falls.
+    """
+
+    objective: Array
+    bound: Array
+    excess: Array
+    pull: Array
+    inward: Array
+
+    @property
+    def broken(self) -> Array:
+        """The greatest of what may not be above 0, but for rounding."""
+        return np.asarray(np.maximum(np.maximum(self.excess, self.pull), self.inward))
+
+    @property
+    def sound(self) -> NDArray[np.bool_]:
+        """Which are laws, and proven optimal."""
+        unit = np.where(np.abs(self.objective) > _SMALL, np.abs(self.objective), 1.0)
+        meets = np.abs(self.objective - self.bound) <= _GAP * unit
+        return np.asarray(meets & (self.excess <= _EXCESS) & (self.pull <= _PULL))
+
+
+_SMALL = 1e-6
+
+
+def judged(path: Path, structure: Structure, numbers: Numbers, states: States) -> Judgement:
+    """What states of one structure are worth; NaN and infinities are no laws."""
+    program = path.model.program
+    value, slope, _ = structure.jets(states.x, states.u)
+    value[:, :, :-1] -= structure.slack
+    residual = _at(value, states.x) - numbers.bounds[:, structure.family]
+    turned = _at(slope, states.x)
+    domains = np.array([program.families[i].domain for i in structure.family]).reshape(-1, 2)
+    # toward the inside of the domain
+    inward = np.where(states.u >= domains[:, 1], -turned, turned)
+    single = domains[:, 0] == domains[:, 1]
+    held = ~structure.free & ~single
+    tangent = np.where(structure.free, np.abs(turned), np.where(held, np.maximum(inward, 0.0), 0.0))
+    broken = np.maximum(residual, 0.0) + _REACH * tangent
+    off = np.abs(states.x @ program.equalities.T - numbers.right)
+    worst = np.maximum(broken.max(axis=1, initial=0.0), off.max(axis=1, initial=0.0))
+    for i, columns in enumerate(columns_of(path.model)):
+        mine = structure.family == i
+        touching = Touching(states.u[:, mine], np.isfinite(states.u[:, mine]))
+        worst = np.maximum(worst, excess(cells_of(columns), states.x, numbers, i, touching))
+    greatest = np.abs(states.weights).max(axis=1, initial=0.0)
+    pull = -(states.weights / np.where(greatest == 0.0, 1.0, greatest)[:, None]).min(axis=1, initial=np.inf)
+    return Judgement(
+        objective=path.model.unit * (states.x * numbers.cost).sum(axis=1),
+        bound=lower_bounds(path, structure, numbers, states, value),
+        excess=worst,
+        pull=np.where(np.isfinite(pull), pull, 0.0),
+        inward=np.where(held, inward, -np.inf).max(axis=1, initial=-np.inf),
+    )
+
+
+def cells_of(columns: Columns) -> Cells:
+    """The cells of a family, kept with its columns."""
+    key = id(columns)
+    if key not in _KEPT or _KEPT[key].columns is not columns:
+        if len(_KEPT) >= _MOST:
+            _KEPT.clear()
+        _KEPT[key] = Cells(columns)
+    return _KEPT[key]
+
+
+_KEPT: dict[int, Cells] = {}
+_MOST = 256
+
+
+def _at(rows: Array, x: Array) -> Array:
+    return np.asarray(np.einsum("mpi,mi->mp", rows[:, :, :-1], x) + rows[:, :, -1])

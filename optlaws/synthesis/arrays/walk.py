@@ -1,0 +1,227 @@
+"""The structures of a path, one after the other: where each holds, and states from which every law of it is near.
+
+A structure is walked along from a law that has it, as far as laws of it are proven optimal; there a single event
+changes it, and the law just beyond tells the next one.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from itertools import pairwise
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.arrays.newton_steps import States, clipped, converged
+from optlaws.synthesis.arrays.programs import Path
+from optlaws.synthesis.arrays.rows import Structure, structure_of
+from optlaws.synthesis.arrays.verified import judged
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.method.exchange import solve
+
+Array = NDArray[np.float64]
+
+#: of the path: the first stride
+_FIRST = 0.02
+_STRIDES = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0])
+_CLOSER = np.array([1e-1, 1e-2, 1e-4])
+#: of the path: an event is known to lie in no wider a stretch
+_SHARP = 1e-9
+_ROUNDS = 24
+_NEAR = 4
+#: states that are nearer to each other than this share of the way to where one is guessed are as one
+_APART = 0.2
+_MOST = 400
+_BEYOND = (1e-8, 1e-6, 1e-4, 1e-3)
+
+
+@dataclass(eq=False)
+class Segment:
+    """A stretch of the path on which the laws have one structure, with states of some of them by ascending t."""
+
+    structure: Structure
+    t: Array
+    rows: Array
+
+    @property
+    def begin(self) -> float:
+        """The least t at which a law is known."""
+        return float(self.t[0])
+
+    @property
+    def end(self) -> float:
+        """The greatest t at which a law is known."""
+        return float(self.t[-1])
+
+    def guessed(self, t: Array) -> States:
+        """States at other t, by the polynomial through some that are known near to each."""
+        return States.unpacked(np.array([self._weights(one) for one in t.tolist()]) @ self.rows, self.structure)
+
+    def _weights(self, t: float) -> Array:
+        """What each known state counts for at t: the nearest, and others that are not too near to each other."""
+        distance = np.abs(self.t - t)
+        order = np.argsort(distance)
+        least = _APART * float(distance[order[0]])
+        chosen = [int(order[0])]
+        for i in order[1:].tolist():
+            if len(chosen) == _NEAR:
+                break
+            if min(abs(float(self.t[i] - self.t[j])) for j in chosen) > least:
+                chosen.append(i)
+        found = np.zeros(len(self.t))
+        for i in chosen:
+            others = np.array([self.t[j] for j in chosen if j != i])
+            found[i] = np.prod((t - others) / (self.t[i] - others))
+        return found
+
+    def joined(self, t: Array, rows: Array) -> None:
+        """Know more states."""
+        every, unique = np.unique(np.concatenate([self.t, t]), return_index=True)
+        self.t, self.rows = every, np.concatenate([self.rows, rows])[unique]
+
+
+@dataclass(eq=False)
+class Walk:
+    """Where a path was walked so far.
+
+    Attributes
+    ----------
+    path, least, greatest
+        Along what, and between which t.
+    segments
+        In the order in which they were found.
+    """
+
+    path: Path
+    least: float
+    greatest: float
+    segments: list[Segment] = field(default_factory=list)
+
+    @property
+    def reach(self) -> float:
+        """How far it is from end to end."""
+        return self.greatest - self.least
+
+    def whole(self, starts: Array) -> list[Segment]:
+        """All segments from one end to the other, by ascending t, as far as they were found."""
+        for t in starts.tolist():
+            optimum = solve(self.path.program(t)).optimum
+            first = None if optimum is None else self._begun(t, optimum)
+            if first is not None:
+                self._onward(first, self.greatest)
+                self._onward(first, self.least)
+                break
+        self.segments.sort(key=lambda segment: segment.begin)
+        return self.segments
+
+    def _begun(self, t: float, optimum: ActiveSet) -> Segment | None:
+        """A segment that begins with one law; None where that is not proven optimal."""
+        structure, order = structure_of(self.path.model, optimum)
+        own = (optimum.x, optimum.u[order], optimum.multipliers[order], optimum.equality_multipliers)
+        rows, sound, _ = self._solved(structure, np.array([t]), States(*(one[None] for one in own)))
+        return Segment(structure, np.array([t]), rows) if sound[0] else None
+
+    def _onward(self, first: Segment, goal: float) -> None:
+        """Walk from a segment to one end of the path."""
+        segment, way = first, np.sign(goal - first.begin)
+        if first not in self.segments:
+            self.segments.append(first)
+        while way != 0.0 and len(self.segments) < _MOST:
+            beyond = self._stretched(segment, goal)
+            if beyond is None:
+                return
+            following = self._after(segment, beyond, goal)
+            if following is None:
+                return
+            segment = following
+            self.segments.append(segment)
+
+    def _after(self, segment: Segment, beyond: float, goal: float) -> Segment | None:
+        """The segment on the other side of an event; None where no law is found there."""
+        way = np.sign(goal - beyond) or 1.0
+        edge = segment.end if way > 0.0 else segment.begin
+        near = self._active_set(segment, edge)
+        for share in (0.0, *_BEYOND):
+            t = beyond + way * share * self.reach
+            if (goal - t) * way < 0.0:
+                return None
+            optimum = solve(self.path.program(t), near).optimum
+            if optimum is None:
+                return None
+            found = self._begun(t, optimum)
+            if found is not None and found.structure.signature != segment.structure.signature:
+                return found
+        return found
+
+    @staticmethod
+    def _active_set(segment: Segment, t: float) -> ActiveSet:
+        structure = segment.structure
+        own = States.unpacked(segment.rows[segment.t == t], structure)
+        return ActiveSet(
+            own.x[0], structure.family, own.u[0], structure.sign, structure.free, own.weights[0], own.equations[0]
+        )
+
+    def _stretched(self, segment: Segment, goal: float) -> float | None:
+        """Walk a segment toward an end of the path as far as it holds; a t just beyond, None where it holds all the way."""
+        good, way = (segment.end, 1.0) if goal >= segment.end else (segment.begin, -1.0)
+        bad, stride, broken = goal, _FIRST * self.reach, list[tuple[float, float]]()
+        for _ in range(_ROUNDS):
+            t = _probes(good, bad, way * stride, broken)
+            rows, sound, worst = self._solved(segment.structure, t, segment.guessed(t))
+            count = len(t) if sound.all() else int(np.argmin(sound))
+            if count:
+                segment.joined(t[:count], rows[:count])
+                stride = max(2.0 * abs(float(t[count - 1]) - good), stride / 4.0)
+                good = float(t[count - 1])
+            else:
+                stride = abs(float(t[0]) - good) / 4.0
+            if good == goal:
+                return None
+            known = [(at, off) for at, off in zip(t[count:].tolist(), worst[count:].tolist(), strict=True) if off == off]
+            if known:
+                broken = sorted([*broken, *known], key=lambda one: abs(one[0] - good))[:2]
+                bad = broken[0][0]
+            if min(abs(bad - good), stride) <= _SHARP * self.reach:
+                break
+        return bad if abs(bad - good) <= _SHARP * self.reach else good + way * _SHARP * self.reach
+
+    def _solved(self, structure: Structure, t: Array, guess: States) -> tuple[Array, NDArray[np.bool_], Array]:
+        """States at some t, which of them are proven optimal, and what is most broken where Newton's method ends."""
+        numbers = self.path.numbers(t)
+        states, done = converged(structure, numbers, guess)
+        rows = states.packed
+        sound, worst = np.zeros(len(t), dtype=np.bool_), np.full(len(t), np.nan)
+        if done.any():
+            own = clipped(structure, states.taken(done))
+            found = judged(self.path, structure, numbers.taken(done), own)
+            inside = np.abs(own.u - states.u[done]).max(axis=1, initial=0.0)
+            sound[done] = found.sound & (inside <= _OUTSIDE)
+            worst[done] = np.maximum(found.broken, inside)
+        return rows, sound, worst
+
+
+_OUTSIDE = 1e-12
+
+
+def _probes(good: float, bad: float, stride: float, broken: list[tuple[float, float]]) -> Array:
+    """Where to look next beyond a law that holds: around where what is broken begins to be, or some strides on."""
+    found = good + stride * _STRIDES
+    if len(broken) == 2:
+        (near, less), (far, more) = broken
+        if more > less > 0.0:
+            event = near - less * (far - near) / (more - less)
+            found = np.concatenate([found[:2], event + (near - event) * _CLOSER, event + (good - event) * _CLOSER])
+    low, high = min(good, bad), max(good, bad)
+    kept = found[(low < found) & (found < high)]
+    if not broken:
+        # nothing is known to be broken short of the end
+        kept = np.append(kept, bad) if abs(found[-1] - good) >= abs(bad - good) else kept
+    elif not len(kept):
+        kept = np.array([(good + bad) / 2.0])
+    found = np.unique(kept)
+    return found if bad > good else found[::-1]
+
+
+def gaps(segments: list[Segment]) -> list[tuple[float, float]]:
+    """Stretches between segments in which no law is known."""
+    return [(one.end, other.begin) for one, other in pairwise(segments) if other.begin > one.end]
