@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
+from math import inf
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -19,9 +20,9 @@ from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.arrays.stored_laws import stored_laws
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.fields import CONSTANTS
-from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.certificate import OBJECTIVE
-from optlaws.synthesis.proof.make import certificate, lower_bound
+from optlaws.synthesis.proof.make import certificate
 from optlaws.synthesis.search import status_of
 from optlaws.synthesis.solution import NOTHING, Solution, Status
 from optlaws.synthesis.spaces.bases import PolynomialBasis
@@ -327,10 +328,10 @@ class SolutionArray:
 
 def _solution(problems: ProblemArray, part: Part, row: int, seconds: float) -> Solution:
     problem = problems.problem(int(part.places[row]))
-    model, optimum = model_of(problem), part.found.active_set(row)
+    model, optimum = replace(part.model, problem=problem), part.found.active_set(row)
     coordinates = model.coordinates(optimum.x)
     proof, limit, objective = certificate(model, optimum, OBJECTIVE), known_limit(problem), part.found.objective[row]
-    bound = max(float(part.found.bound[row]), lower_bound(proof, limit))
+    bound = max(float(part.found.bound[row]), -inf if limit is None else limit)
     return Solution(
         problem=problem,
         law=model.law(optimum.x),

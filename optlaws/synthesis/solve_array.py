@@ -11,17 +11,23 @@ from collections.abc import Iterator
 from time import perf_counter
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError, OptlawsError
 from optlaws.numbers import whole
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.arrays.along import laws_along
+from optlaws.synthesis.arrays.lines import Line, along_velocities, lines_of
 from optlaws.synthesis.arrays.problems import ProblemArray
+from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solution_array import Part, SolutionArray
 from optlaws.synthesis.solve import BOUNDS, synthesize
 
 _CHUNK = 10_000
+#: with fewer problems on a line the walk along it takes longer than each alone
+_LEAST = 128
 
 
 def synthesize_array(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
@@ -90,14 +96,56 @@ def synthesize_chunks(problems: ProblemArray, *, size: int = _CHUNK, bound: str 
 def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
     """What `synthesize_array` returns, of checked arguments."""
     began = perf_counter()
-    parts: tuple[Part, ...] = ()
+    parts = tuple(_parts(problems)) if problems.size >= _LEAST else ()
+    solved_places = np.concatenate([part.places for part in parts]) if parts else np.empty(0, dtype=np.intp)
+    left = np.setdiff1d(np.arange(problems.size), solved_places)
+    others = _others(problems, left, bound)
+    return SolutionArray(problems, parts, others, perf_counter() - began)
+
+
+def _parts(problems: ProblemArray) -> Iterator[Part]:
+    """What is solved together and proven."""
+    for line in _lines(problems):
+        found = laws_along(line.path, line.t)
+        rows = np.flatnonzero(found.solved)
+        if len(rows):
+            yield Part(line.places[rows], line.path.model, found.taken(rows).frozen())
+
+
+def _lines(problems: ProblemArray) -> Iterator[Line]:
+    velocities = problems.velocities
+    if velocities is not None:
+        places = np.flatnonzero(~np.isnan(velocities))
+        if len(places) >= _LEAST:
+            known = velocities[places]
+            try:
+                ends = [problems.problem(int(places[at])) for at in (known.argmin(), known.argmax())]
+            except InputError:
+                return  # the other entries make no problem
+            line = along_velocities(ends[0], ends[1], known, places)
+            if line is not None:
+                yield line
+        return
+    valid = [(place, problem) for place in range(problems.size) if (problem := _valid(problems, place)) is not None]
+    yield from lines_of([problem for _, problem in valid], np.array([place for place, _ in valid], np.intp), _LEAST)
+
+
+def _valid(problems: ProblemArray, place: int) -> Problem | None:
+    try:
+        return problems.problem(place)
+    except InputError:
+        return None
+
+
+def _others(problems: ProblemArray, places: NDArray[np.intp], bound: str) -> dict[int, Solution | OptlawsError]:
+    """What is solved one by one, each begun at the law before it."""
     others: dict[int, Solution | OptlawsError] = {}
     previous: Solution | None = None
-    for place in range(problems.size):
+    for place in places.tolist():
         result = _alone(problems, place, previous, bound)
         previous = result if isinstance(result, Solution) else previous
         others[place] = result
-    return SolutionArray(problems, parts, others, perf_counter() - began)
+    return others
 
 
 def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: str) -> Solution | OptlawsError:

@@ -8,6 +8,7 @@ between Chebyshev nodes and one step of Newton's method makes it exact.
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,7 +16,7 @@ from numpy.typing import NDArray
 from optlaws.synthesis.arrays.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.found import Found
 from optlaws.synthesis.arrays.newton_steps import States, clipped, converged, step
-from optlaws.synthesis.arrays.programs import Path
+from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.arrays.rows import Structure
 from optlaws.synthesis.arrays.verified import judged
 from optlaws.synthesis.arrays.walk import Segment, Walk
@@ -27,10 +28,14 @@ _DEEPEST = 12
 #: of the size of what is interpolated: one step of Newton's method makes the square of it
 _TAIL = 1e-8
 _CHUNK = 1024
-_STARTS = np.array([0.0, 0.5, 0.25, 0.75, 1.0])
+_STARTS = np.array([0.5, 0.25, 0.75, 0.0, 1.0])
 #: of the objective
 _GAP = 1e-10
 _EXACT = 1e-9
+#: a step of more than this share is followed by another
+_ROUGH = 1e-7
+#: of the path: how far beyond the end of a segment its laws are tried
+_BESIDE = 1e-8
 
 
 def laws_along(path: Path, t: Array) -> Found:
@@ -52,7 +57,7 @@ def laws_along(path: Path, t: Array) -> Found:
     owner = np.searchsorted(begins, t, side="right") - 1
     for i, segment in enumerate(segments):
         # what lies between two segments, nearer than they are known, is tried with the first
-        places = np.flatnonzero(owner == i)
+        places = np.flatnonzero((owner == i) & (t <= segment.end + _BESIDE * (t[-1] - t[0])))
         if len(places):
             _fill(found, path, segment, places, t[places])
     return found
@@ -65,31 +70,47 @@ def _fill(found: Found, path: Path, segment: Segment, places: NDArray[np.intp], 
         return
     for own, guess in _guesses(path, segment, t, (segment.begin, segment.end)):
         for i in range(0, len(own), _CHUNK):
-            chunk = slice(i, i + _CHUNK)
-            _solve(found, path, structure, places[own[chunk]], t[own[chunk]], guess.taken(chunk))
+            chunk = own[i : i + _CHUNK]
+            laws = _Laws(found, path, structure, places[chunk], path.numbers(t[chunk]))
+            laws.solve(guess.taken(slice(i, i + _CHUNK)))
 
 
-def _solve(
-    found: Found, path: Path, structure: Structure, places: NDArray[np.intp], t: Array, guess: States
-) -> None:
-    """Enter the laws that one step of Newton's method from a guess leads to, or several, as far as they are proven."""
-    numbers = path.numbers(t)
-    states, sizes = step(structure, numbers, guess)
-    left = np.flatnonzero(np.isfinite(sizes))
-    for again in (True, False):
-        states = clipped(structure, states.taken(left))
-        judgement = judged(path, structure, numbers.taken(left), states)
-        sound = np.flatnonzero(judgement.sound)
-        proven = (judgement.objective[sound], judgement.bound[sound], judgement.excess[sound])
-        _put(found, structure, places[left[sound]], states.taken(sound), proven)
-        if again:
-            missing = np.ones(len(t), dtype=np.bool_)
-            missing[left[sound]] = False
-            states, done = converged(structure, numbers.taken(missing), guess.taken(missing))
-            numbers, places = numbers.taken(missing), places[missing]
-            left = np.flatnonzero(done)
-        if not len(left):
-            return
+@dataclass(frozen=True, eq=False)
+class _Laws:
+    """Laws of one structure: where they are entered, and the numbers of their programs."""
+
+    found: Found
+    path: Path
+    structure: Structure
+    places: NDArray[np.intp]
+    numbers: Numbers
+
+    def solve(self, guess: States) -> None:
+        """Enter the laws that one step of Newton's method from a guess leads to, or several, as far as proven."""
+        states, sizes = step(self.structure, self.numbers, guess)
+        rough = np.flatnonzero(np.isfinite(sizes) & (sizes > _ROUGH))
+        if len(rough):
+            better, sizes[rough] = step(self.structure, self.numbers.taken(rough), states.taken(rough))
+            rows = states.packed
+            rows[rough] = better.packed
+            states = States.unpacked(rows, self.structure)
+        left = self.entered(states, np.flatnonzero(np.isfinite(sizes)))
+        if len(left):
+            rest = replace(self, places=self.places[left], numbers=self.numbers.taken(left))
+            states, done = converged(self.structure, rest.numbers, guess.taken(left))
+            rest.entered(states, np.flatnonzero(done))
+
+    def entered(self, states: States, known: NDArray[np.intp]) -> NDArray[np.intp]:
+        """Enter those of the known states that are proven optimal; which are left."""
+        left = np.ones(len(states), dtype=np.bool_)
+        if len(known):
+            own = clipped(self.structure, states.taken(known))
+            judgement = judged(self.path, self.structure, self.numbers.taken(known), own)
+            sound = judgement.sound
+            proven = (judgement.objective[sound], judgement.bound[sound], judgement.excess[sound])
+            _put(self.found, self.structure, self.places[known[sound]], own.taken(sound), proven)
+            left[known[sound]] = False
+        return np.flatnonzero(left)
 
 
 def _guesses(

@@ -9,6 +9,7 @@ Cells in which neither shows are halved.
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -22,16 +23,17 @@ Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
 
 #: cells for each degree of a family's series over the whole interval
-_DENSITY = 1.6
+_DENSITY = 4.0
 _LEAST_CELLS = 8
 #: terms of a cell's series that are weighed one by one
 _WEIGHED = 5
 #: of a right side, or 1: a residual nearer to 0 is left to tangents
 _MARGIN = 1e-12
+#: terms of a cell's series with which it is looked into; the others are charged
+_LOOKED_AT = 14
 _JOINED = 4
 _HALVINGS = 12
 _STEPS = 6
-_UNPROVEN = np.inf
 
 
 @dataclass(frozen=True, eq=False)
@@ -48,6 +50,11 @@ class Cells:
         found = np.cos(np.linspace(low, high, count + 1))[::-1].copy()
         found[0], found[-1] = self.columns.family.domain
         return found
+
+    @property
+    def reach(self) -> float:
+        """How far from a contact its tangent is relied on."""
+        return (_JOINED + 1) * float(np.diff(self.edges).max())
 
     @kept_property
     def series(self) -> Array:
@@ -95,48 +102,74 @@ def excess(cells: Cells, x: Array, numbers: Numbers, family: int, touching: Touc
     touching
         Contacts whose own residuals are accounted for elsewhere.
     """
-    own = cells.columns.family
-    room = x @ own.slack + numbers.bounds[:, family]
-    unit = np.maximum(1.0, np.abs(room))
+    family_rows = cells.columns.family
+    room = x @ family_rows.slack + numbers.bounds[:, family]
     point = np.concatenate([x, np.ones((len(x), 1))], axis=1)
-    found = np.zeros(len(x))
-    if own.domain[0] == own.domain[1]:
-        row = own.columns(np.array(own.domain[:1]))[0, 0]
-        for sign in own.signs:
-            found = np.maximum(found, (sign * (point @ row) - room) / unit)
-        return found
-    first = (point @ cells.weighed).reshape(len(x), _WEIGHED, -1)
-    beyond, bent = _rest(cells, point)
-    value = first[:, 0]
-    spread = np.abs(first[:, 1:]).sum(axis=1) + beyond
-    margin = (_MARGIN * unit)[:, None]
-    if len(own.signs) == 2:
-        clear = room[:, None] - np.abs(value) - spread > margin
-        sign = np.where(value < 0.0, -1.0, 1.0)
-        # the other sign is kept where this one is, unless the right side is below 0
-        other = room[:, None] + np.abs(value) - spread > margin
+    if family_rows.domain[0] == family_rows.domain[1]:
+        value = point @ family_rows.columns(np.array(family_rows.domain[:1]))[0, 0]
+        broken = np.max([sign * value - room for sign in family_rows.signs], axis=0)
     else:
-        sign = np.broadcast_to(np.float64(own.signs[0]), value.shape)
-        clear = room[:, None] - sign * value - spread > margin
-        other = clear
-    convex = -4.0 * sign * first[:, 2] - 24.0 * np.abs(first[:, 3]) - 80.0 * np.abs(first[:, 4]) - bent > 0.0
-    kept = clear | (_joined(cells.edges, convex, touching) & (other | (len(own.signs) == 1)))
-    law, cell = np.nonzero(~kept)
-    if len(law):
-        for one in own.signs:
-            worst = _looked_into(cells.series, law, cell, point, room, one) / unit[law]
-            np.maximum.at(found, law, worst)
-    return found
+        broken = _Residuals(cells, point, room, touching).broken()
+    return np.asarray(np.maximum(broken, 0.0) / np.maximum(1.0, np.abs(room)))
 
 
-def _rest(cells: Cells, point: Array) -> tuple[Array, Array]:
-    """What the terms that are not weighed can add on each cell in any of the laws: in their mean, and beside it."""
-    mean = point.mean(axis=0)
-    away = np.abs(point - mean).max(axis=0)
-    of_mean = np.abs(cells.series[_WEIGHED:] @ mean)
-    value, bend = cells.rest
-    bends = _bends(len(cells.series))[_WEIGHED:]
-    return of_mean.sum(axis=0) + value @ away, bends @ of_mean + bend @ away
+@dataclass(frozen=True, eq=False)
+class _Residuals:
+    """The room that many laws leave on cells: their variables and 1, their right sides, their contacts."""
+
+    cells: Cells
+    point: Array
+    room: Array
+    touching: Touching
+
+    def broken(self) -> Array:
+        """By how much each law may break the rows."""
+        found = np.zeros(len(self.point))
+        law, cell, sign = self._doubtful()
+        if len(law):
+            np.maximum.at(found, law, self._looked_into(law, cell, sign))
+        return found
+
+    def _doubtful(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
+        """Laws, cells and signs for which neither the first terms nor a contact shows that rows are kept."""
+        signs = self.cells.columns.family.signs
+        first = (self.point @ self.cells.weighed).reshape(len(self.point), _WEIGHED, -1)
+        beyond, bent = self._rest()
+        value, sizes = first[:, 0], np.abs(first[:, 1:])
+        sign = np.where(value < 0.0, -1.0, 1.0) if len(signs) == 2 else np.full(value.shape, signs[0])
+        spread = sizes[:, 0] + sizes[:, 1] + sizes[:, 2] + sizes[:, 3] + beyond
+        room = (self.room - _MARGIN * np.maximum(1.0, np.abs(self.room)))[:, None]
+        left = sign * value + spread >= room
+        convex = -4.0 * sign * first[:, 2] - 24.0 * sizes[:, 2] - 80.0 * sizes[:, 3] > bent
+        law, cell = np.nonzero(left & ~_joined(self.cells.edges, convex, self.touching))
+        toward = sign[law, cell]
+        if len(signs) == 2:
+            other, there = np.nonzero(spread - sign * value >= room)
+            law, cell = np.concatenate([law, other]), np.concatenate([cell, there])
+            toward = np.concatenate([toward, -sign[other, there]])
+        return law, cell, toward
+
+    def _rest(self) -> tuple[Array, Array]:
+        """What the terms that are not weighed can add on each cell in any of the laws: in their mean, and beside it."""
+        value, bend = self.cells.rest
+        mean = self.point.mean(axis=0)
+        away = np.abs(self.point - mean).max(axis=0)
+        of_mean = np.abs(self.cells.series[_WEIGHED:] @ mean)
+        bends = _bends(len(self.cells.series))[_WEIGHED:]
+        return of_mean.sum(axis=0) + value @ away, bends @ of_mean + bend @ away
+
+    def _looked_into(self, law: NDArray[np.intp], cell: NDArray[np.intp], sign: Array) -> Array:
+        """How far the residual may be above 0 on cells of some laws, halved until a bound shows it."""
+        series = self.cells.series
+        kept = min(_LOOKED_AT, len(series))
+        rows, beyond = np.empty((len(law), kept)), np.zeros(len(law))
+        for one in np.unique(cell).tolist():
+            mine = np.flatnonzero(cell == one)
+            terms = self.point[law[mine]] @ series[:, one].T
+            rows[mine] = -sign[mine, None] * terms[:, :kept]
+            beyond[mine] = np.abs(terms[:, kept:]).sum(axis=1)
+        rows[:, 0] += self.room[law] - beyond
+        return _below_zero(rows)
 
 
 def _bends(count: int) -> Array:
@@ -161,26 +194,18 @@ def _joined(edges: Array, convex: Flags, touching: Touching) -> Flags:
     return found
 
 
-def _looked_into(
-    series: Array, law: NDArray[np.intp], cell: NDArray[np.intp], point: Array, room: Array, sign: float
-) -> Array:
-    """How far the residual may be above 0 on cells of some laws, halved until a bound shows it."""
-    rows = np.empty((len(law), len(series)))
-    for one in np.unique(cell).tolist():
-        mine = cell == one
-        rows[mine] = -sign * (point[law[mine]] @ series[:, one].T)
-    rows[:, 0] += room[law]
-    found = np.zeros(len(law))
-    owner = np.arange(len(law))
+def _below_zero(rows: Array) -> Array:
+    """How far each series may be below 0 on [-1, 1], halved until a bound shows it."""
+    found = np.zeros(len(rows))
+    owner = np.arange(len(rows))
     for _ in range(_HALVINGS):
         low = _lowest(rows)
-        np.maximum.at(found, owner, np.where(np.isnan(low), 0.0, -low))
         left = np.isnan(low)
+        np.maximum.at(found, owner[~left], -low[~left])
         if not left.any():
             return found
-        halves = [rows[left] @ one for one in _halving(rows.shape[1])]
-        rows, owner = np.concatenate(halves), np.concatenate([owner[left]] * 2)
-    # still convex nowhere: what is known is the bound alone
+        rows, owner = np.concatenate([rows[left] @ half for half in _halving(rows.shape[1])]), np.tile(owner[left], 2)
+    # convex nowhere as yet: what is known is the bound alone
     np.maximum.at(found, owner, np.abs(rows[:, 1:]).sum(axis=1) - rows[:, 0])
     return found
 
@@ -218,6 +243,7 @@ def _by_tangent(rows: Array) -> Array:
     return np.asarray(value - np.abs(first) * reach)
 
 
+@lru_cache(maxsize=16)
 def _halving(count: int) -> tuple[Array, Array]:
     """Matrices from coefficients on an interval to those on its two halves."""
     angle = (np.arange(count) + 0.5) * (np.pi / count)

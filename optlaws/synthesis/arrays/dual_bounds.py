@@ -1,4 +1,4 @@
-"""What contacts and multipliers prove of many objectives at once, by the arithmetic of certificates, rounded outward."""
+"""What contacts and multipliers prove of many objectives at once, as certificates reckon it, rounded outward."""
 
 from __future__ import annotations
 

@@ -5,6 +5,7 @@ The places of the contacts are eliminated: what a place moves by follows from wh
 
 from __future__ import annotations
 
+from contextlib import suppress
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -81,9 +82,7 @@ def step(structure: Structure, numbers: Numbers, states: States) -> tuple[States
     dx = moved[:, :size]
     u = states.u.copy()
     u[:, free] -= shift + np.einsum("mpi,mi->mp", slopes, dx) / bent
-    further = States(
-        states.x + dx, u, states.weights + moved[:, size:last], states.equations + moved[:, last:]
-    )
+    further = States(states.x + dx, u, states.weights + moved[:, size:last], states.equations + moved[:, last:])
     sizes = np.abs(moved).max(axis=1) / np.maximum(1.0, np.abs(states.packed).max(axis=1))
     wild = ~np.isfinite(sizes) | (np.abs(u).max(axis=1, initial=0.0) > _FAR)
     return further, np.where(wild, np.inf, sizes)
@@ -117,11 +116,11 @@ def _at(rows: Array, x: Array) -> Array:
 
 def _solved(system: Array, right: Array) -> Array:
     try:
-        return np.linalg.solve(system, right)
+        return np.asarray(np.linalg.solve(system, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         # one singular system must not spoil the others
         found = np.full_like(right, np.nan)
         for i, (one, side) in enumerate(zip(system, right, strict=True)):
-            if np.linalg.matrix_rank(one) == len(one):
+            with suppress(np.linalg.LinAlgError):
                 found[i] = np.linalg.solve(one, side)
         return found

@@ -6,6 +6,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
@@ -33,7 +34,7 @@ class Columns:
         for _ in range(3):
             kept = np.flatnonzero(series.any(axis=1))
             found.append((kept, np.ascontiguousarray(series[kept])))
-            series = np.polynomial.chebyshev.chebder(series) if len(series) > 1 else np.zeros_like(series)
+            series = np.asarray(chebyshev.chebder(series), dtype=np.float64)
         return tuple(found)
 
     @kept_property

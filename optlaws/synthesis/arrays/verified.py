@@ -21,7 +21,6 @@ _EXCESS = 1e-11
 _GAP = 9e-11
 #: of the greatest multiplier: by so much one may be below 0, for which the bound counts it as 0
 _PULL = 1e-12
-_REACH = 2.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -75,7 +74,9 @@ def judged(path: Path, structure: Structure, numbers: Numbers, states: States) -
     single = domains[:, 0] == domains[:, 1]
     held = ~structure.free & ~single
     tangent = np.where(structure.free, np.abs(turned), np.where(held, np.maximum(inward, 0.0), 0.0))
-    broken = np.maximum(residual, 0.0) + _REACH * tangent
+    reach = np.array([cells_of(columns).reach for columns in columns_of(path.model)])[structure.family]
+    room = np.maximum(1.0, np.abs(states.x @ structure.slack.T + numbers.bounds[:, structure.family]))
+    broken = (np.maximum(residual, 0.0) + reach * tangent) / room
     off = np.abs(states.x @ program.equalities.T - numbers.right)
     worst = np.maximum(broken.max(axis=1, initial=0.0), off.max(axis=1, initial=0.0))
     for i, columns in enumerate(columns_of(path.model)):

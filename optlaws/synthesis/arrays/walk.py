@@ -6,8 +6,9 @@ changes it, and the law just beyond tells the next one.
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from itertools import pairwise
+from math import isnan
 
 import numpy as np
 from numpy.typing import NDArray
@@ -18,6 +19,7 @@ from optlaws.synthesis.arrays.rows import Structure, structure_of
 from optlaws.synthesis.arrays.verified import judged
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.method.exchange import solve
+from optlaws.synthesis.method.ways.contacts import polished
 
 Array = NDArray[np.float64]
 
@@ -28,10 +30,14 @@ _CLOSER = np.array([1e-1, 1e-2, 1e-4])
 #: of the path: an event is known to lie in no wider a stretch
 _SHARP = 1e-9
 _ROUNDS = 24
+#: of the path: a longer stretch between two segments is walked from its other end too
+_BETWEEN = 1e-8
 _NEAR = 4
 #: states that are nearer to each other than this share of the way to where one is guessed are as one
 _APART = 0.2
 _MOST = 400
+#: contacts that are nearer to each other may be two of one
+_SAME = 0.02
 _BEYOND = (1e-8, 1e-6, 1e-4, 1e-3)
 
 
@@ -116,10 +122,13 @@ class Walk:
 
     def _begun(self, t: float, optimum: ActiveSet) -> Segment | None:
         """A segment that begins with one law; None where that is not proven optimal."""
-        structure, order = structure_of(self.path.model, optimum)
-        own = (optimum.x, optimum.u[order], optimum.multipliers[order], optimum.equality_multipliers)
-        rows, sound, _ = self._solved(structure, np.array([t]), States(*(one[None] for one in own)))
-        return Segment(structure, np.array([t]), rows) if sound[0] else None
+        for one in (optimum, _merged(optimum)):
+            structure, order = structure_of(self.path.model, one)
+            own = (one.x, one.u[order], one.multipliers[order], one.equality_multipliers)
+            rows, sound, _ = self._solved(structure, np.array([t]), States(*(part[None] for part in own)))
+            if sound[0]:
+                return Segment(structure, np.array([t]), rows)
+        return None
 
     def _onward(self, first: Segment, goal: float) -> None:
         """Walk from a segment to one end of the path."""
@@ -133,6 +142,9 @@ class Walk:
             following = self._after(segment, beyond, goal)
             if following is None:
                 return
+            edge = segment.end if way > 0.0 else segment.begin
+            if abs(following.begin - edge) > _BETWEEN * self.reach:
+                self._stretched(following, edge)
             segment = following
             self.segments.append(segment)
 
@@ -145,13 +157,12 @@ class Walk:
             t = beyond + way * share * self.reach
             if (goal - t) * way < 0.0:
                 return None
-            optimum = solve(self.path.program(t), near).optimum
-            if optimum is None:
-                return None
-            found = self._begun(t, optimum)
-            if found is not None and found.structure.signature != segment.structure.signature:
+            optimum = polished(self.path.program(t), near, None)
+            found = None if optimum is None else self._begun(t, optimum)
+            if found is not None and (found.structure.signature != segment.structure.signature or share == _BEYOND[-1]):
                 return found
-        return found
+        optimum = solve(self.path.program(t), near).optimum
+        return None if optimum is None else self._begun(t, optimum)
 
     @staticmethod
     def _active_set(segment: Segment, t: float) -> ActiveSet:
@@ -162,7 +173,7 @@ class Walk:
         )
 
     def _stretched(self, segment: Segment, goal: float) -> float | None:
-        """Walk a segment toward an end of the path as far as it holds; a t just beyond, None where it holds all the way."""
+        """Walk a segment toward an end of the path as far as it holds; a t just beyond, or None."""
         good, way = (segment.end, 1.0) if goal >= segment.end else (segment.begin, -1.0)
         bad, stride, broken = goal, _FIRST * self.reach, list[tuple[float, float]]()
         for _ in range(_ROUNDS):
@@ -177,7 +188,9 @@ class Walk:
                 stride = abs(float(t[0]) - good) / 4.0
             if good == goal:
                 return None
-            known = [(at, off) for at, off in zip(t[count:].tolist(), worst[count:].tolist(), strict=True) if off == off]
+            known = [
+                (at, off) for at, off in zip(t[count:].tolist(), worst[count:].tolist(), strict=True) if not isnan(off)
+            ]
             if known:
                 broken = sorted([*broken, *known], key=lambda one: abs(one[0] - good))[:2]
                 bad = broken[0][0]
@@ -201,6 +214,26 @@ class Walk:
 
 
 _OUTSIDE = 1e-12
+
+
+def _merged(optimum: ActiveSet) -> ActiveSet:
+    """The same with contacts of one row that are near to each other as one: they are met where two become one."""
+    order = np.lexsort((optimum.u, optimum.s, optimum.family))
+    family, u, s, weights = (one[order] for one in (optimum.family, optimum.u, optimum.s, optimum.multipliers))
+    near = (np.diff(family) == 0) & (np.diff(s) == 0.0) & (np.diff(u) < _SAME)
+    group = np.concatenate([[0], np.cumsum(~near)]) if len(u) else np.empty(0, dtype=np.intp)
+    first = np.flatnonzero(np.concatenate([[True], ~near])) if len(u) else group
+    total = np.asarray(np.bincount(group, weights), dtype=np.float64) if len(u) else weights
+    middle = np.bincount(group, weights * u) / np.where(total == 0.0, 1.0, total) if len(u) else u
+    alone = np.bincount(group) == 1 if len(u) else np.empty(0, dtype=np.bool_)
+    return replace(
+        optimum,
+        family=family[first],
+        u=np.where(alone | (total == 0.0), u[first], middle),
+        s=s[first],
+        free=optimum.free[order][first],
+        multipliers=total,
+    )
 
 
 def _probes(good: float, bad: float, stride: float, broken: list[tuple[float, float]]) -> Array:

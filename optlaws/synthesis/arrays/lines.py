@@ -1,0 +1,135 @@
+"""Problems that differ in numbers alone, put on straight lines: along each their programs' numbers are affine."""
+
+from __future__ import annotations
+
+from collections.abc import Hashable, Iterator, Sequence
+from dataclasses import dataclass
+from math import isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.arrays.programs import Path, between, numbers_of
+from optlaws.synthesis.problem.expression import Maximum
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.ranges import Range
+from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.program.writer import model_of
+from optlaws.synthesis.spaces.bases import PolynomialBasis
+
+Array = NDArray[np.float64]
+
+#: of the size of a program's numbers: by so much they may be off a line
+_OFF = 1e-12
+
+
+@dataclass(frozen=True, eq=False)
+class Line:
+    """Problems on a straight line: which, in ascending order of t, and the path through the first and the last."""
+
+    places: NDArray[np.intp]
+    t: Array
+    path: Path
+
+
+@dataclass(frozen=True, eq=False)
+class Form:
+    """What a problem is but for its numbers, and the numbers; None for `key` where nothing is known of them."""
+
+    key: Hashable
+    numbers: tuple[float, ...]
+
+
+def along_velocities(template: Problem, last: Problem, velocities: Array, places: NDArray[np.intp]) -> Line | None:
+    """The line of problems that differ in B alone; the first and the last problem are given."""
+    if form_of(template).key is None:
+        return None
+    path = between(template, last)
+    order = np.argsort(velocities, kind="stable")
+    least, greatest = float(velocities[order[0]]), float(velocities[order[-1]])
+    if path is None or not least < greatest:
+        return None
+    return Line(places[order], (velocities[order] - least) / (greatest - least), path)
+
+
+def lines_of(problems: Sequence[Problem], places: NDArray[np.intp], least: int) -> Iterator[Line]:
+    """Lines through at least so many of the problems, whose places are beside them; each is on one line at most."""
+    kinds: dict[Hashable, list[int]] = {}
+    forms = [form_of(problem) for problem in problems]
+    for i, form in enumerate(forms):
+        if form.key is not None:
+            kinds.setdefault(form.key, []).append(i)
+    for own in kinds.values():
+        if len(own) < least:
+            continue
+        numbers = np.array([forms[i].numbers for i in own])
+        counts = [len(np.unique(column)) for column in numbers.T]
+        along = int(np.argmax(counts)) if counts else 0
+        _, groups = np.unique(np.delete(numbers, along, axis=1), axis=0, return_inverse=True)
+        for group in range(int(groups.max(initial=-1)) + 1):
+            rows = np.flatnonzero(groups.reshape(-1) == group)
+            line = (
+                _line([problems[own[i]] for i in rows.tolist()], numbers[rows, along]) if len(rows) >= least else None
+            )
+            if line is not None:
+                yield Line(places[np.array(own)[rows[line.places]]], line.t, line.path)
+
+
+def _line(problems: list[Problem], values: Array) -> Line | None:
+    order = np.argsort(values, kind="stable")
+    first, last = values[order[0]], values[order[-1]]
+    if not first < last:
+        return None
+    path = between(problems[order[0]], problems[order[-1]])
+    t = (values[order] - first) / (last - first)
+    middle = len(order) // 2
+    if path is None or not _on(path, float(t[middle]), problems[order[middle]]):
+        return None
+    return Line(order.astype(np.intp), t, path)
+
+
+def _on(path: Path, t: float, problem: Problem) -> bool:
+    """Whether a problem's program is the path's at t, but for rounding."""
+    found, own = path.numbers(np.array([t])), numbers_of(model_of(problem).program)
+    return all(
+        getattr(found, name).shape == getattr(own, name).shape
+        and np.allclose(getattr(found, name), getattr(own, name), rtol=_OFF, atol=_OFF)
+        for name in ("right", "bounds", "cost")
+    )
+
+
+def form_of(problem: Problem) -> Form:
+    """A problem's form and its numbers; no form where it is not convex, or a constant is bounded from below.
+
+    Examples
+    --------
+    >>> one, other = (form_of(Problem(B=B, order=4)) for B in (1.6, 1.7))
+    >>> one.key == other.key, one.numbers, other.numbers
+    (True, (1.0, 1.6), (1.0, 1.7))
+    """
+    bounded = problem.bounded
+    velocity = problem.B
+    held_up = any(limits.low > 0.0 for _, limits in bounded) or (isinstance(velocity, Range) and velocity.low > 0.0)
+    if held_up or not problem.convex or not isinstance(problem.basis, PolynomialBasis):
+        return Form(None, ())
+    terms = problem.objective.terms
+    nested = any(isinstance(term, Maximum) for _, term in terms)
+    objective: Hashable = repr(problem.objective) if nested else tuple(repr(term) for _, term in terms)
+    numbers = [] if nested else [weight for weight, _ in terms]
+    if isinstance(velocity, float):
+        numbers.append(velocity)
+    elif isinstance(velocity, Range):
+        numbers.append(velocity.high)
+    numbers += [limits.high for _, limits in bounded if isfinite(limits.high)]
+    windows = []
+    for window in problem.windows:
+        windows.append(_form_of_window(window))
+        numbers += [value for value in (window.low, window.high) if isfinite(value)]
+    kinds = tuple((constant, isfinite(limits.high)) for constant, limits in bounded)
+    key = (objective, type(velocity), kinds, tuple(windows), problem.order, problem.basis)
+    rest = (problem.monotone, problem.symmetric, problem.boundary, problem.inflexion)
+    return Form((*key, *rest), tuple(numbers))
+
+
+def _form_of_window(window: Window) -> Hashable:
+    return window.quantity, window.start, window.stop, isfinite(window.low), isfinite(window.high), window.value

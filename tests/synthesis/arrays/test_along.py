@@ -1,0 +1,117 @@
+"""Laws solved together against laws solved alone: across structures, at the places where they change, beside them."""
+
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws import BoundaryConditions, Chebyshev, Problem, ProblemArray, Window, each, synthesize, synthesize_array
+from optlaws.synthesis.arrays.along import laws_along
+from optlaws.synthesis.arrays.programs import Path, between
+from optlaws.synthesis.arrays.walk import Segment, Walk
+from optlaws.synthesis.solution_array import SolutionArray
+
+ENDS = (1.42, 2.6)
+COUNT = 400
+
+
+def path_of(degree: int) -> Path:
+    problem = Problem(order=4, basis=Chebyshev(degree), B=ENDS[0])
+    path = between(problem, replace(problem, B=ENDS[1]))
+    assert path is not None
+    return path
+
+
+def walked(path: Path) -> list[Segment]:
+    return Walk(path, 0.0, 1.0).whole(np.array([0.0]))
+
+
+def check(laws: SolutionArray, places: np.ndarray[Any, Any]) -> None:
+    """What was solved together is what each is alone, and its certificate says so by itself."""
+    for place in places.tolist():
+        alone, one = synthesize(laws.problems.problem(place)), laws.result(place)
+        assert not isinstance(one, Exception)
+        assert one.objective == pytest.approx(alone.objective, rel=1e-9)
+        assert one.status is alone.status
+        np.testing.assert_allclose(one.z_series, alone.z_series, rtol=1e-9, atol=1e-8)
+        assert one.certificate.bound >= one.objective * (1.0 - 1e-10)
+        assert one.lower_bound <= one.certificate.bound + 1e-10 * one.objective
+        assert abs(one.gap) <= 1e-10
+
+
+@pytest.mark.parametrize(("degree", "changes"), [(5, 2), (9, 3), (19, 8)])
+def test_structures_follow_each_other_without_a_gap(degree: int, changes: int) -> None:
+    segments = walked(path_of(degree))
+    assert len(segments) == changes + 1
+    assert segments[0].begin == 0.0
+    assert segments[-1].end == pytest.approx(1.0, abs=1e-8)
+    for one, other in pairwise(segments):
+        assert one.structure.signature != other.structure.signature
+        assert abs(other.begin - one.end) < 1e-7
+
+
+@pytest.mark.parametrize("degree", [5, 9, 19])
+def test_laws_where_the_structure_changes_and_beside_it_are_those_solved_alone(degree: int) -> None:
+    edges = [segment.end for segment in walked(path_of(degree))[:-1]]
+    beside = np.concatenate([[0.0, 1.0], *(np.array(edges) + away for away in (-1e-6, -1e-9, 0.0, 1e-9, 1e-6))])
+    B = ENDS[0] + (ENDS[1] - ENDS[0]) * np.sort(np.concatenate([np.linspace(0.0, 1.0, 150), beside]))
+    laws = synthesize_array(ProblemArray(B=B, order=4, basis=Chebyshev(degree)))
+    assert (laws.status == "optimal").all()
+    check(laws, np.flatnonzero(np.isin(np.arange(len(B)), np.searchsorted(B, ENDS[0] + 1.18 * np.array(edges)))))
+
+
+KINDS: dict[str, dict[str, Any]] = {
+    "B": {"B": np.linspace(1.45, 2.5, COUNT)},
+    "B of order 2, degree 7": {"B": np.linspace(1.45, 2.5, COUNT), "order": 2, "basis": Chebyshev(7)},
+    "B, no return": {"B": np.linspace(1.5, 2.5, COUNT), "monotone": True},
+    "J": {"B": np.linspace(1.6, 1.9, COUNT), "order": 3, "minimise": "J", "basis": Chebyshev(7)},
+    "C of one sign": {"B": np.linspace(1.6, 1.9, COUNT), "minimise": "C_minus"},
+    "weights": {"B": 1.7, "minimise": each("{:.17g}*C/4 + J/32".format, np.linspace(0.5, 4.0, COUNT))},
+    "windows": {
+        "B": 1.7,
+        "windows": each(lambda h: Window("b", high=h, start=0.2, stop=0.3), np.linspace(1.1, 1.5, COUNT)),
+    },
+    "most C": {"B": 1.7, "minimise": "J", "C": (None, np.linspace(4.9, 6.0, COUNT))},
+    "most B": {"B": (None, np.linspace(1.6, 2.2, COUNT)), "minimise": "jounce", "order": 3},
+    "end velocity": {
+        "minimise": "C",
+        "symmetric": False,
+        "boundary": each(lambda v: BoundaryConditions((0.0, 0.0, 0.0), (1.0, v, 0.0)), np.linspace(0.2, 0.6, 5)),
+        "order": 3,
+    },
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.filterwarnings("ignore::optlaws.NotNormalised")
+def test_any_number_of_a_problem_may_vary(kind: str) -> None:
+    entries = {"order": 4, "basis": Chebyshev(9)} | KINDS[kind]
+    laws = synthesize_array(ProblemArray(**entries))
+    assert (laws.status == "optimal").all()
+    assert laws.gap.max() <= 1e-10
+    check(laws, np.random.default_rng(7).choice(laws.size, 3, replace=False))
+
+
+def test_laws_depend_neither_on_their_order_nor_on_their_company() -> None:
+    B = np.linspace(*ENDS, COUNT)
+    whole = synthesize_array(ProblemArray(B=B, order=4))
+    turned = synthesize_array(ProblemArray(B=B[::-1], order=4))
+    half = synthesize_array(ProblemArray(B=B[::2], order=4))
+    np.testing.assert_allclose(turned.z_series[::-1], whole.z_series, rtol=1e-10, atol=1e-9)
+    np.testing.assert_allclose(half.z_series, whole.z_series[::2], rtol=1e-10, atol=1e-9)
+    np.testing.assert_allclose(half.objective, whole.objective[::2], rtol=1e-12)
+
+
+@pytest.mark.parametrize("degree", [5, 19])
+def test_no_law_breaks_a_row_anywhere(degree: int) -> None:
+    path = path_of(degree)
+    t = np.linspace(0.0, 1.0, COUNT)
+    found = laws_along(path, t)
+    assert found.excess.max() <= 1e-11
+    rng = np.random.default_rng(3)
+    for place in rng.choice(COUNT, 20, replace=False).tolist():
+        for family in path.program(float(t[place])).families:
+            _, _, residual = family.extremes(found.x[place])
+            assert residual.max() <= 1e-10
