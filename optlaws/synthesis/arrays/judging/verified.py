@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.arrays.cells import Cells, Touching, excess
-from optlaws.synthesis.arrays.dual_bounds import lower_bounds
+from optlaws.synthesis.arrays.judging.cells import Cells, Touching, excess
+from optlaws.synthesis.arrays.judging.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.newton_steps import States
 from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.arrays.rows import Columns, Structure, columns_of

@@ -1,0 +1,1 @@
+"""Whether many laws keep their rows everywhere, and what their multipliers prove."""
