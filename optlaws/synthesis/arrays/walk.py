@@ -218,14 +218,15 @@ _OUTSIDE = 1e-12
 
 def _merged(optimum: ActiveSet) -> ActiveSet:
     """The same with contacts of one row that are near to each other as one: they are met where two become one."""
+    if not len(optimum.u):
+        return optimum
     order = np.lexsort((optimum.u, optimum.s, optimum.family))
     family, u, s, weights = (one[order] for one in (optimum.family, optimum.u, optimum.s, optimum.multipliers))
     near = (np.diff(family) == 0) & (np.diff(s) == 0.0) & (np.diff(u) < _SAME)
-    group = np.concatenate([[0], np.cumsum(~near)]) if len(u) else np.empty(0, dtype=np.intp)
-    first = np.flatnonzero(np.concatenate([[True], ~near])) if len(u) else group
-    total = np.asarray(np.bincount(group, weights), dtype=np.float64) if len(u) else weights
-    middle = np.bincount(group, weights * u) / np.where(total == 0.0, 1.0, total) if len(u) else u
-    alone = np.bincount(group) == 1 if len(u) else np.empty(0, dtype=np.bool_)
+    first = np.flatnonzero(np.concatenate([[True], ~near]))
+    total = np.add.reduceat(weights, first)
+    middle = np.add.reduceat(weights * u, first) / np.where(total == 0.0, 1.0, total)
+    alone = np.diff(np.append(first, len(u))) == 1
     return replace(
         optimum,
         family=family[first],
