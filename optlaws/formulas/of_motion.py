@@ -13,10 +13,11 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.formulas.affine import Affine, affine, degree
 from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.branches import branches
 from optlaws.formulas.convexity import Curvature, Judge, Verdict
 from optlaws.formulas.reading import read, refused
 from optlaws.formulas.slopes import added, constant, opposite
-from optlaws.formulas.tree import Call, Formula, Name, Number, Product, Reciprocal, Table, substituted
+from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Product, Reciprocal, Table, substituted
 from optlaws.formulas.vocabulary import ORDERS, VOCABULARY
 from optlaws.kept import kept_property
 from optlaws.series.chebyshev import interpolated, real_parts_of_roots
@@ -83,6 +84,11 @@ class Motion:
     def curvature(self) -> Curvature:
         """What it is in the law."""
         return self.verdict.curvature
+
+    def branches(self, sign: float) -> list[Formula] | None:
+        """Smooth formulas of which it, times the sign, is the greatest; None where it is no such maximum."""
+        judge = Judge(frozenset(ORDERS), self.start, self.stop)
+        return branches(self.formula if sign > 0.0 else Negative(self.formula), ORDERS, judge.sign)
 
     def mirrored(self) -> Motion:
         """What it says of a symmetric law on the other side: a(1-k) = 1 - a(k), b and j even, c odd about 1/2."""

@@ -15,8 +15,9 @@ from optlaws.synthesis.limits.rounding import rounded_up
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
+from optlaws.synthesis.problem.windows import Window
 from optlaws.verification.enclosing.balls import ball, rational, upper
-from optlaws.verification.enclosing.pieces import PolynomialPiece, between, least_and_greatest
+from optlaws.verification.enclosing.pieces import Extremes, PolynomialPiece, between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.law_shape import shape_of
 
@@ -159,9 +160,18 @@ def _constant(law: ExactLaw, constant: Functional, wanted: Range) -> Iterator[Ex
         yield _of(names.at_least(constant.name), ball(wanted.low) - value, wanted.low)
 
 
+def _extremes(window: Window, law: ExactLaw) -> Extremes:
+    """Least and greatest value of what a window bounds, where it does."""
+    if window.motion is None:
+        return law.extremes(window.order, Fraction(window.start), Fraction(window.stop))
+    greatest = law.greatest_of(window.motion, 1.0) if isfinite(window.high) else arb(0)
+    least = -law.greatest_of(window.motion, -1.0) if isfinite(window.low) else arb(0)
+    return least, greatest
+
+
 def _windows(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     for i, window in enumerate(problem.windows, 1):
-        least, greatest = law.extremes(window.order, Fraction(window.start), Fraction(window.stop))
+        least, greatest = _extremes(window, law)
         if isfinite(window.high):
             yield _of(names.window_side(names.window(i), 1.0), greatest - ball(window.high), abs(window.high))
         if isfinite(window.low):

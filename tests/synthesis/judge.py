@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cached_property
 from itertools import pairwise
-from math import inf, sqrt
+from math import inf, isfinite, sqrt
 from typing import Any
 
 import numpy as np
@@ -12,7 +12,7 @@ from numpy.polynomial import Chebyshev
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
-from optlaws import Expression, Functional, MotionLaw, Problem, Range, Solution, Window
+from optlaws import Expression, Functional, MotionLaw, Problem, Range, Solution, Window, peak
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.tree import Table
 from optlaws.mechanisms.cam.constants import CamPeak, CamPower
@@ -227,7 +227,7 @@ class Judged:
 
     @staticmethod
     def _highest(signal: Callable[[Any], Any], sign: float, edges: list[float]) -> float:
-        found = []
+        found = [sign * float(signal(edges[0]))]
         for low, high in pairwise(edges):
             k = np.linspace(low + 2.0**-50, high - 2.0**-50, 801)
             values = sign * signal(k)
@@ -276,9 +276,15 @@ def broken(problem: Problem, law: MotionLaw, allowed: float = 1e-8) -> list[str]
 
 def window_broken(window: Window, one: Judged, allowed: float) -> list[str]:
     """What of a window the law leaves."""
-    curve = one.derivatives["abcj".index(window.quantity)]
-    lowest, highest = curve.within(window.start, window.stop)
-    size = max(1.0, *map(abs, curve.extremes()))
+    if window.quantity in "abcj":
+        curve = one.derivatives["abcj".index(window.quantity)]
+        lowest, highest = curve.within(window.start, window.stop)
+        size = max(1.0, *map(abs, curve.extremes()))
+    else:
+        ends = {"start": window.start, "stop": window.stop}
+        highest = one.value(peak(window.quantity, side="high", **ends)) if isfinite(window.high) else -inf
+        lowest = -one.value(peak(window.quantity, side="low", **ends)) if isfinite(window.low) else inf
+        size = max(1.0, *(abs(end) for end in (window.low, window.high) if isfinite(end)))
     found = [f"{window!r} by {highest - window.high:.1e} above"] * (highest > window.high + allowed * size)
     return found + [f"{window!r} by {window.low - lowest:.1e} below"] * (lowest < window.low - allowed * size)
 

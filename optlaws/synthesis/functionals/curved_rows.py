@@ -12,7 +12,6 @@ import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from optlaws.formulas.branches import branches
 from optlaws.formulas.convexity import Judge
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.quadratic import quadratic
@@ -52,9 +51,7 @@ class Branch:
 
 def split(motion: Motion, sign: float, name: str) -> list[Branch] | None:
     """The smooth formulas of which `sign` times the formula is the greatest; None where it is no such maximum."""
-    judge = Judge(frozenset(ORDERS), motion.start, motion.stop)
-    formula = motion.formula if sign > 0.0 else Negative(motion.formula)
-    found = branches(formula, ORDERS, judge.sign)
+    found = motion.branches(sign)
     if found is None:
         return None
     if len(found) == 1:
@@ -157,7 +154,7 @@ def envelopes(motion: Motion, boxes: Boxes) -> list[Formula]:
     --------
     >>> from optlaws.formulas.of_motion import of_text
     >>> envelopes(of_text("b*c + b"), {"b": (0.0, 2.0), "c": (-4.0, 4.0)})
-    [1*(0*c + -4*b - 0*-4) + 1*b, 1*(2*c + 4*b - 2*4) + 1*b]
+    [1*(0*c + (-4)*b - 0*(-4)) + 1*b, 1*(2*c + 4*b - 2*4) + 1*b]
     """
     terms = quadratic(motion.formula, ORDERS)
     judge = Judge(frozenset(ORDERS), motion.start, motion.stop)

@@ -141,11 +141,7 @@ class FormulaPeak(OfFormula):
 
     def value(self, law: MotionLaw) -> float:
         """The peak over the whole part."""
-        if smooth(self.motion.formula, ORDERS):
-            lowest, highest = extremes_along(self.motion, law)
-            return max(highest.value if sign > 0.0 else -lowest.value for sign in self.signs)
-        ends = ((branch.sign, extremes_along(branch.motion, law)) for branch in self.branches(symmetric=False))
-        return max(highest.value if sign > 0.0 else -lowest.value for sign, (lowest, highest) in ends)
+        return max(greatest_along(self.motion, sign, law) for sign in self.counted)
 
     def _size(self, space: LawSpace) -> tuple[int, float, float] | None:
         """Of a peak of one sign only if some mean of the formula is the same in every law."""
@@ -268,6 +264,15 @@ class FormulaValue(OfFormula):
         return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
 
 
+def greatest_along(motion: Motion, sign: float, law: MotionLaw) -> float:
+    """The greatest value of a formula, times a sign, over its part of the interval."""
+    if smooth(motion.formula, ORDERS):
+        lowest, highest = extremes_along(motion, law)
+        return highest.value if sign > 0.0 else -lowest.value
+    ends = ((branch.sign, extremes_along(branch.motion, law)) for branch in split(motion, sign, "") or [])
+    return max(highest.value if sign > 0.0 else -lowest.value for sign, (lowest, highest) in ends)
+
+
 def refusal(constant: OfFormula) -> str | None:
     """Why a formula cannot be minimised or bounded; None where it can.
 
@@ -292,7 +297,7 @@ def boxes_of(problem: Asked) -> dict[str, tuple[float, float]]:
     Examples
     --------
     >>> from optlaws import Chebyshev, Problem, at_most
-    >>> boxes_of(Problem(B=1.8, C=at_most(6), order=4, basis=Chebyshev(5), monotone=True))
+    >>> boxes_of(Problem(B=1.8, C=at_most(6.0), order=4, basis=Chebyshev(5), monotone=True))
     {'b': (0.0, 1.8), 'c': (-6.0, 6.0), 'a': (0.0, 1.0)}
     """
     found = {}

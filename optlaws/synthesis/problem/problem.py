@@ -54,7 +54,7 @@ class Problem:
         or lower bounded B is asked of b there. Without an inflexion that is k = 1/2 for laws from rest to rest with
         a fixed B, else wherever it falls. Symmetric laws can have it at 1/2 only.
     windows
-        Values and windows of a, b, c, j: `via("a", 0.3, at=0.4)`, `Window("b", high=1.2, start=0.2, stop=0.3)`.
+        Values and windows of a, b, c, j or formulas: `via("a", 0.3, at=0.4)`, `Window("c + 2*b", high=5, start=0.2)`.
 
     Raises
     ------
@@ -124,8 +124,8 @@ class Problem:
 
     @kept_property
     def convex(self) -> bool:
-        """Whether every constant in the objective and every bounded one is convex in the law."""
-        return all(constant.convex for constant in self.constants)
+        """Whether every constant in the objective and every bounded one is convex in the law, and every window."""
+        return all(window.convex for window in self.windows) and all(constant.convex for constant in self.constants)
 
     @property
     def mirrored(self) -> bool:

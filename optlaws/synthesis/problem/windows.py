@@ -10,6 +10,9 @@ from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.formulas.of_motion import Motion, of_text
+from optlaws.formulas.scanner import FormulaError
+from optlaws.kept import kept_property
 from optlaws.numbers import bounded, finite, real
 from optlaws.suggest import unknown_key
 
@@ -17,7 +20,7 @@ QUANTITIES = {"a": 0, "b": 1, "c": 2, "j": 3}
 
 _NUMBER = r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d+)?"
 _TEXT = re.compile(
-    rf"\s*(?:(?P<low>{_NUMBER})\s*<=)?\s*(?P<quantity>[A-Za-z_]\w*)\s*(?:(?P<sign><=|>=|=)\s*(?P<value>{_NUMBER}))?"
+    rf"\s*(?:(?P<low>{_NUMBER})\s*<=)?\s*(?P<quantity>[^<>=@]*[^<>=@\s])\s*(?:(?P<sign><=|>=|=)\s*(?P<value>{_NUMBER}))?"
     rf"\s*(?:@\s*(?P<start>{_NUMBER})\s*(?:\.\.\s*(?P<stop>{_NUMBER})\s*)?)?"
 )
 _LONGEST = 200
@@ -30,7 +33,7 @@ class Window:
     Parameters
     ----------
     quantity
-        "a", "b", "c" or "j".
+        "a", "b", "c" or "j", or a formula of these and k such as "c + 0.2*b".
     low, high
         The least and the greatest value; infinite where there is none, equal for a given value.
     start, stop
@@ -39,7 +42,8 @@ class Window:
     Raises
     ------
     InputError
-        If the quantity is unknown or the numbers are out of order or out of range.
+        If the quantity is no formula, has kinks that are not those of a maximum, or a value though it is not affine in
+        the law, or the numbers are out of order or out of range.
 
     Examples
     --------
@@ -56,8 +60,6 @@ class Window:
     stop: float = 1.0
 
     def __post_init__(self) -> None:
-        if self.quantity not in tuple(QUANTITIES):
-            raise InputError(unknown_key(self.quantity, QUANTITIES, "quantity"))
         for name in ("low", "high", "start", "stop"):
             object.__setattr__(self, name, _number(getattr(self, name), name))
         if (
@@ -71,6 +73,24 @@ class Window:
             )
         if not 0.0 <= self.start <= self.stop <= 1.0:
             raise InputError(f"a window needs 0 <= start <= stop <= 1, got {shortened(self.start)} and {self.stop!r}")
+        if self.quantity not in tuple(QUANTITIES):
+            self._read_formula()
+
+    def _read_formula(self) -> None:
+        """Keep the quantity as its formula prints itself."""
+        if not isinstance(self.quantity, str) or self.quantity.isidentifier():
+            raise InputError(unknown_key(self.quantity, QUANTITIES, "quantity"))
+        motion = of_text(self.quantity, self.start, self.stop)
+        if not motion.orders:
+            raise FormulaError("the formula has none of a, b, c, d, j: no law changes it", self.quantity, 0)
+        if self.value and motion.affine is None:
+            raise FormulaError(
+                f"a value needs a formula that is affine in the law: {motion.verdict.why}", self.quantity, 0
+            )
+        signs = [sign for sign, bound in ((1.0, self.high), (-1.0, self.low)) if isfinite(bound)]
+        if any(motion.branches(sign) is None for sign in signs):
+            raise FormulaError("the kinks of the formula are not those of a maximum", self.quantity, 0)
+        object.__setattr__(self, "quantity", str(motion.formula))
 
     def __repr__(self) -> str:
         if self.value:
@@ -78,6 +98,19 @@ class Window:
         ends = {"low": (self.low, -inf), "high": (self.high, inf), "start": (self.start, 0.0), "stop": (self.stop, 1.0)}
         shown = [f"{name}={value!r}" for name, (value, default) in ends.items() if value != default]
         return f"Window({', '.join([repr(self.quantity), *shown])})"
+
+    @kept_property
+    def motion(self) -> Motion | None:
+        """The formula over its part of the interval; None for a, b, c and j alone."""
+        return None if self.quantity in QUANTITIES else of_text(self.quantity, self.start, self.stop)
+
+    @property
+    def convex(self) -> bool:
+        """Whether the laws that keep it are a convex set."""
+        if self.motion is None:
+            return True
+        kind = self.motion.curvature
+        return (kind.convex or not isfinite(self.high)) and (kind.concave or not isfinite(self.low))
 
     @property
     def order(self) -> int:

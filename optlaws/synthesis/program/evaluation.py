@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import isfinite
+from math import inf, isfinite
 
 from optlaws.laws import MotionLaw
+from optlaws.synthesis.functionals.kinds import greatest_along
 from optlaws.synthesis.problem.constants import B, Functional
 from optlaws.synthesis.problem.expression import Expression, Maximum
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.windows import Window
 
 #: of a bound: by so much a law may break a constraint and still keep it
 _ALLOWED = 1e-9
@@ -39,9 +41,20 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
             value = values[constant.name] if constant.name in values else constant.value(law)
             excess = max(excess, value / limits.high - 1.0)
     for window in problem.windows:
-        lowest, highest = law.extrema(window.order, within=(window.start, window.stop))
-        excess = max(excess, highest.value - window.high, window.low - lowest.value)
+        excess = max(excess, *_window_excess(window, law))
     return Worth(objective, excess)
+
+
+def _window_excess(window: Window, law: MotionLaw) -> tuple[float, float]:
+    """By how much a law is above and below a window."""
+    if window.motion is None:
+        lowest, highest = law.extrema(window.order, within=(window.start, window.stop))
+        return highest.value - window.high, window.low - lowest.value
+    bounds = ((1.0, window.high), (-1.0, -window.low))
+    above, below = (
+        greatest_along(window.motion, sign, law) - bound if isfinite(bound) else -inf for sign, bound in bounds
+    )
+    return above, below
 
 
 def _velocity_excess(problem: Problem, law: MotionLaw) -> float:

@@ -9,10 +9,13 @@ from math import isfinite, nextafter
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.formulas.of_motion import Motion
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import Family, LinearFamily, Program
 from optlaws.synthesis.families.names import RowName, VariableName
+from optlaws.synthesis.functionals.affine_rows import columns as formula_columns
+from optlaws.synthesis.functionals.curved_rows import branch_rows, split
 from optlaws.synthesis.problem.combined import facing, floats
 from optlaws.synthesis.problem.constants import B, Functional, Power
 from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
@@ -214,8 +217,11 @@ class _Writer:
             row[: self.space.terms] = condition.row
             self.equation(condition.name, row, condition.right)
         for i, window in enumerate(problem.windows, 1):
-            parts = window.first_half() if problem.symmetric else (window,)
             halves = (names.window(i), names.mirrored(names.window(i)))
+            if window.motion is not None:
+                self._formula_window(window, window.motion, halves)
+                continue
+            parts = window.first_half() if problem.symmetric else (window,)
             for part, name in zip(parts, halves, strict=False):
                 self._window(name, part)
 
@@ -287,6 +293,20 @@ class _Writer:
         if self.convex:
             return constant.convex_families(self.space, slack, bound, self.problem)
         return constant.families(self.space, slack, bound)
+
+    def _formula_window(self, window: Window, motion: Motion, halves: tuple[str, str]) -> None:
+        parts = motion.halves() if self.problem.symmetric else (motion,)
+        for part, name in zip(parts, halves, strict=False):
+            if window.value:
+                columns = formula_columns(self.space, part, np.array([1.0 - 2.0 * part.start]))
+                row = self.space.widened(columns, self.size)[0]
+                self.equation(repr(window), row[:-1], window.high - float(row[-1]))
+                continue
+            for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
+                branches = split(part, sign, names.window_side(name, sign)) if isfinite(bound) else None
+                for branch in branches or []:
+                    if branch.convex or not self.convex:
+                        self.families.append(branch_rows(self.space, branch, self.spare, bound))
 
     def _window(self, name: str, window: Window) -> None:
         ends = (1.0 - 2.0 * window.stop, 1.0 - 2.0 * window.start)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from dataclasses import replace
 from fractions import Fraction
 from itertools import pairwise
 from math import factorial
@@ -13,7 +14,7 @@ from flint import arb, arb_series, ctx, fmpq, fmpq_poly
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import evaluate
 from optlaws.formulas.of_motion import Motion
-from optlaws.formulas.tree import Call
+from optlaws.formulas.tree import Call, Number, Power, total
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.verification.enclosing.ball_formulas import BALLS, POLYNOMIALS
 from optlaws.verification.enclosing.ball_pieces import bisected
@@ -29,6 +30,11 @@ def extremes_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Extremes:
     if motion.start == motion.stop:
         value = value_of(motion, pieces)
         return value, value
+    if isinstance(motion.formula, Call) and motion.formula.function == "norm":
+        squares = total([Power(part, Number(2.0)) for part in motion.formula.arguments])
+        # where a norm vanishes it has no derivative, but its square has
+        least, greatest = extremes_of(replace(motion, formula=squares), pieces)
+        return least.max(arb(0)).sqrt(), greatest.max(arb(0)).sqrt()
     found: list[arb] = []
     for piece, low, high in _parts(motion, pieces):
         composed = _polynomial(motion, piece, low, high)
@@ -62,7 +68,7 @@ def integral_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
 
 
 def _integral(motion: Motion, pieces: Sequence[PolynomialPiece], *, square: bool) -> arb:
-    total = fmpq(0)
+    whole_integral = fmpq(0)
     for piece, low, high in _parts(motion, pieces):
         composed = _polynomial(motion, piece, low, high)
         if composed is None:
@@ -70,8 +76,8 @@ def _integral(motion: Motion, pieces: Sequence[PolynomialPiece], *, square: bool
                 f"exact verification integrates formulas that are polynomials of k along a law, not {motion.formula}"
             )
         whole = (composed * composed if square else composed).integral()
-        total += (whole(fmpq(1)) - whole(fmpq(-1))) * rational((high - low) / 2)
-    return arb(total)
+        whole_integral += (whole(fmpq(1)) - whole(fmpq(-1))) * rational((high - low) / 2)
+    return arb(whole_integral)
 
 
 def value_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:

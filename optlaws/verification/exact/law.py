@@ -9,13 +9,15 @@ from itertools import pairwise
 from flint import arb, ctx, fmpq
 
 from optlaws.errors import InputError
+from optlaws.formulas.of_motion import Motion
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
-from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaRms
+from optlaws.synthesis.functionals.curved_rows import split
+from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import Peak, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Expression, Maximum, Term
@@ -209,11 +211,23 @@ class ExactLaw:
         with ctx.workprec(self.precision):
             if isinstance(constant, FormulaRms | FormulaIntegral):
                 return self._integral(constant)
-            found = []
-            for branch in constant.branches(symmetric=False):
+            signs = constant.counted if isinstance(constant, FormulaPeak) else (1.0,)
+            return reduce(arb.max, [self.greatest_of(motion, sign) for sign in signs])
+
+    def greatest_of(self, motion: Motion, sign: float) -> arb:
+        """A ball that holds the greatest value of a formula, times a sign, over its part.
+
+        Raises
+        ------
+        InputError
+            If a piece is no polynomial, or the formula has no exact form.
+        """
+        with ctx.workprec(self.precision):
+            tops = []
+            for branch in split(motion, sign, "") or []:
                 least, greatest = extremes_of(branch.motion, self.polynomials)
-                found.append(greatest if branch.sign > 0 else -least)
-            return reduce(arb.max, found)
+                tops.append(greatest if branch.sign > 0 else -least)
+            return reduce(arb.max, tops)
 
     def _integral(self, constant: FormulaRms | FormulaIntegral) -> arb:
         if isinstance(constant, FormulaIntegral):

@@ -17,7 +17,7 @@ from optlaws.formulas.of_motion import Motion
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName
 from optlaws.synthesis.functionals.affine_rows import sides as formula_sides
-from optlaws.synthesis.functionals.curved_rows import Branch, squared
+from optlaws.synthesis.functionals.curved_rows import Branch, split, squared
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, boxes_of
 from optlaws.synthesis.problem.combined import Combined, CombinedPeak, facing
 from optlaws.synthesis.problem.constants import B, Functional, Peak, Power, RootMeanSquare
@@ -311,6 +311,9 @@ class ExactRows:
             self.equations.append(Row(self.space.values(nu, k), {}, -ball(value)))
         for i, window in enumerate(problem.windows, 1):
             halves = (names.window(i), names.mirrored(names.window(i)))
+            if window.motion is not None:
+                self._formula_window(window, window.motion, halves)
+                continue
             for part, name in zip(parts(window, symmetric=problem.symmetric), halves, strict=False):
                 self._window(name, window, part)
 
@@ -362,6 +365,19 @@ class ExactRows:
     def _below_middle(self, contact: Contact, k: Fraction) -> Row:
         pairs = zip(self.space.values(1, k), self.space.values(1, Fraction(1, 2)), strict=True)
         return Row([velocity * contact.sign - middle for velocity, middle in pairs])
+
+    def _formula_window(self, window: Window, motion: Motion, halves: tuple[str, str]) -> None:
+        separate = motion.halves() if self.problem.symmetric else (motion,)
+        for part, name in zip(separate, halves, strict=False):
+            if window.value:
+                columns = formula_columns(self.space, part, Fraction(part.start))
+                self.equations.append(Row(columns, {}, -ball(window.high)))
+                continue
+            for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
+                branches = split(part, sign, names.window_side(name, sign)) if isfinite(bound) else None
+                for branch in branches or []:
+                    if branch.convex:
+                        self._branch(branch, {}, bound)
 
     def _window(self, name: str, window: Window, part: Part) -> None:
         if window.value:

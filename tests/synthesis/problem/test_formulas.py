@@ -1,0 +1,203 @@
+"""Constants and windows of formulas: their optima are those of other programs, and every door takes them."""
+
+import json
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+from scipy.optimize import minimize
+
+from optlaws import (
+    BSplines,
+    Chebyshev,
+    InputError,
+    Problem,
+    Range,
+    Window,
+    at_most,
+    integral,
+    maximum,
+    peak,
+    rms,
+    synthesize,
+    value,
+    via,
+)
+from optlaws.synthesis.problem.named_constants import named
+from optlaws.synthesis.spaces.of_basis import space_of
+from optlaws.verification import verify
+from tests.synthesis.judge import Judged, broken
+
+PROBLEM = Problem(B=1.8, order=4, basis=Chebyshev(9))
+
+
+def test_one_line_says_what_thirty_lines_said() -> None:
+    assert synthesize(replace(PROBLEM, minimise='rms("c + 3*b")')).objective == pytest.approx(5.123671906731, rel=1e-11)
+
+
+@pytest.mark.parametrize(
+    ("text", "same"), [("peak(c)", "C"), ("rms(c)", "rms_c"), ("peak(j)", "J"), ("peak(c, side=low)", "C_minus")]
+)
+def test_a_formula_of_a_built_in_constant_has_its_optimum(text: str, same: str) -> None:
+    for symmetric in (True, False):
+        one, other = (synthesize(replace(PROBLEM, minimise=asked, symmetric=symmetric)) for asked in (text, same))
+        assert one.objective == pytest.approx(other.objective, rel=1e-10)
+        assert one.status.value == "optimal"
+
+
+CONVEX = (
+    "peak(c + 0.2*b)",
+    "peak((1 + k)*c, side=high)",
+    "peak(c + table(k, 0:0, 0.5:1, 1:0)*b, start=0.1)",
+    "rms((1 + k^2)*c + 3*b)",
+    "peak(norm(c, 3*b))",
+    "peak(abs(c) + 2*abs(b))",
+    "integral(c^2 + (1 + k)*b^2)",
+    "integral((c + 2*b)^2, start=0.2, stop=0.9)",
+    "rms(c^2 + b^2)",
+    "value(c^2 + b, at=0.3)",
+    "max(peak(c + 3*b), 2*rms(c), C_plus) + 0.5*integral(b^2)",
+)
+
+
+@pytest.mark.parametrize("text", CONVEX)
+def test_convex_ones_are_proven_and_verified(text: str) -> None:
+    bounded = Problem(B=1.7, C=at_most(9.0), order=4, symmetric=False, basis=BSplines(4, 5, 4), minimise=text)
+    for problem in (replace(PROBLEM, minimise=text), bounded):
+        solution = synthesize(problem)
+        assert solution.status.value == "optimal", problem
+        assert solution.objective == pytest.approx(Judged(solution.law).worth(problem.objective), rel=1e-8)
+        assert broken(problem, solution.law) == []
+        assert verify(json.loads(json.dumps(solution.to_dict()))).proven
+
+
+def gridded(text: str, degree: int, count: int) -> float:
+    """The least value over symmetric laws with B = 1.8 by SLSQP on a grid, from several starts."""
+    constant: Any = named(text)
+    space = space_of(Chebyshev(degree), Problem(order=4).conditions, symmetric=True)
+    k = (np.arange(count) + 0.5) / count
+    half = {nu: space.columns(nu, np.abs(1.0 - 2.0 * k)) for nu in (0, 1, 2, 3)}
+    sign = np.where(k > 0.5, -1.0, 1.0)[:, None]
+    columns = {"a": half[0] * sign, "b": half[1], "c": half[2] * sign, "j": half[3]}
+    columns["a"][k > 0.5, -1] += 1.0
+    middle = space.row(1, 0.5)
+
+    def values(z: Any) -> Any:  # noqa: ANN401 - coordinates, then the bound
+        point = np.append(z[:-1], 1.0)
+        return constant.motion.values({"k": k, **{name: rows @ point for name, rows in columns.items()}})
+
+    best = np.inf
+    for seed in range(6):
+        start = np.append(np.random.default_rng(seed).normal(size=space.terms) * 0.3 * seed, 20.0)
+        found = minimize(
+            lambda z: z[-1],
+            start,
+            method="SLSQP",
+            constraints=[
+                {"type": "ineq", "fun": lambda z: np.concatenate([z[-1] - values(z), z[-1] + values(z)])},
+                {"type": "eq", "fun": lambda z: middle @ np.append(z[:-1], 1.0) - 1.8},
+                {"type": "ineq", "fun": lambda z: 1.8 - np.abs(columns["b"] @ np.append(z[:-1], 1.0))},
+            ],
+            options={"maxiter": 300, "ftol": 1e-12},
+        )
+        if found.success:
+            best = min(best, float(found.fun))
+    return best
+
+
+@pytest.mark.parametrize(
+    "text", ["peak(c + 0.2*b)", "peak(c^2 + 9*b^2)", "peak(b*c)", "peak((1 + a^2)*c + a*b^2)", "peak(c + 3*a*b)"]
+)
+def test_another_solver_on_a_grid_finds_nothing_better(text: str) -> None:
+    solution = synthesize(replace(PROBLEM, basis=Chebyshev(5), minimise=text))
+    other = gridded(text, 5, 400)
+    # between its points the other law is higher, by the grid's error
+    assert solution.objective == pytest.approx(other, rel=2e-3)
+    assert solution.lower_bound <= other * (1.0 + 2e-3)
+    assert (solution.status.value == "optimal") == named(text).convex
+
+
+def test_products_are_bounded_where_derivatives_are() -> None:
+    problem = Problem(B=1.8, C=at_most(5.5), order=4, basis=Chebyshev(7), minimise="peak(b*c)")
+    solution = synthesize(problem)
+    assert 4.33 < solution.lower_bound < solution.objective < 4.88
+    assert verify(json.loads(json.dumps(solution.to_dict()))).proven
+    assert synthesize(replace(problem, minimise="D")).objective == pytest.approx(solution.objective, rel=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("window", "minimise"),
+    [
+        (Window("c + 0.2*b", high=4.8, start=0.1, stop=0.6), "C"),
+        (via("c + 3*b - 4*a", 1.0, at=0.3), "C"),
+        (Window("c^2 + 9*b^2", high=33.0), "J"),
+        (Window("abs(c) + abs(b)", high=5.4, start=0.2), "C"),
+        (Window("c + k*b", low=-4.9), "rms_c"),
+    ],
+)
+def test_windows_of_formulas_are_kept_and_proven(window: Window, minimise: str) -> None:
+    for symmetric in (True, False):
+        problem = replace(PROBLEM, minimise=minimise, windows=(window,), symmetric=symmetric)
+        assert Problem.from_dict(json.loads(json.dumps(problem.to_dict()))) == problem
+        solution = synthesize(problem)
+        assert solution.status.value == "optimal"
+        assert broken(problem, solution.law) == []
+        assert verify(json.loads(json.dumps(solution.to_dict()))).proven
+
+
+def test_a_window_that_cannot_be_kept_is_proven_so() -> None:
+    from optlaws import InfeasibleProblem
+
+    with pytest.raises(InfeasibleProblem) as caught:
+        synthesize(replace(PROBLEM, windows=(Window("c + 0.2*b", high=4.0, start=0.1, stop=0.6),)))
+    assert getattr(caught.value.proof, "proves_infeasible", False)
+
+
+def test_every_door_takes_them() -> None:
+    bounded = Problem.from_dict({"order": 4, "B": 1.8, "minimise": "C", "bounds": {"rms(c + 3*b)": [None, 5.2]}})
+    assert bounded == replace(PROBLEM, minimise="C", bounds={rms("c + 3*b"): at_most(5.2)})
+    assert named(rms("c + 3*b").name).value(synthesize(bounded).law) <= 5.2 * (1 + 1e-9)
+    assert Problem.from_dict({"order": 4, "windows": ["c + 0.2*b <= 4.5 @ 0.1..0.9"]}).windows == (
+        Window("c + 0.2*b", high=4.5, start=0.1, stop=0.9),
+    )
+    mixed = 0.5 * peak("c + 0.2*b") / 4 + maximum(rms("c"), integral("c^2"))
+    assert named("value(c, at=0.3)") == value("c", at=0.3)
+    assert replace(PROBLEM, minimise=mixed).objective == mixed
+    assert Range().low == 0.0
+
+
+@pytest.mark.parametrize(
+    ("text", "message", "place"),
+    [
+        ("peak(c + 0.2*v)", "unknown name 'v'; known are a, b, c, d, j, k", 13),
+        ("0.5*C + rms(c + 1/(k - 0.5))", "k - 0.5 is 0 within k = 0..1, and it is divided by", 17),
+        ("peak(c + log(k))", "log(k) has no finite value at k = 0", 9),
+        ("peak(k)", "no law changes it", 5),
+        ("peak(b*c + 0.1*abs(b))", 'neither smooth nor known; side="high" may be', 15),
+        ("integral(abs(c))", "an integral needs a smooth formula", 9),
+        ("peak(c, side=up)", "unknown side 'up'; known are both, high, low", 0),
+        ("peak(c, start=0.6, stop=0.2)", "needs start <= stop", 0),
+        ("rms(c, start=0.5, stop=0.5)", "start < stop", 0),
+        ("value(c)", "value does not take the arguments", 0),
+        ("peak", "peak needs its arguments, such as peak(c + 0.2*b)", 4),
+        ("peak(c + )", "expected a number, a name, a function or (", 9),
+        ('rms("c + 3*b)', 'expected "', 12),
+        ("peak(c.real)", "'.' is not understood", 6),
+        ("peak(__import__(c))", "unknown function '__import__'", 5),
+    ],
+)
+def test_an_error_shows_the_place_in_the_text(text: str, message: str, place: int) -> None:
+    with pytest.raises(InputError) as caught:
+        Problem(order=4, minimise=text)
+    assert message in str(caught.value)
+    assert str(caught.value).splitlines()[-1] == " " * (2 + place) + "^"
+
+
+def test_what_has_no_least_value_or_is_beyond_every_bound_says_so() -> None:
+    from optlaws import SolverFailure
+
+    with pytest.raises(SolverFailure, match="no least value"):
+        synthesize(replace(PROBLEM, B=None, minimise="value(c, at=0.3)"))
+    with pytest.raises(InputError, match="impulses"):
+        synthesize(Problem(order=2, basis=BSplines(4, 3, 1), minimise="peak(j)", symmetric=False))
