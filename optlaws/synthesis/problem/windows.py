@@ -78,7 +78,8 @@ class Window:
 
     def _read_formula(self) -> None:
         """Keep the quantity as its formula prints itself."""
-        if not isinstance(self.quantity, str) or self.quantity.isidentifier():
+        quantity: object = self.quantity
+        if not isinstance(quantity, str) or quantity.isidentifier():
             raise InputError(unknown_key(self.quantity, QUANTITIES, "quantity"))
         motion = of_text(self.quantity, self.start, self.stop)
         if not motion.orders:

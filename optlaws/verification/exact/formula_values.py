@@ -14,7 +14,7 @@ from flint import arb, arb_series, ctx, fmpq, fmpq_poly
 from optlaws.errors import InputError
 from optlaws.formulas.arithmetic import evaluate
 from optlaws.formulas.of_motion import Motion
-from optlaws.formulas.tree import Call, Number, Power, total
+from optlaws.formulas.tree import Call, Number, Power, Table, total
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.verification.enclosing.ball_formulas import BALLS, POLYNOMIALS
 from optlaws.verification.enclosing.ball_pieces import bisected
@@ -106,6 +106,8 @@ def _polynomial(motion: Motion, piece: PolynomialPiece, low: Fraction, high: Fra
         if any(isinstance(part, Call) and part.function in {"abs", "max", "min"} for part in motion.formula.walk()):
             raise InputError(f"exact verification knows no abs, max or min of what changes with k: {motion.formula}")
         return None
+    if any(isinstance(part, Table) and not part.names() <= {"k"} for part in motion.formula.walk()):
+        raise InputError(f"exact verification knows tables over k, not over what moves with the law: {motion.formula}")
     if motion.degree(dict.fromkeys(ORDERS, 1)) is None:
         return None
     k = fmpq_poly([rational((low + high) / 2), rational((high - low) / 2)])

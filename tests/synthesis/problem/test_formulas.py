@@ -72,6 +72,10 @@ def test_convex_ones_are_proven_and_verified(text: str) -> None:
         assert verify(json.loads(json.dumps(solution.to_dict()))).proven
 
 
+def _last(z: Any) -> float:  # noqa: ANN401 - what scipy gives
+    return float(z[-1])
+
+
 def gridded(text: str, degree: int, count: int) -> float:
     """The least value over symmetric laws with B = 1.8 by SLSQP on a grid, from several starts."""
     constant: Any = named(text)
@@ -87,20 +91,16 @@ def gridded(text: str, degree: int, count: int) -> float:
         point = np.append(z[:-1], 1.0)
         return constant.motion.values({"k": k, **{name: rows @ point for name, rows in columns.items()}})
 
+    constraints: Any = [
+        {"type": "ineq", "fun": lambda z: np.concatenate([z[-1] - values(z), z[-1] + values(z)])},
+        {"type": "eq", "fun": lambda z: middle @ np.append(z[:-1], 1.0) - 1.8},
+        {"type": "ineq", "fun": lambda z: 1.8 - np.abs(columns["b"] @ np.append(z[:-1], 1.0))},
+    ]
     best = np.inf
     for seed in range(6):
         start = np.append(np.random.default_rng(seed).normal(size=space.terms) * 0.3 * seed, 20.0)
-        found = minimize(
-            lambda z: z[-1],
-            start,
-            method="SLSQP",
-            constraints=[
-                {"type": "ineq", "fun": lambda z: np.concatenate([z[-1] - values(z), z[-1] + values(z)])},
-                {"type": "eq", "fun": lambda z: middle @ np.append(z[:-1], 1.0) - 1.8},
-                {"type": "ineq", "fun": lambda z: 1.8 - np.abs(columns["b"] @ np.append(z[:-1], 1.0))},
-            ],
-            options={"maxiter": 300, "ftol": 1e-12},
-        )
+        options: Any = {"maxiter": 300, "ftol": 1e-12}
+        found: Any = minimize(_last, start, method="SLSQP", constraints=constraints, options=options)
         if found.success:
             best = min(best, float(found.fun))
     return best
