@@ -46,7 +46,7 @@ def proven_front(front: ProvenFront, stated: float) -> Verification:
     number, (low, high) = front.number, front.between
     points = list(front)
     laws = [ExactLaw(point.law) for point in points]
-    claim = 2.0 * float(front.objectives.max())
+    claim = 2.0 * float(front.sides[:, 0].max())
     known = [_known(front, point, law, claim) for point, law in zip(points, laws, strict=True)]
     gap = _gap(known, number)
     claims = [*_laws(number, known), *_certificates(number, known)]

@@ -133,8 +133,18 @@ class ProblemArray:
         """
         if self._given is not None:
             return self._given[place]
+        if self.velocities is not None and not np.isnan(self.velocities[place]) and self._first is not None:
+            return self._first.at_velocity(float(self.velocities[place]))
         at = np.unravel_index(place, self._shape)
         return Problem(**{name: _at(value, self._shape, at) for name, value in self._entries.items()})
+
+    @kept_property
+    def _first(self) -> Problem | None:
+        """A problem of which the others differ in the number for B alone; None where the other entries make none."""
+        try:
+            return Problem(**{**self._entries, "B": 2.0})
+        except InputError:
+            return None
 
     def taken(self, places: NDArray[np.intp]) -> ProblemArray:
         """The problems at some places of the flattened array, in their shape."""

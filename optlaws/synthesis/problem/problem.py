@@ -182,6 +182,26 @@ class Problem:
         """The problem with a fixed B replaced by 2: problems of one shape share their program."""
         return replace(self, B=2.0) if isinstance(self.B, float) and self.B != 2.0 else self
 
+    def at_velocity(self, B: float) -> Problem:
+        """The problem with another number for B; where it has one already, in a tenth of the time of `replace`.
+
+        Raises
+        ------
+        InputError
+            If it is no number that B can be.
+
+        Examples
+        --------
+        >>> Problem(B=1.6, order=4).at_velocity(1.7)
+        Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='C')
+        """
+        if not isinstance(self.B, float) or self.inflexion is not None or type(self) is not Problem:
+            return replace(self, B=B)
+        made: Problem = object.__new__(Problem)
+        own = {name: value for name, value in self.__dict__.items() if name in _KEPT_ALONG_B}
+        made.__dict__.update(own, B=_check_velocity(B))
+        return made
+
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict.
 
@@ -207,6 +227,11 @@ class Problem:
         shown = ("B", "order", "basis", "minimise")
         parts = [f"{f.name}={getattr(self, f.name)!r}" for f in fields(self) if f.name in shown or _given(self, f)]
         return f"Problem({', '.join(parts)})"
+
+
+_check_velocity = next(field.check for field in FIELDS if field.name == "B")
+#: what a number for B has no part in
+_KEPT_ALONG_B = {one.name for one in fields(Problem)} | {"objective", "convex", "constants", "bounded"}
 
 
 def _fixed_above_mean(wanted: Range | None) -> bool:

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from math import isnan
-from typing import Any
+from typing import Any, TypeVar, overload
 
 import msgspec
 import numpy as np
@@ -22,7 +22,7 @@ from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate, Contact, contact_of
 from optlaws.synthesis.proof.data import StatedContact, problem_of, stated
-from optlaws.synthesis.proven.line import Line, lower_line
+from optlaws.synthesis.proven.line import lower_line
 from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solution import NOTHING
 
@@ -106,6 +106,41 @@ class StatedFront(msgspec.Struct, forbid_unknown_fields=True):
     about: str = ""
 
 
+T = TypeVar("T")
+
+
+class Lazily(Sequence[T]):
+    """Items that are made when they are first asked for, and kept; equal to others with equal items."""
+
+    def __init__(self, count: int, make: Callable[[int], T]) -> None:
+        self._count, self._make = count, make
+        self._made: dict[int, T] = {}
+
+    def __len__(self) -> int:
+        return self._count
+
+    @overload
+    def __getitem__(self, place: int) -> T: ...
+    @overload
+    def __getitem__(self, place: slice) -> tuple[T, ...]: ...
+    def __getitem__(self, place: int | slice) -> T | tuple[T, ...]:
+        if isinstance(place, slice):
+            return tuple(self[i] for i in range(*place.indices(self._count)))
+        i = range(self._count)[place]
+        if i not in self._made:
+            self._made[i] = self._make(i)
+        return self._made[i]
+
+    def __eq__(self, other: object) -> bool:
+        return tuple(self) == tuple(other) if isinstance(other, Sequence) else NotImplemented
+
+    def __hash__(self) -> int:
+        return hash(tuple(self))
+
+    def __reduce__(self) -> tuple[type[tuple[T, ...]], tuple[tuple[T, ...]]]:
+        return tuple, (tuple(self),)
+
+
 @dataclass(frozen=True)
 class ProvenFront:
     """Certified laws along a number, and by convexity a law and a lower bound at every value between.
@@ -141,8 +176,8 @@ class ProvenFront:
 
     number: RunningNumber
     values: tuple[float, ...]
-    laws: tuple[MotionLaw, ...]
-    certificates: tuple[Certificate, ...]
+    laws: Sequence[MotionLaw] = field(repr=False)
+    certificates: Sequence[Certificate] = field(repr=False)
 
     def __post_init__(self) -> None:
         steps = np.diff(self.values)
@@ -150,9 +185,24 @@ class ProvenFront:
             raise InputError("a proven front needs at least two certified laws, at ascending values")
         if not len(self.values) == len(self.laws) == len(self.certificates):
             raise InputError("a proven front needs a law and a certificate for each value")
-        for value, one in zip(self.values, self.certificates, strict=True):
+        made_here = isinstance(self.certificates, Lazily)
+        for value, one in () if made_here else zip(self.values, self.certificates, strict=True):
             if one.program != OBJECTIVE or one.problem != self.number.at(value):
                 raise InputError(f"the certificate at {self.number.name} = {value!r} is not of the problem there")
+
+    @classmethod
+    def of_known(
+        cls,
+        number: RunningNumber,
+        values: Array,
+        laws: Lazily[MotionLaw],
+        certificates: Lazily[Certificate],
+        sides: Array,
+    ) -> ProvenFront:
+        """A front whose laws are made when they are asked for, with what is known at each already."""
+        made = cls(number, tuple(values.tolist()), laws, certificates)
+        made.__dict__["sides"] = sides
+        return made
 
     @property
     def problem(self) -> Problem:
@@ -170,35 +220,26 @@ class ProvenFront:
         return self.values[0], self.values[-1]
 
     @kept_property
-    def objectives(self) -> Array:
-        """The objectives of the certified laws, recomputed from them."""
-        return np.array([worth(p.problem, law).objective for p, law in zip(self.certificates, self.laws, strict=True)])
-
-    @kept_property
-    def lines(self) -> Array:
-        """By certified law, value and slope of what its certificate proves between the ends."""
-        tops = self._upper_slopes
-        reach = np.subtract.outer(np.array(self.between), np.array(self.values))
-        claims = np.max(self.objectives + tops * reach, axis=0) if self.number.concave else np.full(len(tops), -np.inf)
-        found: list[Line] = [
+    def sides(self) -> Array:
+        """At each certified law what is known above and below the least objective, and the slope from there."""
+        problems = [proof.problem for proof in self.certificates]
+        tops = np.array([worth(one, law).objective for one, law in zip(problems, self.laws, strict=True)])
+        slopes = np.array([weighted_value(self.number, law) for law in self.laws]) if self.number.concave else None
+        claims = np.full(len(tops), -np.inf)
+        if slopes is not None:
+            reach = np.subtract.outer(np.array(self.between), np.array(self.values))
+            claims = np.max(tops + slopes * reach, axis=0)
+        found = [
             lower_line(one, at, self.number, self.between, claim)
             for one, at, claim in zip(self.certificates, self.values, claims.tolist(), strict=True)
         ]
-        return np.array(found)
-
-    @kept_property
-    def _upper_slopes(self) -> Array:
-        """How the objective of each law changes with a weight."""
-        if not self.number.concave:
-            return np.zeros(len(self.values))
-        return np.array([weighted_value(self.number, law) for law in self.laws])
+        lines = np.array(found)
+        return np.column_stack([tops, lines[:, 0], lines[:, 1] if slopes is None else slopes])
 
     @kept_property
     def gaps(self) -> Array:
         """Between each two certified laws the greatest gap of any value, relative as of a `Solution`."""
-        slopes = self._upper_slopes if self.number.concave else self.lines[:, 1]
-        known = np.column_stack([self.objectives, self.lines[:, 0], slopes])
-        return interval_gaps(np.array(self.values), known, concave=self.number.concave)
+        return interval_gaps(np.array(self.values), self.sides, concave=self.number.concave)
 
     @property
     def gap(self) -> float:
@@ -208,7 +249,7 @@ class ProvenFront:
     @property
     def curve(self) -> tuple[Array, Array]:
         """Where the upper side turns, and its values there: it is straight in between."""
-        t, top, slopes = np.array(self.values), self.objectives, self._upper_slopes
+        t, (top, _, slopes) = np.array(self.values), self.sides.T
         if not self.number.concave:
             return t, top
         turn = np.diff(slopes)
@@ -236,12 +277,11 @@ class ProvenFront:
         i = np.clip(np.searchsorted(t, asked, side="right") - 1, 0, len(t) - 2)
         away = (asked - t[i], asked - t[i + 1])
         share = away[0] / (t[i + 1] - t[i])
-        tops, lines = self.objectives, self.lines
+        tops, lows, slopes = self.sides.T
         if self.number.concave:
-            slopes = self._upper_slopes
             upper = np.minimum(*(tops[j] + slopes[j] * one for j, one in zip((i, i + 1), away, strict=True)))
-            return (1.0 - share) * lines[i, 0] + share * lines[i + 1, 0], upper
-        lower = np.maximum(*(lines[j, 0] + lines[j, 1] * one for j, one in zip((i, i + 1), away, strict=True)))
+            return (1.0 - share) * lows[i] + share * lows[i + 1], upper
+        lower = np.maximum(*(lows[j] + slopes[j] * one for j, one in zip((i, i + 1), away, strict=True)))
         return lower, (1.0 - share) * tops[i] + share * tops[i + 1]
 
     def __call__(self, value: float) -> FrontPoint:

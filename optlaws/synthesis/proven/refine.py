@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
+from contextlib import suppress
+from dataclasses import fields, replace
 from math import inf
 
 import numpy as np
@@ -12,15 +13,18 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.numbers import positive, real
+from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.pareto import least_value, where_it_pays
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.proven.front import ProvenFront, interval_gaps, weighted_value
+from optlaws.synthesis.proven.front import Lazily, ProvenFront, interval_gaps, weighted_value
 from optlaws.synthesis.proven.line import lower_line
+from optlaws.synthesis.proven.lines import lower_lines
 from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solution import NOTHING, Solution, Status
+from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.synthesis.solve import synthesize
-from optlaws.synthesis.solve_many import synthesize_many
+from optlaws.synthesis.solve_array import solved
 
 Array = NDArray[np.float64]
 
@@ -29,6 +33,14 @@ _FIRST, _MOST_PIECES = 17, 8
 _AIM = 0.9
 #: of the range: laws nearer to each other than this are one
 _NARROWEST = 1e-12
+#: of the objective: laws whose own gap is greater are looked at alone
+_PROVEN = 1e-10
+_CHUNK = 4096
+
+#: by how much above its least value a number begins, where nearer to it too little is proven
+_ABOVE = (1e-6, 1e-5, 1e-4, 1e-3)
+
+_Law = Solution | tuple[SolutionArray, int]
 
 
 def proven_front(
@@ -80,19 +92,25 @@ def proven_front(
     """
     number = _number(problem, over)
     wanted = positive(gap, "gap")
-    ends = _ends(number, between)
-    first = [_at_end(number, end) for end in ends]
-    return _Refined(number, ends, first).until(wanted)
+    if between is not None:
+        return _Refined(number, _checked(between)).until(wanted)
+    low, high = _where_it_pays(number)
+    for above in _ABOVE:
+        # so near to the least value that has a law multipliers are great, and proofs may be worse than what is asked
+        with suppress(SolverFailure):
+            return _Refined(number, (low, high)).until(wanted)
+        low = least_value(number.problem, number.name) * (1.0 + above)
+    return _Refined(number, (low, high)).until(wanted)
 
 
 class _Refined:
     """The certified laws found so far, and what is known above and below at each."""
 
-    def __init__(self, number: RunningNumber, ends: tuple[float, float], first: list[Solution]) -> None:
+    def __init__(self, number: RunningNumber, ends: tuple[float, float]) -> None:
         self.number, self.ends = number, ends
         self.values = np.array(ends)
-        self.solutions = list(first)
-        self.known = np.array([self._known(value, one) for value, one in zip(ends, first, strict=True)])
+        self.laws: list[_Law] = [_at_end(number, end) for end in ends]
+        self.known = np.array([self._known(value, one) for value, one in zip(ends, self.laws, strict=True)])
 
     def until(self, gap: float) -> ProvenFront:
         """Put laws between others until every gap is small enough."""
@@ -101,15 +119,22 @@ class _Refined:
             self._insert(parts)
             self._check(gap)
             gaps = interval_gaps(self.values, self.known, concave=self.number.concave)
-            parts = np.where(gaps <= gap, 1, np.clip(np.ceil(np.sqrt(gaps / (_AIM * gap))), 2, _MOST_PIECES)).astype(
-                int
-            )
-        return ProvenFront(
+            pieces = np.clip(np.ceil(np.sqrt(np.maximum(gaps, gap) / (_AIM * gap))), 2, _MOST_PIECES)
+            parts = np.where(gaps <= gap, 1, pieces).astype(int)
+        count, solution = len(self.laws), self._solution
+        return ProvenFront.of_known(
             self.number,
-            tuple(self.values.tolist()),
-            tuple(one.law for one in self.solutions),
-            tuple(one.certificate for one in self.solutions),
+            self.values,
+            Lazily(count, lambda i: solution(i).law),
+            Lazily(count, lambda i: solution(i).certificate),
+            self.known,
         )
+
+    def _solution(self, place: int) -> Solution:
+        law = self.laws[place]
+        found = law if isinstance(law, Solution) else law[0].result(law[1])
+        assert isinstance(found, Solution)  # noqa: S101 - others are solved again
+        return found
 
     def _insert(self, parts: NDArray[np.int_]) -> None:
         """Cut each interval into so many parts."""
@@ -117,25 +142,44 @@ class _Refined:
             [
                 np.linspace(low, high, count + 1)[1:-1]
                 for low, high, count in zip(self.values[:-1], self.values[1:], parts.tolist(), strict=True)
+                if count > 1
             ]
         )
-        solutions = self._solved(new)
-        known = np.array([self._known(value, one) for value, one in zip(new.tolist(), solutions, strict=True)])
+        laws, known = self._solved(new)
         together = np.concatenate([self.values, new])
         order = np.argsort(together)
-        every = self.solutions + solutions
-        self.solutions = [every[i] for i in order.tolist()]
+        every = self.laws + laws
+        self.laws = [every[i] for i in order.tolist()]
         self.values, self.known = together[order], np.concatenate([self.known, known])[order]
 
-    def _solved(self, values: Array) -> list[Solution]:
-        found = synthesize_many((self.number.at(value) for value in values.tolist()), errors="return")
-        return [
-            one if isinstance(one, Solution) and one.status is Status.OPTIMAL else self._again(value)
-            for value, one in zip(values.tolist(), found, strict=True)
-        ]
+    def _solved(self, values: Array) -> tuple[list[_Law], Array]:
+        """Laws at some values, and what is known there: as arrays where they were found so."""
+        laws: list[_Law] = []
+        known = np.full((len(values), 3), np.nan)
+        for begin in range(0, len(values), _CHUNK):
+            some = values[begin : begin + _CHUNK]
+            found = solved(self._problems(some))
+            for part in found.parts:
+                lines = lower_lines(part, some[part.places], self.number, self.ends)
+                if lines is not None:
+                    known[begin + part.places] = np.column_stack([part.found.objective, lines])
+            laws += [(found, i) for i in range(len(some))]
+        for i in np.flatnonzero(~(known[:, 0] - known[:, 1] <= _PROVEN * known[:, 0])).tolist():
+            laws[i] = self._alone(float(values[i]), laws[i])
+            known[i] = self._known(float(values[i]), laws[i])
+        return laws, known
 
-    def _again(self, value: float) -> Solution:
-        """Without the neighbour that may have led astray; between two values with a law there is one."""
+    def _problems(self, values: Array) -> ProblemArray:
+        if self.number.name != "B":
+            return ProblemArray.of([self.number.at(value) for value in values.tolist()])
+        entries = {field.name: getattr(self.number.problem, field.name) for field in fields(Problem)}
+        return ProblemArray(**{**entries, "B": values})
+
+    def _alone(self, value: float, law: _Law) -> Solution:
+        """The solution at a value, solved again without a neighbour that may have led it astray."""
+        found = law if isinstance(law, Solution) else law[0].result(law[1])
+        if isinstance(found, Solution) and found.status is Status.OPTIMAL:
+            return found
         try:
             return synthesize(self.number.at(value))
         except OptlawsError as error:
@@ -145,19 +189,25 @@ class _Refined:
                 problem=self.number.at(value),
             ) from error
 
-    def _known(self, value: float, one: Solution) -> tuple[float, float, float]:
+    def _known(self, value: float, law: _Law) -> tuple[float, float, float]:
         """What is known of the least objective: above and below, and the slope of the line that goes on from there."""
-        top, claim, slope = one.objective, -inf, 0.0
+        assert isinstance(law, Solution)  # noqa: S101 - as it came from `_alone`
+        top, claim, slope = law.objective, -inf, 0.0
         if self.number.concave:
-            slope = weighted_value(self.number, one.law)
+            slope = weighted_value(self.number, law.law)
             claim = max(top + slope * (end - value) for end in self.ends)
-        line = lower_line(one.certificate, value, self.number, self.ends, claim)
+        line = lower_line(law.certificate, value, self.number, self.ends, claim)
         return top, line.value, slope if self.number.concave else line.slope
+
+    @property
+    def own_gaps(self) -> Array:
+        """The gap of each certified law itself."""
+        top, bottom, _ = self.known.T
+        return np.asarray((top - bottom) / np.where(top > NOTHING, top, 1.0))
 
     def _check(self, gap: float) -> None:
         """Refuse a gap that certified laws have themselves: no law between them would mend it."""
-        top, bottom, _ = self.known.T
-        own = (top - bottom) / np.where(top > NOTHING, top, 1.0)
+        own = self.own_gaps
         worst = int(np.argmax(own))
         narrow = np.diff(self.values).min() <= _NARROWEST * float(np.ptp(self.values))
         if own[worst] <= gap and not narrow:
@@ -180,12 +230,14 @@ def _number(problem: object, over: str | Sequence[str]) -> RunningNumber:
     return RunningNumber(problem if len(listed) == 1 else replace(problem, minimise=listed[1]), listed[0])
 
 
-def _ends(number: RunningNumber, between: tuple[float, float] | None) -> tuple[float, float]:
-    if between is not None:
-        pair = [real(value) for value in between]
-        if len(pair) != 2 or None in pair or not 0.0 < pair[0] < pair[1] < inf:  # type: ignore[operator]
-            raise InputError(f"between must be two numbers above 0 in ascending order, got {shortened(between)}")
-        return float(between[0]), float(between[1])
+def _checked(between: tuple[float, float]) -> tuple[float, float]:
+    pair = [real(value) for value in between]
+    if len(pair) != 2 or None in pair or not 0.0 < pair[0] < pair[1] < inf:  # type: ignore[operator]
+        raise InputError(f"between must be two numbers above 0 in ascending order, got {shortened(between)}")
+    return float(between[0]), float(between[1])
+
+
+def _where_it_pays(number: RunningNumber) -> tuple[float, float]:
     terms = number.problem.objective.terms
     if number.concave or len(terms) > 1 or number.name not in CONSTANTS:
         raise InputError(f"give between: where {number.name} pays is known for B, C or J and one constant alone")

@@ -7,6 +7,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, Functional
 from optlaws.synthesis.problem.expression import Expression, Term
@@ -73,9 +74,13 @@ class RunningNumber:
         if self.concave:
             return replace(self.problem, minimise=self._weighted(value))
         if self.name == "B":
-            return replace(self.problem, B=value)
+            return self._at_two.at_velocity(value)
         bounds: Mapping[Any, Any] = {**self.problem.bounds, self._constant: Range(0.0, value)}
         return replace(self.problem, bounds=bounds)
+
+    @kept_property
+    def _at_two(self) -> Problem:
+        return replace(self.problem, B=2.0)
 
     @property
     def weighted(self) -> Term:
