@@ -151,6 +151,9 @@ def _others(problems: ProblemArray, places: NDArray[np.intp], bound: str) -> dic
 def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: str) -> Solution | OptlawsError:
     """One problem by itself, begun at a neighbour's law."""
     try:
-        return synthesize(problems.problem(place), start=near, bound=bound)
+        problem = problems.problem(place)
+        convex = isinstance(problem, Problem) and problem.convex
+        # where problems are not convex, the law of a branch that has become the worse one would stay
+        return synthesize(problem, start=near if convex else None, bound=bound)
     except OptlawsError as error:
         return error

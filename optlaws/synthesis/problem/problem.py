@@ -199,7 +199,8 @@ class Problem:
             return replace(self, B=B)
         made: Problem = object.__new__(Problem)
         own = {name: value for name, value in self.__dict__.items() if name in _KEPT_ALONG_B}
-        made.__dict__.update(own, B=_check_velocity(B))
+        velocity = _check_velocity(B)
+        made.__dict__.update(own, B=velocity, _ranges={**self._ranges, "B": as_range(velocity, "B")})
         return made
 
     def to_dict(self) -> dict[str, Any]:
