@@ -19,7 +19,7 @@ from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proven.front import Lazily, ProvenFront, interval_gaps, weighted_value
 from optlaws.synthesis.proven.line import lower_line
-from optlaws.synthesis.proven.lines import lower_lines
+from optlaws.synthesis.proven.line_array import lower_lines
 from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solution import NOTHING, Solution, Status
 from optlaws.synthesis.solution_array import SolutionArray
