@@ -31,9 +31,10 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = 
         A solution of a neighbouring problem (the same but for numbers): its contacts are continued by Newton's
         method and IPOPT is called only where that fails. Where the problem is convex the answer is the same.
     bound
-        How to bound a problem that is not convex, with D in it or a peak bounded from below: "quick", or "tight" by a
-        search over all laws, or over all places of the peak, which takes from a tenth of a second to some seconds,
-        usually meets the objective and finds better laws if there are any. Other problems are proven either way.
+        How to bound a problem that is not convex, with D or a loader in it or a peak bounded from below: "quick", or
+        "tight" by a search over all laws, or over all places of the peak, which takes from a tenth of a second to some
+        seconds, usually meets the objective and finds better laws if there are any. Other problems are proven either
+        way.
 
     Returns
     -------

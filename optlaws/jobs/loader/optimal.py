@@ -6,6 +6,7 @@ import json
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass
+from functools import partial
 from math import isfinite
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any
@@ -26,6 +27,7 @@ from optlaws.mechanisms.loader.loader import Loader, loader
 from optlaws.mechanisms.loader.optimal import BalancedLaw, balanced_law
 from optlaws.numbers import bounded
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.solution import Status
 from optlaws.synthesis.spaces.bases import Chebyshev
 
 if TYPE_CHECKING:
@@ -35,17 +37,17 @@ if TYPE_CHECKING:
 MIXTURE = "0.5*C/4 + 0.5*C_loader/4"
 # of what a general search finds: laws of one peak to twelve digits differ in the fifth
 DIGITS = 4
-KINDS = ("least C_l", "C no greater", "mixture", "least B_l")
+KINDS = ("least C_l", "C no greater", "mixture", "least B_l", "least D_l")
 
 _ABOUT_LEAST = (
-    "C and C_l are those of the printed law and of its loader. The least C_l at the same B was found for laws of the "
-    "order and degree of Z in the heading (local optima: laws.json has where each start led, those that lost their "
-    "way left out); no law with b >= 0 is below the limit. Better by: the best of them against the printed law."
+    "C and C_l are those of the printed law and of its loader. The least C_l at the same B is that of all laws with "
+    "b >= 0 of the order and degree of Z in the heading: {proven}. No law with b >= 0 of any degree is below the "
+    "limit. Better by: the best of them against the printed law."
 )
 _ABOUT_RIVALS = (
     "Laws of the printed law's own B and order, of the greatest degree: with the least C_l among those whose C is no "
-    f"greater than that of the printed law, with the least {MIXTURE}, and with the least B_l. Better by: the peak "
-    "that is minimised, against the printed law; gap: how much better still it could be, at most."
+    f"greater than that of the printed law, with the least {MIXTURE}, with the least B_l, and with the least D_l. "
+    "Better by: the peak that is minimised, against the printed law; gap: how much better still it could be, at most."
 )
 
 Orders = Annotated[list[Annotated[int, msgspec.Meta(ge=2)]], msgspec.Meta(min_length=1)]
@@ -90,7 +92,8 @@ class Row:
 
     def printed(self, kind: str) -> float:
         """What the printed law has of what a rival is best at."""
-        return {"mixture": 0.125 * (self.C + self.one.C), "least B_l": self.one.B}.get(kind, self.one.C)
+        own = {"mixture": 0.125 * (self.C + self.one.C), "least B_l": self.one.B, "least D_l": self.one.D}
+        return own.get(kind, self.one.C)
 
 
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
@@ -104,6 +107,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     about = f"{spec.title}; from {file.name}"
     least, headings = _least(rows), _headings(rows)
     rivals = _rivals(rows)
+    page = _page(spec, rows, (headings, least), rivals)
     kept = {
         row.code: {kind: None if one is None else one.to_dict() for kind, one in row.rivals.items()} for row in rows
     }
@@ -114,7 +118,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(
             out / "laws.json", json.dumps({"about": writing.MARK, "laws": kept}, indent=1) + "\n", digits=DIGITS
         ),
-        writing.write(out / "table.md", str(_page(spec, (headings, least), rivals)), digits=DIGITS),
+        writing.write(out / "table.md", str(page), digits=DIGITS),
         *drawing.save_picture(figure, out / "figure"),
     ]
 
@@ -124,18 +128,21 @@ def _row(given: Mapping[str, str], spec: Spec) -> Row:
     B, C = law.constants.B.value, law.constants.C.value
     order = 2 if abs(law.c(0.0)) > 1e-9 * C else 3
     least = {
-        (order, degree): balanced_law(B, order=order, basis=Chebyshev(degree))
+        (order, degree): _proven(B, order=order, basis=Chebyshev(degree))
         for order in spec.orders
         for degree in spec.degrees
     }
     basis = Chebyshev(max(spec.degrees))
-    own = least.get((order, basis.degree)) or balanced_law(B, order=order, basis=basis)
+    own = least.get((order, basis.degree)) or _proven(B, order=order, basis=basis)
     rivals: dict[str, BalancedLaw | None] = {"least C_l": own, "C no greater": None}
     with suppress(InfeasibleProblem):  # at B = 2 no polynomial has C = 4
-        rivals["C no greater"] = balanced_law(B, order=order, basis=basis, most_C=C)
-    rivals["mixture"] = balanced_law(B, order=order, basis=basis, minimise=MIXTURE)
-    rivals["least B_l"] = balanced_law(B, order=order, basis=basis, minimise="B_loader")
+        rivals["C no greater"] = _proven(B, order=order, basis=basis, most_C=C)
+    for kind, minimise in (("mixture", MIXTURE), ("least B_l", "B_loader"), ("least D_l", "D_loader")):
+        rivals[kind] = _proven(B, order=order, basis=basis, minimise=minimise)
     return Row(given["code"], loader(law), order, least, rivals)
+
+
+_proven = partial(balanced_law, bound="tight")
 
 
 def _headings(rows: Sequence[Row]) -> list[str]:
@@ -158,19 +165,20 @@ def _least(rows: Sequence[Row]) -> list[list[tables.Cell]]:
     ]
 
 
-RIVALS = ("law", "order", "rival", "C", "C_l", "B_l", "printed C", "printed C_l", "printed B_l", "better by, %", "gap")
+_PEAKS = ("C", "C_l", "B_l", "D_l")
+RIVALS = ("law", "order", "rival", *_PEAKS, *(f"printed {peak}" for peak in _PEAKS), "better by, %", "gap")
 
 
 def _rivals(rows: Sequence[Row]) -> list[list[tables.Cell]]:
     found: list[list[tables.Cell]] = []
     for row in rows:
-        own = [row.C, bounded(row.one.C), row.one.B]
+        own = [row.C, bounded(row.one.C), row.one.B, row.one.D]
         for kind in KINDS:
             one = row.rivals[kind]
             if one is None:
-                found.append([row.code, row.order, f"{kind}: none exists", None, None, None, *own, None, None])
+                found.append([row.code, row.order, f"{kind}: none exists", None, None, None, None, *own, None, None])
                 continue
-            peaks = [one.law.constants.C.value, one.loader.C, one.loader.B]
+            peaks = [one.law.constants.C.value, one.loader.C, one.loader.B, one.loader.D]
             better = _better(one.objective, row.printed(kind))
             gap = max(0.0, round(one.gap, 6))
             found.append([row.code, row.order, kind, *peaks, *own, better, gap])
@@ -182,11 +190,23 @@ def _better(found: float, own: float) -> float | None:
 
 
 def _page(
-    spec: Spec, least: tuple[Sequence[str], Sequence[Sequence[tables.Cell]]], rivals: Sequence[Sequence[tables.Cell]]
+    spec: Spec,
+    rows: Sequence[Row],
+    least: tuple[Sequence[str], Sequence[Sequence[tables.Cell]]],
+    rivals: Sequence[Sequence[tables.Cell]],
 ) -> Page:
-    page = Page(spec.title).text(_ABOUT_LEAST).table(*least)
+    page = Page(spec.title).text(_ABOUT_LEAST.format(proven=_said(rows))).table(*least)
     page.figure("figure", "C of the loader over B, and a printed law beside its rival")
     return page.heading("Rivals of the same order").text(_ABOUT_RIVALS).table(RIVALS, rivals, digits=6)
+
+
+def _said(rows: Sequence[Row]) -> str:
+    """What is proven of the least C_l."""
+    every = [one for row in rows for one in row.least.values()]
+    open_ones = [one.gap for one in every if one.status is not Status.OPTIMAL]
+    if not open_ones:
+        return f"proven for all {len(every)}, to 1e-8"
+    return f"proven for {len(every) - len(open_ones)} of {len(every)}, the others to {max(open_ones):.1e}"
 
 
 def draw(title: str, rows: Sequence[Row], shown: Row) -> Figure:

@@ -93,6 +93,7 @@ def balanced_law(
     basis: Basis | None = None,
     minimise: str | Term | Expression = "C_loader",
     most_C: float | None = None,
+    bound: str = "quick",
 ) -> BalancedLaw:
     """The symmetric executive law of a peak velocity whose inertial loader is gentlest.
 
@@ -110,6 +111,8 @@ def balanced_law(
         "C_loader", "B_loader", "D_loader", or a sum of these and "C": "0.5*C/4 + 0.5*C_loader/4".
     most_C
         Greatest peak acceleration that the executive law may have.
+    bound
+        As of `synthesize`: "tight" proves that no law is better, which takes from half a second to some seconds.
 
     Raises
     ------
@@ -125,13 +128,16 @@ def balanced_law(
     >>> found = balanced_law(1.875, order=3, basis=Chebyshev(9))
     >>> found.status.value, round(found.loader.C, 6), round(found.lower_bound, 6)
     ('local', 4.632673, 4.459318)
+    >>> proven = balanced_law(1.875, order=3, basis=Chebyshev(9), bound="tight")
+    >>> proven.status.value, proven.gap < 1e-8
+    ('optimal', True)
     >>> from optlaws.laws import smoothstep
     >>> from optlaws.mechanisms.loader.constants import C_loader
     >>> round(C_loader.value(smoothstep(3)), 6)  # also of order 3 and with B = 1.875
     5.65925
     """
     problem = balanced_problem(B, order=order, basis=basis, minimise=minimise, most_C=most_C)
-    solution = synthesize(problem)
+    solution = synthesize(problem, bound=bound)
     return BalancedLaw(
         solution.law,
         loader(solution.law),

@@ -1,7 +1,7 @@
-"""Proof that no law has an objective below a claim although D, which is not convex, is in it; no solver in it.
+"""Proof that no law has an objective below a claim although D or a loader's peak is in it; no solver in it.
 
-Boxes hold every law that could contradict the claim. Sums of rows move their sides inward until a box is empty, or a
-box is cut in two. The proof stands where no box is left.
+These are not convex. Boxes hold every law that could contradict the claim. Sums of rows move their sides inward until a
+box is empty, or a box is cut in two. The proof stands where no box is left.
 """
 
 from __future__ import annotations
@@ -21,7 +21,8 @@ from optlaws.numbers import bounded
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Contact, contact_of
 from optlaws.synthesis.proof.data import StatedPowerCertificate, StatedStep, problem_of, stated
-from optlaws.synthesis.proof.power.rows import Box, PowerRows, applies
+from optlaws.synthesis.proof.power.box import Box, BoxRows
+from optlaws.synthesis.proof.power.rows_of_problem import rows_of
 
 Array = NDArray[np.float64]
 
@@ -73,7 +74,7 @@ class Cut:
 
 @dataclass(frozen=True)
 class PowerCertificate:
-    """Steps and cuts that prove a lower bound of an objective with D in it.
+    """Steps and cuts that prove a lower bound of an objective with D in it, or with C or D of a loader.
 
     Attributes
     ----------
@@ -115,10 +116,8 @@ class PowerCertificate:
     @kept_property
     def proven(self) -> bool:
         """Whether no box is left."""
-        if not applies(self.problem):
-            return False
-        rows = PowerRows(self.problem, self.claim, self.points)
-        if not rows.regular:
+        rows = rows_of(self.problem, self.claim, self.points)
+        if rows is None or not rows.regular:
             return False
         boxes = [rows.root()]
         for step in self.steps:
@@ -158,7 +157,7 @@ class PowerCertificate:
         return cls(problem_of(entries.problem), entries.claim, entries.points, tuple(map(_read, entries.steps)))
 
 
-def moved_by(rows: PowerRows, box: Box, step: Step) -> Box | None:
+def moved_by(rows: BoxRows, box: Box, step: Step) -> Box | None:
     """The box after a step; None if it is empty.
 
     Rows that the problem does not ask for, and negative multipliers of rows, count as zero.
@@ -175,7 +174,7 @@ def moved_by(rows: PowerRows, box: Box, step: Step) -> Box | None:
     return box
 
 
-def least_sum(rows: PowerRows, box: Box, step: Step) -> float:
+def least_sum(rows: BoxRows, box: Box, step: Step) -> float:
     """What side times the variable is at least in the box: the sum of the rows is at most 0, so it can join."""
     equations = rows.equations()[: len(step.equations)]
     joined = np.vstack([rows.of_contacts(step.contacts, box), equations, rows.objective()])

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import inf
 from typing import Any
 
@@ -11,11 +11,10 @@ import numpy as np
 from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
-from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily
-from optlaws.synthesis.families.names import RowName
+from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily
 from optlaws.synthesis.proof.certificate import Contact
+from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.power.certificate import Step
-from optlaws.synthesis.proof.power.rows import Box, PowerRows
 
 Array = NDArray[np.float64]
 
@@ -60,12 +59,11 @@ def _solved(goal: Array, rows: tuple[Array, Array], equations: tuple[Array, Arra
 class Grid:
     """The places k at which rows are held, for every family of the program and for the power."""
 
-    def __init__(self, rows: PowerRows, x: Array) -> None:
+    def __init__(self, rows: BoxRows, x: Array) -> None:
         self.rows = rows
         self.contacts: list[Contact] = []
         self.fixed = np.empty((0, rows.size + 1))
-        self.k = np.empty(0)
-        self.velocity = self.acceleration = self.fixed
+        self.places: Places | None = None
         self._seen: dict[str, list[float]] = {}
         last = 0.5 if rows.space.symmetric else 1.0
         count = _PLACES + 2 * rows.terms
@@ -78,7 +76,7 @@ class Grid:
             else:
                 low, high = np.sort(family.k(np.array(family.domain)))
                 self._join(family, np.concatenate([k[(k > low) & (k < high)], [low, high]]))
-        self._power(np.append(k, last))
+        self._curve(np.append(k, last))
         self.exchange(x, 0.0)
 
     def exchange(self, x: Array, spacing: float) -> None:
@@ -95,8 +93,8 @@ class Grid:
 
     def _join(self, family: Family, k: Array) -> None:
         self._seen.setdefault(family.name, []).extend(k.tolist())
-        if isinstance(family, ProductFamily):
-            self._power(k)
+        if self.rows.is_curved(family):
+            self._curve(k)
         elif isinstance(family, LinearFamily):
             joined = [Contact(family.name, sign, place, 0.0) for sign in family.signs for place in k.tolist()]
             self._fix(joined)
@@ -111,26 +109,36 @@ class Grid:
         if length > 0.0:
             self._fix([Contact(family.name, 1.0, 0.0, 0.0, tuple((image / length).tolist()))])
 
-    def _power(self, k: Array) -> None:
-        self.k = np.append(self.k, k)
-        self.velocity = np.vstack([self.velocity, self.rows.derivative(1, k)])
-        self.acceleration = np.vstack([self.acceleration, self.rows.derivative(2, k)])
+    def _curve(self, k: Array) -> None:
+        new = self.rows.places(k)
+        self.places = new if self.places is None else self.places.joined(new)
 
-    def _kinds(self, box: Box) -> list[tuple[str, float]]:
-        names = [RowName.POWER]
-        if self.rows.place is not None and box.low[self.rows.place] > 0.0:
-            names.append(RowName.POWER_FROM_LEAST)
-        return [(name, sign) for name in names for sign in (1.0, -1.0)]
+    def _held(self, box: Box) -> Array:
+        """Every row of a box but the objective's: those of all boxes, the curved ones, those of no place."""
+        parts = [self.fixed]
+        if self.places is not None:
+            count = len(self.places.k)
+            parts += [
+                self.rows.curved(box, self.places, name, np.full(count, sign)) for name, sign in self.rows.kinds(box)
+            ]
+        return np.vstack([*parts, *(row[None] for _, row in self.rows.beside(box))])
+
+    def _contact(self, box: Box, row: int, multiplier: float) -> Contact | None:
+        """The contact of a row by its number, with a multiplier; None for the objective's."""
+        if row < len(self.contacts):
+            return replace(self.contacts[row], multiplier=multiplier)
+        k = np.empty(0) if self.places is None else self.places.k
+        kinds, rest = self.rows.kinds(box), row - len(self.contacts)
+        if rest < len(kinds) * len(k):
+            name, sign = kinds[rest // len(k)]
+            return Contact(name, sign, float(k[rest % len(k)]), multiplier)
+        rest -= len(kinds) * len(k)
+        return Contact(self.rows.alone[rest], 1.0, 0.0, multiplier) if rest < len(self.rows.alone) else None
 
     def scaled(self, box: Box) -> Linear:
         """The rows that may cut something off the box."""
         rows = self.rows
-        triple = (self.k, self.velocity, self.acceleration)
-        parts = [self.fixed]
-        for name, sign in self._kinds(box):
-            parts.append(rows.power(box, triple, np.full(len(self.k), sign), least=name == RowName.POWER_FROM_LEAST))
-        parts.append(rows.objective()[None])
-        every = np.vstack(parts)
+        every = np.vstack([self._held(box), rows.objective()])
         centre, half = (box.low + box.high) / 2.0, (box.high - box.low) / 2.0
         matrix, right = every[:, :-1] * half, -every[:, -1] - every[:, :-1] @ centre
         length = np.abs(matrix).sum(axis=1)
@@ -178,19 +186,14 @@ class Grid:
     def _step(self, box: Box, linear: Linear, move: tuple[int, int], weights: tuple[Array, Array]) -> Step:
         multipliers = np.maximum(weights[0], 0.0) / linear.length
         least = _LIGHT * float(multipliers.max(initial=0.0))
-        kinds = self._kinds(box)
         contacts = []
         objective = 0.0
         for i, weight in zip(linear.which.tolist(), multipliers.tolist(), strict=True):
-            if weight <= least:
-                continue
-            if i < len(self.contacts):
-                contact = self.contacts[i]
-                contacts.append(Contact(contact.constraint, contact.sign, contact.k, weight, contact.direction))
-            elif (place := i - len(self.contacts)) < len(kinds) * len(self.k):
-                name, sign = kinds[place // len(self.k)]
-                contacts.append(Contact(name, sign, float(self.k[place % len(self.k)]), weight))
-            else:
-                objective = weight
+            if weight > least:
+                contact = self._contact(box, i, weight)
+                if contact is None:
+                    objective = weight
+                else:
+                    contacts.append(contact)
         equations = tuple((weights[1] / linear.equal_length).tolist())
         return Step(*move, tuple(contacts), equations, objective)

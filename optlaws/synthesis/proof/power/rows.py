@@ -7,20 +7,20 @@ law. Where it keeps b from zero, between L and U, the power's bound c <= D/b has
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from math import inf, isfinite, sqrt
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.kept import kept_property
+from optlaws.synthesis.families.family import Family, ProductFamily
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.problem.constants import Peak
+from optlaws.synthesis.problem.constants import D, Peak
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.below_claim import asked_or_claimed
-from optlaws.synthesis.proof.certificate import Contact, row_of
+from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 
 Array = NDArray[np.float64]
@@ -28,28 +28,6 @@ Array = NDArray[np.float64]
 POWER_ROWS = (RowName.POWER, RowName.POWER_FROM_LEAST)
 # a velocity nearer to zero bounds no acceleration worth the name
 _AWAY = 1e-6
-_WORST = 1e10
-
-
-@dataclass(frozen=True, eq=False)
-class Box:
-    """Least and greatest values of the variables: velocities at the points, then the program's own variables."""
-
-    low: Array
-    high: Array
-
-    def cut(self, variable: int, side: int, value: float) -> Box:
-        """With one side moved: from below (side 1) or from above (-1)."""
-        name = "low" if side > 0 else "high"
-        values = getattr(self, name).copy()
-        values[variable] = value
-        return replace(self, **{name: values})
-
-    def extent(self, rows: Array) -> tuple[Array, Array]:
-        """Least and greatest values in the box of affine functions, a row each with the constant last."""
-        rising, falling = np.maximum(rows[:, :-1], 0.0), np.minimum(rows[:, :-1], 0.0)
-        least = rising @ self.low + falling @ self.high + rows[:, -1]
-        return least, rising @ self.high + falling @ self.low + rows[:, -1]
 
 
 def applies(problem: Problem) -> bool:
@@ -72,42 +50,43 @@ def greatest(model: Model, claim: float) -> dict[str, float]:
     return bounds
 
 
-class PowerRows:
-    """The rows of a problem under a claim, over the velocities at some points and the program's own variables.
-
-    Parameters
-    ----------
-    problem
-        One that `applies`.
-    claim
-        Laws with an objective below it are spoken of.
-    points
-        As many k in [0, 1] as the laws have coordinates, at which the velocities determine the law.
-    """
+class PowerRows(BoxRows):
+    """The rows of a problem with D in it, one that `applies`; parameters as of `BoxRows`."""
 
     def __init__(self, problem: Problem, claim: float, points: Sequence[float]) -> None:
-        self.problem, self.claim, self.points = problem, claim, np.array(points, dtype=np.float64)
-        self.model = model_of(problem)
-        self.space = self.model.space
-        self.terms, self.size = self.space.terms, self.model.program.size
+        super().__init__(problem, claim, points)
         self.greatest = greatest(self.model, claim)
         self.place = self.model.places.get("D")
         self.anchors = self._anchors()
-        self._families = {nu: self.space.derivative(nu, "", np.zeros(self.size)) for nu in (1, 2)}
 
     @property
-    def regular(self) -> bool:
-        """Whether the velocities at the points determine the law, with digits to spare."""
-        if len(self.points) != self.terms:
-            return False
-        return float(np.linalg.cond(self.rows(1, self.points)[:, : self.terms])) < _WORST
+    def names(self) -> tuple[str, ...]:
+        """From the greatest D of a box, and from its least."""
+        return POWER_ROWS
 
-    @kept_property
-    def _map(self) -> tuple[Array, Array]:
-        """What makes coordinates of velocities at the points, and those of velocities 0 with their sign changed."""
-        columns = self.rows(1, self.points)[:, [*range(self.terms), -1]]
-        inverse: Array = np.linalg.inv(columns[:, :-1]).astype(np.float64)
-        return inverse, inverse @ columns[:, -1]
+    @property
+    def branched(self) -> list[int]:
+        """D, where it is minimised with others."""
+        alone = [leaf for _, leaf in leaves(self.problem.objective)] == [D]
+        return [] if self.place is None or alone else [self.place]
+
+    def is_curved(self, family: Family) -> bool:
+        """Whether it is the power."""
+        return isinstance(family, ProductFamily)
+
+    def kinds(self, box: Box) -> list[tuple[str, float]]:
+        """Both signs of both, if D has a least value."""
+        names = POWER_ROWS if self.place is not None and box.low[self.place] > 0.0 else POWER_ROWS[:1]
+        return [(name, sign) for name in names for sign in (1.0, -1.0)]
+
+    def places(self, k: Array) -> Places:
+        """Rows of b and c."""
+        return Places(k, (self.derivative(1, k), self.derivative(2, k)))
+
+    def curved(self, box: Box, places: Places, name: str, signs: Array) -> Array:
+        """The power's rows."""
+        velocity, acceleration = places.rows
+        return self.power(box, (places.k, velocity, acceleration), signs, least=name == RowName.POWER_FROM_LEAST)
 
     def _anchors(self) -> Anchors:
         ends = self.space.start_velocity, self.space.start_velocity + self.space.velocity_change
@@ -135,28 +114,6 @@ class PowerRows:
             low = np.maximum(low, 0.0)
         return low, np.minimum(high, self.greatest["B"])
 
-    def coordinates(self, values: Array) -> Array:
-        """The coordinates of the law whose velocities at the points are the first of the values."""
-        inverse, base = self._map
-        coordinates: Array = inverse @ values[: self.terms] - base
-        return coordinates
-
-    def mapped(self, rows: Array) -> Array:
-        """Rows over the program's variables, the constant last, as rows over those of a box."""
-        inverse, base = self._map
-        free = rows[:, : self.terms]
-        return np.column_stack([free @ inverse, rows[:, self.terms : -1], rows[:, -1] - free @ base])
-
-    def rows(self, nu: int, k: Array) -> Array:
-        """The law's derivative at the places k over the program's variables, the constant last."""
-        family = self._families[nu]
-        values: Array = family.columns(family.u(k))[0]
-        return values
-
-    def derivative(self, nu: int, k: Array) -> Array:
-        """The same over the variables of a box."""
-        return self.mapped(self.rows(nu, k))
-
     def brackets(self, box: Box, k: Array, velocity: Array) -> tuple[Array, Array]:
         """Least and greatest velocity at the places k of the laws in the box."""
         inside = self.anchors.joined(self.points, box.low[: self.terms], box.high[: self.terms])
@@ -176,40 +133,15 @@ class PowerRows:
         near, far = np.where(forth > 0.0, low, -high), np.where(forth > 0.0, high, -low)
         away = (near > _AWAY) & (far >= near)
         near, far = np.where(away, near, 1.0), np.where(away, far, 1.0)
-        D = self.greatest["D"] if self.place is None else (box.low if least else box.high)[self.place]
-        bounding = signs[:, None] * acceleration + (D / (near * far) * forth)[:, None] * velocity
+        most = self.greatest["D"] if self.place is None else (box.low if least else box.high)[self.place]
+        bounding = signs[:, None] * acceleration + (most / (near * far) * forth)[:, None] * velocity
         if self.place is None:
-            bounding[:, -1] -= D / near + D / far
+            bounding[:, -1] -= most / near + most / far
         else:
             other = near if least else far
             bounding[:, self.place] -= 1.0 / other
-            bounding[:, -1] -= D / near + D / far - D / other
+            bounding[:, -1] -= most / near + most / far - most / other
         return np.where(away[:, None], bounding, 0.0)
-
-    def of_contacts(self, contacts: Sequence[Contact], box: Box) -> Array:
-        """The rows of contacts, each at most 0 with its constant: zeros where the problem does not ask for it."""
-        stacked = np.zeros((len(contacts), self.size + 1))
-        for name in POWER_ROWS:
-            places = [i for i, contact in enumerate(contacts) if contact.constraint == name]
-            k = np.array([contacts[i].k for i in places])
-            signs = np.array([contacts[i].sign for i in places])
-            if places:
-                rows = (k, self.derivative(1, k), self.derivative(2, k))
-                stacked[places] = self.power(box, rows, signs, least=name == RowName.POWER_FROM_LEAST)
-        for i, contact in enumerate(contacts):
-            if contact.constraint not in POWER_ROWS:
-                row, right = row_of(self.model.program, contact)
-                stacked[i] = self.mapped(np.append(row, -right)[None])[0]
-        return stacked
-
-    def equations(self) -> Array:
-        """The program's equations, each 0 with its constant."""
-        program = self.model.program
-        return self.mapped(np.column_stack([program.equalities, -program.right]))
-
-    def objective(self) -> Array:
-        """The objective less the claim, at most 0."""
-        return np.append(self.model.program.objective, -self.claim / self.model.unit)
 
 
 @dataclass(frozen=True, eq=False)

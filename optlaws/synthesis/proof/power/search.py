@@ -8,13 +8,13 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.problem.constants import D
-from optlaws.synthesis.problem.expression import leaves
+from optlaws.errors import InputError
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
+from optlaws.synthesis.proof.power.box import Box, BoxRows
 from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step, moved_by
 from optlaws.synthesis.proof.power.grid import Grid
-from optlaws.synthesis.proof.power.rows import Box, PowerRows, applies
+from optlaws.synthesis.proof.power.rows_of_problem import rows_of
 
 Array = NDArray[np.float64]
 #: tells from the variables of some law whether its neighbourhood has a better one than the best known
@@ -44,7 +44,7 @@ def tightened(problem: Problem, objective: float, x: Array, explore: Explore) ->
     explore
         Called with the variables of laws in boxes that resist; True ends the search.
     """
-    if not applies(problem) or objective <= 0.0:
+    if rows_of(problem, objective, ()) is None or objective <= 0.0:
         return None
     share = min(1.0, (_COORDINATES / model_of(problem).space.terms) ** 3)
     for gap, budget in _CLAIMS:
@@ -56,7 +56,9 @@ def tightened(problem: Problem, objective: float, x: Array, explore: Explore) ->
 
 def searched(problem: Problem, claim: float, x: Array, budget: int, explore: Explore) -> Search:
     """The search for the proof of one claim, done; x are the variables of a law with an objective above it."""
-    rows = PowerRows(problem, claim, _points(problem, claim))
+    rows = rows_of(problem, claim, _points(problem, claim))
+    if rows is None:
+        raise InputError(f"nothing of {problem!r} can be bounded by boxes")
     search = Search(rows, Grid(rows, x), budget, explore)
     search.run()
     return search
@@ -76,7 +78,7 @@ class Search:
         Whether a law was found that makes the claim worthless.
     """
 
-    rows: PowerRows
+    rows: BoxRows
     grid: Grid
     left: int
     explore: Explore
@@ -88,9 +90,7 @@ class Search:
         self._steps: list[Step | Cut] = []
         self._root_width = root.high - root.low
         self._variables = [i for i in range(self.rows.terms) if self._root_width[i] > _FLAT]
-        alone = [leaf for _, leaf in leaves(self.rows.problem.objective)] == [D]
-        if self.rows.place is not None and not alone:
-            self._variables.append(self.rows.place)
+        self._variables += self.rows.branched
 
     def run(self) -> None:
         """Empty one box after the other."""
@@ -139,7 +139,7 @@ class Search:
         return moved
 
     def _variables_of(self, values: Array) -> Array:
-        return np.append(self.rows.coordinates(values), values[self.rows.terms :])
+        return np.append(self.rows.coordinates(values), values[self.rows.terms : self.rows.own])
 
 
 def _points(problem: Problem, claim: float) -> list[float]:
@@ -148,7 +148,9 @@ def _points(problem: Problem, claim: float) -> list[float]:
     k = (0.5 if space.symmetric else 1.0) * np.sin(np.pi / 2 * np.arange(1, _CANDIDATES + 1) / _CANDIDATES)
     from scipy.linalg import qr
 
-    rows = PowerRows(problem, claim, ())
+    rows = rows_of(problem, claim, ())
+    if rows is None:
+        return []
     low, high = rows.brackets_at(k)
     weighted = rows.rows(1, k)[:, : space.terms] / (high - low + _NARROW)[:, None]
     chosen = qr(weighted.T, pivoting=True, mode="r")[1][: space.terms]

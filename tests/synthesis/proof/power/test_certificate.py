@@ -24,8 +24,9 @@ from optlaws import (
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.certificate import Contact
+from optlaws.synthesis.proof.power.box import Box
 from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step
-from optlaws.synthesis.proof.power.rows import Anchors, Box, PowerRows, velocity_brackets
+from optlaws.synthesis.proof.power.rows import Anchors, PowerRows, velocity_brackets
 from optlaws.synthesis.proof.power.search import searched
 from tests.synthesis.power_proof import proven_exactly
 

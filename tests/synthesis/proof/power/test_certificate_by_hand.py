@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Contact, Problem, synthesize
+from optlaws.synthesis.proof.power.box import Box
 from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step, least_sum, moved_by
-from optlaws.synthesis.proof.power.rows import Box, PowerRows
+from optlaws.synthesis.proof.power.rows import PowerRows
 
 ONE_LAW = Problem(B=1.75, order=4, basis=Chebyshev(1), minimise="D")
 CLAIM = 10.0

@@ -1,0 +1,191 @@
+"""Boxes that hold laws, and the rows of a problem over their variables.
+
+A box bounds the velocity at as many places as the laws have coordinates, so it bounds every linear function of the
+law.
+"""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.kept import kept_property
+from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import model_of
+from optlaws.synthesis.proof.certificate import Contact, row_of
+
+Array = NDArray[np.float64]
+
+_WORST = 1e10
+
+
+@dataclass(frozen=True, eq=False)
+class Box:
+    """Least and greatest values of the variables: velocities at the points, then the program's own variables."""
+
+    low: Array
+    high: Array
+
+    def cut(self, variable: int, side: int, value: float) -> Box:
+        """With one side moved: from below (side 1) or from above (-1)."""
+        name = "low" if side > 0 else "high"
+        values = getattr(self, name).copy()
+        values[variable] = value
+        return replace(self, **{name: values})
+
+    def extent(self, rows: Array) -> tuple[Array, Array]:
+        """Least and greatest values in the box of affine functions, a row each with the constant last."""
+        rising, falling = np.maximum(rows[:, :-1], 0.0), np.minimum(rows[:, :-1], 0.0)
+        least = rising @ self.low + falling @ self.high + rows[:, -1]
+        return least, rising @ self.high + falling @ self.low + rows[:, -1]
+
+
+@dataclass(frozen=True, eq=False)
+class Places:
+    """Places k with rows over a box's variables there, one matrix for each quantity that curved rows are made of."""
+
+    k: Array
+    rows: tuple[Array, ...]
+
+    def joined(self, other: Places) -> Places:
+        """Both."""
+        rows = tuple(np.vstack(pair) for pair in zip(self.rows, other.rows, strict=True))
+        return Places(np.append(self.k, other.k), rows)
+
+
+class BoxRows(ABC):
+    """The rows of a problem under a claim, over the velocities at some points and the program's own variables.
+
+    Parameters
+    ----------
+    problem
+        Whose laws are spoken of.
+    claim
+        Laws with an objective below it.
+    points
+        As many k in [0, 1] as the laws have coordinates, at which the velocities determine the law.
+    """
+
+    #: variables beyond the program's own
+    extra = 0
+
+    def __init__(self, problem: Problem, claim: float, points: Sequence[float]) -> None:
+        self.problem, self.claim, self.points = problem, claim, np.array(points, dtype=np.float64)
+        self.model = model_of(problem)
+        self.space = self.model.space
+        self.terms, self.own = self.space.terms, self.model.program.size
+        self.size = self.own + self.extra
+        self._families = {nu: self.space.derivative(nu, "", np.zeros(self.own)) for nu in (1, 2)}
+
+    @abstractmethod
+    def root(self) -> Box:
+        """The box of all laws of the problem whose objective is below the claim."""
+
+    @abstractmethod
+    def brackets_at(self, k: Array) -> tuple[Array, Array]:
+        """Least and greatest velocity at the places k of all those laws."""
+
+    @abstractmethod
+    def is_curved(self, family: Family) -> bool:
+        """Whether a family's rows depend on the box."""
+
+    @abstractmethod
+    def places(self, k: Array) -> Places:
+        """What the curved rows at places k are made of."""
+
+    @abstractmethod
+    def kinds(self, box: Box) -> list[tuple[str, float]]:
+        """Names and signs of the curved rows that say something in a box."""
+
+    @abstractmethod
+    def curved(self, box: Box, places: Places, name: str, signs: Array) -> Array:
+        """Rows of a name in a box, each at most 0 with its constant; zeros where they say nothing."""
+
+    @property
+    @abstractmethod
+    def names(self) -> tuple[str, ...]:
+        """Of all the curved rows that there may be."""
+
+    @property
+    def alone(self) -> tuple[str, ...]:
+        """Of the further rows that there may be, which belong to no place."""
+        return ()
+
+    def beside(self, box: Box) -> list[tuple[str, Array]]:
+        """Those further rows of a box in this order, each at most 0 with its constant."""
+        del box
+        return []
+
+    @property
+    def branched(self) -> list[int]:
+        """The variables beyond the velocities that are worth a cut."""
+        return []
+
+    @property
+    def regular(self) -> bool:
+        """Whether the velocities at the points determine the law, with digits to spare."""
+        if len(self.points) != self.terms:
+            return False
+        return float(np.linalg.cond(self.rows(1, self.points)[:, : self.terms])) < _WORST
+
+    @kept_property
+    def _map(self) -> tuple[Array, Array]:
+        """What makes coordinates of velocities at the points, and those of velocities 0 with their sign changed."""
+        columns = self.rows(1, self.points)[:, [*range(self.terms), -1]]
+        inverse: Array = np.linalg.inv(columns[:, :-1]).astype(np.float64)
+        return inverse, inverse @ columns[:, -1]
+
+    def coordinates(self, values: Array) -> Array:
+        """The coordinates of the law whose velocities at the points are the first of the values."""
+        inverse, base = self._map
+        found: Array = inverse @ values[: self.terms] - base
+        return found
+
+    def mapped(self, rows: Array) -> Array:
+        """Rows over the program's variables, the constant last, as rows over those of a box."""
+        inverse, base = self._map
+        free, nothing = rows[:, : self.terms], np.zeros((len(rows), self.extra))
+        own = rows[:, self.terms : -1]
+        return np.column_stack([free @ inverse, own, nothing, rows[:, -1] - free @ base])
+
+    def rows(self, nu: int, k: Array) -> Array:
+        """The law's derivative at the places k over the program's variables, the constant last."""
+        family = self._families[nu]
+        found: Array = family.columns(family.u(k))[0]
+        return found
+
+    def derivative(self, nu: int, k: Array) -> Array:
+        """The same over the variables of a box."""
+        return self.mapped(self.rows(nu, k))
+
+    def of_contacts(self, contacts: Sequence[Contact], box: Box) -> Array:
+        """The rows of contacts, each at most 0 with its constant: zeros where the problem does not ask for it."""
+        found = np.zeros((len(contacts), self.size + 1))
+        beside = dict(self.beside(box)) if any(one.constraint in self.alone for one in contacts) else {}
+        for name in self.names:
+            mine = [i for i, one in enumerate(contacts) if one.constraint == name]
+            if mine:
+                k = np.array([contacts[i].k for i in mine])
+                found[mine] = self.curved(box, self.places(k), name, np.array([contacts[i].sign for i in mine]))
+        for i, one in enumerate(contacts):
+            if one.constraint in beside:
+                found[i] = beside[one.constraint]
+            elif one.constraint not in self.names:
+                row, right = row_of(self.model.program, one)
+                found[i] = self.mapped(np.append(row, -right)[None])[0]
+        return found
+
+    def equations(self) -> Array:
+        """The program's equations, each 0 with its constant."""
+        program = self.model.program
+        return self.mapped(np.column_stack([program.equalities, -program.right]))
+
+    def objective(self) -> Array:
+        """The objective less the claim, at most 0."""
+        nothing = np.zeros(self.extra)
+        return np.concatenate([self.model.program.objective, nothing, [-self.claim / self.model.unit]])

@@ -1,0 +1,272 @@
+"""Rows of a box for the peaks of a body that shares a law's energy: B, C and D of its loader made linear.
+
+With I, the integral of sqrt(B² - b²) over the first half, as a variable beside the velocities, C at most M says
+4 |p| <= 2 M I h(q), h = sqrt(q r)/b a function of q alone, and D at most M says |c| <= 4 M I²/b. In a box h, 1/b and I²
+lie below straight lines, and products of two ranges below McCormick's planes. I itself is at most its tangent.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from math import inf, isfinite, sqrt
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.kept import kept_property
+from optlaws.synthesis.families.energy import Energy, EnergyFamily
+from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.problem.expression import leaves
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import model_of
+from optlaws.synthesis.proof.below_claim import asked_or_claimed
+from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
+from optlaws.synthesis.proof.power.lines_above import above_inverse, above_root
+
+Array = NDArray[np.float64]
+
+TANGENT = "tangent of the energy"
+#: which planes bound the two products: from the greatest or the least of each first factor
+_PLANES = ("++", "+-", "-+", "--")
+#: of B: a velocity nearer to zero bounds no acceleration worth the name
+_AWAY = 1e-6
+_OUTWARD = 1e-12
+#: of t²: nearer to the middle B - b has no digits left
+_MIDDLE = 1e-6
+
+
+def applies(problem: Problem) -> bool:
+    """Whether a peak of a body that shares the energy is in the problem and boxes can bound it: b >= 0, one B."""
+    model = model_of(problem)
+    shared = [family for family in model.program.families if isinstance(family, EnergyFamily)]
+    known = [family for family in shared if len(family.factors) > 1]
+    if not known or not problem.monotone or not isinstance(problem.B, float):
+        return False
+    bounds = asked_or_claimed(model, 1.0)
+    return all(one.convex or one.name in {family.name for family in shared} for one in problem.constants) and all(
+        isfinite(bounds.get(name, inf)) for name in model.places
+    )
+
+
+class EnergyRows(BoxRows):
+    """The rows of a problem with peaks of a loader in it, one that `applies`; parameters as of `BoxRows`."""
+
+    extra = 1
+
+    def __init__(self, problem: Problem, claim: float, points: Sequence[float]) -> None:
+        super().__init__(problem, claim, points)
+        self.B = float(problem.B)  # type: ignore[arg-type] # `applies` says so
+        self.place = self.size - 1
+        self.shared = [one for one in self.model.program.families if isinstance(one, EnergyFamily)]
+        self.peaks = {one.name: one for one in self.shared if len(one.factors) > 1}
+        self.energy: Energy = self.shared[0].energy
+        self.greatest = asked_or_claimed(self.model, claim)
+        self.least = {one.name: _limit(one, problem) for one in problem.constants}
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """A name for each peak and each pair of planes."""
+        return tuple(_named(name, planes) for name in self.peaks for planes in _PLANES)
+
+    @property
+    def alone(self) -> tuple[str, ...]:
+        """The tangent of I, and of each peak velocity of the body."""
+        return (TANGENT, *(one.name for one in self.shared if one.name not in self.peaks))
+
+    @property
+    def branched(self) -> list[int]:
+        """I, and what is minimised together with others."""
+        others = [self.model.places[name] for name in self.peaks if name in self.model.places]
+        return [self.place] if self._single else [*others, self.place]
+
+    @property
+    def _single(self) -> bool:
+        return len(list(leaves(self.problem.objective))) == 1
+
+    def is_curved(self, family: Family) -> bool:
+        """Whether it is a peak of the body."""
+        return isinstance(family, EnergyFamily) and family.name in self.peaks
+
+    def kinds(self, box: Box) -> list[tuple[str, float]]:
+        """Both signs of all planes; without those that say nothing more where a peak has one bound."""
+        del box
+        found = []
+        for name in self.peaks:
+            # alone, a peak is as great as the claim allows where that is any help
+            planes = _PLANES[::2] if self._single or name not in self.model.places else _PLANES
+            found += [(_named(name, one), sign) for one in planes for sign in (1.0, -1.0)]
+        return found
+
+    def places(self, k: Array) -> Places:
+        """Rows of b, of q, of p and of c."""
+        below = self._columns(self.energy.below, k)
+        divided = [family for family in self.peaks.values() if family.divided]
+        fall = self._columns(divided[0].factors[1], k) if divided else np.zeros_like(below)
+        return Places(k, (self.derivative(1, k), self.mapped(below), self.mapped(fall), self.derivative(2, k)))
+
+    def root(self) -> Box:
+        """The box of all laws of the problem whose objective is below the claim."""
+        low, high = self.brackets_at(self.points)
+        others = sorted(self.model.places, key=self.model.places.__getitem__)
+        bottom = [self.least.get(name, 0.0) for name in others]
+        top = [self.greatest[name] for name in others]
+        first, last = self._integral
+        return Box(np.concatenate([low, bottom, [first]]), np.concatenate([high, top, [last]]))
+
+    @kept_property
+    def _integral(self) -> tuple[float, float]:
+        """Least and greatest I: from 1/B² + 1/(Y B)² < 1, and from how fast sqrt(B² - b²) can fall."""
+        most = 0.5 * self.B * sqrt(1.0 - 1.0 / self.B**2) * (1.0 + _OUTWARD)
+        least = 0.0
+        for name, family in self.peaks.items():
+            peak = self._greatest(name)
+            if family.divided:
+                least = max(least, self.B**2 / (4.0 * peak * most))
+            else:
+                least = max(least, self.B**3 / (12.0 * peak * most**2))
+        return min(least, most) * (1.0 - _OUTWARD), most
+
+    def brackets_at(self, k: Array) -> tuple[Array, Array]:
+        """Least and greatest velocity at the places k of all those laws."""
+        known = (np.array([0.0, 0.5]), np.array([0.0, self.B]), np.array([0.0, self.B]))
+        return self._everywhere(known, k, self._rates({}, self._integral[1]))
+
+    def brackets(self, box: Box, k: Array, velocity: Array) -> tuple[Array, Array]:
+        """Least and greatest velocity at the places k of the laws in the box."""
+        ends = np.array([0.0, self.B])
+        sides = (np.maximum(side[: self.terms], 0.0) for side in (box.low, box.high))
+        low, high = (np.append(ends, np.minimum(side, self.B)) for side in sides)
+        known = (np.concatenate([[0.0, 0.5], self.points]), low, high)
+        peaks = {name: self._bounds(box, name)[1] for name in self.peaks}
+        first, last = self._everywhere(known, k, self._rates(peaks, float(box.high[self.place])))
+        least, most = box.extent(velocity)
+        return np.maximum(first, least), np.minimum(last, most)
+
+    def _rates(self, peaks: dict[str, float], integral: float) -> tuple[float, float]:
+        """How fast sqrt(B² - b²) and b² change at most."""
+        speed, power = inf, inf
+        for name, family in self.peaks.items():
+            peak = peaks.get(name, self._greatest(name))
+            if family.divided:
+                speed = min(speed, 2.0 * peak * integral)
+            else:
+                power = min(power, 8.0 * peak * integral**2)
+        return speed, power
+
+    def _everywhere(
+        self, known: tuple[Array, Array, Array], k: Array, rates: tuple[float, float]
+    ) -> tuple[Array, Array]:
+        at, low, high = known
+        away = np.abs(k[:, None] - at)
+        least, most = np.zeros(len(k)), np.full(len(k), self.B)
+        speed, power = rates
+        if isfinite(speed):
+            # sqrt(B² - b²) is the greater the less b is
+            upper = (np.sqrt(self.B**2 - low**2) + speed * away).min(axis=1)
+            lower = np.maximum((np.sqrt(self.B**2 - high**2) - speed * away).max(axis=1), 0.0)
+            least = np.maximum(least, np.sqrt(np.maximum(self.B**2 - upper**2, 0.0)))
+            most = np.minimum(most, np.sqrt(np.maximum(self.B**2 - lower**2, 0.0)))
+        if isfinite(power):
+            least = np.maximum(least, np.sqrt(np.maximum((low**2 - power * away).max(axis=1), 0.0)))
+            most = np.minimum(most, np.sqrt((high**2 + power * away).min(axis=1)))
+        return least * (1.0 - _OUTWARD), np.minimum(most * (1.0 + _OUTWARD), self.B)
+
+    def curved(self, box: Box, places: Places, name: str, signs: Array) -> Array:
+        """Rows s p <= M I h/2 or s c <= 4 M I²/b by the planes that the name tells."""
+        peak, _, planes = name.rpartition(", ")
+        family = self.peaks[peak]
+        velocity, below, fall, acceleration = places.rows
+        low, high = self.brackets(box, places.k, velocity)
+        good = (low > _AWAY * self.B) & (high >= low)
+        low, high = np.where(good, low, 0.5 * self.B), np.where(good, high, 0.5 * self.B)
+        if family.divided:
+            square = (1.0 - 2.0 * places.k) ** 2
+            line = above_root(self.B, square, *self._below_range(box, square, below, (low, high)))
+            own, shape, share = fall, below, 0.5
+        else:
+            line, own, shape, share = above_inverse(low, high), acceleration, velocity, 4.0
+        good &= np.isfinite(line.greatest)
+        line = line.where(good)
+        product, bounds = self._product(box, family, planes[1])
+        found = signs[:, None] * own
+        # (M I) h <= top h + bottom (M I) - top bottom, and the other way round
+        flank, corner = (bounds[1], line.least) if planes[0] == "+" else (bounds[0], line.greatest)
+        over = flank * line.slope[:, None] * shape + corner[:, None] * product
+        over[:, -1] += flank * line.height - flank * corner
+        return np.where(good[:, None], found - share * over, 0.0)
+
+    def _product(self, box: Box, family: EnergyFamily, plane: str) -> tuple[Array, tuple[float, float]]:
+        """A row that M I, or M I², is at most in the box, and its least and greatest value."""
+        least, most = float(box.low[self.place]), float(box.high[self.place])
+        row = np.zeros(self.size + 1)
+        row[self.place] = 1.0
+        if not family.divided:
+            # the chord of the square
+            row *= least + most
+            row[-1] = -least * most
+            least, most = least * least, most * most
+        low, high = self._bounds(box, family.name)
+        bounds = (low * least, high * most)
+        if family.name not in self.model.places:
+            return high * row, bounds
+        flank, corner = (high, least) if plane == "+" else (low, most)
+        row = flank * row
+        row[self.model.places[family.name]] += corner
+        row[-1] -= flank * corner
+        return row, bounds
+
+    def _below_range(self, box: Box, square: Array, below: Array, velocity: tuple[Array, Array]) -> tuple[Array, Array]:
+        """Least and greatest q in the box: an affine function of the law, and B - b = t² q; rounded outward."""
+        least, most = box.extent(below)
+        greatest = np.append(np.maximum(np.abs(box.low), np.abs(box.high)), 1.0)
+        blur = _OUTWARD * (np.abs(below) @ greatest)
+        wide = np.where(square > _MIDDLE, square, np.inf)
+        first = (self.B * (1.0 - _OUTWARD) - velocity[1]) / wide
+        last = np.where(square > _MIDDLE, (self.B * (1.0 + _OUTWARD) - velocity[0]) / wide, np.inf)
+        low = np.maximum(np.maximum(least - blur, first), 0.0)
+        return low, np.maximum(np.minimum(most + blur, last), low)
+
+    def beside(self, box: Box) -> list[tuple[str, Array]]:
+        """I at most its tangent at a law in the box, and M I >= B/2 by its own."""
+        middle = np.zeros(self.own)
+        middle[: self.terms] = self.coordinates(0.5 * (box.low + box.high))
+        above = -self.mapped(self.energy.majorant(middle)[None])[0]
+        above[self.place] += 1.0
+        speeds = [family.name for family in self.shared if family.name not in self.peaks]
+        return [(TANGENT, above), *((name, self._velocity(box, name)) for name in speeds)]
+
+    def _velocity(self, box: Box, name: str) -> Array:
+        """B/(2 I) <= M: 1/I is at least its tangent in the middle of the box."""
+        middle = 0.5 * float(box.low[self.place] + box.high[self.place])
+        row = np.zeros(self.size + 1)
+        row[self.place] = -0.5 * self.B / middle**2
+        row[-1] = self.B / middle
+        if name in self.model.places:
+            row[self.model.places[name]] = -1.0
+        else:
+            row[-1] -= self._greatest(name)
+        return row
+
+    def _columns(self, family: Family, k: Array) -> Array:
+        columns: Array = family.columns(2.0 * (1.0 - 2.0 * k) ** 2 - 1.0)[0]  # type: ignore[attr-defined]
+        return columns
+
+    def _bounds(self, box: Box, name: str) -> tuple[float, float]:
+        """Least and greatest value of a peak in the box; the same number where it is only bounded."""
+        if name in self.model.places:
+            place = self.model.places[name]
+            return float(box.low[place]), float(box.high[place])
+        return self._greatest(name), self._greatest(name)
+
+    def _greatest(self, name: str) -> float:
+        return self.greatest[name]
+
+
+def _limit(constant: Functional, problem: Problem) -> float:
+    least = constant.limit(problem)
+    return 0.0 if least is None else float(least)
+
+
+def _named(peak: str, planes: str) -> str:
+    return f"{peak}, {planes}"
