@@ -25,6 +25,8 @@ Array = NDArray[np.float64]
 
 _NODES = 16
 _DEEPEST = 12
+#: no more laws than these are worth nodes of their own
+_FEW = 20
 #: of the size of what is interpolated: one step of Newton's method makes the square of it
 _TAIL = 1e-8
 _CHUNK = 1024
@@ -122,13 +124,13 @@ def _guesses(
     own = np.flatnonzero(inside & ((t > begin) | (begin == segment.begin)))
     if not len(own):
         return
-    if len(own) <= _NODES or begin >= end or depth == _DEEPEST:
-        yield own, segment.guessed(t[own])
+    if len(own) <= _FEW or begin >= end or depth == _DEEPEST:
+        yield own, segment.interpolated(t[own])
         return
     middle, half = (begin + end) / 2.0, (end - begin) / 2.0
     nodes = middle + half * np.cos(np.arange(_NODES) * np.pi / (_NODES - 1))[::-1]
     nodes[0], nodes[-1] = begin, end
-    states, done = converged(segment.structure, path.numbers(nodes), segment.guessed(nodes))
+    states, done = converged(segment.structure, path.numbers(nodes), segment.interpolated(nodes))
     if done.all() and _settled(states.packed):
         yield own, States.unpacked(_barycentric(nodes, t[own]) @ states.packed, segment.structure)
         return

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,12 +53,15 @@ class Path:
         The problems at its ends.
     begin, slope
         The numbers at t = 0, and what they change by as t does; each for one program.
+    kept
+        What is known of laws below a claim, computed once.
     """
 
     model: Model
     problems: tuple[Problem, ...]
     begin: Numbers
     slope: Numbers
+    kept: dict[int | None, Any] = field(default_factory=dict, repr=False)
 
     @property
     def one_cost(self) -> bool:

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field, replace
 from itertools import pairwise
-from math import isnan
+from math import isnan, prod
 
 import numpy as np
 from numpy.typing import NDArray
@@ -38,6 +38,7 @@ _APART = 0.2
 _MOST = 400
 #: contacts that are nearer to each other may be two of one
 _SAME = 0.02
+_AT_END = 1e-8
 _BEYOND = (1e-8, 1e-6, 1e-4, 1e-3)
 
 
@@ -65,20 +66,32 @@ class Segment:
 
     def _weights(self, t: float) -> Array:
         """What each known state counts for at t: the nearest, and others that are not too near to each other."""
-        distance = np.abs(self.t - t)
-        order = np.argsort(distance)
-        least = _APART * float(distance[order[0]])
-        chosen = [int(order[0])]
-        for i in order[1:].tolist():
+        known = self.t.tolist()
+        order = np.argsort(np.abs(self.t - t)).tolist()
+        least = _APART * abs(known[order[0]] - t)
+        chosen = [order[0]]
+        for i in order[1:]:
             if len(chosen) == _NEAR:
                 break
-            if min(abs(float(self.t[i] - self.t[j])) for j in chosen) > least:
+            if all(abs(known[i] - known[j]) > least for j in chosen):
                 chosen.append(i)
-        found = np.zeros(len(self.t))
+        found = np.zeros(len(known))
         for i in chosen:
-            others = np.array([self.t[j] for j in chosen if j != i])
-            found[i] = np.prod((t - others) / (self.t[i] - others))
+            found[i] = prod((t - known[j]) / (known[i] - known[j]) for j in chosen if j != i)
         return found
+
+    def interpolated(self, t: Array) -> States:
+        """States between those that are known, by the polynomial through the nearest on both sides."""
+        near = min(_NEAR, len(self.t))
+        begin = np.clip(np.searchsorted(self.t, t) - near // 2, 0, len(self.t) - near)
+        chosen = begin[:, None] + np.arange(near)
+        places = self.t[chosen]
+        apart = places[:, :, None] - places[:, None, :]
+        apart[:, np.arange(near), np.arange(near)] = 1.0
+        away = np.repeat((t[:, None] - places)[:, None, :], near, axis=1)
+        away[:, np.arange(near), np.arange(near)] = 1.0
+        weights = (away / apart).prod(axis=2)
+        return States.unpacked(np.einsum("tn,tnk->tk", weights, self.rows[chosen]), self.structure)
 
     def joined(self, t: Array, rows: Array) -> None:
         """Know more states."""
@@ -124,7 +137,7 @@ class Walk:
         """A segment that begins with one law; None where that is not proven optimal."""
         for one in (optimum, _merged(optimum)):
             structure, order = structure_of(self.path.model, one)
-            own = (one.x, one.u[order], one.multipliers[order], one.equality_multipliers)
+            own = (one.x, _on_ends(structure, one.u[order]), one.multipliers[order], one.equality_multipliers)
             rows, sound, _ = self._solved(structure, np.array([t]), States(*(part[None] for part in own)))
             if sound[0]:
                 return Segment(structure, np.array([t]), rows)
@@ -175,7 +188,9 @@ class Walk:
     def _stretched(self, segment: Segment, goal: float) -> float | None:
         """Walk a segment toward an end of the path as far as it holds; a t just beyond, or None."""
         good, way = (segment.end, 1.0) if goal >= segment.end else (segment.begin, -1.0)
-        bad, stride, broken = goal, _FIRST * self.reach, list[tuple[float, float]]()
+        # laws of an affine structure are known at any distance
+        bad, stride = goal, self.reach if segment.structure.affine and self.path.one_cost else _FIRST * self.reach
+        broken: list[tuple[float, float]] = []
         for _ in range(_ROUNDS):
             t = _probes(good, bad, way * stride, broken)
             rows, sound, worst = self._solved(segment.structure, t, segment.guessed(t))
@@ -216,12 +231,20 @@ class Walk:
 _OUTSIDE = 1e-12
 
 
+def _on_ends(structure: Structure, u: Array) -> Array:
+    """The places with those that may not move on the ends of their domains, off which rounding may have put them."""
+    ends = np.array([structure.model.program.families[i].domain for i in structure.family]).reshape(-1, 2)
+    nearest = np.where(np.abs(u - ends[:, 0]) < np.abs(u - ends[:, 1]), ends[:, 0], ends[:, 1])
+    return np.where(~structure.free & (np.abs(u - nearest) < _AT_END), nearest, u)
+
+
 def _merged(optimum: ActiveSet) -> ActiveSet:
     """The same with contacts of one row that are near to each other as one: they are met where two become one."""
     if not len(optimum.u):
         return optimum
     order = np.lexsort((optimum.u, optimum.s, optimum.family))
-    family, u, s, weights = (one[order] for one in (optimum.family, optimum.u, optimum.s, optimum.multipliers))
+    family = optimum.family[order]
+    u, s, weights = (one[order] for one in (optimum.u, optimum.s, optimum.multipliers))
     near = (np.diff(family) == 0) & (np.diff(s) == 0.0) & (np.diff(u) < _SAME)
     first = np.flatnonzero(np.concatenate([[True], ~near]))
     total = np.add.reduceat(weights, first)

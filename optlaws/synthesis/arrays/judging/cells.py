@@ -33,7 +33,9 @@ _MARGIN = 1e-12
 _LOOKED_AT = 14
 _JOINED = 4
 _HALVINGS = 12
-_STEPS = 6
+_STEPS = 8
+#: of the greatest term: by more a tangent at the lowest place may not fall
+_FALLS = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
@@ -227,7 +229,7 @@ def _lowest(rows: Array) -> Array:
 
 
 def _by_tangent(rows: Array) -> Array:
-    """Lower bounds of convex series: the lowest end of the tangent near to where each is least."""
+    """Lower bounds of convex series: the lowest end of the tangent where each is least; NaN where that was not met."""
     series = rows.T
     slope = chebyshev.chebder(series)
     bend = chebyshev.chebder(slope)
@@ -239,8 +241,8 @@ def _by_tangent(rows: Array) -> Array:
     first = chebyshev.chebval(at, slope, tensor=False)
     value = chebyshev.chebval(at, series, tensor=False)
     # from the place itself to the end toward which the tangent falls
-    reach = np.where(first > 0.0, 1.0 + at, 1.0 - at)
-    return np.asarray(value - np.abs(first) * reach)
+    fall = np.abs(first) * np.where(first > 0.0, 1.0 + at, 1.0 - at)
+    return np.where(fall <= _FALLS * np.abs(rows).max(axis=1), value - fall, np.nan)
 
 
 @lru_cache(maxsize=16)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from math import inf
+from math import ceil, inf, log
 
 import numpy as np
 from numpy.typing import NDArray
@@ -19,6 +19,10 @@ Array = NDArray[np.float64]
 _UNIT = 2.0**-53
 #: roundings in a row before it is weighted, as certificates count them
 _IN_A_ROW = 9
+#: claims are taken from a geometric row, upward: what is known of laws below them is known of all before
+_CLAIMS, _ABOVE = 1.01, 1.0 + 2.0**-40
+
+_Below = tuple[dict[str, float], dict[str, float], list[tuple[Array, Array]]]
 
 
 def lower_bounds(path: Path, structure: Structure, numbers: Numbers, states: States, value: Array) -> Array:
@@ -55,8 +59,7 @@ def _weighted(weights: Array, rows: Array) -> Array:
 
 def _charge(path: Path, slope: Array, blur: Array, claim: float) -> Array:
     """Most that the slope can be worth in laws up to the claim, as a certificate charges it, for each law."""
-    greatest = _greatest(path, claim)
-    least = least_values(path.model.problem, path.model.space)
+    greatest, least, sizes = _below(path, claim)
     terms, beyond = path.model.space.terms, np.zeros(len(slope))
     for name, place in path.model.places.items():
         own = slope[:, place]
@@ -66,16 +69,21 @@ def _charge(path: Path, slope: Array, blur: Array, claim: float) -> Array:
         beyond += down + up
     reaches = [
         (np.abs(slope[:, :terms] @ extension.T) + blur[:, :terms] @ np.abs(extension).T) @ most
-        for most, extension in moments(path.model, greatest)
+        for most, extension in sizes
     ]
     return beyond + (np.min(reaches, axis=0) if reaches else inf)
 
 
-def _greatest(path: Path, claim: float) -> dict[str, float]:
-    """The greatest values of variables and constants in laws of the path below the claim."""
-    found: dict[str, float] = {}
-    for problem in path.problems:
-        model: Model = replace(path.model, problem=problem)
-        for name, value in greatest_values(model, max(claim, 0.0)).items():
-            found[name] = max(found.get(name, 0.0), value)
-    return found
+def _below(path: Path, claim: float) -> _Below:
+    """What is known of laws of the path below the claim, or one that is a little above it."""
+    step = ceil(log(claim) / log(_CLAIMS)) if claim > 0.0 else None
+    if step not in path.kept:
+        found: dict[str, float] = {}
+        for problem in path.problems:
+            model: Model = replace(path.model, problem=problem)
+            for name, value in greatest_values(model, 0.0 if step is None else _CLAIMS**step * _ABOVE).items():
+                found[name] = max(found.get(name, 0.0), value)
+        least = least_values(path.model.problem, path.model.space)
+        path.kept[step] = (found, dict(least), moments(path.model, found))
+    below: _Below = path.kept[step]
+    return below
