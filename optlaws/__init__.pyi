@@ -10,6 +10,7 @@ from optlaws.errors import SolverFailure as SolverFailure
 from optlaws.laws.catalogue.catalogue import catalogue as catalogue
 from optlaws.laws.constants import Constants as Constants
 from optlaws.laws.law import MotionLaw as MotionLaw
+from optlaws.laws.making.input_shaping import shaped_law as shaped_law
 from optlaws.laws.making.multiplier import multiplied as multiplied
 from optlaws.laws.making.transform import mirrored_law as mirrored_law
 from optlaws.laws.making.transform import reversed_law as reversed_law
@@ -42,6 +43,10 @@ from optlaws.mechanisms.loader.optimal import balanced_law as balanced_law
 from optlaws.mechanisms.loader.trapezium import TrapeziumSubstitute as TrapeziumSubstitute
 from optlaws.mechanisms.machine.machine import Machine as Machine
 from optlaws.mechanisms.machine.masses import Link as Link
+from optlaws.mechanisms.of_machines.flat_output import driving_law as driving_law
+from optlaws.mechanisms.of_machines.flat_output import flat_output as flat_output
+from optlaws.mechanisms.of_machines.parameters import MachineSpectrum as MachineSpectrum
+from optlaws.mechanisms.of_machines.parameters import machine_spectrum as machine_spectrum
 from optlaws.mechanisms.spectrum.residual import residual_functional as residual_functional
 from optlaws.mechanisms.spectrum.residual import residual_phasor as residual_phasor
 from optlaws.mechanisms.spectrum.robust import residual as residual
@@ -137,6 +142,7 @@ __all__ = [
     "Link",
     "Loader",
     "Machine",
+    "MachineSpectrum",
     "MotionLaw",
     "NotNormalised",
     "OptlawsError",
@@ -171,14 +177,17 @@ __all__ = [
     "compare_dwell_mechanisms",
     "construct",
     "deg",
+    "driving_law",
     "dwell_mechanism",
     "each",
     "find_torsion_levers",
+    "flat_output",
     "integral",
     "jounce",
     "limit",
     "limit_law",
     "loader",
+    "machine_spectrum",
     "mass_law",
     "maximum",
     "mirrored_law",
@@ -200,6 +209,7 @@ __all__ = [
     "run_study",
     "savin",
     "scca",
+    "shaped_law",
     "smoothstep",
     "sweep",
     "synthesize",

@@ -29,6 +29,7 @@ _MODULES = {
     "loader nomogram": "loader.nomogram",
     "loader optimal": "loader.optimal",
     "loader table": "loader.table",
+    "machine laws": "machine.laws_for_machine",
     "optimal polydyne": "follower.optimal_polydyne",
     "optimal table": "laws.optimal_table",
     "own search": "laws.own_search",

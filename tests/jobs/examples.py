@@ -220,6 +220,27 @@ file = "printed.csv"
 match = "B"
 columns = ["C"]
 """
+MACHINE_LAWS = """
+job = "machine laws"
+title = "Small"
+report = ["torque"]
+standard = ["cycloidal"]
+[machine]
+masses = { motor = 1.0, load = 2.0 }
+links = [["motor", "load", 450.0, 1.0]]
+drive = "motor"
+outputs = { torque = "drive force", sway = "deflection motor-load" }
+[vibration]
+output = "sway"
+[[sought]]
+name = "ours"
+minimise = { peak = "torque" }
+keep = [{ residual = 1, output = "sway", spread = 0.1, most = 0.005 }, { constant = "J", most = 200.0 }]
+problem = { order = 3, degree = 7 }
+[figure]
+output = "torque"
+laws = ["cycloidal, ZV", "ours"]
+"""
 OPTIMAL_POLYDYNE = (
     (ROOT / "problems" / "optimal_polydyne.toml")
     .read_text("utf-8")
@@ -408,6 +429,21 @@ EXAMPLES = {
             ("1.571", "1,571", "5 cells"),
             ("1.571", "1.5x", "row K, B.*not a number"),
             ("K,K", "K,Kq", "no law is called 'Kq'"),
+        ),
+    ),
+    "machine laws": Example(
+        MACHINE_LAWS,
+        (
+            ("spread = 0.1", "spred = 0.1", "did you mean 'spread'"),
+            ('report = ["torque"]', 'report = ["torqe"]', "report.*did you mean 'torque'"),
+            ('{ peak = "torque" }', '{ peak = "torqe" }', "sought 'ours'.*did you mean 'torque'"),
+            ('{ peak = "torque" }', '{ peak = "torque", rms = "torque" }', "one of peak and rms"),
+            ("450.0", "-450.0", "machine.*stiffness"),
+            ('drive = "motor"', 'drive = "engine"', "machine.*'engine'"),
+            ("residual = 1", "residual = 2", "sought 'ours'.*from 1 to 1"),
+            ('laws = ["cycloidal, ZV"', 'laws = ["cycloidal, EI"', "no law is called 'cycloidal, EI'"),
+            ('["cycloidal"]', '["cycloidial"]', "cycloidial"),
+            ("degree = 7", "degre = 7", "did you mean 'degree'"),
         ),
     ),
     "optimal polydyne": Example(

@@ -1,0 +1,1 @@
+"""Jobs about machines that a law drives."""

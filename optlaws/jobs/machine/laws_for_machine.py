@@ -1,0 +1,242 @@
+"""The job "machine laws": laws made for a machine beside standard ones and shaped ones, tabled and drawn."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import msgspec
+import numpy as np
+
+from optlaws import drawing
+from optlaws.errors import InputError
+from optlaws.files import tables, writing
+from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.machine.definition import MachineTable, Sought, Spread
+from optlaws.jobs.pages.page import Page
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.making.input_shaping import Shaper, shaped_law
+from optlaws.mechanisms.machine.machine import Machine
+from optlaws.mechanisms.machine.modes import mode
+from optlaws.studies.points.problem_entries import gap
+from optlaws.synthesis import Solution, synthesize
+
+if TYPE_CHECKING:
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+SHAPERS: tuple[Shaper, ...] = ("ZV", "ZVD")
+_POINTS = 401
+_FLOOR = 1e-4  # of the greatest residual: what the logarithmic picture still shows
+_NOTHING = 1e-12  # of the vibration of a step: a residual that is rounding
+
+
+class Vibration(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """In which output what is left of which modes counts, and by how much frequencies may be off."""
+
+    output: Text
+    modes: Annotated[list[int], msgspec.Meta(min_length=1, max_length=4)] = msgspec.field(default_factory=lambda: [1])
+    shaped: int = 1
+    spread: Spread = 0.1
+
+
+class Pictured(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """Which output of which laws is drawn, with how much of the dwell."""
+
+    output: Text
+    laws: Annotated[list[Text], msgspec.Meta(min_length=1, max_length=6)]
+    dwell: Annotated[float, msgspec.Meta(ge=0.0, le=5.0)] = 0.5
+    spread: Spread = 0.25
+
+
+class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The problem file."""
+
+    job: str
+    title: Text
+    machine: MachineTable
+    vibration: Vibration
+    report: list[Text]
+    standard: Annotated[list[Text], msgspec.Meta(min_length=1, max_length=8)]
+    sought: Annotated[list[Sought], msgspec.Meta(min_length=1, max_length=8)]
+    figure: Pictured
+    text: str = ""
+
+
+@dataclass(frozen=True, eq=False)
+class Compared:
+    """A law for the machine; its solution if it is an optimum, nothing if it does not exist."""
+
+    name: str
+    machine: Machine
+    vibration: Vibration
+    law: MotionLaw | None
+    solution: Solution | None = None
+
+    def residual(self, number: int, factor: float) -> float:
+        """Amplitude that a mode is left with where all frequencies are `factor` times as high."""
+        assert self.law is not None  # noqa: S101 - only laws that are there are asked
+        found = self.machine.at_speed(1.0 / factor).residual(number, self.vibration.output)
+        value = found.value(self.law)
+        return value if value > _NOTHING * found.share else 0.0
+
+    @kept_property
+    def residuals(self) -> list[float]:
+        """Those of every mode that is asked: too slow, as it should be, too fast; and the greatest in between."""
+        spread = self.vibration.spread
+        found = []
+        for number in self.vibration.modes:
+            found += [self.residual(number, factor) for factor in (1.0 - spread, 1.0, 1.0 + spread)]
+            assert self.law is not None  # noqa: S101 - as above
+            found.append(self.machine.residual(number, self.vibration.output, spread=spread).value(self.law))
+        return found
+
+
+def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
+    """Do the job and return the files written."""
+    spec = convert(data, Study, file)
+    machine = spec.machine.machine()
+    _check(spec, machine)
+    laws = list(compared(spec, machine))
+    headings, lines = _headings(spec), [_line(spec, one) for one in laws]
+    about = f"{spec.title}; from {file.name}"
+    written = [
+        writing.write(out / "table.csv", tables.to_csv(headings, lines, about=about)),
+        writing.write(out / "table.md", str(_page(spec, machine, headings, lines))),
+    ]
+    return written + drawing.save_picture(draw(spec, machine, laws), out / "figure")
+
+
+def _check(spec: Study, machine: Machine) -> None:
+    for where, output in (
+        ("vibration", spec.vibration.output),
+        ("figure", spec.figure.output),
+        *(("report", one) for one in spec.report),
+    ):
+        try:
+            machine.place(output)
+        except InputError as error:
+            raise InputError(f"{where}: {error}") from None
+    for number in (*spec.vibration.modes, spec.vibration.shaped):
+        try:
+            mode(machine, number)
+        except InputError as error:
+            raise InputError(f"vibration: {error}") from None
+    known = _names(spec)
+    for name in spec.figure.laws:
+        if name not in known:
+            raise InputError(f"figure: no law is called {name!r}; there are {', '.join(known)}")
+    for one in spec.sought:
+        one.asked(machine)
+
+
+def _names(spec: Study) -> list[str]:
+    shaped = [f"{name}, {shaper}" for name in spec.standard for shaper in SHAPERS]
+    return [*spec.standard, *shaped, *(one.name for one in spec.sought)]
+
+
+def compared(spec: Study, machine: Machine) -> Iterator[Compared]:
+    """All laws, in the order of the table: standard ones, each as it is and shaped, and those made for the machine."""
+    vibration = mode(machine, spec.vibration.shaped)
+    for name in spec.standard:
+        law = catalogue[name].law
+        yield Compared(name, machine, spec.vibration, law)
+        for shaper in SHAPERS:
+            try:
+                shaped: MotionLaw | None = shaped_law(law, vibration.frequency, vibration.damping, shaper)
+            except InputError:
+                shaped = None  # the vibration is too slow for it: the table says so
+            yield Compared(f"{name}, {shaper}", machine, spec.vibration, shaped)
+    for one in spec.sought:
+        solution = synthesize(one.asked(machine))
+        yield Compared(one.name, machine, spec.vibration, solution.law, solution)
+
+
+def _headings(spec: Study) -> list[str]:
+    percent = f"{100.0 * spec.vibration.spread:g} %"
+    ends = (f"-{percent}", "nominal", f"+{percent}", f"greatest within {percent}")
+    residuals = [f"mode {number} left, {end}" for number in spec.vibration.modes for end in ends]
+    peaks = [f"peak {name}" for name in spec.report]
+    return ["law", "B", "C", "J", *peaks, *residuals, "lower bound", "gap", "status"]
+
+
+def _line(spec: Study, one: Compared) -> list[tables.Cell]:
+    if one.law is None:
+        return [one.name, *[None] * (len(_headings(spec)) - 2), "no time for it"]
+    constants, response = one.law.constants, one.machine.response(one.law)
+    peaks = [response.rise_peak(name).value for name in spec.report]
+    proof: list[tables.Cell] = [None, None, None]
+    if one.solution is not None:
+        proof = [one.solution.lower_bound, gap(one.solution), one.solution.status.value]
+    shown = [constants.B.value, constants.C.value, _finite(constants.J.value)]
+    return [one.name, *shown, *peaks, *one.residuals, *proof]
+
+
+def _finite(value: float) -> float | None:
+    return value if np.isfinite(value) else None
+
+
+def _page(spec: Study, machine: Machine, headings: Sequence[str], lines: list[list[tables.Cell]]) -> Page:
+    page = Page(spec.title).text(spec.text).figure("figure", spec.title)
+    modes = [[one.number, one.frequency, one.frequency / (2.0 * np.pi), one.damping] for one in machine.modes]
+    page.heading("The machine's modes").table(["mode", "radians in the rise", "periods in the rise", "damping"], modes)
+    about = (
+        "C and J are dimensionless. "
+        f"What is left of a mode is its amplitude in {spec.vibration.output!r} after the motion, "
+        "with all frequencies as they are and off by the share that is named. A law without a finite J has jumps of c."
+    )
+    return page.heading("Laws").text(about).table(headings, lines, digits=5)
+
+
+def draw(spec: Study, machine: Machine, laws: Sequence[Compared]) -> Figure:
+    """What is left of each mode over its frequency, and an output over time."""
+    drawn = [one for name in spec.figure.laws for one in laws if one.name == name and one.law is not None]
+    with drawing.style():
+        modes = spec.vibration.modes
+        figure = drawing.figure(9.6 + 3.6 * (len(modes) - 1), 4.6)
+        *left, right = figure.subplots(1, len(modes) + 1)
+        for number, axes in zip(modes, left, strict=True):
+            _residuals(axes, spec, number, drawn)
+        _outputs(right, spec, machine, drawn)
+        handles, labels = right.get_legend_handles_labels()
+        figure.suptitle(spec.title, x=0.01, ha="left", fontsize=11.0)
+        figure.legend(handles, labels, loc="outside lower center", ncols=3)
+        return figure
+
+
+def _residuals(axes: Axes, spec: Study, number: int, laws: Sequence[Compared]) -> None:
+    spread = spec.figure.spread
+    factors = np.linspace(1.0 - spread, 1.0 + spread, _POINTS // 4)
+    courses = [np.array([one.residual(number, float(factor)) for factor in factors]) for one in laws]
+    least = _FLOOR * max(float(one.max()) for one in courses)
+    for course, style in zip(courses, _styles(laws), strict=True):
+        axes.semilogy(100.0 * (factors - 1.0), np.maximum(course, least), **style)
+    band = 100.0 * spec.vibration.spread
+    axes.axvspan(-band, band, color="#f2f2f2", zorder=0)
+    axes.set(xlim=(-100.0 * spread, 100.0 * spread), ylim=(least, None), xlabel="frequency off by, %")
+    axes.set(title=f"mode {number} left in {spec.vibration.output}")
+
+
+def _outputs(axes: Axes, spec: Study, machine: Machine, laws: Sequence[Compared]) -> None:
+    k = np.linspace(0.0, 1.0 + spec.figure.dwell, _POINTS)
+    for one, style in zip(laws, _styles(laws), strict=True):
+        assert one.law is not None  # noqa: S101 - only those that are there are drawn
+        axes.plot(k, machine.response(one.law, dwell=spec.figure.dwell)[spec.figure.output](k), label=one.name, **style)
+    axes.axvline(1.0, color="black", linewidth=0.7, linestyle=":")
+    axes.set(xlim=(0.0, k[-1]), xlabel="k", title=spec.figure.output)
+
+
+def _styles(laws: Sequence[Compared]) -> list[dict[str, Any]]:
+    ours = iter((drawing.BLUES[-1], drawing.GREEN, "#66c2a5", drawing.BLUES[1]))
+    known = iter((drawing.GREY, drawing.WARM, "#fdae61", "#8c8c8c", "#a6761d"))
+    found = []
+    for one in laws:
+        if one.solution is None:
+            found.append({"color": next(known, drawing.GREY), "linestyle": "--", "linewidth": 1.2})
+        else:
+            found.append({"color": next(ours, drawing.BLUES[-1]), "linewidth": 1.6})
+    return found

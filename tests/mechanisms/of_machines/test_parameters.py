@@ -1,0 +1,33 @@
+"""Spectra of machines over a parameter: those of followers, and of machines one by one."""
+
+import numpy as np
+import pytest
+
+from optlaws import InputError, Machine, machine_spectrum, response_spectrum, savin
+
+
+def follower(nu: float) -> Machine:
+    C, D = [[-(nu**2), -0.1 * nu]], [[nu**2]]
+    return Machine([[0, 1], [-(nu**2), -0.1 * nu]], [[0], [nu**2]], C, D, outputs=["acceleration"])
+
+
+def test_a_followers_spectrum_is_its_own() -> None:
+    nu, law = np.linspace(5.0, 40.0, 8), savin("III", 7.2)
+    found, wanted = machine_spectrum(follower, nu, law), response_spectrum(law, nu, 0.05)
+    assert found.frequencies[:, 0] == pytest.approx(nu, rel=1e-12)
+    assert found.residuals[:, 0] == pytest.approx(wanted.residual_acceleration, rel=1e-9)
+    assert found.peaks["acceleration"] == pytest.approx(wanted.peak_acceleration, rel=1e-5)
+
+
+def test_machines_with_fewer_modes_have_no_number_there() -> None:
+    found = machine_spectrum(
+        lambda c: Machine([[0, 1], [-25, -c]], [[0], [25]], [[1, 0]]), [1.0, 20.0], savin("III", 0)
+    )
+    assert np.isnan(found.residuals).ravel().tolist() == [False, True]
+
+
+def test_what_is_no_machine_is_refused() -> None:
+    with pytest.raises(InputError, match="make must give a Machine"):
+        machine_spectrum(lambda _: 3, [1.0], savin("III", 0))  # type: ignore[arg-type,return-value]
+    with pytest.raises(InputError, match="same outputs"):
+        machine_spectrum(lambda s: Machine([[-s]], [[s]], [[1.0]], outputs=[f"at {s:g}"]), [1.0, 2.0], savin("III", 0))
