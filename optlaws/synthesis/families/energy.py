@@ -92,8 +92,8 @@ class Energy:
         if not min(float(q.min()), float(r.min())) > _LEAST_SHARE * peak > 0.0:
             return None
         ratio = np.sqrt(r / q)
-        found: Array = 0.5 * ((weight * ratio) @ below + (weight / ratio) @ above)
-        return found
+        row: Array = 0.5 * ((weight * ratio) @ below + (weight / ratio) @ above)
+        return row
 
     def factor(self, x: Array) -> Taylor:
         """Y, half of the inverse, with its derivatives."""
@@ -224,13 +224,13 @@ class EnergyFamily(Family):
 
     def jet(self, x: Array, u: Array, s: Array) -> Jet:
         """Residuals with their derivatives."""
-        found = self._taylor(x, u)
+        peak = self._taylor(x, u)
         return Jet(
-            s * found.value - self.room(x),
-            s * found.gradient[:, 0],
-            s * found.curvature[:, 0, 0],
-            s[:, None] * found.gradient[:, 1:] - self.slack,
-            s[:, None] * found.curvature[:, 0, 1:],
+            s * peak.value - self.room(x),
+            s * peak.gradient[:, 0],
+            s * peak.curvature[:, 0, 0],
+            s[:, None] * peak.gradient[:, 1:] - self.slack,
+            s[:, None] * peak.curvature[:, 0, 1:],
         )
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
@@ -275,8 +275,8 @@ class EnergyFamily(Family):
         if self.divided:
             parts.append(self._below_above(x, u).power(-0.5))
         shared = self.energy.factor(x)
-        found = reduce(Taylor.__mul__, [*parts, *[_repeated(shared, len(u))] * self.degree])
-        return found.scaled(self.scale)
+        whole = reduce(Taylor.__mul__, [*parts, *[_repeated(shared, len(u))] * self.degree])
+        return whole.scaled(self.scale)
 
     def _below_above(self, x: Array, u: Array) -> Taylor:
         below, above = (_at_places(family, x, u) for family in (self.energy.below, self.energy.above))
@@ -292,8 +292,8 @@ def _at_places(family: LinearFamily, x: Array, u: Array) -> Taylor:
     return Taylor(value, np.column_stack([slope, columns[0, :, :-1]]), bend)
 
 
-def _repeated(one: Taylor, count: int) -> Taylor:
-    return Taylor(*(np.repeat(part, count, axis=0) for part in (one.value, one.gradient, one.curvature)))
+def _repeated(factor: Taylor, count: int) -> Taylor:
+    return Taylor(*(np.repeat(part, count, axis=0) for part in (factor.value, factor.gradient, factor.curvature)))
 
 
 def _derivative(series: Array) -> Array:

@@ -19,6 +19,7 @@ from optlaws.synthesis.proof.certificate import Certificate, Contact
 from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step
 from optlaws.synthesis.proof.power.rows import POWER_ROWS, applies
 from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.exact.known_constants import known
 from optlaws.verification.exact.rows import ExactRows
 
 Vector = list[arb]
@@ -50,6 +51,11 @@ class _Box:
 def prove_power(certificate: PowerCertificate) -> Fraction | None:
     """The claim of a power certificate if its steps prove it with every rounding enclosed, else None.
 
+    Raises
+    ------
+    InputError
+        If the problem has a constant that nobody has put into exact arithmetic, such as one of a loader.
+
     Examples
     --------
     >>> from optlaws import Problem, synthesize
@@ -57,6 +63,8 @@ def prove_power(certificate: PowerCertificate) -> Fraction | None:
     >>> float(prove_power(solution.power_certificate)) == solution.lower_bound
     True
     """
+    for constant in sorted(certificate.problem.constants, key=repr):
+        known(constant)
     if not applies(certificate.problem):
         return None
     with ctx.workprec(_BITS):

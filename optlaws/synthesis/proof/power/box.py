@@ -143,8 +143,8 @@ class BoxRows(ABC):
     def coordinates(self, values: Array) -> Array:
         """The coordinates of the law whose velocities at the points are the first of the values."""
         inverse, base = self._map
-        found: Array = inverse @ values[: self.terms] - base
-        return found
+        coordinates: Array = inverse @ values[: self.terms] - base
+        return coordinates
 
     def mapped(self, rows: Array) -> Array:
         """Rows over the program's variables, the constant last, as rows over those of a box."""
@@ -156,8 +156,8 @@ class BoxRows(ABC):
     def rows(self, nu: int, k: Array) -> Array:
         """The law's derivative at the places k over the program's variables, the constant last."""
         family = self._families[nu]
-        found: Array = family.columns(family.u(k))[0]
-        return found
+        values: Array = family.columns(family.u(k))[0]
+        return values
 
     def derivative(self, nu: int, k: Array) -> Array:
         """The same over the variables of a box."""
@@ -165,20 +165,20 @@ class BoxRows(ABC):
 
     def of_contacts(self, contacts: Sequence[Contact], box: Box) -> Array:
         """The rows of contacts, each at most 0 with its constant: zeros where the problem does not ask for it."""
-        found = np.zeros((len(contacts), self.size + 1))
-        beside = dict(self.beside(box)) if any(one.constraint in self.alone for one in contacts) else {}
+        stacked = np.zeros((len(contacts), self.size + 1))
+        beside = dict(self.beside(box)) if any(contact.constraint in self.alone for contact in contacts) else {}
         for name in self.names:
-            mine = [i for i, one in enumerate(contacts) if one.constraint == name]
+            mine = [i for i, contact in enumerate(contacts) if contact.constraint == name]
             if mine:
                 k = np.array([contacts[i].k for i in mine])
-                found[mine] = self.curved(box, self.places(k), name, np.array([contacts[i].sign for i in mine]))
-        for i, one in enumerate(contacts):
-            if one.constraint in beside:
-                found[i] = beside[one.constraint]
-            elif one.constraint not in self.names:
-                row, right = row_of(self.model.program, one)
-                found[i] = self.mapped(np.append(row, -right)[None])[0]
-        return found
+                stacked[mine] = self.curved(box, self.places(k), name, np.array([contacts[i].sign for i in mine]))
+        for i, contact in enumerate(contacts):
+            if contact.constraint in beside:
+                stacked[i] = beside[contact.constraint]
+            elif contact.constraint not in self.names:
+                row, right = row_of(self.model.program, contact)
+                stacked[i] = self.mapped(np.append(row, -right)[None])[0]
+        return stacked
 
     def equations(self) -> Array:
         """The program's equations, each 0 with its constant."""

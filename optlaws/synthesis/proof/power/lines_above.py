@@ -78,8 +78,8 @@ def above_root(B: float, square: Array, low: Array, high: Array) -> Line:
 def _root(B: float, square: Array, q: Array) -> Array:
     fall = square * q
     with np.errstate(divide="ignore", invalid="ignore"):
-        found: Array = np.sqrt(q * np.maximum(2.0 * B - fall, 0.0)) / (B - fall)
-    return np.where(fall < B, found, np.inf)
+        values: Array = np.sqrt(q * np.maximum(2.0 * B - fall, 0.0)) / (B - fall)
+    return np.where(fall < B, values, np.inf)
 
 
 def _turn(B: float, square: Array, slope: Array) -> Array:
@@ -93,5 +93,5 @@ def _turn(B: float, square: Array, slope: Array) -> Array:
         for _ in range(_STEPS):
             rest = 1.0 - square * x
             x = x - (x * rest**2 - eta) / (rest * (1.0 - 3.0 * square * x))
-        found = B * x / (1.0 + np.sqrt(np.maximum(1.0 - square * x, 0.0)))
-    return np.where(np.isfinite(found) & (slope > 0.0) & (kappa < _MOST), found, np.inf)
+        turn = B * x / (1.0 + np.sqrt(np.maximum(1.0 - square * x, 0.0)))
+    return np.where(np.isfinite(turn) & (slope > 0.0) & (kappa < _MOST), turn, np.inf)

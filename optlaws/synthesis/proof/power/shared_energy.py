@@ -44,7 +44,8 @@ def applies(problem: Problem) -> bool:
     if not known or not problem.monotone or not isinstance(problem.B, float):
         return False
     bounds = asked_or_claimed(model, 1.0)
-    return all(one.convex or one.name in {family.name for family in shared} for one in problem.constants) and all(
+    names = {family.name for family in shared}
+    return all(constant.convex or constant.name in names for constant in problem.constants) and all(
         isfinite(bounds.get(name, inf)) for name in model.places
     )
 
@@ -58,11 +59,11 @@ class EnergyRows(BoxRows):
         super().__init__(problem, claim, points)
         self.B = float(problem.B)  # type: ignore[arg-type] # `applies` says so
         self.place = self.size - 1
-        self.shared = [one for one in self.model.program.families if isinstance(one, EnergyFamily)]
-        self.peaks = {one.name: one for one in self.shared if len(one.factors) > 1}
+        self.shared = [family for family in self.model.program.families if isinstance(family, EnergyFamily)]
+        self.peaks = {family.name: family for family in self.shared if len(family.factors) > 1}
         self.energy: Energy = self.shared[0].energy
         self.greatest = asked_or_claimed(self.model, claim)
-        self.least = {one.name: _limit(one, problem) for one in problem.constants}
+        self.least = {constant.name: _limit(constant, problem) for constant in problem.constants}
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -72,7 +73,7 @@ class EnergyRows(BoxRows):
     @property
     def alone(self) -> tuple[str, ...]:
         """The tangent of I, and of each peak velocity of the body."""
-        return (TANGENT, *(one.name for one in self.shared if one.name not in self.peaks))
+        return (TANGENT, *(family.name for family in self.shared if family.name not in self.peaks))
 
     @property
     def branched(self) -> list[int]:
@@ -91,12 +92,12 @@ class EnergyRows(BoxRows):
     def kinds(self, box: Box) -> list[tuple[str, float]]:
         """Both signs of all planes; without those that say nothing more where a peak has one bound."""
         del box
-        found = []
+        rows = []
         for name in self.peaks:
             # alone, a peak is as great as the claim allows where that is any help
             planes = _PLANES[::2] if self._single or name not in self.model.places else _PLANES
-            found += [(_named(name, one), sign) for one in planes for sign in (1.0, -1.0)]
-        return found
+            rows += [(_named(name, pair), sign) for pair in planes for sign in (1.0, -1.0)]
+        return rows
 
     def places(self, k: Array) -> Places:
         """Rows of b, of q, of p and of c."""
@@ -189,12 +190,12 @@ class EnergyRows(BoxRows):
         good &= np.isfinite(line.greatest)
         line = line.where(good)
         product, bounds = self._product(box, family, planes[1])
-        found = signs[:, None] * own
+        bounding = signs[:, None] * own
         # (M I) h <= top h + bottom (M I) - top bottom, and the other way round
         flank, corner = (bounds[1], line.least) if planes[0] == "+" else (bounds[0], line.greatest)
         over = flank * line.slope[:, None] * shape + corner[:, None] * product
         over[:, -1] += flank * line.height - flank * corner
-        return np.where(good[:, None], found - share * over, 0.0)
+        return np.where(good[:, None], bounding - share * over, 0.0)
 
     def _product(self, box: Box, family: EnergyFamily, plane: str) -> tuple[Array, tuple[float, float]]:
         """A row that M I, or M I², is at most in the box, and its least and greatest value."""

@@ -9,13 +9,14 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from optlaws import Chebyshev, MotionLaw, PowerCertificate, Problem, Solution, at_most, loader, synthesize
+from optlaws import Chebyshev, InputError, MotionLaw, PowerCertificate, Problem, Solution, at_most, loader, synthesize
 from optlaws.mechanisms.loader.constants import NAMES, D_loader
 from optlaws.synthesis.proof.power.box import Box, BoxRows
 from optlaws.synthesis.proof.power.certificate import Step
 from optlaws.synthesis.proof.power.lines_above import above_inverse, above_root
 from optlaws.synthesis.proof.power.rows_of_problem import rows_of
 from optlaws.synthesis.proof.power.search import _points
+from optlaws.verification import verify
 
 PROBLEM = Problem(B=1.7, order=3, basis=Chebyshev(7), monotone=True, minimise="C_loader")
 OBJECTIVES = ("C_loader", "D_loader", "0.5*C/4 + 0.5*C_loader/4", "D_loader/2 + C_loader/4 + B_loader + C/20")
@@ -134,6 +135,13 @@ def test_what_is_not_proven_is_not_claimed() -> None:
     assert replace(proof, problem=replace(PROBLEM, basis=Chebyshev(9))).bound == -np.inf
     contacts = [one for step in proof.steps if isinstance(step, Step) for one in step.contacts]
     assert {one.constraint for one in contacts} & {"C_loader, ++", "C_loader, -+"}
+
+
+def test_exact_verification_says_that_it_knows_no_loaders() -> None:
+    proof = proven("C_loader").power_certificate
+    assert proof is not None
+    with pytest.raises(InputError, match=r"exact verification knows .*, not C_loader"):
+        verify(proof.to_dict())
 
 
 def test_a_law_of_higher_degree_beats_a_bound_of_a_lower_one() -> None:
