@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import replace
-from math import inf, sqrt
+from dataclasses import fields, replace
+from math import inf, log2, sqrt
 from typing import Any
 
 import numpy as np
@@ -13,6 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.numbers import real, whole
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.front import SAME, Front, undominated, value_of
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import FUNCTIONALS, PLAIN
@@ -22,10 +23,13 @@ from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.program.writer import extreme_velocity
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import synthesize
+from optlaws.synthesis.solve_array import solved
 
 # how far above its least value a constant is held while the next one is minimised: as near as the solver can go
 _ABOVE = (1e-5, 1e-7, 1e-9)
 _BENT = 2.0
+#: from so many points on those of convex problems are put in many at a time, where they are a quarter as wanted as any
+_MANY, _SHARE, _EVEN = 100, 0.25, 4
 # a stretch of the first constant, relative, within which nothing is exchanged
 _NOTHING = 1e-6
 
@@ -107,6 +111,8 @@ class _Curve:
     def grow(self, count: int) -> Front:
         """Put a point into the stretch that wants one most, and so on."""
         dead: set[float] = set()
+        if count >= _MANY and self._asked(self.points[0][0]).convex:
+            self._grow_together(count)
         while len(self.points) < count:
             widths = [0.0 if self.points[i][0] in dead else width for i, width in enumerate(self._widths())]
             i = int(np.argmax(widths))
@@ -121,6 +127,31 @@ class _Curve:
             else:
                 self.points.insert(i + 1, (value, solution))
         return Front(self.over, tuple(undominated([s for _, s in self.points], self.over)), tuple(sorted(self.failed)))
+
+    def _grow_together(self, count: int) -> None:
+        """Put points into all stretches that want one a quarter as much as any; their laws are found many at a time."""
+        (low, _), (high, _) = self.points
+        # the middles of the first stretches, and of their halves, and so on
+        begun = 2 ** int(log2(count / _EVEN))
+        values = [low * (high / low) ** (i / begun) for i in range(1, begun)]
+        while values:
+            results = solved(self._problems(values))
+            laws = [(value, results.result(i)) for i, value in enumerate(values)]
+            found = [(value, one) for value, one in laws if isinstance(one, Solution) and one.status is Status.OPTIMAL]
+            self.points = sorted([*self.points, *found], key=lambda point: point[0])
+            if len(found) < len(values):
+                # the others are looked at one by one
+                return
+            widths = np.array(self._widths())
+            wanting = np.flatnonzero(widths >= max(_SHARE * widths.max(), SAME))
+            places = wanting[np.argsort(-widths[wanting])][: count - len(self.points)]
+            values = [sqrt(self.points[i][0] * self.points[i + 1][0]) for i in sorted(places.tolist())]
+
+    def _problems(self, values: list[float]) -> ProblemArray:
+        if self.over[0] != "B":
+            return ProblemArray.of([self._asked(value) for value in values])
+        entries = {field.name: getattr(self.problem, field.name) for field in fields(Problem)}
+        return ProblemArray(**{**entries, "B": np.array(values)})
 
     def _asked(self, value: float) -> Problem:
         return _at_most(self.problem, self.over[0], value)

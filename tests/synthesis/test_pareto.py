@@ -170,3 +170,17 @@ def test_fifty_points_are_quick() -> None:
     began = perf_counter()
     pareto_front(L4, ("B", "D"), points=50)
     assert perf_counter() - began < 10.0
+
+
+def test_many_points_are_put_in_together_and_lie_as_evenly() -> None:
+    front = pareto_front(Problem(order=4, basis=Chebyshev(5)), points=200, between=(1.4, 1.8))
+    assert len(front) == 200
+    assert all(point.status == "optimal" for point in front)
+    B, C = front.values.T
+    assert (np.diff(B) > 0.0).all()
+    assert (np.diff(C) < 0.0).all()
+    logs = np.log(front.values)
+    lengths = np.hypot(*(np.diff(logs, axis=0) / np.ptp(logs, axis=0)).T)
+    assert lengths.max() < 4.0 * lengths.mean()
+    alone = synthesize(front[77].problem)
+    assert front[77].objective == pytest.approx(alone.objective, rel=1e-11)
