@@ -152,7 +152,8 @@ def _alone(problems: ProblemArray, place: int, near: Solution | None, bound: str
     """One problem by itself, begun at a neighbour's law."""
     try:
         problem = problems.problem(place)
-        convex = isinstance(problem, Problem) and problem.convex
+        # what was given need be no problem, which is for `synthesize` to say
+        convex = getattr(problem, "convex", False)
         # where problems are not convex, the law of a branch that has become the worse one would stay
         return synthesize(problem, start=near if convex else None, bound=bound)
     except OptlawsError as error:
