@@ -76,8 +76,8 @@ def watched(points: int, degree: int, workers: int) -> Stopwatch:
 
 
 PARTS = {
-    "IPOPT": ("optlaws.synthesis.method.exchange.solve_on_points",),
-    "Newton": ("optlaws.synthesis.method.exchange.newton",),
+    "IPOPT": ("optlaws.synthesis.method.ways.interior_points.solve_on_points",),
+    "Newton": ("optlaws.synthesis.method.ways.contacts.newton", "optlaws.synthesis.method.ways.identified.newton"),
     "proof": ("optlaws.synthesis.search.certify", "optlaws.synthesis.search.lower_bound"),
     "synthesis": ("optlaws.studies.solving.solving.synthesize",),
     "constants": ("optlaws.studies.solving.solving._row",),

@@ -144,6 +144,15 @@ def _within_limits(problems: Path, beta: float, swing: float) -> tuple[TorsionLe
     return tuple(_allowed(beta, swing, spec["lambda"], spec["rho"], spec["nu"]))
 
 
+@cache
+def _some_within_limits(problems: Path, beta: float, swing: float) -> tuple[TorsionLever, ...]:
+    """The shortest, a middle and the longest coupler, with the least and the greatest pre-twists."""
+    spec = reading.toml(problems / _STUDY)
+    lengths, rhos, nus = spec["lambda"], spec["rho"], spec["nu"]
+    middle = lengths[len(lengths) // 2]
+    return tuple(_allowed(beta, swing, [lengths[0], middle, lengths[-1]], [rhos[0], rhos[-1]], [nus[0], nus[-1]]))
+
+
 def _allowed(
     beta: float, swing: float, lengths: list[float], rhos: list[float], nus: list[float]
 ) -> Iterator[TorsionLever]:
@@ -158,16 +167,18 @@ def _allowed(
 def longest_swing(problems: Path) -> Number:
     """The longest swing, by 10 degrees, that any lever of the study makes within its limits."""
     betas = reading.toml(problems / _STUDY)["beta"]
-    return Number(max(swing for swing in range(20, 130, 10) for b in betas if _within_limits(problems, b, swing)))
+    return Number(
+        next(swing for swing in range(120, 10, -10) if any(_some_within_limits(problems, b, swing) for b in betas))
+    )
 
 
 @computation("lever.taylor")
 def taylor(problems: Path) -> Number:
     """The least accuracy of (4) over the study's levers at the swing they reach, percent of the greatest moment."""
-    betas, worst = reading.toml(problems / _STUDY)["beta"], 0.0
-    for beta in betas:
-        swing = max(swing for swing in range(20, 110, 10) if _within_limits(problems, beta, swing) or swing == 20)
-        for one in _within_limits(problems, beta, swing):
+    worst = 0.0
+    for beta in reading.toml(problems / _STUDY)["beta"]:
+        swings = (swing for swing in range(100, 10, -10) if _some_within_limits(problems, beta, swing))
+        for one in _some_within_limits(problems, beta, next(swings, 20)):
             chi = np.linspace(one.chi01 - one.swing, one.chi01, 41)
             exact = one.moment(chi)
             worst = max(worst, float(np.abs(one.taylor_moment(chi) - exact).max() / np.abs(exact).max()))
