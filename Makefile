@@ -66,10 +66,10 @@ results: $(RUN) ## regenerate results/ from every problem file
 # A run leaves every file that says the same as it is: what differs afterwards says something else.
 check-results: $(RUN) ## run every problem file on a copy of results/ and see that nothing in it changes
 	@set -e; top=$$(pwd); copy=$$(mktemp -d); trap 'rm -rf "$$copy"' EXIT; \
-	cp -R problems results "$$copy"; cd "$$copy"; rm -rf $(UNSTEADY:%=results/%); \
-	for problem in $(STEADY); do \
-		echo "optlaws run $$problem"; "$$top/$(BIN)/optlaws" run "$$problem" >said; grep -x 'results/[^ ]*' said >>written; \
-	done; \
+	cp -R problems results "$$copy"; cd "$$copy"; rm -rf $(UNSTEADY:%=results/%); mkdir said; \
+	printf '%s\n' $(STEADY) | xargs -P 2 -I FILE sh -c \
+		'echo "optlaws run FILE"; "$$0" run FILE >said/$$(basename FILE)' "$$top/$(BIN)/optlaws"; \
+	grep -hx 'results/[^ ]*' said/* >written; \
 	LC_ALL=C sort written >made; find results -type f | LC_ALL=C sort >there; \
 	{ diff there made && diff -rq $(UNSTEADY:%=-x %) "$$top/results" results; } \
 		|| { echo "results/ differs from what the problem files give (see above)" >&2; exit 1; }; \
