@@ -59,7 +59,7 @@ class Claim:
 Quantities = Mapping[str, float]
 Computation = Callable[..., Any]
 
-PAPERS = ("dwell", "lever", "loader", "optimal", "savin")
+PAPERS = ("dwell", "lever", "loader", "optimal", "published", "savin")
 COMPUTATIONS: dict[str, Computation] = {}
 
 

@@ -14,11 +14,14 @@ import msgspec
 from optlaws.errors import InputError
 from optlaws.files import reading
 from optlaws.files.problem_file import Text, convert
+from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.suggest import unknown_key
 
 Kind = Literal["formula", "number", "cell", "figure", "claim", "procedure"]
 Confidence = Literal["certain", "likely", "inference"]
 Argument = float | str | list[float | str]
+#: the data of cells that are no csv file
+CATALOGUE = "catalogue"
 
 
 class Verdict(StrEnum):
@@ -76,6 +79,7 @@ class Item(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     `printed` is what stands in print, `as_read` what the scan shows where that is something else, and `means` what a
     misprint should read. `compute` names a computation of `computing`; a figure names the job, the file and the curves
     that show it instead. `within` is in percent; of a formula whose series is cut it is what the rest may be worth.
+    `source` is where it is printed if that is not the paper's.
     """
 
     id: Text
@@ -93,6 +97,7 @@ class Item(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     job: str = ""
     file: str = ""
     curves: list[str] = []
+    source: str = ""
 
 
 class Changed(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
@@ -111,9 +116,10 @@ class Changed(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 class Cells(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A printed table: an item for each row of its data, whose columns stand in braces in `id` and `arguments`.
 
-    With `each` the column has several numbers, each is an item, and {i} counts them from 0. Cells with another verdict
-    than the table's stand in `but`; those that only differ in it in `reproduced`, `on_grid`,
-    `percent` and `contradicted`.
+    `data` is a csv file, or "catalogue" for what its laws' entries say is published, with the columns law, by, constant
+    and printed. With `each` the column has several numbers, each is an item, and {i} counts them from 0. Cells with
+    another verdict than the table's stand in `but`; those that only differ in it in `reproduced`, `on_grid`, `percent`
+    and `contradicted`.
     """
 
     id: Text
@@ -184,8 +190,7 @@ def _expanded(cells: Cells, file: Path) -> Iterator[Item]:
 
 
 def _rows(data: Path, cells: Cells) -> list[dict[str, str]]:
-    lines = [line for line in reading.text(data).splitlines() if line and not line.startswith("#")]
-    rows = list(csv.DictReader(lines))
+    rows = _of_catalogue() if cells.data == CATALOGUE else _of_file(data)
     columns = rows[0] if rows else {}
     for column in (cells.printed, *cells.where):
         if column not in columns:
@@ -195,6 +200,21 @@ def _rows(data: Path, cells: Cells) -> list[dict[str, str]]:
         return asked
     parts = [(row, i, part) for row in asked for i, part in enumerate(row[cells.printed].split())]
     return [{**row, "i": str(i), cells.printed: part} for row, i, part in parts]
+
+
+def _of_file(data: Path) -> list[dict[str, str]]:
+    lines = [line for line in reading.text(data).splitlines() if line and not line.startswith("#")]
+    return list(csv.DictReader(lines))
+
+
+def _of_catalogue() -> list[dict[str, str]]:
+    """The constants that others have published of the laws of the catalogue."""
+    return [
+        {"law": entry.name, "by": one.by, "constant": constant, "printed": text}
+        for entry in catalogue.values()
+        for one in entry.published
+        for constant, text in one.printed
+    ]
 
 
 def _argument(value: Argument, row: Mapping[str, str], file: Path) -> Argument:

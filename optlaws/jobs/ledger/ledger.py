@@ -187,6 +187,6 @@ def _line(one: Judged) -> list[tables.Cell]:
     item = one.item
     verdict = f"to {item.within:g} %" if one.verdict is Verdict.PERCENT else str(one.verdict)
     means = f"means {item.means}" if item.means else ""
-    why = "; ".join(part for part in (means, item.reason, item.lost) if part)
+    why = "; ".join(part for part in (means, item.reason, item.lost, item.source) if part)
     computed = one.computed if item.kind in {"number", "cell", "claim", "procedure"} else None
     return [item.id, item.printed.replace("|", "\\|"), computed, verdict, why.replace("|", "\\|")]

@@ -45,7 +45,7 @@ class Judged:
     def to_dict(self) -> dict[str, object]:
         """Plain data: id, kind, printed, computed, verdict and reason, and what belongs to them."""
         item = self.item
-        told = {name: getattr(item, name) for name in ("as_read", "means", "lost") if getattr(item, name)}
+        told = {name: getattr(item, name) for name in ("as_read", "means", "lost", "source") if getattr(item, name)}
         return {
             "id": item.id,
             "paper": self.paper,

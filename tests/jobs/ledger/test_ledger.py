@@ -13,6 +13,7 @@ from optlaws.errors import InputError
 from optlaws.jobs.ledger import item as items
 from optlaws.jobs.ledger.item import VERDICTS, Item, Verdict
 from optlaws.jobs.ledger.ledger import entries
+from optlaws.jobs.ledger.published import limited, triple_harmonic
 from optlaws.jobs.ledger.verdicts import Judged, judge
 from tests.documents import ROOT
 
@@ -20,7 +21,7 @@ PROBLEMS = ROOT / "problems"
 LEDGER = PROBLEMS / "ledger.toml"
 PAPERS = {paper.name: paper for paper in entries(LEDGER)}
 #: rows and columns of the printed tables
-CELLS = {"savin": 0, "loader": 12 * 3, "lever": 14 * 10, "dwell": 0, "optimal": 13 * 3 + 67}
+CELLS = {"savin": 0, "loader": 12 * 3, "lever": 14 * 10, "dwell": 0, "optimal": 13 * 3 + 67, "published": 16}
 #: the numbers of the equations, and the last of them; none is left out
 EQUATIONS = {
     "savin": (r"\(1\.(\d+)\)", 27),
@@ -28,6 +29,7 @@ EQUATIONS = {
     "lever": (r"\((\d+)\)", 21),
     "dwell": (r"\((\d+)\)", 35),
     "optimal": (r"\((\d+)\)", 10),
+    "published": (r"\((\d+)\)", 0),
 }
 
 
@@ -71,6 +73,33 @@ def test_a_changed_formula_changes_the_verdict(paper: str) -> None:
         left, _, right = item.printed.rpartition("=")
         wrong = msgspec.structs.replace(item, printed=f"{left}= 1.001*({right}) + 0.001")
         assert judge(wrong, paper, PROBLEMS).verdict is Verdict.CONTRADICTED, item.id
+
+
+@pytest.mark.parametrize(
+    ("harmonics", "constants"),
+    [
+        ((6.04, 0.0), (2.0, 5.318, 7.928, 51.71)),
+        ((5.1968, 1.769), (1.7185, 6.076, 5.266, 66.30)),
+        ((9 * np.pi / 4, 0.0), (2.0, 9.4248, 11.754, 68.379)),
+    ],
+)
+def test_laws_of_three_harmonics_have_the_constants_of_the_page(
+    harmonics: tuple[float, float], constants: tuple[float, ...]
+) -> None:
+    law = triple_harmonic(*harmonics)
+    assert law.a(1.0) == pytest.approx(1.0, abs=1e-14)
+    assert [getattr(law.constants, name).value for name in "BCDJ"] == pytest.approx(constants, rel=2e-4)
+    page = (ROOT / "docs" / "theory" / "ledger.md").read_text("utf-8")
+    assert f"| {law.constants.B.value:.4f} | {law.constants.C.value:.4f} |" in page
+
+
+def test_a_motion_at_its_limits_is_at_one_of_them_everywhere() -> None:
+    law = limited([0.3, 0.4, 0.2, 0.5])
+    middles = 0.5 * (np.array(law.breaks[1:]) + np.array(law.breaks[:-1]))
+    peaks = [float(np.abs(law(middles, nu)).max()) for nu in (4, 3, 2, 1)]
+    reached = [np.abs(law(middles, nu)) >= (1.0 - 1e-9) * peak for nu, peak in zip((4, 3, 2, 1), peaks, strict=True)]
+    assert len(law.segments) == 15
+    assert np.any(reached, axis=0).all()
 
 
 NUMBER = Item(
