@@ -47,6 +47,7 @@ _load, __dir__, __all__ = face(
         "optlaws.studies.study": "open_study",
         "optlaws.synthesis.arrays.problems": "ProblemArray each",
         "optlaws.synthesis.front": "Front",
+        "optlaws.synthesis.functionals.loads": "drive_torque",
         "optlaws.synthesis.functionals.makers": "integral peak rms value",
         "optlaws.synthesis.limits.closed_forms": "acceleration_limit limit",
         "optlaws.synthesis.limits.laws": "limit_law",

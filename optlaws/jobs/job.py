@@ -18,6 +18,7 @@ _MODULES = {
     "dwell drawing": "dwell.drawing",
     "dwell types": "dwell.types",
     "follower": "follower.follower",
+    "force loaded": "laws.force_loaded",
     "fronts": "laws.fronts",
     "ledger": "ledger.ledger",
     "lever drawing": "lever.drawing",

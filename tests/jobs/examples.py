@@ -274,6 +274,21 @@ B,C,D,base,z,note
 """
 SOLUTIONS_PRINTED = "# comment\nB,C\n1.53,7.3617\n"
 SAVIN_FAMILIES = 'job = "savin families"\ntitle = "Two"\nfamilies = ["I", "II"]\nrows = 8\npoints = 11\n'
+FORCE_LOADED = """
+job = "force loaded"
+title = "One"
+catalogue = ["cycloidal"]
+[problem]
+order = 3
+degree = 5
+[[case]]
+name = "a spring"
+friction = "0.5"
+load = "3*a"
+[[case]]
+name = "a growing inertia"
+inertia = "1 + 0.5*a^2"
+"""
 
 
 @dataclass(frozen=True)
@@ -478,6 +493,16 @@ EXAMPLES = {
             ('families = ["I", "II"]', "families = [-1]", "families"),
             ("rows = 8", "rows = 0", "rows"),
             ("rows = 8", "row = 8", "did you mean 'rows'"),
+        ),
+    ),
+    "force loaded": Example(
+        FORCE_LOADED,
+        (
+            ('load = "3*a"', 'load = "3*b"', "unknown name 'b'"),
+            ('inertia = "1 + 0.5*a^2"', 'inertia = "1 + "', "expected a number"),
+            ('name = "a growing inertia"', 'name = "a spring"', "names must differ"),
+            ("degree = 5", "degre = 5", "degre.*degree"),
+            ('"cycloidal"', '"cycloid of mine"', "cycloid of mine"),
         ),
     ),
     "solutions": Example(

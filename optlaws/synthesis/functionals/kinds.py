@@ -133,11 +133,9 @@ class FormulaPeak(OfFormula):
 
     def floor(self, conditions: BoundaryConditions) -> float:
         """A peak of one sign may be below 0; what the end conditions say of the formula it is not below."""
-        if len(self.signs) == 2 or self.sign == self.signs[0]:
-            return 0.0
-        [sign] = self.signs
         known = known_values(self.motion, conditions)
-        return max((sign * value - _ROUNDED * size for value, size in known), default=-inf)
+        least = 0.0 if len(self.signs) == 2 or self.sign == self.signs[0] else -inf
+        return max([least, *(sign * value - _ROUNDED * size for value, size in known for sign in self.signs)])
 
     def value(self, law: MotionLaw) -> float:
         """The peak over the whole part."""

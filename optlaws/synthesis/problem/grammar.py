@@ -56,7 +56,14 @@ def parse(text: str, names: Mapping[str, Term], makers: Makers | None = None) ->
     """
     if len(text) > _LONGEST:
         raise InputError(f"an objective may have {_LONGEST} characters, got {len(text)}")
-    reader = _Reader(text, names, makers or {})
+    try:
+        return _objective(text, names, makers or {})
+    except FormulaError as error:
+        raise InputError(str(error)) from None
+
+
+def _objective(text: str, names: Mapping[str, Term], makers: Makers) -> Expression:
+    reader = _Reader(text, names, makers)
     depth = greatest = 0
     for character in text:
         depth += (character == "(") - (character == ")")
