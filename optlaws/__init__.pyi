@@ -58,6 +58,7 @@ from optlaws.studies.study import open_study as open_study
 from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
 from optlaws.synthesis.arrays.problems import each as each
 from optlaws.synthesis.front import Front as Front
+from optlaws.synthesis.functionals.loads import drive_torque as drive_torque
 from optlaws.synthesis.functionals.makers import integral as integral
 from optlaws.synthesis.functionals.makers import peak as peak
 from optlaws.synthesis.functionals.makers import rms as rms
@@ -177,6 +178,7 @@ __all__ = [
     "compare_dwell_mechanisms",
     "construct",
     "deg",
+    "drive_torque",
     "driving_law",
     "dwell_mechanism",
     "each",
