@@ -79,8 +79,8 @@ PARTS = {
     "IPOPT": ("optlaws.synthesis.method.ways.interior_points.solve_on_points",),
     "Newton": ("optlaws.synthesis.method.ways.contacts.newton", "optlaws.synthesis.method.ways.identified.newton"),
     "proof": ("optlaws.synthesis.search.certify", "optlaws.synthesis.search.lower_bound"),
-    "synthesis": ("optlaws.studies.solving.solving.synthesize",),
-    "constants": ("optlaws.studies.solving.solving._row",),
+    "synthesis": ("optlaws.studies.solving.solving.synthesize", "optlaws.studies.solving.together.solved"),
+    "constants": ("optlaws.studies.solving.solving._row", "optlaws.studies.solving.together._rows"),
 }
 
 
