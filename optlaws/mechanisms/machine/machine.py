@@ -8,9 +8,12 @@ from typing import TYPE_CHECKING, Any, Self
 
 import numpy as np
 
+from optlaws.echo import shortened
+from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law
+from optlaws.mechanisms.follower.follower import Follower
 from optlaws.mechanisms.machine.masses import Link, assembly, named_outputs
 from optlaws.mechanisms.machine.modes import Mode, modes
 from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse
@@ -147,6 +150,38 @@ class Machine(StateSpace):
         """
         A, B, C, D = matrices(system)
         return cls.from_units(A, B, C, D, duration=duration, stroke=stroke, inputs=inputs, outputs=outputs)
+
+    @classmethod
+    def from_follower(cls, follower: Follower) -> Self:
+        """The elastic follower as a machine: outputs "position", "acceleration" and "deflection" of the mass.
+
+        The deflection is that of the spring, from the cam to the mass. `Follower` itself has closed forms of its own,
+        with more digits of what is left after the motion at large nu.
+
+        Parameters
+        ----------
+        follower
+            The follower.
+
+        Raises
+        ------
+        InputError
+            If it is none.
+
+        Examples
+        --------
+        >>> from optlaws import Follower, smoothstep
+        >>> machine = Machine.from_follower(Follower(nu=20, damping=0.05))
+        >>> machine.residual(1, "acceleration").value(smoothstep(4))
+        1.650151
+        """
+        if not isinstance(follower, Follower):
+            raise InputError(f"follower must be a Follower, got {shortened(follower)}")
+        square = follower.nu**2
+        motion = [-square, -2.0 * follower.n]
+        rows, direct = [[1.0, 0.0], motion, [1.0, 0.0]], [[0.0], [square], [-1.0]]
+        names = ["position", "acceleration", "deflection"]
+        return cls([[0.0, 1.0], motion], [[0.0], [square]], rows, direct, outputs=names)
 
     def at_speed(self, factor: float) -> Self:
         """The same machine run `factor` times as fast: the rise takes 1/factor of its duration.

@@ -10,7 +10,7 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.series.chebyshev import product, real_parts_of_roots
+from optlaws.series.chebyshev import basis_values, product, real_parts_of_roots
 from optlaws.synthesis.families.family import Family, Jet
 
 Array = NDArray[np.float64]
@@ -52,13 +52,15 @@ class ConeFamily(Family):
         return np.asarray(chebyshev.chebpts2(count)[::-1])
 
     @kept_property
-    def _derivatives(self) -> tuple[Complex, Complex, Complex]:
+    def _jet(self) -> Complex:
         first = _slope(self.series)
-        return self.series, first, _slope(first)
+        return np.hstack([self.series, first, _slope(first)])
 
     def columns(self, u: Array) -> Complex:
         """p's columns with two derivatives by u, shape (3, points, variables + 1)."""
-        return np.stack([np.asarray(chebyshev.chebval(u, series)).T for series in self._derivatives])
+        flat = basis_values(np.minimum(np.maximum(u, -1.0), 1.0), len(self.series)) @ self._jet
+        shaped: Complex = flat.reshape(len(u), 3, -1).transpose(1, 0, 2)
+        return shaped
 
     def tangent(self, u: float, direction: Array) -> Array:
         """The affine function that a unit vector makes of p at u; |p| is nowhere below it."""

@@ -85,6 +85,8 @@ def test_a_follower_is_a_machine(law: str, nu: float, damping: float) -> None:
     machine, own = follower(nu, damping).response(LAWS[law], dwell=0.5), Follower(nu, damping).response(LAWS[law])
     k = np.linspace(0.0, 1.5, 31)
     assert machine["position"](k) == pytest.approx(own.a(k), abs=1e-12)
+    off = Machine.from_follower(Follower(nu, damping)).response(LAWS[law], dwell=0.5)["deflection"]
+    assert off(k) == pytest.approx(own.a(k) - LAWS[law].a(np.minimum(k, 1.0)), abs=1e-12)
     assert machine.rise_peak("acceleration").value == pytest.approx(own.peak(2).value, rel=1e-10)
     assert machine["position"].extrema(0, (0.0, 1.0))[1].value == pytest.approx(own.extrema(0)[1].value, rel=1e-12)
 
@@ -209,6 +211,7 @@ WRONG: dict[str, Callable[[], object]] = {
         {"m": 1, "n": 1}, [("m", "n", 3)], drive="m", outputs=["torque"]
     ),
     "a system must be": lambda: Machine.from_system(3),
+    "must be a Follower": lambda: Machine.from_follower(3),  # type: ignore[arg-type]
     "factor must be": lambda: follower(9.0, 0.1).at_speed(0.0),
     "needs its matrix A": lambda: Machine.from_dict({}),
     "unknown entry of a machine": lambda: Machine.from_dict({"A": [[-1]], "E": 1}),
