@@ -132,7 +132,7 @@ def _guesses(
     nodes[0], nodes[-1] = begin, end
     states, done = converged(segment.structure, path.numbers(nodes), segment.interpolated(nodes))
     if done.all() and _settled(states.packed):
-        yield own, States.unpacked(_barycentric(nodes, t[own]) @ states.packed, segment.structure)
+        yield own, segment.states(_barycentric(nodes, t[own]) @ states.packed)
         return
     segment.joined(nodes[done], states.packed[done])
     yield from _guesses(path, segment, t, (begin, middle), depth + 1)

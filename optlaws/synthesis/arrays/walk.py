@@ -62,7 +62,13 @@ class Segment:
 
     def guessed(self, t: Array) -> States:
         """States at other t, by the polynomial through some that are known near to each."""
-        return States.unpacked(np.array([self._weights(one) for one in t.tolist()]) @ self.rows, self.structure)
+        return self.states(np.array([self._weights(one) for one in t.tolist()]) @ self.rows)
+
+    def states(self, rows: Array) -> States:
+        """States from rows that were interpolated, in which places that may not move are exactly where they are."""
+        found = States.unpacked(rows, self.structure)
+        known = States.unpacked(self.rows[:1], self.structure)
+        return replace(found, u=np.where(self.structure.free, found.u, known.u))
 
     def _weights(self, t: float) -> Array:
         """What each known state counts for at t: the nearest, and others that are not too near to each other."""
@@ -91,7 +97,7 @@ class Segment:
         away = np.repeat((t[:, None] - places)[:, None, :], near, axis=1)
         away[:, np.arange(near), np.arange(near)] = 1.0
         weights = (away / apart).prod(axis=2)
-        return States.unpacked(np.einsum("tn,tnk->tk", weights, self.rows[chosen]), self.structure)
+        return self.states(np.einsum("tn,tnk->tk", weights, self.rows[chosen]))
 
     def joined(self, t: Array, rows: Array) -> None:
         """Know more states."""

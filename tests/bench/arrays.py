@@ -1,0 +1,128 @@
+"""Certified laws a second where B is an array, beside what a good user of HiGHS does: one model kept and warm started.
+
+The rival minimises C at 200 points of the half interval, without proof and to what points show; its row bounds are
+changed by one vectorised call for each B. Every time counts all: the walk from one structure to the next, the laws,
+their verification and their bounds; nothing is kept from one run to the next.
+"""
+
+from dataclasses import dataclass
+from statistics import median
+from time import process_time
+
+import numpy as np
+from numpy.typing import NDArray
+from rich.console import Console
+from rich.table import Table
+
+from optlaws import Chebyshev, Problem, ProblemArray, SolutionArray, synthesize_array
+from tests.bench.plain import POINTS, Rows
+
+Array = NDArray[np.float64]
+
+DEGREES = (5, 9, 19, 39)
+ENDS = (1.42, 2.6)
+#: laws in a run, with the laws a second that are aimed at by degree
+AIMS = {4_000: (50_000, 40_000, 18_000, 8_000), 40_000: (150_000, 100_000, 60_000, 25_000)}
+#: of the rival's time a law, for 4,000 laws
+SHARES = (1 / 8, 1 / 8, 1 / 5, 1 / 4)
+REPEATS = 3
+RIVALS = 200
+
+
+@dataclass(frozen=True)
+class Run:
+    """Seconds of the processor, and what was solved in them."""
+
+    seconds: float
+    laws: SolutionArray
+
+
+def run(degree: int, count: int) -> Run:
+    """The median of some runs over as many B."""
+    problems = ProblemArray(B=np.linspace(*ENDS, count), order=4, basis=Chebyshev(degree))
+    times = []
+    for _ in range(REPEATS):
+        began = process_time()
+        laws = synthesize_array(problems)
+        times.append(process_time() - began)
+    return Run(median(times), laws)
+
+
+class WarmHighs:
+    """One model of HiGHS that is kept: simplex without presolve, each B begun at the vertex of the one before."""
+
+    def __init__(self, problem: Problem) -> None:
+        import highspy
+
+        self.rows = Rows(problem)
+        free, one = self.rows.b.shape[1], np.ones((POINTS, 1))
+        matrix = np.block([[self.rows.c, -one], [-self.rows.c, -one], [self.rows.b, np.zeros((POINTS, 1))]])
+        self.model = highspy.Highs()
+        self.model.setOptionValue("output_flag", False)  # noqa: FBT003 - it has no name
+        self.model.setOptionValue("presolve", "off")
+        self.model.setOptionValue("solver", "simplex")
+        infinite = highspy.kHighsInf
+        columns = free + 1
+        self.model.addVars(columns, np.full(columns, -infinite), np.full(columns, infinite))
+        self.model.changeColsCost(1, np.array([free], dtype=np.int32), np.ones(1))
+        fixed = np.concatenate([-self.rows.c0, self.rows.c0, -self.rows.b0])
+        entries = np.arange(matrix.size, dtype=np.int32)
+        self.model.addRows(
+            len(matrix),
+            np.full(len(matrix), -infinite),
+            fixed,
+            matrix.size,
+            entries[::columns].copy(),
+            np.asarray(entries % columns, dtype=np.int32),
+            matrix.reshape(-1),
+        )
+        self.places = np.arange(2 * POINTS, 3 * POINTS, dtype=np.int32)
+
+    def least(self, B: float) -> float:
+        """The least C at this B, as the points show it."""
+        low, high = -B - self.rows.b0, B - self.rows.b0
+        low[-1] = high[-1]
+        self.model.changeRowsBounds(POINTS, self.places, low, high)
+        self.model.run()
+        return float(self.model.getInfo().objective_function_value)
+
+
+def rival(degree: int) -> float:
+    """Seconds a law of the rival."""
+    warm = WarmHighs(Problem(B=ENDS[0], order=4, basis=Chebyshev(degree)))
+    warm.least(ENDS[0])
+    began = process_time()
+    for B in np.linspace(*ENDS, RIVALS).tolist():
+        warm.least(B)
+    return (process_time() - began) / RIVALS
+
+
+def main(degrees: tuple[int, ...] = DEGREES) -> None:
+    """Measure once and print."""
+    headings = ("degree of Z", *(f"{count:,} laws" for count in AIMS), "alone", "us a law", "HiGHS us", "ratio")
+    table = Table(*headings, title=f"certified laws/s, B from {ENDS[0]} to {ENDS[1]} (* aim missed)")
+    for degree in degrees:
+        place = DEGREES.index(degree)
+        cells, alone = [], 0
+        synthesize_array(ProblemArray(B=np.linspace(*ENDS, 200), order=4, basis=Chebyshev(degree)))
+        for count, aims in AIMS.items():
+            found = run(degree, count)
+            speed = count / found.seconds
+            alone += len(found.laws.others)
+            cells.append(f"{speed:,.0f}{'' if speed >= aims[place] else '*'}")
+            if count == min(AIMS):
+                own = found.seconds / count
+        other = rival(degree)
+        share = own / other
+        cells += [
+            str(alone),
+            f"{1e6 * own:.0f}",
+            f"{1e6 * other:.0f}",
+            f"{share:.3f}{'' if share <= SHARES[place] else '*'}",
+        ]
+        table.add_row(str(degree), *cells)
+    Console(width=120).print(table)
+
+
+if __name__ == "__main__":
+    main()
