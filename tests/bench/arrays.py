@@ -6,8 +6,10 @@ their verification and their bounds; nothing is kept from one run to the next.
 """
 
 from dataclasses import dataclass
+from importlib import import_module
 from statistics import median
 from time import process_time
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -52,8 +54,7 @@ class WarmHighs:
     """One model of HiGHS that is kept: simplex without presolve, each B begun at the vertex of the one before."""
 
     def __init__(self, problem: Problem) -> None:
-        import highspy
-
+        highspy: Any = import_module("highspy")
         self.rows = Rows(problem)
         free, one = self.rows.b.shape[1], np.ones((POINTS, 1))
         matrix = np.block([[self.rows.c, -one], [-self.rows.c, -one], [self.rows.b, np.zeros((POINTS, 1))]])
