@@ -48,7 +48,7 @@ _load, __dir__, __all__ = face(
         "optlaws.synthesis.arrays.problems": "ProblemArray each",
         "optlaws.synthesis.front": "Front",
         "optlaws.synthesis.functionals.loads": "drive_torque",
-        "optlaws.synthesis.functionals.makers": "integral peak rms value",
+        "optlaws.synthesis.functionals.makers": "functional integral peak rms value",
         "optlaws.synthesis.limits.closed_forms": "acceleration_limit limit",
         "optlaws.synthesis.limits.laws": "limit_law",
         "optlaws.synthesis.pareto": "pareto_front",

@@ -59,6 +59,7 @@ from optlaws.synthesis.arrays.problems import ProblemArray as ProblemArray
 from optlaws.synthesis.arrays.problems import each as each
 from optlaws.synthesis.front import Front as Front
 from optlaws.synthesis.functionals.loads import drive_torque as drive_torque
+from optlaws.synthesis.functionals.makers import functional as functional
 from optlaws.synthesis.functionals.makers import integral as integral
 from optlaws.synthesis.functionals.makers import peak as peak
 from optlaws.synthesis.functionals.makers import rms as rms
@@ -184,6 +185,7 @@ __all__ = [
     "each",
     "find_torsion_levers",
     "flat_output",
+    "functional",
     "integral",
     "jounce",
     "limit",

@@ -26,3 +26,7 @@ def process_lock() -> Lock:
     if hasattr(os, "register_at_fork"):
         os.register_at_fork(before=lock.acquire, after_in_parent=lock.release, after_in_child=lock.release)
     return lock
+
+
+#: neither CasADi's counts of references, nor a solver's memory, nor MUMPS stand two threads
+casadi_lock = process_lock()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import replace
 from math import nan
 from typing import Any
@@ -15,6 +16,7 @@ from optlaws.formulas.tree import Formula, plain
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.numbers import real
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.functionals.callables import text_of
 from optlaws.synthesis.functionals.kinds import (
     FormulaIntegral,
     FormulaPeak,
@@ -34,7 +36,8 @@ def peak(formula: Any, *, side: str = "both", start: float = 0.0, stop: float = 
     Parameters
     ----------
     formula
-        Text in a, b, c, j (derivatives of the law), d = b c and k, such as "c + 0.2*b" or "(1 + k)*c".
+        Text in a, b, c, j (derivatives of the law), d = b c and k, such as "c + 0.2*b" or "(1 + k)*c", or a function
+        of some of these that writes it down with CasADi's symbols.
     side
         "both" for the greatest magnitude, "high" for the greatest value, "low" for the greatest opposite.
     start, stop
@@ -147,14 +150,60 @@ def value(formula: Any, *, at: float) -> Functional:  # noqa: ANN401
     return _checked(FormulaValue(name, nan, convex=motion.curvature.convex, motion=motion), formula)
 
 
+def functional(
+    function: Callable[..., Any],
+    kind: str = "peak",
+    *,
+    side: str = "both",
+    start: float = 0.0,
+    stop: float = 1.0,
+    at: float | None = None,
+) -> Functional:
+    """A constant of the formula that a function of k, a, b, c, d, j writes down with CasADi's symbols.
+
+    Parameters
+    ----------
+    function
+        Called once with symbols; its parameters' names say which of these it takes.
+    kind
+        "peak", "rms", "integral" or "value".
+    side
+        Of a peak: "both", "high" or "low".
+    start, stop
+        The part of the interval.
+    at
+        The k of a value.
+
+    Raises
+    ------
+    InputError
+        If the kind is unknown, or the function writes down no formula.
+
+    Examples
+    --------
+    >>> functional(lambda k, b, c: c + (1 + k) * b, kind="rms")
+    rms(c + (1 + k)*b)
+    """
+    if kind not in tuple(_KINDS):
+        raise InputError(unknown_key(kind, _KINDS, "kind"))
+    if (kind == "value") != (at is not None):
+        raise InputError(f"a value needs at, the k at which it is asked, and nothing else takes one; got {at!r}")
+    if at is not None:
+        return value(function, at=at)
+    if kind == "peak":
+        return peak(function, side=side, start=start, stop=stop)
+    return _KINDS[kind](function, start=start, stop=stop)
+
+
 def _motion(formula: Any, start: float, stop: float) -> Motion:  # noqa: ANN401 - it is checked here
     """The formula that a text or a tree says, which must depend on the law."""
     if isinstance(formula, Formula):
         motion, text = checked(Motion(formula, start, stop), str(formula)), str(formula)
-    elif isinstance(formula, str):
-        motion, text = of_text(formula, start, stop), formula
+    elif isinstance(formula, str) or callable(formula):
+        text = formula if isinstance(formula, str) else text_of(formula)
+        motion = of_text(text, start, stop)
     else:
-        raise InputError(f"a formula is a text such as 'c + 0.2*b', got {shortened(formula)}")
+        raise InputError(f"a formula is a text such as 'c + 0.2*b' or a function, got {shortened(formula)}")
     if not motion.formula.names() & ORDERS.keys():
         raise FormulaError("the formula has none of a, b, c, d, j: no law changes it", text, 0)
     return motion
@@ -164,7 +213,7 @@ def _checked(constant: OfFormula, formula: Any) -> OfFormula:  # noqa: ANN401 - 
     """The constant, if it can be minimised and bounded."""
     why = refusal(constant)
     if why is not None:
-        text = formula if isinstance(formula, str) else str(formula)
+        text = formula if isinstance(formula, str) else str(constant.motion.formula)
         kinked = next(part for part in constant.motion.formula.walk() if not smooth_itself(part))
         raise FormulaError(why, text, kinked.place)
     return constant
@@ -190,6 +239,8 @@ def _name(kind: str, motion: Motion, others: list[str] | None = None) -> str:
     parts += [f"stop={plain(motion.stop)}"] if motion.stop != 1.0 else []
     return f"{kind}({', '.join(parts)})"
 
+
+_KINDS: dict[str, Callable[..., Functional]] = {"integral": integral, "peak": peak, "rms": rms, "value": value}
 
 MAKERS.setdefault("integral", integral)
 MAKERS.setdefault("peak", peak)

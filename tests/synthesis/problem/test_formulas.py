@@ -16,6 +16,7 @@ from optlaws import (
     Range,
     Window,
     at_most,
+    functional,
     integral,
     maximum,
     peak,
@@ -201,3 +202,35 @@ def test_what_has_no_least_value_or_is_beyond_every_bound_says_so() -> None:
         synthesize(replace(PROBLEM, B=None, minimise="value(c, at=0.3)"))
     with pytest.raises(InputError, match="impulses"):
         synthesize(Problem(order=2, basis=BSplines(4, 3, 1), minimise="peak(j)", symmetric=False))
+
+
+def test_a_function_writes_its_formula_down() -> None:
+    import casadi
+
+    written = functional(lambda k, a, b, c, j: c + 0.2 * b + casadi.sin(6 * k) * a - j / 100, side="high")
+    assert written.name.startswith("peak(c + 0.2*b + ")
+    assert functional(lambda c: 2 * c, kind="value", at=0.3) == named("value(2*c, at=0.3)")
+    for one, text in (
+        (rms(lambda b, c: c + 3 * b), "rms(c + 3*b)"),
+        (functional(lambda c, b: casadi.fmax(casadi.fabs(c), b**2), side="high"), "peak(max(abs(c), b^2), side=high)"),
+        (functional(lambda c: c * c, kind="integral"), "integral(c^2)"),
+    ):
+        assert one == named(text)
+    law = synthesize(replace(PROBLEM, minimise=written)).law
+    k = np.linspace(0.0, 1.0, 2001)
+    values = law.c(k) + 0.2 * law.b(k) + np.sin(6 * k) * law.a(k) - law.j(k) / 100
+    assert written.value(law) == pytest.approx(float(values.max()), rel=1e-4)
+
+
+@pytest.mark.parametrize(
+    ("function", "message"),
+    [
+        (lambda x: x, "a function of some of a, b, c, d, j, k"),
+        (lambda c: f"{c}?", "no formula"),
+        (lambda c: c.is_zero(), "no law changes it"),
+        (lambda c: c > 0, "neither smooth nor known"),
+    ],
+)
+def test_a_function_that_writes_no_formula_is_refused(function: Any, message: str) -> None:  # noqa: ANN401
+    with pytest.raises(InputError, match=message):
+        functional(function)

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.locks import process_lock
+from optlaws.locks import casadi_lock
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import OfFormula
 from optlaws.synthesis.families.energy import LEAST_ROOT, EnergyFamily
@@ -45,9 +45,7 @@ _KINDS: tuple[type[Family], ...] = (LinearFamily, ProductFamily, ConeFamily, Nor
 _CONE_SHARE = 2.0  # the cone's row as IPOPT sees it is twice as steep as the magnitude itself
 
 
-# neither CasADi's counts of references, nor a solver's memory, nor MUMPS stand two threads; they hold the
-# interpreter's lock during a solve, so that nothing is lost by waiting
-_casadi = process_lock()
+# the lock is held during a solve, so that nothing is lost by waiting: the interpreter's is held too
 # a solver that was called holds 20 kB a row, most of it IPOPT's and MUMPS's: together some 60 MB
 _MOST_ROWS = 3000
 
@@ -173,7 +171,7 @@ class _Result:
 
 
 def _solved(shape: _Shape, **numbers: Array) -> _Result:
-    with _casadi:
+    with casadi_lock:
         solver = _solver(shape)
         result = solver(**numbers)
         stats = solver.stats()

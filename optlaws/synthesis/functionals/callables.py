@@ -1,0 +1,95 @@
+"""Formulas from callables: what they make of CasADi's symbols, read as a tree."""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Callable, Sequence
+from typing import Any
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.formulas.reading import LONGEST
+from optlaws.formulas.slopes import added, multiplied, opposite
+from optlaws.formulas.tree import Call, Formula, Name, Number, Power, Reciprocal, number
+from optlaws.formulas.vocabulary import VOCABULARY
+from optlaws.locks import casadi_lock
+
+_MOST = 2000
+_FUNCTIONS = ("sin", "cos", "tan", "atan", "tanh", "exp", "log", "sqrt")
+
+
+def text_of(function: Callable[..., Any]) -> str:
+    """The formula that a callable of some of k, a, b, c, d, j writes down, as text.
+
+    Raises
+    ------
+    InputError
+        If its parameters are others, it returns no number or expression, or it uses functions that formulas lack.
+
+    Examples
+    --------
+    >>> text_of(lambda k, b, c: c + (1 + k) * b)
+    'c + (1 + k)*b'
+    """
+    names = list(inspect.signature(function).parameters)
+    if not names or not set(names) <= set(VOCABULARY):
+        raise InputError(f"a formula is a function of some of {', '.join(VOCABULARY)}, got {shortened(names)}")
+    with casadi_lock:
+        return _read(function, names)
+
+
+def _read(function: Callable[..., Any], names: list[str]) -> str:
+    import casadi as ca
+
+    symbols = [ca.SX.sym(name) for name in names]
+    try:
+        graph = ca.Function("formula", symbols, [ca.SX(function(*symbols))])
+    except (TypeError, ValueError, NotImplementedError, RuntimeError) as error:
+        raise InputError(f"the function writes down no formula of CasADi's symbols: {error}") from None
+    if graph.numel_out() != 1 or graph.n_instructions() > _MOST:
+        raise InputError(f"a formula is one expression of at most {_MOST} operations")
+    operations = {
+        getattr(ca, f"OP_{operation}"): operation
+        for operation in (*map(str.upper, _FUNCTIONS), *_OPERATIONS, "CONST", "INPUT", "OUTPUT")
+    }
+    work: dict[int, Formula] = {}
+    for i in range(graph.n_instructions()):
+        kind = operations.get(graph.instruction_id(i))
+        taken = graph.instruction_input(i)
+        if kind == "OUTPUT":
+            return str(work[taken[0]])
+        if kind is None:
+            raise InputError("the function uses what is neither smooth nor known: formulas have no such operation")
+        if kind == "INPUT":
+            made: Formula = Name(names[taken[0]])
+        elif kind == "CONST":
+            made = number(float(graph.instruction_constant(i)))
+        else:
+            made = _operated(kind, [work[place] for place in taken])
+        if len(str(made)) > LONGEST:
+            raise InputError(f"a formula may have {LONGEST} characters, and that of the function has more")
+        work[graph.instruction_output(i)[0]] = made
+    raise InputError("the function writes down nothing")
+
+
+def _operated(kind: str, parts: Sequence[Formula]) -> Formula:
+    return _OPERATIONS[kind](*parts) if kind in _OPERATIONS else Call(kind.lower(), (parts[0],))
+
+
+_OPERATIONS: dict[str, Callable[..., Formula]] = {
+    "ADD": lambda x, y: added([x, y]),
+    "SUB": lambda x, y: added([x, opposite(y)]),
+    "MUL": lambda x, y: multiplied([x, y]),
+    "DIV": lambda x, y: multiplied([x, Reciprocal(y)]),
+    "NEG": opposite,
+    "SQ": lambda x: Power(x, Number(2.0)),
+    "TWICE": lambda x: multiplied([Number(2.0), x]),
+    "INV": Reciprocal,
+    "POW": Power,
+    "CONSTPOW": Power,
+    "ASSIGN": lambda x: x,
+    "FABS": lambda x: Call("abs", (x,)),
+    "FMAX": lambda x, y: Call("max", (x, y)),
+    "FMIN": lambda x, y: Call("min", (x, y)),
+    "HYPOT": lambda x, y: Call("norm", (x, y)),
+}
