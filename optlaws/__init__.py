@@ -99,6 +99,13 @@ declare(
         "optlaws.synthesis.spaces.splines": "bsplines",
     },
 )
+declare(
+    "drawing",
+    {
+        "optlaws.drawing": "front proven_front spectrum",
+        "optlaws.law_pictures": "curve solution",
+    },
+)
 declare("plain constant", {"optlaws.mechanisms.loader.constants": "B_loader C_loader D_loader"})
 declare(
     "constant",

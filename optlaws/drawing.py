@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import io
+import sys
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from pathlib import Path
@@ -10,6 +11,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 from optlaws.files import writing
 from optlaws.files.writing import MARK
+from optlaws.plotting import draws
 
 if TYPE_CHECKING:
     from matplotlib.artist import Artist
@@ -62,9 +64,36 @@ def figure(width: float = 7.2, height: float = 4.6) -> Figure:
     return Figure(figsize=(width, height), layout="constrained")
 
 
+def new_figure(width: float = 7.2, height: float = 4.6) -> Figure:
+    """An empty figure for a user's plot: one of pyplot's, so that it is shown, where the user has imported pyplot.
+
+    Examples
+    --------
+    >>> new_figure(4.0, 3.0).get_size_inches().tolist()
+    [4.0, 3.0]
+    """
+    pyplot = sys.modules.get("matplotlib.pyplot")
+    if pyplot is None:
+        return figure(width, height)
+    return pyplot.figure(figsize=(width, height), layout="constrained")  # type: ignore[no-any-return] # by name alone
+
+
+def new_axes() -> Axes:
+    """Empty axes of the project's style in a figure of their own.
+
+    Examples
+    --------
+    >>> new_axes().get_title()
+    ''
+    """
+    with style():
+        return new_figure().subplots()
+
+
 _AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D", "J": "peak jerk J"}
 
 
+@draws("front")
 def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
     """Draw a front into axes, new ones unless given, and return the artists; a third constant gives the colour.
 
@@ -77,7 +106,7 @@ def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Art
     'peak velocity B (dimensionless)'
     """
     if axes is None:
-        axes = figure().subplots()
+        axes = new_axes()
     for axis, name in zip("xy", front.over, strict=False):
         axes.set(**{f"{axis}label": f"{_AXES.get(name, name)} (dimensionless)"})
     values = front.values
@@ -90,6 +119,7 @@ def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Art
     return [points]
 
 
+@draws("proven_front")
 def draw_proven_front(front: ProvenFront, axes: Axes | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401
     """Draw a proven front into axes, new ones unless given, as it is at every value, and return the artists.
 
@@ -101,12 +131,13 @@ def draw_proven_front(front: ProvenFront, axes: Axes | None = None, **style: Any
     'peak acceleration C (dimensionless)'
     """
     if axes is None:
-        axes = figure().subplots()
+        axes = new_axes()
     for axis, name in zip("xy", front.over, strict=True):
         axes.set(**{f"{axis}label": f"{_AXES.get(name, name)} (dimensionless)"})
     return list(axes.plot(*front.curve, **style))
 
 
+@draws("spectrum")
 def draw_spectrum(
     spectrum: ResponseSpectrum,
     axes: Axes | None = None,
@@ -127,7 +158,7 @@ def draw_spectrum(
     'residual acceleration'
     """
     if axes is None:
-        axes = figure().subplots()
+        axes = new_axes()
     values = spectrum.residual_acceleration if what == "residual" else spectrum.peak_acceleration
     axes.set(xlabel="nu, radians of the free vibration in the rise", ylabel=f"{what} acceleration")
     return list(axes.plot(spectrum.nu, values / over, **style))

@@ -10,7 +10,7 @@ import pytest
 from tests.documents import ROOT
 from tests.imports import Import, cycles, imports, modules
 
-BASE = {"echo", "errors", "files", "kept", "lazy", "locks", "numbers", "suggest"}
+BASE = {"echo", "errors", "files", "kept", "lazy", "locks", "numbers", "plotting", "suggest"}
 KNOWN = BASE | {"series"}
 CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "verification"}
 MAY_IMPORT = {
@@ -22,6 +22,7 @@ MAY_IMPORT = {
     "lazy": set[str](),
     "locks": set[str](),
     "numbers": {"echo", "errors"},
+    "plotting": {"lazy"},
     "suggest": {"echo"},
     "series": BASE,
     "laws": KNOWN,
@@ -29,9 +30,10 @@ MAY_IMPORT = {
     "mechanisms": KNOWN | {"formulas", "laws", "synthesis"},
     "verification": KNOWN | {"formulas", "laws", "synthesis"},
     "drawing": CORE,
+    "law_pictures": CORE | {"drawing"},
     "studies": CORE | {"drawing"},
-    "jobs": CORE | {"drawing", "studies"},
-    "cli": CORE | {"drawing", "studies", "jobs", "optlaws"},
+    "jobs": CORE | {"drawing", "law_pictures", "studies"},
+    "cli": CORE | {"drawing", "law_pictures", "studies", "jobs", "optlaws"},
     "__main__": {"cli"},
 }
 

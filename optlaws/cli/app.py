@@ -18,7 +18,9 @@ NOT_PROVEN, BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 1, 2, 3, 4, 130
 COMMANDS = {
     "laws.catalogue": "List the standard laws, or those that a text may mean, the likeliest first.",
     "laws.constants": "Peak constants of the rest-to-rest law with a given Z(k).",
-    "laws.law": "Show a law of the catalogue, a coded law or a member of Savin's families, with its constants.",
+    "laws.law": (
+        "Show a law of the catalogue, a coded law, a member of Savin's families or a stored law, with its constants."
+    ),
     "mechanisms.dwell": (
         "Balancing mechanisms of types I, II and III for an executive link that dwells, and which of them to take."
     ),

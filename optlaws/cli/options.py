@@ -10,6 +10,7 @@ from typing import Annotated, Any
 from cyclopts import Parameter, Token
 
 import optlaws
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 
 
@@ -24,31 +25,51 @@ AsJson = Annotated[bool, Parameter(name="--json")]
 _PICTURES = (".png", ".svg")
 
 
-def read_law(text: str) -> optlaws.MotionLaw:
-    """A law of the catalogue by its name or code, or the law in a JSON file: alone, or of a solution.
+def read_law(text: str, alpha: float | None = None, B: float | None = None, *, by: str = "") -> optlaws.MotionLaw:
+    """The law of a text, as every command takes it; a family I to IV may have its member by alpha, or B, beside it.
+
+    `by` are the options that choose a member.
 
     Raises
     ------
     InputError
-        If there is no such law, or the file cannot be read or holds none.
+        If there is no such law, the file cannot be read or holds none, or a member is given of what is no family.
+
+    Examples
+    --------
+    >>> read_law("iii", alpha=7.2) == read_law("III(7.2)")
+    True
     """
-    from optlaws.files import reading
+    from optlaws.laws.catalogue import reading
 
-    if not text.endswith(".json"):
-        return optlaws.catalogue[text].law
-    data = reading.json_file(Path(text))
-    if isinstance(data, dict) and "kind" not in data and "law" in data:
-        data = data["law"]
-    try:
-        return optlaws.MotionLaw.from_dict(data)
-    except InputError as error:
-        raise InputError(f"{text}: {error}") from None
+    family = reading.family_of(text)
+    if alpha is None and B is None:
+        if family is not None and by:
+            low, high = map(float, optlaws.SavinFamily.of(family).range)
+            raise InputError(f"laws of family {family} need {by}: alpha is from {low:.9g} to {high:.9g}")
+        return reading.read_law(text)
+    if family is None:
+        raise InputError(
+            f"{by} choose a member of a family I, II, III or IV, and no other takes it, got {shortened(text)}"
+        )
+    return optlaws.savin(family, alpha, B=B)
 
 
-def check_picture(file: Path | None) -> None:
-    """Refuse a file for --plot whose name says no kind of picture."""
-    if file is not None and file.suffix not in _PICTURES:
-        raise InputError(f"--plot takes a file name that ends in {' or '.join(_PICTURES)}, got {file}")
+def check_files(*files: Path | None, plot: Path | None = None) -> None:
+    """Refuse, before anything is computed, files that could not be written, and a --plot that is no kind of picture.
+
+    Raises
+    ------
+    InputError
+        If one cannot be written, by its own name.
+    """
+    from optlaws.files.writing import check_place
+
+    if plot is not None and plot.suffix not in _PICTURES:
+        raise InputError(f"--plot takes a file name that ends in {' or '.join(_PICTURES)}, got {plot}")
+    for file in (*files, plot):
+        if file is not None:
+            check_place(file)
 
 
 def save(file: Path, data: Mapping[str, Any]) -> None:
@@ -56,3 +77,13 @@ def save(file: Path, data: Mapping[str, Any]) -> None:
     from optlaws.files.writing import MARK, write
 
     write(file, json.dumps({"about": MARK, **data}, indent=1) + "\n")
+
+
+def save_picture(file: Path, value: Any) -> None:  # noqa: ANN401 - whatever has a plot
+    """Draw what --plot asks for into its file."""
+    from optlaws import drawing
+    from optlaws.files.writing import write
+
+    with drawing.style():
+        figure = value.plot()[0].get_figure(root=True)
+        write(file, drawing.rendered(figure, file.suffix[1:]))

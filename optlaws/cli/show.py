@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from contextlib import contextmanager
+from math import inf
 from typing import TYPE_CHECKING, Any
 
 if TYPE_CHECKING:
@@ -11,6 +12,10 @@ if TYPE_CHECKING:
     from rich.table import Table
 
     import optlaws
+
+#: a value below this share of its peak is what rounding leaves of 0
+NOISE = 1e-12
+_WIDEST = 10_000
 
 
 def print_json(data: object) -> None:
@@ -29,11 +34,14 @@ def table(*headings: str) -> Table:
     """A table without lines; one without headings tells facts by their names."""
     from rich.table import Table
 
-    return Table(*headings, show_header=bool(headings), box=None, pad_edge=False)
+    made = Table(*headings, show_header=bool(headings), box=None, pad_edge=False)
+    if not headings:
+        made.add_column(no_wrap=True)
+    return made
 
 
 def show(*parts: Table | str) -> None:
-    """Print tables as wide as the terminal, and text as it is."""
+    """Print tables, and text as it is: no number is ever cut, and nothing but a terminal gets blanks at line ends."""
     from rich.console import Console
 
     console = Console()
@@ -41,7 +49,34 @@ def show(*parts: Table | str) -> None:
         if isinstance(part, str):
             console.print(part, markup=False, highlight=False, soft_wrap=True)
         else:
-            console.print(part)
+            _show_table(part, console)
+
+
+def _show_table(rows: Table, console: Console) -> None:
+    """Print a table, wider than the terminal if its numbers need it; a terminal wraps words of facts alone."""
+    from rich.measure import Measurement
+
+    needs = Measurement.get(console, console.options.update(width=_WIDEST, max_width=_WIDEST), rows)
+    facts = console.is_terminal and not rows.show_header
+    console.width = max(console.width, needs.minimum if facts else needs.maximum)
+    if console.is_terminal:
+        console.print(rows, crop=False)
+        return
+    with console.capture() as captured:
+        console.print(rows, crop=False)
+    for line in captured.get().splitlines():
+        print(line.rstrip())  # noqa: T201
+
+
+def number(value: float, size: float, form: str = ".10g") -> str:
+    """A number as people read it: what is rounding beside the size of its kind is 0.
+
+    Examples
+    --------
+    >>> number(-6.77e-16, size=5.528), number(1.5, size=2.0)
+    ('0', '1.5')
+    """
+    return format(0.0 if abs(value) <= NOISE * size < inf else value, form)
 
 
 def progress() -> Console:

@@ -11,13 +11,13 @@ from optlaws.files.writing import MARK
 Cell = str | float | int | None
 
 
-def to_csv(columns: Sequence[str], rows: Sequence[Sequence[Cell]], *, about: str) -> str:
-    """CSV with a first comment line; numbers to 8 significant digits, nothing for None."""
+def to_csv(columns: Sequence[str], rows: Sequence[Sequence[Cell]], *, about: str, digits: int = 8) -> str:
+    """CSV with a first comment line; numbers to so many significant digits, nothing for None."""
     stream = io.StringIO()
     stream.write(f"# {about}; {MARK}\n")
     writer = csv.writer(stream, lineterminator="\n")
     writer.writerow(columns)
-    writer.writerows([_text(cell, 8) for cell in row] for row in rows)
+    writer.writerows([_text(cell, digits) for cell in row] for row in rows)
     return stream.getvalue()
 
 

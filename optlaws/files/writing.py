@@ -10,6 +10,7 @@ import struct
 from hashlib import sha256
 from pathlib import Path
 from secrets import token_hex
+from tempfile import TemporaryFile
 from zlib import crc32
 
 from optlaws.echo import shortened
@@ -47,6 +48,15 @@ def write(file: Path, content: str | bytes, *, digits: int | None = None) -> Pat
         If the content does not hold the mark.
     """
     check_name(file)
+    try:
+        return _written(file, content, digits)
+    except OSError as error:
+        # the user knows the name of his file, not that of our copy beside it
+        error.filename = str(file)
+        raise
+
+
+def _written(file: Path, content: str | bytes, digits: int | None) -> Path:
     data = content.encode() if isinstance(content, str) else content
     if is_current(file, data, digits=digits):
         return file
@@ -135,6 +145,33 @@ def _replace(file: Path, data: bytes) -> None:
     except BaseException:
         copy.unlink(missing_ok=True)
         raise
+
+
+def check_place(file: Path) -> None:
+    """Refuse a file that could not be written, before the work whose result it shall hold; nothing is left behind.
+
+    Raises
+    ------
+    InputError
+        If the name is none for a file (see `check_name`), it is that of a folder, or its folder takes no new file.
+
+    Examples
+    --------
+    >>> check_place(Path("/dev/null/law.json"))
+    Traceback (most recent call last):
+    optlaws.errors.InputError: cannot write /dev/null/law.json: /dev/null is not a folder
+    """
+    check_name(file)
+    if file.is_dir():
+        raise InputError(f"cannot write {file}: it is a folder")
+    folder = next(one for one in file.absolute().parents if one.exists())
+    if not folder.is_dir():
+        raise InputError(f"cannot write {file}: {folder} is not a folder")
+    try:
+        with TemporaryFile(dir=folder):
+            pass
+    except OSError as error:
+        raise InputError(f"cannot write {file}: {error.strerror or error}") from None
 
 
 def check_name(file: Path) -> None:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import MOST_VALUES, derivative, whole
+from optlaws.plotting import plotted
 from optlaws.series import peaks
 from optlaws.series.peaks import Peak
 
@@ -234,6 +235,33 @@ class Curve(ABC):
         after = np.arange(len(k)) >= len(inner)
         ordered = np.lexsort((after, k))
         return k[ordered], values[ordered]
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw a, b, c and j with their peaks, dimensionless over k, by matplotlib; jumps break the line.
+
+        Parameters
+        ----------
+        ax
+            Four axes for a, b, c and j, or one for all four, each divided by its peak; a new figure unless given.
+        style
+            What `Axes.plot` takes, for the curves.
+
+        Returns
+        -------
+        The artists; `[0].figure` is the figure.
+
+        Raises
+        ------
+        InputError
+            If there are neither one nor four axes.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> [panel.get_title(loc="left") for panel in smoothstep(3).plot()[0].figure.axes][1:3]
+        ['B = 1.875 at k = 0.5', 'C = 5.773503 at k = 0.211325']
+        """
+        return plotted("curve", self, ax, **style)
 
     def _whole(self, nu: int) -> Sides:
         """Places with values among which the extremes of the derivative of order nu are, infinite ones included."""

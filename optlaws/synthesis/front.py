@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.plotting import plotted
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.solution import Solution
@@ -70,6 +71,10 @@ class Front:
             ]
             for point in self.points
         ]
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the points into matplotlib's axes, new ones unless given; a third constant as colour; the artists."""
+        return plotted("front", self, ax, **style)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict with every solution whole."""

@@ -12,6 +12,7 @@ import numpy as np
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.numbers import bounded
+from optlaws.plotting import plotted
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
@@ -135,6 +136,23 @@ class Solution:
     def versions(self) -> dict[str, str]:
         """Versions of the libraries that took part."""
         return dict(_versions())
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the law as `MotionLaw.plot` does, with the bounds and windows of its problem and what no law can beat.
+
+        Raises
+        ------
+        InputError
+            If there are neither one nor four axes.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> artists = optlaws.synthesize(optlaws.Problem(B=1.859, order=4)).plot()
+        >>> [one.get_label() for one in artists if "no law" in one.get_label()][0]
+        'no law has a smaller C: 4.02314'
+        """
+        return plotted("solution", self, ax, **style)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: the command line's `--json`, with the problem and the certificate beside it."""

@@ -1,16 +1,19 @@
-"""The command `optlaws law`: one law of the catalogue or of Savin's families, with its constants."""
+"""The command `optlaws law`: one law of the catalogue, of Savin's families or of a file, with its constants."""
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import Any
 
 import optlaws
 from optlaws.cli.laws.catalogue import continuous
-from optlaws.cli.options import AsJson
-from optlaws.cli.show import constants_table, print_json, show, table
+from optlaws.cli.options import AsJson, Whole, check_files, read_law, save_picture
+from optlaws.cli.show import NOISE, constants_table, number, print_json, show, table
 from optlaws.errors import InputError
 
 _LETTERS = ("a", "b", "c", "j", "d")
+_SAMPLES = 201
+_DIGITS = 15
 
 
 def law(
@@ -20,64 +23,93 @@ def law(
     alpha: float | None = None,
     peak_velocity: float | None = None,
     at: list[float] | None = None,
+    plot: Path | None = None,
+    csv: Path | None = None,
+    samples: Whole | None = None,
     as_json: AsJson = False,
 ) -> None:
-    """Show a law of the catalogue, a coded law or a member of Savin's families, with its constants.
+    """Show a law of the catalogue, a coded law, a member of Savin's families or a stored law, with its constants.
 
     Parameters
     ----------
     name
-        A name in any language or of a controller, a code such as "0317(1,5)", or one of I, II, III, IV.
+        A name in any language or of a controller, a code such as "0317(1,5)", a member such as "III(7.2)", or a JSON
+        file of a law or of `optlaws solve --output`.
     alpha
         Member of the family I, II, III or IV.
     peak_velocity
         B of the member, in place of alpha.
     at
         k in [0, 1] to give a, b, c, j and d at; may be repeated.
+    plot
+        Draw a, b, c and j into this file, PNG or SVG.
+    csv
+        Write k, a, b, c, j and d at equal steps of k to this file.
+    samples
+        How many lines for --csv; 201 unless given.
     as_json
         Print one JSON object on stdout and nothing else.
     """
+    check_files(csv, plot=plot)
+    if samples is not None and csv is None:
+        raise InputError("--samples says how many lines --csv FILE has: name the file")
     about, found = _asked(name, alpha, peak_velocity)
     values = [{"k": k, **{one: getattr(found, one)(k) for one in _LETTERS}} for k in at or ()]
+    if csv is not None:
+        _save_samples(found, name, csv, _SAMPLES if samples is None else samples)
+    if plot is not None:
+        save_picture(plot, found)
     if as_json:
         print_json({**about, "at": values})
-        return
+    else:
+        _show(about, found, values)
+
+
+def _show(about: dict[str, Any], found: optlaws.MotionLaw, values: list[dict[str, float]]) -> None:
     head = table()
     for key, value in _lines(about):
         head.add_row(key, value)
     show(head, constants_table(found.constants))
     if values:
         rows = table(*values[0])
+        sizes = [1.0, *_sizes(found)]
         for row in values:
-            rows.add_row(*(f"{value:.10g}" for value in row.values()))
+            rows.add_row(*(number(value, size) for value, size in zip(row.values(), sizes, strict=True)))
         show(rows)
 
 
-def _asked(name: str, alpha: float | None, B: float | None) -> tuple[dict[str, Any], optlaws.MotionLaw]:
-    from optlaws.laws.savin.family import FAMILIES
+def _sizes(found: optlaws.MotionLaw) -> tuple[float, ...]:
+    """The greatest values of a, b, c, j and d."""
+    one = found.constants
+    return found.peak(0).value, one.B.value, one.C.value, one.J.value, one.D.value
 
-    if name in FAMILIES:
-        return _member(name, alpha, B)
-    if alpha is not None or B is not None:
-        raise InputError(f"--alpha and --peak-velocity choose a member of a family {', '.join(FAMILIES)}, not {name!r}")
+
+def _asked(name: str, alpha: float | None, B: float | None) -> tuple[dict[str, Any], optlaws.MotionLaw]:
+    from optlaws.laws.catalogue import reading
+    from optlaws.laws.catalogue.entry import continuity_with_rest
+
+    family = reading.family_of(name)
+    found = read_law(name, alpha, B, by="--alpha or --peak-velocity")
+    chosen = None if family is not None else reading.member(name)
+    if family is not None or chosen is not None:
+        return _member(found, chosen or (optlaws.SavinFamily.of(str(family)), alpha), B), found
+    if reading.is_file(name):
+        return _facts(f"the law in {name}", found) | {"continuity": continuity_with_rest(found)}, found
     entry = optlaws.catalogue[name]
     return entry.to_dict(), entry.law
 
 
-def _member(name: str, alpha: float | None, B: float | None) -> tuple[dict[str, Any], optlaws.MotionLaw]:
-    if alpha is None and B is None:
-        low, high = map(float, optlaws.SavinFamily.of(name).range)
-        raise InputError(f"family {name} needs --alpha from {low:.9g} to {high:.9g}, or --peak-velocity")
-    found = optlaws.savin(name, alpha, B=B)
-    family = optlaws.SavinFamily.of(name)
-    about = {
-        "name": f"Savin's family {name}",
-        "alpha": alpha if alpha is not None else family.alphas(B=B)[0],
-        "order": family.order,
-        "constants": found.constants.to_dict(rms=True),
-        "law": found.to_dict(),
-    }
-    return about, found
+def _member(
+    found: optlaws.MotionLaw, chosen: tuple[optlaws.SavinFamily, float | None], B: float | None
+) -> dict[str, Any]:
+    family, alpha = chosen
+    name, *others = _facts(f"Savin's {family}", found).items()
+    own = {"alpha": alpha if alpha is not None else family.alphas(B=B)[0], "order": family.order}
+    return dict([name, *own.items(), *others])
+
+
+def _facts(name: str, found: optlaws.MotionLaw) -> dict[str, Any]:
+    return {"name": name, "constants": found.constants.to_dict(rms=True), "law": found.to_dict()}
 
 
 def _lines(about: dict[str, Any]) -> list[tuple[str, str]]:
@@ -87,8 +119,27 @@ def _lines(about: dict[str, Any]) -> list[tuple[str, str]]:
             ("alpha", f"{about['alpha']:.10g}"),
             ("order l", str(about["order"])),
         ]
-    names = "; ".join(f"{language}: {', '.join(some)}" for language, some in about["aliases"].items())
-    lines = [("law", about["name"]), ("also", names), ("built", about["formula"]), ("source", about["source"])]
-    if about["from_memory"]:
-        lines.append(("", "the definition is from memory: compare it with the source"))
+    lines = [("law", about["name"])]
+    if "source" in about:
+        names = "; ".join(f"{language}: {', '.join(some)}" for language, some in about["aliases"].items())
+        lines += [("also", names), ("built", about["formula"]), ("source", about["source"])]
+        if about["from_memory"]:
+            lines.append(("", "the definition is from memory: compare it with the source"))
     return [*lines, ("continuous", continuous(about["continuity"]))]
+
+
+def _save_samples(found: optlaws.MotionLaw, name: str, file: Path, count: int) -> None:
+    import numpy as np
+
+    from optlaws.files import tables, writing
+    from optlaws.numbers import MOST_VALUES, whole
+
+    k = np.linspace(0.0, 1.0, whole(count, "samples", least=2, most=MOST_VALUES))
+    columns = [getattr(found, one)(k) for one in _LETTERS]
+    clean = [
+        np.where(np.abs(values) <= NOISE * size, 0.0, values)
+        for values, size in zip(columns, _sizes(found), strict=True)
+    ]
+    about = f"law {' '.join(name.split())}: dimensionless; after a jump its value there"
+    rows = np.column_stack([k, *clean]).tolist()
+    writing.write(file, tables.to_csv(("k", *_LETTERS), rows, about=about, digits=_DIGITS))

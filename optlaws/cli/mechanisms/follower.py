@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import optlaws
-from optlaws.cli.options import AsJson, check_picture, read_law
+from optlaws.cli.options import AsJson, check_files, read_law
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
@@ -34,10 +34,10 @@ def follower(
     Parameters
     ----------
     law
-        Law meant for the mass: a name of the catalogue, I, II, III or IV with --alpha, or a JSON file of a law or of
+        Law meant for the mass: a name of the catalogue, a member such as III(7.2), or a JSON file of a law or of
         `optlaws solve --output`.
     alpha
-        Member of Savin's family.
+        Member of the family, where the law is I, II, III or IV.
     nu
         Frequency of the follower: radians of its undamped free vibration in the rise.
     speed_rpm
@@ -59,11 +59,11 @@ def follower(
     as_json
         Print one JSON object on stdout and nothing else.
     """
-    check_picture(plot)
+    check_files(plot=plot)
     if (plot is None) != (spectrum is None):
         raise InputError("--spectrum LOW HIGH gives the range of nu for --plot FILE: name both or neither")
     mass = _follower(nu, (speed_rpm, rise_angle, natural_period), damping)
-    reference = _law(law, alpha)
+    reference = read_law(law, alpha, by="--alpha")
     if design_nu is None and design_damping is not None:
         raise InputError("--design-damping needs --design-nu")
     cam = reference
@@ -86,14 +86,6 @@ def _follower(nu: float | None, speed: tuple[float | None, ...], damping: float)
     if nu is None and rpm is not None and angle is not None and period is not None:
         return optlaws.Follower.from_speed(speed_rpm=rpm, rise_angle_deg=angle, natural_period=period, damping=damping)
     raise InputError("give either --nu or all of --speed-rpm, --rise-angle and --natural-period")
-
-
-def _law(name: str, alpha: float | None) -> optlaws.MotionLaw:
-    from optlaws.laws.savin.family import FAMILIES
-
-    if (name in FAMILIES) != (alpha is not None):
-        raise InputError(f"the laws {', '.join(FAMILIES)} need --alpha, and no other takes it")
-    return read_law(name) if alpha is None else optlaws.savin(name, alpha)
 
 
 def _summary(

@@ -7,7 +7,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import optlaws
-from optlaws.cli.options import AsJson, save
+from optlaws.cli.options import AsJson, check_files, save
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
@@ -68,6 +68,7 @@ def lever(
     output
         Write the exact law of the stroke to this JSON file.
     """
+    check_files(output)
     if period is not None and stiffness is not None:
         raise InputError("--period and --stiffness exclude each other: one gives the other")
     if (inertia is None) != (period is None and stiffness is None):

@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 import optlaws
-from optlaws.cli.options import AsJson, read_law, save
+from optlaws.cli.options import AsJson, check_files, read_law, save
 from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
@@ -40,6 +40,7 @@ def loader(
     output
         Write the loader's law to this JSON file.
     """
+    check_files(output)
     made = optlaws.loader(read_law(name))
     machine = _machine(made, executive_mass, executive_stroke, mass, stroke)
     if output is not None:

@@ -6,7 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import optlaws
-from optlaws.cli.options import AsJson, Whole, check_picture
+from optlaws.cli.options import AsJson, Whole, check_files, save_picture
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import busy, print_json, show, table
 from optlaws.numbers import whole
@@ -46,7 +46,7 @@ def front(
     plot
         Draw the front into this file, PNG or SVG.
     """
-    check_picture(plot)
+    check_files(csv, plot=plot)
     problem, names = optlaws.Problem.from_dict(entries), tuple(over.split(","))
     with busy("solving"):
         found = (
@@ -58,7 +58,7 @@ def front(
     if csv is not None:
         _save_table(found, csv, headings, rows)
     if plot is not None:
-        _save_picture(found, plot)
+        save_picture(plot, found)
     if as_json:
         print_json(found.to_dict())
     else:
@@ -104,14 +104,3 @@ def _save_table(found: optlaws.Front | optlaws.ProvenFront, file: Path, headings
     problem = found[0].problem if isinstance(found, optlaws.Front) else found.problem
     about = f"{' and '.join(found.over)} exchanged: {problem!r}"
     writing.write(file, tables.to_csv(headings, lines, about=about))
-
-
-def _save_picture(found: optlaws.Front | optlaws.ProvenFront, file: Path) -> None:
-    from optlaws import drawing
-    from optlaws.files import writing
-
-    with drawing.style():
-        figure = drawing.figure()
-        draw: Any = drawing.draw_front if isinstance(found, optlaws.Front) else drawing.draw_proven_front
-        draw(found, figure.subplots(), color=drawing.BLUES[3])
-        writing.write(file, drawing.rendered(figure, file.suffix[1:]))

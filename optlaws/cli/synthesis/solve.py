@@ -6,12 +6,12 @@ from pathlib import Path
 from typing import Any, Literal
 
 import optlaws
-from optlaws.cli.options import AsJson, save
+from optlaws.cli.options import AsJson, check_files, save
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import constants_table, print_json, show, table
 
 
-@asks_for_a_problem(given={"degree": ..., "basis": "powers"})
+@asks_for_a_problem(given={"degree": 9, "basis": "powers"})
 def solve(
     entries: dict[str, Any],
     *,
@@ -30,6 +30,7 @@ def solve(
     output
         Write the whole solution, with its problem and certificate, to this JSON file.
     """
+    check_files(output)
     solution = optlaws.synthesize(optlaws.Problem.from_dict(entries), bound=bound)
     if output is not None:
         save(output, solution.to_dict())

@@ -122,14 +122,7 @@ class Entry:
 
         0 is a, 1 is b, 2 is c, 3 is j; c that is not continuous is a jerk without bound.
         """
-        law = self.law
-        inside = law.continuity
-        start, end = law.boundary_values(HIGHEST + 1)
-        for nu in range(1, inside + 1):
-            size = float(np.abs(law(np.linspace(0.0, 1.0, 65), nu)).max())
-            if max(abs(start[nu]), abs(end[nu])) > SMOOTH * size:
-                return nu - 1
-        return inside
+        return continuity_with_rest(self.law)
 
     @property
     def formula(self) -> str:
@@ -163,6 +156,23 @@ class Entry:
             "published": [{"by": one.by, **dict(one.printed)} for one in self.published],
             "law": self.law.to_dict(),
         }
+
+
+def continuity_with_rest(law: MotionLaw) -> int:
+    """The highest order whose derivative, and all below, are continuous with rest before and after the motion.
+
+    Examples
+    --------
+    >>> continuity_with_rest(smoothstep(3)), smoothstep(3).continuity
+    (2, 9)
+    """
+    inside = law.continuity
+    start, end = law.boundary_values(HIGHEST + 1)
+    for nu in range(1, inside + 1):
+        size = float(np.abs(law(np.linspace(0.0, 1.0, 65), nu)).max())
+        if max(abs(start[nu]), abs(end[nu])) > SMOOTH * size:
+            return nu - 1
+    return inside
 
 
 def _built(builder: str, numbers: Any) -> MotionLaw:  # noqa: ANN401 - whatever the data file holds

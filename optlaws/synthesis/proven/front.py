@@ -17,6 +17,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.laws.making.between import law_between
 from optlaws.numbers import bounded, real
+from optlaws.plotting import plotted
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.program.writer import model_of
@@ -341,6 +342,10 @@ class ProvenFront:
             f"ProvenFront({name} {low:.6g} to {high:.6g}, {objective}, gap at most {self.gap:.1e}, "
             f"{len(self)} certified laws)"
         )
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the front as it is at every value, into matplotlib's axes, new ones unless given; the artists."""
+        return plotted("proven_front", self, ax, **style)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict, which `optlaws verify` proves; numbers that follow from the laws are left out."""

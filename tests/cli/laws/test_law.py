@@ -1,6 +1,7 @@
 """`optlaws law` and `optlaws catalogue`."""
 
 import json
+from pathlib import Path
 
 import pytest
 
@@ -51,16 +52,73 @@ def test_the_catalogue_is_listed_and_searched(capsys: pytest.CaptureFixture[str]
     assert found[0]["aliases"]["CODESYS"] == ["InclinedSine"]
 
 
+def test_a_member_is_named_in_one_text(capsys: pytest.CaptureFixture[str]) -> None:
+    asked = json.loads(output(capsys, "law", "iii(7.2)", "--json"))
+    assert asked == json.loads(output(capsys, "law", "III", "--alpha", "7.2", "--json"))
+    assert json.loads(output(capsys, "law", "Family III (B = 1.75)", "--json"))["constants"]["B"]["value"] == 1.75
+    assert json.loads(output(capsys, "follower", "III(7.2)", "--nu", "20", "--json"))["nu"] == 20
+
+
+def test_what_solve_wrote_is_shown_as_any_law(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    file = tmp_path / "law.json"
+    output(capsys, "solve", "--order", "3", "--peak-velocity", "1.8", "--output", str(file))
+    text = output(capsys, "law", str(file))
+    assert f"the law in {file}" in text
+    assert text.splitlines()[1].split(maxsplit=1) == ["continuous", "a, b, c"]
+    law = MotionLaw.from_dict(json.loads(output(capsys, "law", str(file), "--json"))["law"])
+    assert law == MotionLaw.from_dict(json.loads(file.read_text("utf-8"))["law"])
+
+
+def test_names_match_whatever_their_case_and_blanks(capsys: pytest.CaptureFixture[str]) -> None:
+    shown = {output(capsys, "law", name) for name in ("MODSINE", "ModSine", "mod sine", "modified  SINE")}
+    assert len(shown) == 1
+
+
+def test_rounding_is_shown_as_nothing(capsys: pytest.CaptureFixture[str]) -> None:
+    values = output(capsys, "law", "modified sine", "--at", "0.5").splitlines()[-1].split()
+    assert values == ["0.5", "0.5", "1.759603386", "0", "-23.15545243", "0"]
+
+
+def test_no_number_is_cut_and_no_blank_ends_a_line(
+    capsys: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch
+) -> None:
+    wide = output(capsys, "law", "modified sine", "--at", "0.3")
+    monkeypatch.setenv("COLUMNS", "20")
+    assert output(capsys, "law", "modified sine", "--at", "0.3") == wide
+    assert all(line == line.rstrip() for line in wide.splitlines())
+    assert f"{catalogue['modified sine'].law.d(0.3):.10g}" in wide
+    monkeypatch.setenv("FORCE_COLOR", "1")
+    on_terminal = output(capsys, "law", "modified sine", "--at", "0.3")
+    assert f"{catalogue['modified sine'].law.d(0.3):.10g}" in on_terminal
+
+
+def test_a_law_is_written_as_a_table_and_drawn(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    table, picture = tmp_path / "table.csv", tmp_path / "law.svg"
+    output(capsys, "law", "cubic", "--csv", str(table), "--samples", "5", "--plot", str(picture))
+    lines = table.read_text("utf-8").splitlines()
+    assert lines[1:4] == ["k,a,b,c,j,d", "0,0,0,6,-12,0", "0.25,0.15625,1.125,3,-12,3.375"]
+    assert len(lines) == 7
+    assert picture.read_text("utf-8").startswith("<?xml")
+
+
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
         (["law", "modifed sine"], "did you mean 'modified sine'"),
         (["law", "0399"], "50 hundredths"),
-        (["law", "III"], "family III needs --alpha from -6 to 12"),
+        (["law", "III"], "family III need --alpha or --peak-velocity: alpha is from -6 to 12"),
         (["law", "III", "--alpha", "13"], "between -6 and 12"),
         (["law", "III", "--alpha", "1", "--peak-velocity", "2"], "got alpha and B"),
         (["law", "cubic", "--alpha", "1"], "choose a member of a family"),
         (["law", "cubic", "--at", "2"], "k must be in [0, 1]"),
+        (["law", "III(13)"], "between -6 and 12"),
+        (["law", "III(seven)"], "such as III(7.2) or III(B=1.8), got 'III(seven)'"),
+        (["law", "III(C=7)"], "by alpha or B"),
+        (["law", "III(7.2)", "--alpha", "1"], "choose a member of a family"),
+        (["law", "nowhere.json"], "cannot read nowhere.json"),
+        (["law", "cubic", "--samples", "5"], "--csv FILE"),
+        (["law", "cubic", "--plot", "cubic.pdf"], ".png or .svg"),
+        (["law", "cubic", "--plot", "."], ".png or .svg"),
         (["catalogue", "qwerty"], "no law is like 'qwerty'"),
     ],
 )

@@ -1,0 +1,300 @@
+"""Pictures of laws: displacement, velocity, acceleration and jerk, with peaks and with what a problem asks of them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
+from math import inf, isfinite
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws import drawing
+from optlaws.errors import InputError
+from optlaws.laws.curve import Curve
+from optlaws.laws.law import MotionLaw
+from optlaws.plotting import draws
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.solution import Solution
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+
+Array = NDArray[np.float64]
+Panels = Sequence["Axes"]
+
+QUANTITIES = ("displacement a", "velocity b", "acceleration c", "jerk j")
+PEAKS = (None, "B", "C", "J")
+
+_SAMPLES = 801
+_MARGIN = 0.08
+#: curves drawn into one pair of axes, each by its peak
+_COLOURS = (drawing.GREY, drawing.GREEN, drawing.BLUES[3], drawing.WARM)
+_ABOVE: Any = {
+    "loc": "lower right",
+    "bbox_to_anchor": (1.0, 1.0),
+    "ncols": 3,
+    "borderaxespad": 0.2,
+    "frameon": False,
+    "fontsize": 9.0,
+}
+_ONE_SIDED = {"C_plus": (2, 1.0), "C_minus": (2, -1.0)}
+
+
+def panels(width: float = 7.2, height: float = 7.6) -> list[Axes]:
+    """Four empty axes over one k, for a, b, c and j, in a new figure of the project's style.
+
+    Examples
+    --------
+    >>> [axes.get_ylabel() for axes in panels()]
+    ['displacement a', 'velocity b', 'acceleration c', 'jerk j']
+    """
+    with drawing.style():
+        made = list(drawing.new_figure(width, height).subplots(4, 1, sharex=True))
+    for axes, quantity in zip(made, QUANTITIES, strict=True):
+        axes.set(ylabel=quantity)
+    made[-1].set(xlabel="k (all dimensionless)")
+    return made
+
+
+@draws("curve")
+def draw_curve(
+    curve: Curve,
+    axes: Axes | Panels | None = None,
+    **style: Any,  # noqa: ANN401 - matplotlib's
+) -> list[Artist]:
+    """Draw a, b, c and j of a law, or of a mass, with their peaks, and return the artists.
+
+    Parameters
+    ----------
+    curve
+        What is drawn, dimensionless.
+    axes
+        Four axes for a, b, c and j; one for all four, each divided by its peak; new ones unless given.
+    style
+        matplotlib's, for the curves.
+
+    Raises
+    ------
+    InputError
+        If there are neither one nor four axes.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> artists = draw_curve(smoothstep(3), color=drawing.GREEN)
+    >>> artists[1].axes.get_title(loc="left")
+    'B = 1.875 at k = 0.5'
+    """
+    if axes is None:
+        axes = panels()
+    if not isinstance(axes, Sequence | np.ndarray):
+        return [_line(curve, axes, nu, **{"color": _COLOURS[nu]} | style) for nu in range(4)]
+    return [artist for nu, one in enumerate(four(axes)) for artist in _with_peak(curve, one, nu, style)]
+
+
+def four(axes: Any) -> list[Axes]:  # noqa: ANN401 - it is checked here
+    """The axes of a, b, c and j.
+
+    Raises
+    ------
+    InputError
+        If they are not four.
+
+    Examples
+    --------
+    >>> four([])
+    Traceback (most recent call last):
+    optlaws.errors.InputError: a, b, c and j are drawn into one pair of axes or into four, got 0
+    """
+    found = list(np.ravel(np.asarray(axes, dtype=object)))
+    if len(found) != len(QUANTITIES):
+        raise InputError(f"a, b, c and j are drawn into one pair of axes or into four, got {len(found)}")
+    return found
+
+
+def broken(curve: Curve, nu: int, count: int = _SAMPLES) -> tuple[Array, Array]:
+    """Samples of a derivative to be drawn as a line: it is broken by nan where the derivative jumps or is infinite.
+
+    Examples
+    --------
+    >>> from optlaws.laws.catalogue.catalogue import catalogue
+    >>> k, c = broken(catalogue["constant acceleration"].law, 2, 3)
+    >>> k.tolist(), c.tolist()
+    ([0.0, 0.5, 0.5, 0.5, 1.0], [4.0, 4.0, nan, -4.0, -4.0])
+    """
+    k, values = curve.samples(count, nu)
+    values = np.where(np.isfinite(values), values, np.nan)
+    leaps = _leaps(curve, nu)
+    if leaps.size:
+        # at a break the value before it comes first, and the one after it at least twice
+        last = np.searchsorted(k, leaps, side="right") - 1
+        first = np.searchsorted(k, leaps, side="left")
+        keep = np.ones(len(k), dtype=bool)
+        for before, after in zip(first, last, strict=True):
+            keep[before + 2 : after] = False
+            values[before + 1] = np.nan
+        k, values = k[keep], values[keep]
+    return k, values
+
+
+def _leaps(curve: Curve, nu: int) -> Array:
+    """Where the curve's derivative jumps; those of lower order make it infinite there."""
+    if not isinstance(curve, MotionLaw):
+        return np.empty(0)
+    return np.unique([place for order in range(1, nu + 1) for place, _ in curve.jumps(order)])
+
+
+def _line(curve: Curve, axes: Axes, nu: int, **style: Any) -> Artist:  # noqa: ANN401 - matplotlib's
+    k, values = broken(curve, nu)
+    scale = curve.peak(nu).value if nu else 1.0
+    if not isfinite(scale) or not scale:
+        scale = float(np.nanmax(np.abs(values), initial=0.0)) or 1.0
+    letter = "abcj"[nu]
+    named = {"label": letter if scale == 1.0 else f"{letter} / {scale:.6g}"} | style
+    (line,) = axes.plot(k, values / scale, **named)
+    return line
+
+
+def _with_peak(curve: Curve, axes: Axes, nu: int, style: dict[str, Any]) -> Iterator[Artist]:
+    k, values = broken(curve, nu)
+    (line,) = axes.plot(k, values, **{"color": drawing.BLUES[3]} | style)
+    yield line
+    yield from _sides(axes, k, values, line.get_color())
+    name = PEAKS[nu]
+    if name is None:
+        return
+    peak = curve.peak(nu)
+    if not axes.get_title(loc="left"):
+        axes.set_title(f"{name} = {peak.value:.7g} at k = {peak.k:.6g}", loc="left", fontsize=9.0)
+    if isfinite(peak.value):
+        low, high = curve.extrema(nu)
+        height = high.value if high.value >= -low.value else low.value
+        place = high.k if high.value >= -low.value else low.k
+        yield from axes.plot([place], [height], "o", color=line.get_color(), markersize=4.0)
+    else:
+        _keep_to(axes, values)
+
+
+def _sides(axes: Axes, k: Array, values: Array, colour: Any) -> Iterator[Artist]:  # noqa: ANN401 - matplotlib's
+    """Small rings on both sides of every break of a line."""
+    gaps = np.flatnonzero(np.isnan(values[1:-1])) + 1
+    ends = np.unique(np.concatenate([gaps - 1, gaps + 1]))
+    if ends.size:
+        yield from axes.plot(k[ends], values[ends], "o", color=colour, markerfacecolor="white", markersize=3.0)
+
+
+def _keep_to(axes: Axes, values: Array) -> None:
+    """Show what is finite, but for the highest hundredth: it may grow without limit towards a break."""
+    low, high = np.nanpercentile(values, [1.0, 99.0])
+    room = _MARGIN * ((high - low) or 1.0)
+    axes.set_ylim(min(low, 0.0) - room, max(high, 0.0) + room)
+
+
+@dataclass(frozen=True)
+class Mark:
+    """A value of a, b, c or j that a law may not pass, over a part of the motion, and what asks it."""
+
+    nu: int
+    value: float
+    start: float
+    stop: float
+    what: str
+
+
+def marks(problem: Problem) -> Iterator[Mark]:
+    """What a problem asks of b, c and j: bounds of B, C, J and of one-sided peaks, and windows.
+
+    Examples
+    --------
+    >>> [(one.nu, one.value, one.what) for one in marks(Problem(B=1.8, order=4))]
+    [(1, 1.8, 'B = 1.8'), (1, -1.8, 'B = 1.8')]
+    """
+    for nu, name in enumerate(PEAKS):
+        asked = None if name is None else problem.range(name)
+        if asked is not None and isfinite(asked.high):
+            text = f"{name} = {asked.high:.6g}" if asked.fixed else f"{name} at most {asked.high:.6g}"
+            yield from (Mark(nu, sign * asked.high, 0.0, 1.0, text) for sign in (1.0, -1.0))
+    for name, (nu, sign) in _ONE_SIDED.items():
+        asked = problem.range(name)
+        if asked is not None and isfinite(asked.high):
+            yield Mark(nu, sign * asked.high, 0.0, 1.0, f"{name} at most {asked.high:.6g}")
+    for window in problem.windows:
+        for value in {window.low, window.high} - {inf, -inf}:
+            yield Mark(window.order, value, window.start, window.stop, "window")
+
+
+@draws("solution")
+def draw_solution(
+    solution: Solution,
+    axes: Axes | Panels | None = None,
+    **style: Any,  # noqa: ANN401 - matplotlib's
+) -> list[Artist]:
+    """Draw the law of a solution with the limits of its problem, and the limit that no law can beat.
+
+    Into one pair of axes, where every curve is divided by its peak, no limits are drawn.
+
+    Raises
+    ------
+    InputError
+        If there are neither one nor four axes.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis import synthesize
+    >>> artists = draw_solution(synthesize(Problem(B=1.8, order=4)))
+    >>> sorted({one.get_label() for one in artists if one.get_label()[0] != "_"})
+    ['B = 1.8', 'no law has a smaller C: 4.05']
+    """
+    if axes is None:
+        axes = panels()
+    artists = draw_curve(solution.law, axes, **style)
+    if not isinstance(axes, Sequence | np.ndarray):
+        return artists
+    by_order = four(axes)
+    artists += [_marked(by_order[mark.nu], mark) for mark in _without_idle(solution)]
+    artists += _limit(by_order, solution)
+    for one in by_order:
+        if any(not str(line.get_label()).startswith("_") for line in one.lines):
+            one.legend(*_once(one), **_ABOVE)
+    return artists
+
+
+def _without_idle(solution: Solution) -> list[Mark]:
+    """Marks but those far below every value of a law that never goes there, such as -B where b is never negative."""
+    found = []
+    for mark in marks(solution.problem):
+        low, high = solution.law.extrema(mark.nu)
+        if mark.what == "window" or low.value - 0.5 * abs(mark.value) <= mark.value <= high.value + 2 * abs(mark.value):
+            found.append(mark)
+    return found
+
+
+def _marked(axes: Axes, mark: Mark) -> Artist:
+    if mark.start == mark.stop:
+        (point,) = axes.plot([mark.start], [mark.value], "D", color=drawing.WARM, markersize=5.0, label="via point")
+        return point
+    (line,) = axes.plot([mark.start, mark.stop], [mark.value] * 2, "--", color=drawing.WARM, lw=1.1, label=mark.what)
+    return line
+
+
+def _limit(by_order: Sequence[Axes], solution: Solution) -> list[Artist]:
+    name = str(solution.problem.minimise)
+    if solution.limit is None or name not in PEAKS:
+        return []
+    nu = PEAKS.index(name)
+    text = f"no law has a smaller {name}: {solution.limit:.6g}"
+    signs = (1.0, -1.0) if solution.law.extrema(nu)[0].value < 0.0 else (1.0,)
+    lines = [
+        by_order[nu].plot([0.0, 1.0], [sign * solution.limit] * 2, ":", color="black", lw=1.1, label=text)
+        for sign in signs
+    ]
+    return [line for some in lines for line in some]
+
+
+def _once(axes: Axes) -> tuple[list[Any], list[str]]:
+    """Handles and labels of a legend, each label once."""
+    found = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+    return list(found.values()), list(found)

@@ -1,0 +1,81 @@
+"""What is drawn of laws, solutions and fronts."""
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from optlaws import Chebyshev, Problem, at_most, catalogue, pareto_front, smoothstep, synthesize, via
+from optlaws.errors import InputError
+from optlaws.law_pictures import broken
+
+
+def axes(count: int) -> np.ndarray:
+    return np.ravel(Figure().subplots(1, count))
+
+
+def test_a_law_is_drawn_as_it_is_with_its_peaks_marked() -> None:
+    law = catalogue["modified sine"].law
+    panels = axes(4)
+    artists = law.plot(panels, color="red")
+    assert {artist.axes for artist in artists} == set(panels)
+    for nu, panel in enumerate(panels):
+        k, values = panel.lines[0].get_data()
+        assert panel.lines[0].get_color() == "red"
+        assert np.allclose(values, law(k, nu), rtol=0.0, atol=1e-9)
+    (place,), (height,) = panels[2].lines[-1].get_data()
+    assert (place, height) == pytest.approx((0.125, law.constants.C.value))
+
+
+def test_a_jump_is_a_gap_with_both_its_sides() -> None:
+    law = catalogue["constant acceleration"].law
+    k, c = broken(law, 2)
+    (gap,) = np.flatnonzero(np.isnan(c))
+    assert k[gap - 1 : gap + 2].tolist() == [0.5, 0.5, 0.5]
+    assert c[[gap - 1, gap + 1]] == pytest.approx([4.0, -4.0])
+    panels = axes(4)
+    law.plot(panels)
+    sides = [line for line in panels[2].lines if line.get_markerfacecolor() == "white"]
+    assert [line.get_ydata().tolist() for line in sides] == [[4.0, -4.0]]
+    assert "inf" in panels[3].get_title(loc="left")
+
+
+@pytest.mark.parametrize("name", list(catalogue))
+def test_every_law_of_the_catalogue_can_be_drawn(name: str) -> None:
+    law = catalogue[name].law
+    for nu in range(4):
+        k, values = broken(law, nu, 51)
+        assert np.all(np.diff(k) >= 0.0)
+        # a gap lies between two samples, and every jump has one
+        gaps = np.flatnonzero(np.isnan(values[1:-1])) + 1
+        assert not np.isnan(values[np.concatenate([gaps - 1, gaps + 1])]).any() or not np.isfinite(law.peak(nu).value)
+        assert {place for place, _ in law.jumps(nu)} <= set(k[gaps].tolist())
+
+
+def test_all_in_one_pair_of_axes_is_divided_by_the_peaks() -> None:
+    (panel,) = axes(1)
+    artists = smoothstep(3).plot(panel)
+    assert [line.get_label() for line in artists] == ["a", "b / 1.875", "c / 5.7735", "j / 60"]
+    assert all(np.abs(line.get_ydata()).max() == pytest.approx(1.0, abs=1e-4) for line in artists)
+
+
+def test_limits_of_a_problem_are_drawn() -> None:
+    problem = Problem(B=1.8, J=at_most(150), order=3, basis=Chebyshev(9), windows=(via("a", 0.325, at=0.4),))
+    panels = axes(4)
+    labels = {one.get_label(): one for one in synthesize(problem).plot(panels)}
+    assert {"B = 1.8", "J at most 150", "via point"} <= set(labels)
+    assert labels["via point"].get_data()[0][0] == 0.4
+    assert labels["J at most 150"].get_ydata() == pytest.approx([150.0, 150.0])
+    assert any(label.startswith("no law has a smaller C: 4.") for label in labels)
+
+
+def test_a_front_is_drawn_into_the_axes_given() -> None:
+    front = pareto_front(Problem(order=3, basis=Chebyshev(5)), points=3)
+    (panel,) = axes(1)
+    (line,) = front.plot(panel, color="green")
+    assert line.axes is panel
+    assert np.allclose(np.transpose(line.get_data()), front.values)
+
+
+def test_other_axes_are_refused() -> None:
+    with pytest.raises(InputError, match="one pair of axes or into four, got 3"):
+        smoothstep(3).plot(axes(3))
