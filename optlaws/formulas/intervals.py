@@ -43,7 +43,8 @@ class Interval:
 
     def outward(self) -> Interval:
         """A little wider, for rounding; exact zeros and ones stay."""
-        low, high = self.low - _ROUNDED * np.abs(self.low), self.high + _ROUNDED * np.abs(self.high)
+        low = np.where(np.isfinite(self.low), self.low - _ROUNDED * np.abs(self.low), self.low)
+        high = np.where(np.isfinite(self.high), self.high + _ROUNDED * np.abs(self.high), self.high)
         return Interval(low, high)
 
     def through(self, function: Callable[[Array], Array]) -> Interval:
@@ -174,6 +175,7 @@ _RISING: dict[str, Callable[[Array], Array]] = {
     "atan": np.arctan,
     "tanh": np.tanh,
     "exp": np.exp,
-    "log": np.log,
-    "sqrt": np.sqrt,
+    # where they have no value they say nothing
+    "log": lambda x: np.log(np.maximum(x, 0.0)),
+    "sqrt": lambda x: np.sqrt(np.maximum(x, 0.0)),
 }
