@@ -2,6 +2,13 @@
 from optlaws import laws as laws
 from optlaws import mechanisms as mechanisms
 from optlaws import synthesis as synthesis
+from optlaws.cycles.cycle import Cycle as Cycle
+from optlaws.cycles.segments import ConstantVelocity as ConstantVelocity
+from optlaws.cycles.segments import Dwell as Dwell
+from optlaws.cycles.segments import Free as Free
+from optlaws.cycles.segments import Move as Move
+from optlaws.cycles.segments import Return as Return
+from optlaws.cycles.segments import Rise as Rise
 from optlaws.errors import InfeasibleProblem as InfeasibleProblem
 from optlaws.errors import InputError as InputError
 from optlaws.errors import NotNormalised as NotNormalised
@@ -128,13 +135,17 @@ __all__ = [
     "Certificate",
     "Chebyshev",
     "Clutch",
+    "ConstantVelocity",
     "Constants",
     "Contact",
+    "Cycle",
     "CycleResponse",
     "D",
     "Deviation",
+    "Dwell",
     "Expression",
     "Follower",
+    "Free",
     "Front",
     "FrontPoint",
     "Functional",
@@ -146,6 +157,7 @@ __all__ = [
     "Machine",
     "MachineSpectrum",
     "MotionLaw",
+    "Move",
     "NotNormalised",
     "OptlawsError",
     "Peak",
@@ -161,6 +173,8 @@ __all__ = [
     "Range",
     "Response",
     "ResponseSpectrum",
+    "Return",
+    "Rise",
     "SavinFamily",
     "Solution",
     "SolutionArray",

@@ -12,7 +12,7 @@ from tests.imports import Import, cycles, imports, modules
 
 BASE = {"echo", "errors", "files", "kept", "lazy", "locks", "numbers", "plotting", "suggest"}
 KNOWN = BASE | {"series"}
-CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "verification"}
+CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "cycles", "verification"}
 MAY_IMPORT = {
     "echo": set[str](),
     "errors": {"echo"},
@@ -29,6 +29,7 @@ MAY_IMPORT = {
     "synthesis": KNOWN | {"formulas", "laws"},
     "mechanisms": KNOWN | {"formulas", "laws", "synthesis"},
     "verification": KNOWN | {"formulas", "laws", "synthesis"},
+    "cycles": KNOWN | {"formulas", "laws", "synthesis", "mechanisms"},
     "drawing": CORE,
     "law_pictures": CORE | {"drawing"},
     "studies": CORE | {"drawing"},
@@ -46,6 +47,7 @@ SEVERAL = {
     "certificate",
     "checks",
     "constants",
+    "cycle",
     "drawing",
     "dwell",
     "family",
@@ -98,6 +100,7 @@ MUST_NOT_IMPORT = {
     "laws": {"casadi", "matplotlib", "scipy"},
     "synthesis": {"matplotlib"},
     "mechanisms": {"matplotlib"},
+    "cycles": {"matplotlib"},
     "verification": {"casadi", "matplotlib", "scipy"},
 }
 

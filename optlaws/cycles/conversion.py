@@ -1,0 +1,90 @@
+"""From dimensionless laws to machine units and back: the one place where strokes and durations come in.
+
+A law a(k) with the stroke h in the duration T moves the machine by y = y0 + h a(t/T). So
+
+| machine | law |
+|---|---|
+| velocity v | B h/T |
+| acceleration | C h/T² |
+| jerk | J h/T³ |
+| kinetic power per mass | D h²/T³ |
+| root mean square of the acceleration | rms_c h/T² |
+
+and every limit in machine units, divided by the same factor, is one of the law.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.laws import MotionLaw
+
+Array = NDArray[np.float64]
+
+
+def factor(stroke: float, duration: float, nu: int) -> float:
+    """What turns the derivative of order nu of a law into machine units: h/T^nu.
+
+    Examples
+    --------
+    >>> factor(0.035, 0.1, 2)
+    3.5
+    """
+    return stroke / duration**nu
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A law in its place in a cycle: y = offset + stroke (a(k) - a(0)), k = (t - start)/duration, in SI units.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> piece = Piece(0.1, 0.2, 0.0, 0.04, smoothstep(3))
+    >>> piece.values(np.array([0.2]), 1)
+    array([0.375])
+    """
+
+    start: float
+    duration: float
+    offset: float
+    stroke: float
+    law: MotionLaw
+
+    @property
+    def stop(self) -> float:
+        """When it ends."""
+        return self.start + self.duration
+
+    def places(self, times: Array) -> Array:
+        """The k of times in it."""
+        return np.clip((times - self.start) / self.duration, 0.0, 1.0)
+
+    def values(self, times: Array, nu: int) -> Array:
+        """The derivative of order nu in SI units at times in it."""
+        values = self.law(self.places(times), nu)
+        base = self.offset - self.stroke * float(self.law.a(0.0)) if nu == 0 else 0.0
+        return base + factor(self.stroke, self.duration, nu) * values
+
+    def end(self, nu: int, side: int) -> float:
+        """The derivative of order nu at its start (side 0) or its end (side 1)."""
+        return float(self.values(np.array([(self.start, self.stop)[side]]), nu)[0])
+
+    def extremes(self, nu: int, first: float, last: float) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Least and greatest value with their times, over the whole of the stretch from `first` to `last`."""
+        low, high = (float(one) for one in self.places(np.array([first, last])))
+        found = self.law.extrema(nu, within=(low, high))
+        base = self.offset - self.stroke * float(self.law.a(0.0)) if nu == 0 else 0.0
+        sized = [
+            (base + factor(self.stroke, self.duration, nu) * one.value if self.stroke else base,
+             self.start + one.k * self.duration)
+            for one in found
+        ]  # fmt: skip
+        return min(sized), max(sized)
+
+    def mean_square(self, nu: int) -> float:
+        """Mean of the square of the derivative of order nu over its duration."""
+        return (factor(self.stroke, self.duration, nu) * self.law.rms(nu)) ** 2 if self.stroke else 0.0

@@ -1,0 +1,273 @@
+"""A whole cycle of a machine: its segments in machine units, evaluated, peaked, driven, and optimal as a whole."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import reduce
+from itertools import pairwise
+from math import hypot
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cycles.conversion import Piece
+from optlaws.cycles.drive import Drive, read_drive
+from optlaws.cycles.durations import durations
+from optlaws.cycles.effort import Effort, effort
+from optlaws.cycles.joints import Layout, layout
+from optlaws.cycles.optimal import OBJECTIVES, Wanted, read_limits, solve
+from optlaws.cycles.programme import TURN, Programme, period_of, programme
+from optlaws.cycles.segments import CycleSegment
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.numbers import MOST_DEGREE, derivative, real_times, whole
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.solution import Solution, Status
+
+Array = NDArray[np.float64]
+
+JOINED = 1e-9  # a leap below this share of the derivative's greatest value is rounding
+
+
+@dataclass(frozen=True)
+class SegmentPeaks:
+    """Least and greatest position, velocity, acceleration and jerk in a segment, each with its time; SI units."""
+
+    name: str
+    start: float
+    duration: float
+    extremes: tuple[tuple[tuple[float, float], tuple[float, float]], ...]
+
+    def peak(self, nu: int) -> float:
+        """The greatest magnitude of the derivative of order nu."""
+        return max(abs(value) for value, _ in self.extremes[nu])
+
+
+@dataclass(frozen=True)
+class Cycle:
+    """A cycle that repeats: segments, and how fast the master turns; call it for motion in SI units over time.
+
+    Positions are lengths or angles, whichever the first displacement is. Laws that are to be optimal are looked for
+    when they are first needed; between joints that are known the cycle decouples, and each law is proven by itself.
+
+    Parameters
+    ----------
+    segments
+        What happens, in order: `Rise`, `Return`, `Move`, `Dwell`, `ConstantVelocity`, `Free`.
+    speed, period
+        Of the master, "200 rpm", or the duration of the cycle, "0.3 s": one of them.
+    minimise
+        "acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "force" or "rms force" of optimal segments.
+    limits
+        Of all optimal segments: `{"velocity": "616 mm/s"}`.
+    start
+        Position at the start, 0 unless given.
+    advance
+        How far each cycle goes on from the one before; 0 unless given.
+    drive
+        What the motion drives: `{"mass": "2 kg", "stiffness": "3 N/mm", "viscous": ..., "dry": ..., "gravity": ...}`,
+        with inertia in place of mass for tables.
+    order, degree
+        Number of end conditions of optimal laws, and the degree of their Z.
+
+    Raises
+    ------
+    InputError
+        If durations do not sum, positions do not close or velocities do not meet; the error says the remedy.
+
+    Examples
+    --------
+    >>> from optlaws.cycles.segments import Dwell, Return, Rise
+    >>> rise, back = Rise("35 mm", "120 deg"), Return("35 mm", "100 deg")
+    >>> cycle = Cycle([rise, Dwell("90 deg"), back, Dwell()], speed="200 rpm")
+    >>> cycle.status.value, round(cycle.objective, 6), round(float(cycle(0.1)), 9)
+    ('optimal', 21.883840, 0.035000)
+    """
+
+    segments: Sequence[CycleSegment]
+    speed: Any = field(default=None, kw_only=True)
+    period: Any = field(default=None, kw_only=True)
+    minimise: str = field(default="acceleration", kw_only=True)
+    limits: Mapping[str, Any] = field(default_factory=dict, kw_only=True)
+    start: Any = field(default=None, kw_only=True)
+    advance: Any = field(default=None, kw_only=True)
+    drive: Mapping[str, Any] | None = field(default=None, kw_only=True)
+    order: int = field(default=3, kw_only=True)
+    degree: int = field(default=9, kw_only=True)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.segments, list | tuple) or not self.segments:
+            raise InputError("a cycle is a list of segments such as [Rise('35 mm', '120 deg'), Dwell(), ...]")
+        object.__setattr__(self, "segments", tuple(self.segments))
+        if self.minimise not in OBJECTIVES:
+            raise InputError(f"minimise: {unknown_key(self.minimise, OBJECTIVES, 'objective')}")
+        if all(one.fixed for one in self.programme.stretches):
+            self._layout  # noqa: B018 - velocities that do not meet are refused at once
+        self._wanted  # noqa: B018 - and so are limits and drives
+
+    @kept_property
+    def programme(self) -> Programme:
+        """The cycle as numbers in SI units."""
+        return programme(self.segments, period_of(self.speed, self.period), self.start, self.advance)
+
+    @property
+    def axis(self) -> str:
+        """Whether positions are a "length" or an "angle"."""
+        return self.programme.axis
+
+    @property
+    def duration(self) -> float:
+        """Duration of the cycle in seconds."""
+        return self.programme.period
+
+    @kept_property
+    def durations(self) -> tuple[float, ...]:
+        """Durations of the segments in seconds; the best ones where they are free."""
+        return durations(self.programme, self._wanted)
+
+    @kept_property
+    def solutions(self) -> tuple[Solution, ...]:
+        """The solution of each motion that was looked for, in order, with its proof; dimensionless."""
+        return tuple(solution for _, solution in self._solved)
+
+    @kept_property
+    def pieces(self) -> tuple[Piece, ...]:
+        """The laws in their places, in order."""
+        found = [*self._layout.pieces, *(piece for piece, _ in self._solved)]
+        return tuple(sorted(found, key=lambda piece: piece.start))
+
+    @property
+    def status(self) -> Status:
+        """The worst status of the solutions; optimal where nothing was to be looked for."""
+        ranks = (Status.OPTIMAL, Status.LOCAL, Status.INACCURATE)
+        return max((one.status for one in self.solutions), key=ranks.index, default=Status.OPTIMAL)
+
+    @kept_property
+    def objective(self) -> float:
+        """What is minimised, over the whole cycle, in SI units; recomputed from the laws."""
+        nu, mean = OBJECTIVES[self.minimise]
+        if nu < 0:
+            return self.effort.rms_force if mean else self.effort.peak_force
+        if mean:
+            squares = sum(piece.duration * piece.mean_square(nu) for piece in self.pieces)
+            return float(np.sqrt(squares / self.duration))
+        return max(one.peak(nu) for one in self.peaks)
+
+    @kept_property
+    def lower_bound(self) -> float | None:
+        """What no other optimal laws in the same times can beat; None for forces, whose solutions have their own."""
+        nu, mean = OBJECTIVES[self.minimise]
+        if nu < 0:
+            return None
+        sizes = [(piece.duration, self._bound(piece, solution, nu)) for piece, solution in self._solved]
+        known = [(piece.duration, self._size(piece, nu, mean=mean)) for piece in self._layout.pieces]
+        if not mean:
+            return max(bound for _, bound in sizes + known)
+        return reduce(hypot, (bound * float(np.sqrt(time / self.duration)) for time, bound in sizes + known), 0.0)
+
+    @kept_property
+    def peaks(self) -> tuple[SegmentPeaks, ...]:
+        """Least and greatest values in every segment."""
+        return tuple(
+            SegmentPeaks(one.label, start, stop - start, self._extremes(start, stop))
+            for one, (start, stop) in zip(self.segments, pairwise(self._layout.starts), strict=True)
+        )
+
+    def peak(self, nu: int) -> float:
+        """The greatest magnitude of the derivative of order nu over the cycle, up to the jerk, in SI units."""
+        order = derivative(nu)
+        if order > 3:
+            raise InputError(f"nu must be at most 3, the jerk, got {order}")
+        return max(one.peak(order) for one in self.peaks)
+
+    @property
+    def joints(self) -> tuple[dict[str, Any], ...]:
+        """Every joint: its time, and by how much velocity, acceleration and jerk leap there; 0 where they do not."""
+        pieces = self.pieces
+        found = []
+        for i, piece in enumerate(pieces):
+            leaps = [piece.end(nu, 0) - pieces[i - 1].end(nu, 1) for nu in (1, 2, 3)]
+            kept = [0.0 if abs(leap) <= JOINED * self.peak(nu) else leap for nu, leap in enumerate(leaps, start=1)]
+            found.append({"time": piece.start, "velocity": kept[0], "acceleration": kept[1], "jerk": kept[2]})
+        return tuple(found)
+
+    @kept_property
+    def effort(self) -> Effort:
+        """Force or torque and power that the drive takes.
+
+        Raises
+        ------
+        InputError
+            If the cycle has no drive.
+        """
+        if self._drive is None:
+            raise InputError("the cycle has no drive: give one, such as drive={'mass': '2 kg', 'gravity': '20 N'}")
+        return effort(self._drive, self.pieces, self.duration)
+
+    def __call__(self, time: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+        """Position (nu 0), velocity, acceleration, jerk at a time in seconds, in SI units; the cycle repeats.
+
+        Raises
+        ------
+        InputError
+            If a time is no finite number.
+        """
+        times, order = real_times(time), derivative(nu)
+        turns = np.floor(times / self.duration)
+        within = np.clip(times - turns * self.duration, 0.0, self.duration)
+        starts = np.array([piece.start for piece in self.pieces])
+        which = np.maximum(np.searchsorted(starts, within, side="right") - 1, 0)
+        values = np.empty(times.shape)
+        for i, piece in enumerate(self.pieces):
+            here = which == i
+            values[here] = piece.values(within[here], order)
+        moved = sum(one.displacement for one in self.programme.stretches)
+        values = values + turns * moved if order == 0 else values
+        return values if np.ndim(values) else float(values)
+
+    def at_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
+        """The same at an angle of the master in degrees; derivatives are by time."""
+        return self(real_times(degrees) * self.duration / 360.0, nu)
+
+    def per_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
+        """Derivatives by the master's angle in radians, as cams and controllers take them."""
+        return self.at_angle(degrees, nu) * (self.duration / TURN) ** nu
+
+    @kept_property
+    def _drive(self) -> Drive | None:
+        return None if self.drive is None else read_drive(self.drive, self.axis)
+
+    @kept_property
+    def _wanted(self) -> Wanted:
+        return Wanted(
+            self.minimise,
+            read_limits(self.limits, self.axis, "limits"),
+            whole(self.order, "order", least=2, most=10),
+            whole(self.degree, "degree", most=MOST_DEGREE),
+            self._drive,
+        )
+
+    @kept_property
+    def _layout(self) -> Layout:
+        return layout(self.programme, self.durations)
+
+    @kept_property
+    def _solved(self) -> tuple[tuple[Piece, Solution], ...]:
+        return tuple(solve(span, self._wanted, self.axis) for span in self._layout.spans)
+
+    def _extremes(self, start: float, stop: float) -> tuple[tuple[tuple[float, float], tuple[float, float]], ...]:
+        piece = next(one for one in reversed(self.pieces) if one.start <= start)
+        return tuple(piece.extremes(nu, start, stop) for nu in range(4))
+
+    def _bound(self, piece: Piece, solution: Solution, nu: int) -> float:
+        return solution.lower_bound * self._factor(piece, nu)
+
+    def _size(self, piece: Piece, nu: int, *, mean: bool) -> float:
+        constant = piece.law.rms(nu) if mean else piece.law.peak(nu).value
+        return constant * self._factor(piece, nu) if piece.stroke else 0.0
+
+    @staticmethod
+    def _factor(piece: Piece, nu: int) -> float:
+        return abs(piece.stroke) / piece.duration**nu

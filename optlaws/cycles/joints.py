@@ -1,0 +1,206 @@
+"""What is asked where segments meet, and the spans whose law is looked for: between two joints that are known."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import accumulate
+from typing import NamedTuple
+
+from optlaws.cycles.conversion import Piece
+from optlaws.cycles.named import named_law
+from optlaws.cycles.programme import AXES, CLOSE, Programme, Stretch, is_optimal, time_of
+from optlaws.cycles.quantities import quantity
+from optlaws.cycles.segments import ConstantVelocity, Dwell, Free, Move
+from optlaws.errors import InputError
+from optlaws.laws import smoothstep
+
+UNIFORM = smoothstep(1)
+
+
+class State(NamedTuple):
+    """Velocity and acceleration at a joint, in SI units."""
+
+    velocity: float
+    acceleration: float
+
+
+@dataclass(frozen=True)
+class Span:
+    """Stretches whose law is looked for as one: their times, what is asked at both ends, and points on the way.
+
+    Parameters
+    ----------
+    stretches
+        One, or free ones that follow each other.
+    starts, stop
+        When each begins, and when the last one ends.
+    offset, displacement
+        Position at the start, and how far it moves.
+    first, last
+        Velocity and acceleration at both ends.
+    via
+        Pairs of time and position on the way.
+    """
+
+    stretches: tuple[Stretch, ...]
+    starts: tuple[float, ...]
+    stop: float
+    offset: float
+    displacement: float
+    first: State
+    last: State
+    via: tuple[tuple[float, float], ...]
+
+    @property
+    def start(self) -> float:
+        """When it begins."""
+        return self.starts[0]
+
+    @property
+    def duration(self) -> float:
+        """How long it takes."""
+        return self.stop - self.start
+
+    @property
+    def where(self) -> str:
+        """What errors call it."""
+        return " and ".join(one.where for one in self.stretches)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A cycle with known durations: pieces whose law is known, and spans whose law is looked for."""
+
+    starts: tuple[float, ...]
+    pieces: tuple[Piece, ...]
+    spans: tuple[Span, ...]
+
+
+def layout(asked: Programme, durations: Sequence[float]) -> Layout:
+    """Which laws are known and which are looked for.
+
+    Raises
+    ------
+    InputError
+        If velocities do not meet at a joint.
+    """
+    starts = tuple(accumulate(durations, initial=0.0))
+    offsets = tuple(accumulate((one.displacement for one in asked.stretches), initial=asked.start))
+    pieces = {
+        i: _piece(one, starts[i], durations[i], offsets[i])
+        for i, one in enumerate(asked.stretches)
+        if not is_optimal(one.given)
+    }
+    joints = [_joint(asked, pieces, i) for i in range(len(asked.stretches))]
+    return Layout(starts, tuple(pieces.values()), _spans(asked, starts, offsets, joints))
+
+
+def _piece(one: Stretch, start: float, duration: float, offset: float) -> Piece:
+    if isinstance(one.given, Dwell):
+        return Piece(start, duration, offset, 0.0, UNIFORM)
+    if isinstance(one.given, Move):
+        return Piece(start, duration, offset, one.displacement, named_law(one.given.law, one.where))
+    return Piece(start, duration, offset, one.displacement, UNIFORM)
+
+
+def _joint(asked: Programme, pieces: dict[int, Piece], i: int) -> State | None:
+    """What is known where stretch i begins; None where it and the one before are free."""
+    before, after = (i - 1) % len(asked.stretches), i
+    ended, begun = _known(asked, pieces, before, 1), _known(asked, pieces, after, 0)
+    if ended is not None and begun is not None:
+        _check_velocities(asked, before, after, ended, begun)
+        return ended if before in pieces else begun
+    if ended is not None or begun is not None:
+        return ended if begun is None else begun
+    both = isinstance(asked.stretches[before].given, Free) and isinstance(asked.stretches[after].given, Free)
+    return None if both else State(0.0, 0.0)
+
+
+def _known(asked: Programme, pieces: dict[int, Piece], i: int, side: int) -> State | None:
+    if i in pieces:
+        return State(pieces[i].end(1, side), pieces[i].end(2, side))
+    one = asked.stretches[i].given
+    given = (one.start_velocity, one.end_velocity)[side] if isinstance(one, Move) else None
+    if given is None:
+        return None
+    name = f"{asked.stretches[i].where}: {('start', 'end')[side]}_velocity"
+    return State(quantity(given, AXES[asked.axis][1], name), 0.0)
+
+
+def _check_velocities(asked: Programme, before: int, after: int, ended: State, begun: State) -> None:
+    size = max((abs(one.displacement) for one in asked.stretches), default=0.0) / asked.period
+    if abs(ended.velocity - begun.velocity) <= CLOSE * max(size, abs(ended.velocity), abs(begun.velocity)):
+        return
+    first, second = asked.stretches[before], asked.stretches[after]
+    unit = "mm/s" if asked.axis == "length" else "deg/s"
+    shown = [_shown(one.velocity, asked.axis) for one in (ended, begun)]
+    meant = second if not isinstance(second.given, Dwell | ConstantVelocity) else first
+    raise InputError(
+        f"{first.where} ends with {shown[0]} {unit} and {second.where} starts with {shown[1]} {unit}: put a motion "
+        f"between them, or give {meant.where} law='optimal', which takes the velocities of its neighbours"
+    )
+
+
+def _shown(velocity: float, axis: str) -> str:
+    return f"{velocity * (1e3 if axis == 'length' else 57.29577951308232):.9g}"
+
+
+def _spans(
+    asked: Programme, starts: Sequence[float], offsets: Sequence[float], joints: Sequence[State | None]
+) -> tuple[Span, ...]:
+    if asked.stretches and joints[0] is None:
+        raise InputError(
+            "a cycle begins where velocity and acceleration are known: begin it after a Dwell, a ConstantVelocity or a "
+            "Move, or put one of them between the free motions"
+        )
+    spans: list[Span] = []
+    i = 0
+    while i < len(asked.stretches):
+        stop = i + 1
+        if is_optimal(asked.stretches[i].given):
+            while stop < len(joints) and joints[stop] is None:
+                stop += 1
+            spans.append(_span(asked, starts, offsets, joints, i=i, stop=stop))
+        i = stop
+    return tuple(spans)
+
+
+def _span(
+    asked: Programme,
+    starts: Sequence[float],
+    offsets: Sequence[float],
+    joints: Sequence[State | None],
+    *,
+    i: int,
+    stop: int,
+) -> Span:
+    first, last = joints[i], joints[stop % len(joints)]
+    if first is None or last is None:
+        raise AssertionError  # spans begin and end where joints are known
+    inner = [(starts[j], offsets[j]) for j in range(i + 1, stop)]
+    own = [point for j in range(i, stop) for point in _via(asked, j, starts[j], starts[j + 1])]
+    return Span(
+        asked.stretches[i:stop],
+        tuple(starts[i:stop]),
+        starts[stop],
+        offsets[i],
+        offsets[stop] - offsets[i],
+        first,
+        last,
+        tuple(sorted(inner + own)),
+    )
+
+
+def _via(asked: Programme, j: int, start: float, stop: float) -> list[tuple[float, float]]:
+    one = asked.stretches[j]
+    points = []
+    for i, point in enumerate(one.given.via if isinstance(one.given, Free) else ()):
+        name = f"{one.where}: via[{i}]"
+        if len(point) != 2:
+            raise InputError(f"{name} must be a pair of a time or angle and a position, got {point!r}")
+        place = start + time_of(point[0], asked.period, f"{name}, when")
+        if not start < place < stop:
+            raise InputError(f"{name} must be within the segment, which takes {stop - start:.9g} s, got {point[0]!r}")
+        points.append((place, quantity(point[1], asked.axis, f"{name}, position")))
+    return points

@@ -1,0 +1,56 @@
+"""Laws as people name them: a law itself, a name of the catalogue, a JSON file that holds one."""
+
+from __future__ import annotations
+
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.files import reading
+from optlaws.laws import MotionLaw
+from optlaws.laws.catalogue.catalogue import catalogue
+
+STROKE = 1e-9
+
+
+def named_law(given: Any, where: str) -> MotionLaw:  # noqa: ANN401 - it is checked here
+    """The law that is meant; `where` is what an error calls the segment.
+
+    Raises
+    ------
+    InputError
+        If there is no such law, or its stroke is not 1.
+
+    Examples
+    --------
+    >>> named_law("cycloidal", "segment 1").continuity
+    9
+    """
+    try:
+        law = given if isinstance(given, MotionLaw) else _read(given)
+    except InputError as error:
+        raise InputError(f"{where}: law: {error}") from None
+    stroke = float(law.a(1.0)) - float(law.a(0.0))
+    if abs(stroke - 1.0) > STROKE:
+        raise InputError(f"{where}: its law must have the stroke 1, which `by` multiplies, but it has {stroke:g}")
+    return law
+
+
+def _read(given: Any) -> MotionLaw:  # noqa: ANN401
+    if not isinstance(given, str):
+        raise InputError(f"a law, a name of the catalogue, a JSON file or 'optimal', got {shortened(given)}")
+    return _of_file(given) if given.endswith(".json") else _of_name(given)
+
+
+@lru_cache(maxsize=64)
+def _of_name(name: str) -> MotionLaw:
+    return catalogue[name].law
+
+
+def _of_file(name: str) -> MotionLaw:
+    data = reading.json_file(Path(name))
+    if isinstance(data, dict) and "kind" not in data and "law" in data:
+        data = data["law"]
+    return MotionLaw.from_dict(data)

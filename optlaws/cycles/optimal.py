@@ -1,0 +1,211 @@
+"""The best laws of a cycle with given durations: one problem for each span, each with its status and its proof.
+
+Where durations are fixed and spans are parted by joints that are known, the cycle decouples: the greatest of the least
+peaks is the least of the greatest ones, and the least sum of squares is the sum of the least ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+from optlaws.cycles.conversion import Piece, factor
+from optlaws.cycles.drive import Drive
+from optlaws.cycles.joints import Span, State
+from optlaws.cycles.programme import AXES, Stretch, in_small_units
+from optlaws.cycles.quantities import quantity
+from optlaws.cycles.segments import Free, Move
+from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.functionals.makers import peak, rms
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.ranges import Range
+from optlaws.synthesis.problem.windows import Window, via
+from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.solve import synthesize
+from optlaws.synthesis.spaces.bases import Chebyshev
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+
+#: what may be least over a cycle: the order of the derivative, and whether it is its root mean square
+OBJECTIVES = {
+    "velocity": (1, False),
+    "acceleration": (2, False),
+    "jerk": (3, False),
+    "rms acceleration": (2, True),
+    "rms jerk": (3, True),
+    "force": (-1, False),
+    "rms force": (-1, True),
+}
+LIMITS = {"velocity": 1, "acceleration": 2, "jerk": 3}
+_PEAKS = {1: "B", 2: "C", 3: "J"}
+_ROUGH = 15  # degree of Z where points on the way or velocities bend the law
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is least over a cycle, the limits of the whole of it, and how rich laws are.
+
+    Parameters
+    ----------
+    minimise
+        One of `OBJECTIVES`.
+    limits
+        Greatest velocity, acceleration and jerk, in SI units, by order.
+    order, degree
+        End conditions of laws, and the degree of Z.
+    drive
+        What the force is of, where it is minimised.
+    """
+
+    minimise: str
+    limits: Mapping[int, float]
+    order: int
+    degree: int
+    drive: Drive | None
+
+
+def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, float]:
+    """Limits in SI units by the order of the derivative.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, or a limit is not above 0 or of another dimension.
+
+    Examples
+    --------
+    >>> read_limits({"velocity": "616 mm/s"}, "length", "limits")
+    {1: 0.616}
+    """
+    found = {}
+    for name, value in entries.items():
+        if name not in LIMITS:
+            raise InputError(f"{where}: {unknown_key(name, LIMITS, 'limit')}")
+        found[LIMITS[name]] = quantity(value, AXES[axis][LIMITS[name]], f"{where}, {name}")
+        if found[LIMITS[name]] <= 0.0:
+            raise InputError(f"{where}, {name} must be above 0, got {value!r}")
+    return found
+
+
+def limits_of_stretch(one: Stretch, wanted: Wanted, axis: str) -> dict[int, float]:
+    """Limits of a segment by order: its own and those of the whole cycle, whichever is less."""
+    entries = one.given.limits if isinstance(one.given, Move | Free) else {}
+    given = read_limits(entries, axis, f"{one.where}: limits")
+    orders = {*wanted.limits, *given}
+    infinite = float("inf")
+    return {nu: min(wanted.limits.get(nu, infinite), given.get(nu, infinite)) for nu in sorted(orders)}
+
+
+def solve(span: Span, wanted: Wanted, axis: str) -> tuple[Piece, Solution]:
+    """The best law of a span, in its place, with its proof.
+
+    Raises
+    ------
+    InfeasibleProblem
+        If no law keeps the limits; the error names the segment.
+    """
+    stroke = scale(span)
+    problem = span_problem(span, wanted, axis, stroke)
+    try:
+        solution = synthesize(problem)
+    except InfeasibleProblem as error:
+        raise InfeasibleProblem(
+            f"{span.where}: no law keeps its limits in {span.duration:.9g} s: give it more time or wider limits. "
+            f"{error.args[0]}",
+            problem=problem,
+            tried=error.tried,
+            proof=error.proof,
+        ) from None
+    return Piece(span.start, span.duration, span.offset, stroke, solution.law), solution
+
+
+def scale(span: Span) -> float:
+    """What a span's law is measured by: its displacement, or where it has none how far it gets on the way."""
+    if span.displacement:
+        return span.displacement
+    ways = [abs(position - span.offset) for _, position in span.via]
+    ways += [abs(state.velocity) * span.duration for state in (span.first, span.last)]
+    return max(ways, default=0.0)
+
+
+def span_problem(span: Span, wanted: Wanted, axis: str, stroke: float) -> Problem:
+    """The dimensionless problem of a span.
+
+    Raises
+    ------
+    InputError
+        If nothing moves, or a limit is less than what the ends ask.
+    """
+    if stroke == 0.0:
+        raise InputError(f"{span.where} has nothing to move: take a Dwell")
+    ends = [_end(state, span.duration, stroke, wanted.order) for state in (span.first, span.last)]
+    plain = not span.via and not any(any(one) for one in ends)
+    windows = tuple(
+        via("a", (position - span.offset) / stroke, at=(time - span.start) / span.duration)
+        for time, position in span.via
+    )
+    bounds, parts = _limits(span, wanted, axis, stroke)
+    forced = OBJECTIVES[wanted.minimise][0] < 0
+    return Problem(
+        order=wanted.order,
+        basis=Chebyshev(wanted.degree if plain else max(wanted.degree, _ROUGH)),
+        minimise=_objective(span, wanted, stroke),
+        monotone=forced and wanted.drive is not None and wanted.drive.dry > 0.0,
+        symmetric=plain and not forced and not parts,
+        boundary=BoundaryConditions((0.0, *ends[0]), (span.displacement / stroke, *ends[1])),
+        windows=windows + parts,
+        bounds=bounds,
+    )
+
+
+def _end(state: State, duration: float, stroke: float, order: int) -> tuple[float, ...]:
+    values = [value / factor(stroke, duration, nu) + 0.0 for nu, value in enumerate(state, start=1)]
+    return tuple((values + [0.0] * order)[: order - 1])
+
+
+def _limits(span: Span, wanted: Wanted, axis: str, stroke: float) -> tuple[dict[str, Range], tuple[Window, ...]]:
+    """Limits of the whole span as bounds of its constants, those of parts of it as windows."""
+    _check_mean(span, wanted, axis)
+    of_each = [limits_of_stretch(one, wanted, axis) for one in span.stretches]
+    if all(one == of_each[0] for one in of_each):
+        return {_PEAKS[nu]: Range(0.0, _law_limit(span, stroke, nu, most)) for nu, most in of_each[0].items()}, ()
+    stops = (*span.starts[1:], span.stop)
+    windows = []
+    for own, start, stop in zip(of_each, span.starts, stops, strict=True):
+        first, last = ((time - span.start) / span.duration for time in (start, stop))
+        for nu, most in own.items():
+            high = _law_limit(span, stroke, nu, most)
+            windows.append(Window("abcj"[nu], -high, high, first, last))
+    return {}, tuple(windows)
+
+
+def _check_mean(span: Span, wanted: Wanted, axis: str) -> None:
+    """Refuse a limit of the velocity that is no more than the mean velocity: such a law cannot even start from rest."""
+    for one, start, stop in zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True):
+        most = limits_of_stretch(one, wanted, axis).get(1)
+        mean = abs(one.displacement) / (stop - start)
+        if most is not None and mean >= most:
+            raise InfeasibleProblem(
+                f"{one.where}: {in_small_units(abs(one.displacement), axis)} in {stop - start:.9g} s are "
+                f"{in_small_units(mean, axis)}/s on average, but its velocity is to be at most "
+                f"{in_small_units(most, axis)}/s: give it more time or a wider limit"
+            )
+
+
+def _law_limit(span: Span, stroke: float, nu: int, most: float) -> float:
+    return most / abs(factor(stroke, span.duration, nu))
+
+
+def _objective(span: Span, wanted: Wanted, stroke: float) -> Any:  # noqa: ANN401 - a name or a constant
+    nu, mean = OBJECTIVES[wanted.minimise]
+    if nu > 0:
+        return {2: "rms_c", 3: "rms_j"}[nu] if mean else _PEAKS[nu]
+    if wanted.drive is None:
+        raise InputError(f"{wanted.minimise} is of a drive: give one, such as drive={{'mass': '2 kg'}}")
+    direction = 1.0 if span.displacement > 0.0 else -1.0
+    unit = wanted.drive.size(stroke, span.duration, span.offset)
+    if unit == 0.0:
+        raise InputError("drive: nothing resists the motion: give it a mass, an inertia, a spring or friction")
+    formula = wanted.drive.formula(stroke, span.duration, span.offset, direction, unit)
+    return rms(formula) if mean else peak(formula)

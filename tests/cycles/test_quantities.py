@@ -1,0 +1,65 @@
+"""Quantities with units: what they are in SI, and what errors say of those that are wrong."""
+
+from math import pi
+
+import pytest
+
+from optlaws import InputError
+from optlaws.cycles.quantities import DIMENSIONS, either, quantity
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "value"),
+    [
+        ("35 mm", "length", 0.035),
+        ("1 in", "length", 0.0254),
+        ("45 deg", "angle", pi / 4),
+        ("0.5 turn", "angle", pi),
+        ("400 ms", "time", 0.4),
+        ("616 mm/s", "velocity", 0.616),
+        ("200 rpm", "angular velocity", 200 * 2 * pi / 60),
+        ("30deg/s", "angular velocity", pi / 6),
+        ("12 m/s^2", "acceleration", 12.0),
+        ("12 m/s**2", "acceleration", 12.0),
+        ("1 g_n", "acceleration", 9.80665),
+        ("2.5 kg cm^2", "moment of inertia", 2.5e-4),
+        ("0.4 N m", "torque", 0.4),
+        ("0.4 N*m", "torque", 0.4),
+        ("3 N/mm", "stiffness", 3000.0),
+        ("0.01 N m s/rad", "rotary viscous friction", 0.01),
+    ],
+)
+def test_quantities_in_si_units(text: str, dimension: str, value: float) -> None:
+    assert quantity(text, dimension, "it") == pytest.approx(value, rel=1e-14)
+
+
+def test_every_example_of_an_error_is_of_its_dimension() -> None:
+    for dimension, (_, example) in DIMENSIONS.items():
+        assert either(example, (dimension,), "it")[0] == dimension
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ("35 mm", "speed must be an angular velocity such as '200 rpm', but '35 mm' is a length"),
+        ("3 Hz", r"speed must be an angular velocity such as '200 rpm', but '3 Hz' is of dimension 1 / \[time\]"),
+        (200, "speed must be an angular velocity such as '200 rpm', got 200 without a unit"),
+        ("200", "got '200' without a unit"),
+        ("200 rmp", "the unit of '200 rmp' is not known"),
+        ("9**9**9 rpm", "not known"),
+        ("1 rpm*9**9**9", "not known"),
+        ("1e400 rpm", "finite"),
+        ("nan rpm", "got 'nan rpm'"),
+        ("fast", "got 'fast'"),
+        (None, "got None"),
+        ("1 " + "rpm*" * 50 + "rpm", "speed must be"),
+    ],
+)
+def test_what_is_wrong_is_said(given: object, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        quantity(given, "angular velocity", "speed")
+
+
+def test_of_several_dimensions_the_error_names_all() -> None:
+    with pytest.raises(InputError, match=r"duration must be an angle such as '45 deg' or a time such as '0\.3 s', but"):
+        either("3 mm", ("angle", "time"), "duration")
