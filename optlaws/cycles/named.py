@@ -3,14 +3,12 @@
 from __future__ import annotations
 
 from functools import lru_cache
-from pathlib import Path
 from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.files import reading
 from optlaws.laws import MotionLaw
-from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.catalogue.reading import read_law
 
 STROKE = 1e-9
 
@@ -38,19 +36,12 @@ def named_law(given: Any, where: str) -> MotionLaw:  # noqa: ANN401 - it is chec
     return law
 
 
+@lru_cache(maxsize=64)
+def _of_name(name: str) -> MotionLaw:
+    return read_law(name)
+
+
 def _read(given: Any) -> MotionLaw:  # noqa: ANN401
     if not isinstance(given, str):
         raise InputError(f"a law, a name of the catalogue, a JSON file or 'optimal', got {shortened(given)}")
-    return _of_file(given) if given.endswith(".json") else _of_name(given)
-
-
-@lru_cache(maxsize=64)
-def _of_name(name: str) -> MotionLaw:
-    return catalogue[name].law
-
-
-def _of_file(name: str) -> MotionLaw:
-    data = reading.json_file(Path(name))
-    if isinstance(data, dict) and "kind" not in data and "law" in data:
-        data = data["law"]
-    return MotionLaw.from_dict(data)
+    return read_law(given) if given.endswith(".json") else _of_name(given)
