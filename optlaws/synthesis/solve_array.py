@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.echo import shortened
-from optlaws.errors import InputError, OptlawsError
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.numbers import whole
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.arrays.along import laws_along
@@ -96,20 +96,45 @@ def synthesize_chunks(problems: ProblemArray, *, size: int = _CHUNK, bound: str 
 def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
     """What `synthesize_array` returns, of checked arguments."""
     began = perf_counter()
-    parts = tuple(_parts(problems)) if problems.size >= _LEAST else ()
-    solved_places = np.concatenate([part.places for part in parts]) if parts else np.empty(0, dtype=np.intp)
-    left = np.setdiff1d(np.arange(problems.size), solved_places)
-    others = _others(problems, left, bound)
-    return SolutionArray(problems, parts, others, perf_counter() - began)
-
-
-def _parts(problems: ProblemArray) -> Iterator[Part]:
-    """What is solved together and proven."""
-    for line in _lines(problems):
+    parts: list[Part] = []
+    others: dict[int, Solution | OptlawsError] = {}
+    for line in _lines(problems) if problems.size >= _LEAST else ():
         found = laws_along(line.path, line.t)
         rows = np.flatnonzero(found.solved)
         if len(rows):
-            yield Part(line.places[rows], line.path.model, found.taken(rows).frozen())
+            parts.append(Part(line.places[rows], line.path.model, found.taken(rows).frozen()))
+            for beyond in (line.places[: rows[0]][::-1], line.places[rows[-1] + 1 :]):
+                others.update(_beyond(problems, beyond, bound))
+    known = np.concatenate([np.array(list(others), dtype=np.intp), *(part.places for part in parts)])
+    others.update(_others(problems, np.setdiff1d(np.arange(problems.size), known), bound))
+    return SolutionArray(problems, tuple(parts), others, perf_counter() - began)
+
+
+def _beyond(
+    problems: ProblemArray, places: NDArray[np.intp], bound: str
+) -> Iterator[tuple[int, Solution | OptlawsError]]:
+    """The problems on a line beyond those with laws, the nearest first: these are a convex set, which ends for good."""
+    previous: Solution | None = None
+    ended: InfeasibleProblem | None = None
+    for place in places.tolist():
+        if ended is None:
+            result = _alone(problems, place, previous, bound)
+            previous = result if isinstance(result, Solution) else previous
+            if isinstance(result, InfeasibleProblem) and result.proof is not None:
+                ended = result
+            yield place, result
+        else:
+            yield place, _infeasible(problems.problem(place), ended)
+
+
+def _infeasible(problem: Problem, ended: InfeasibleProblem) -> InfeasibleProblem:
+    return InfeasibleProblem(
+        "no law of this problem exists: among problems that differ from it in one number those with laws are between "
+        "two values, and it lies beyond one without a law, which error.proof is of",
+        problem=problem,
+        tried="a nearer problem of the same line was proven to have no law",
+        proof=ended.proof,
+    )
 
 
 def _lines(problems: ProblemArray) -> Iterator[Line]:

@@ -7,11 +7,23 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import BoundaryConditions, Chebyshev, Problem, ProblemArray, Window, each, synthesize, synthesize_array
+from optlaws import (
+    BoundaryConditions,
+    Certificate,
+    Chebyshev,
+    InfeasibleProblem,
+    Problem,
+    ProblemArray,
+    Window,
+    each,
+    synthesize,
+    synthesize_array,
+)
 from optlaws.synthesis.arrays.along import laws_along
 from optlaws.synthesis.arrays.programs import Path, between
 from optlaws.synthesis.arrays.walk import Segment, Walk
 from optlaws.synthesis.solution_array import SolutionArray
+from tests.bench.plain import Rows, highs
 
 ENDS = (1.42, 2.6)
 COUNT = 400
@@ -115,3 +127,56 @@ def test_no_law_breaks_a_row_anywhere(degree: int) -> None:
         for family in path.program(float(t[place])).families:
             _, _, residual = family.extremes(found.x[place])
             assert residual.max() <= 1e-10
+
+
+def test_beyond_the_first_problem_without_a_law_none_has_one() -> None:
+    B = np.linspace(1.05, 1.6, 300)
+    laws = synthesize_array(ProblemArray(B=B, order=3, basis=Chebyshev(5)))
+    without = np.flatnonzero(laws.status == "infeasible")
+    assert len(without) > 20
+    assert (laws.status[without[-1] + 1 :] == "optimal").all()
+    assert without[-1] == len(without) - 1
+    nearest, farthest = laws.result(int(without[-1])), laws.result(0)
+    assert isinstance(nearest, InfeasibleProblem)
+    assert isinstance(farthest, InfeasibleProblem)
+    assert isinstance(nearest.proof, Certificate)
+    assert nearest.proof.proves_infeasible
+    assert farthest.proof is nearest.proof
+    assert farthest.problem == laws.problems[0]
+    with pytest.raises(InfeasibleProblem):
+        synthesize(laws.problems[0])
+
+
+def judged_by_another_solver(laws: SolutionArray, place: int) -> None:
+    """A linear program on points is a relaxation: what it claims is below the law's C, and not by much."""
+    problem = laws.problems.problem(place)
+    assert isinstance(problem.B, float)
+    claimed = highs(Rows(problem), problem.B).value
+    assert laws.objective[place] * 0.98 < claimed < laws.objective[place] * (1.0 + 1e-7)
+
+
+def test_another_solver_finds_the_same() -> None:
+    laws = synthesize_array(ProblemArray(B=np.linspace(1.5, 2.4, COUNT), order=4, monotone=True))
+    for place in (3, 150, 390):
+        judged_by_another_solver(laws, place)
+
+
+@pytest.mark.long
+@pytest.mark.parametrize("seed", range(25))
+def test_many_laws_of_any_structure_are_those_solved_alone(seed: int) -> None:
+    rng = np.random.default_rng(seed)
+    order, degree = int(rng.integers(2, 6)), int(rng.choice([3, 5, 7, 9, 13, 19, 27]))
+    monotone = bool(rng.integers(2))
+    low = 1.42 if degree > 3 else 1.55
+    B = np.sort(rng.uniform(low, 2.6, 4000))
+    minimise = str(rng.choice(["C", "C", "C", "J", "0.6*C/4 + 0.4*J/32", "max(C/4, J/32)"]))
+    entries = {"order": order, "basis": Chebyshev(degree), "monotone": monotone, "minimise": minimise}
+    laws = synthesize_array(ProblemArray(B=B, **entries))
+    found = np.flatnonzero(laws.status == "optimal")
+    assert np.isin(laws.status, ["optimal", "infeasible"]).all()
+    assert laws.gap[found].max() <= 1e-8
+    together = np.setdiff1d(found, np.array(list(laws.others), dtype=np.intp))
+    assert len(together) >= 0.9 * len(found)
+    check(laws, rng.choice(together, 8, replace=False))
+    if minimise == "C" and monotone:
+        judged_by_another_solver(laws, int(rng.choice(together)))
