@@ -14,6 +14,7 @@ from optlaws import (
     InfeasibleProblem,
     Problem,
     ProblemArray,
+    Solution,
     Window,
     each,
     synthesize,
@@ -23,6 +24,7 @@ from optlaws.synthesis.arrays.along import laws_along
 from optlaws.synthesis.arrays.programs import Path, between
 from optlaws.synthesis.arrays.walk import Segment, Walk
 from optlaws.synthesis.solution_array import SolutionArray
+from optlaws.verification import verify
 from tests.bench.plain import Rows, highs
 
 ENDS = (1.42, 2.6)
@@ -180,3 +182,12 @@ def test_many_laws_of_any_structure_are_those_solved_alone(seed: int) -> None:
     check(laws, rng.choice(together, 8, replace=False))
     if minimise == "C" and monotone:
         judged_by_another_solver(laws, int(rng.choice(together)))
+
+
+def test_certificates_are_verified_with_every_rounding_enclosed() -> None:
+    laws = synthesize_array(ProblemArray(B=np.linspace(1.5, 2.4, COUNT), order=4))
+    assert not laws.others
+    for place in (10, 200, 390):
+        one = laws.result(place)
+        assert isinstance(one, Solution)
+        assert verify(one.to_dict()).proven
