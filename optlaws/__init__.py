@@ -15,7 +15,7 @@ _load, __dir__, __all__ = face(
         "optlaws.laws.constants": "Constants",
         "optlaws.laws.law": "MotionLaw",
         "optlaws.laws.making.input_shaping": "shaped_law",
-        "optlaws.laws.making.multiplier": "multiplied",
+        "optlaws.laws.making.multiplier": "multiplied multiplier_for",
         "optlaws.laws.making.transform": "mirrored_law reversed_law with_end_velocity",
         "optlaws.laws.making.trapezoids": "scca trapezoid",
         "optlaws.laws.segments.piecewise": "PiecewiseLaw",

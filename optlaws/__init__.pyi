@@ -19,6 +19,7 @@ from optlaws.laws.constants import Constants as Constants
 from optlaws.laws.law import MotionLaw as MotionLaw
 from optlaws.laws.making.input_shaping import shaped_law as shaped_law
 from optlaws.laws.making.multiplier import multiplied as multiplied
+from optlaws.laws.making.multiplier import multiplier_for as multiplier_for
 from optlaws.laws.making.transform import mirrored_law as mirrored_law
 from optlaws.laws.making.transform import reversed_law as reversed_law
 from optlaws.laws.making.transform import with_end_velocity as with_end_velocity
@@ -210,6 +211,7 @@ __all__ = [
     "maximum",
     "mirrored_law",
     "multiplied",
+    "multiplier_for",
     "off_design",
     "open_study",
     "pareto_front",

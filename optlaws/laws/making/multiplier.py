@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from fractions import Fraction
 from itertools import pairwise
 from typing import Any
@@ -17,14 +17,18 @@ from optlaws.laws.making.transform import as_polynomial
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
-from optlaws.numbers import fractions
+from optlaws.numbers import finite, fractions
 from optlaws.series import chebyshev, exact
+from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
 Multiplier = Sequence[Any] | NDArray[Any] | Callable[[float], float]
 
 ROUNDING = 1e-12  # of the largest value: an odd part or a negative value below it is rounding
 STILL = 1e-9  # of C: a change of velocity below it is rounding
+MET = 1e-10  # of a wanted constant: it is met
+WANTED = ("B", "C", "D", "J", "c0")
+_ROUNDS = 60
 
 
 def multiplied(law: MotionLaw, y: Multiplier) -> MotionLaw:
@@ -63,9 +67,119 @@ def multiplied(law: MotionLaw, y: Multiplier) -> MotionLaw:
     PolynomialLaw(degree=..., B=1.8..., C=..., D=..., J=...)
     """
     even = _even(y)
+    _check_nowhere_negative(even)
+    return _made(law, even)
+
+
+def multiplier_for(law: MotionLaw, **constants: float) -> tuple[float, ...]:
+    """The multiplier y of (1.6) with m coefficients that gives a law m - 1 wanted constants, and its own stroke.
+
+    y is a sum of m even powers of 2k - 1, and is found by a search; `multiplied(law, y)` is the law that has them.
+
+    Parameters
+    ----------
+    law
+        As for `multiplied`.
+    constants
+        B, C, D or J of the law that is wanted, or c0, its acceleration at the start: one or more.
+
+    Returns
+    -------
+    Ascending powers of k, 2m - 1 of them (dimensionless).
+
+    Raises
+    ------
+    InputError
+        If a constant is not known or no number, if no y with so many coefficients has been found that gives them, or if
+        the y that does is negative somewhere.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> y = multiplier_for(smoothstep(4), B=1.9, C=6.5)
+    >>> multiplied(smoothstep(4), y)
+    PolynomialLaw(degree=11, B=1.9, C=6.5, D=7.14..., J=53.2...)
+    """
+    wanted = _wanted(constants)
+    powers = _scaled_powers(law, len(wanted) + 1)
+    values = np.array(list(wanted.values()))
+    start = _values(law, wanted)
+    size = np.maximum(np.abs(start), np.abs(values))
+
+    def missing(weights: Array) -> Array:
+        made = _values(_made(law, _combined(powers, weights)), wanted)
+        return np.asarray((made - values) / np.where(size > 0.0, size, 1.0))
+
+    found = _searched(missing, len(wanted))
+    even = _combined(powers, found)
+    if float(np.abs(missing(found)).max()) > MET:
+        nearest = _told(wanted, _values(_made(law, even), wanted))
+        raise InputError(
+            f"no y of {len(powers)} even powers was found that gives {_told(wanted, values)}; "
+            f"the nearest gives {nearest}, and y = 1 {_told(wanted, start)}"
+        )
+    _check_nowhere_negative(even)
+    return exact.rounded(exact.exact_powers(even))
+
+
+def _made(law: MotionLaw, even: Sequence[Fraction]) -> MotionLaw:
     if isinstance(law, PiecewiseLaw):
         return _of_pieces(law, np.array(exact.rounded(even)))
     return _of_polynomial(law if isinstance(law, PolynomialLaw) else as_polynomial(law), even)
+
+
+def _wanted(constants: Mapping[str, float]) -> dict[str, float]:
+    if not constants:
+        raise InputError(f"a multiplier is found for one or more constants, {', '.join(WANTED)}, such as B=1.9")
+    for name in constants:
+        if name not in WANTED:
+            raise InputError(unknown_key(name, WANTED, "constant"))
+    return {name: finite(value, name) for name, value in constants.items()}
+
+
+def _values(law: MotionLaw, wanted: Iterable[str]) -> Array:
+    return np.array([law.c(0.0) if name == "c0" else getattr(law.constants, name).value for name in wanted])
+
+
+def _scaled_powers(law: MotionLaw, count: int) -> list[list[Fraction]]:
+    """Chebyshev series of even powers of 2k - 1, each scaled so that c times it gives the stroke."""
+    found: list[list[Fraction]] = []
+    for n in range(count):
+        power = fractions(np.polynomial.chebyshev.poly2cheb([*(2 * n * [0.0]), 1.0]), "y")
+        made = _made(law, power)
+        k = law.peak(2).k if n == 0 else made.peak(2).k
+        scale = Fraction(made.c(k)) / Fraction(law.c(k) * (2.0 * k - 1.0) ** (2 * n))
+        found.append([scale * value for value in power])
+    return found
+
+
+def _combined(powers: Sequence[Sequence[Fraction]], weights: Array) -> list[Fraction]:
+    """The sum of scaled powers with weights of which the first is what the others leave of 1."""
+    first = 1 - sum(map(Fraction, weights), start=Fraction(0))
+    total = [Fraction(0)] * len(powers[-1])
+    for weight, power in zip((first, *map(Fraction, weights)), powers, strict=True):
+        for i, value in enumerate(power):
+            total[i] += weight * value
+    return total
+
+
+def _searched(missing: Callable[[Array], Array], count: int) -> Array:
+    """What misses least, sought from y = 1, from a y that is less in the middle and from one that is more."""
+    from scipy.optimize import least_squares
+
+    answers = []
+    for first in (0.0, 0.5, -0.5):
+        start = np.zeros(count)
+        start[0] = first
+        answer = least_squares(missing, start, xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=_ROUNDS)
+        answers.append((float(np.abs(answer.fun).max()), np.asarray(answer.x)))
+        if answers[-1][0] <= MET:
+            break
+    return min(answers, key=lambda pair: pair[0])[1]
+
+
+def _told(names: Iterable[str], values: Iterable[float]) -> str:
+    return ", ".join(f"{name} = {value:.6g}" for name, value in zip(names, values, strict=True))
 
 
 def _even(y: Multiplier) -> list[Fraction]:
@@ -84,11 +198,13 @@ def _even(y: Multiplier) -> list[Fraction]:
             f"y must be even about k = 1/2, but y(k) and y(1 - k) differ by up to {2.0 * float(odd):.3g}; "
             "write it in powers of k (1 - k)"
         )
-    even = [Fraction(0) if n % 2 else value for n, value in enumerate(given)]
+    return [Fraction(0) if n % 2 else value for n, value in enumerate(given)]
+
+
+def _check_nowhere_negative(even: Sequence[Fraction]) -> None:
     low, _ = PolynomialLaw.from_chebyshev(even).extrema(0)
-    if low.value < -ROUNDING * float(size):
+    if low.value < -ROUNDING * float(max(map(abs, even))):
         raise InputError(f"y must be nowhere negative, but is {low.value:.6g} at k = {low.k:.6g}")
-    return even
 
 
 def _of_polynomial(law: PolynomialLaw, y: Sequence[Fraction]) -> PolynomialLaw:

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.making.multiplier import multiplied
+from optlaws.laws.making.multiplier import multiplied, multiplier_for
 from optlaws.laws.making.transform import with_end_velocity
 from optlaws.laws.making.trapezoids import scca, trapezoid
 from optlaws.laws.savin.family import SavinFamily
@@ -151,3 +151,48 @@ def test_high_degrees_stay_exact() -> None:
     found = multiplied(law, [2, -1, 1])
     assert isinstance(found, PolynomialLaw)
     assert found.a([0.5, 1.0]) == pytest.approx([0.5, 1.0], abs=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("law", "constants"),
+    [
+        (smoothstep(2), {"c0": 5.0, "B": 1.6}),
+        (smoothstep(4), {"B": 1.9, "C": 6.5}),
+        (smoothstep(4), {"B": 1.9, "C": 5.6, "J": 70.0}),
+        (smoothstep(3), {"D": 6.0}),
+        (scca(0.25, 0.0, 0.75), {"B": 1.7}),
+        (with_end_velocity(smoothstep(4), 0.3), {"C": 5.0}),
+    ],
+)
+def test_a_multiplier_is_found_that_gives_the_wanted_constants(law: MotionLaw, constants: dict[str, float]) -> None:
+    y = multiplier_for(law, **constants)
+    made = multiplied(law, y)
+    given = {name: made.c(0.0) if name == "c0" else getattr(made.constants, name).value for name in constants}
+    assert given == pytest.approx(constants, rel=1e-9)
+    assert len(y) == 2 * len(constants) + 1
+    assert made.a(1.0) - made.a(0.0) == pytest.approx(law.a(1.0) - law.a(0.0), abs=1e-12)
+    # a(1) is one of the m conditions: y needs no scale
+    at = 0.3
+    assert made.c(at) == pytest.approx(law.c(at) * np.polynomial.polynomial.polyval(at, y), rel=1e-9)
+    assert np.polynomial.polynomial.polyval(K, y).min() >= -1e-12
+
+
+def test_two_coefficients_and_one_condition_are_savins_family() -> None:
+    made, family = multiplied(smoothstep(4), multiplier_for(smoothstep(4), B=1.9)), savin("III", B=1.9)
+    np.testing.assert_allclose(made(K), family(K), atol=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("constants", "said"),
+    [
+        ({"B": 1.9, "C": 5.6}, "no y of 3 even powers was found that gives B = 1.9, C = 5.6; the nearest gives"),
+        ({"B": 2.5}, "nowhere negative, but is"),
+        ({"c0": 1.0}, "and y = 1 c0 = 0"),
+        ({"Bb": 1.9}, "unknown constant 'Bb'; did you mean"),
+        ({"B": "1.9"}, "B must be a finite real number"),
+        ({}, "one or more constants"),
+    ],
+)
+def test_what_no_multiplier_gives_is_told(constants: dict[str, Any], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        multiplier_for(smoothstep(4), **constants)

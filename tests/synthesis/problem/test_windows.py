@@ -1,9 +1,11 @@
 """Values and windows of a, b, c, j: kept on the whole interval, mirrored where symmetric, named in a contradiction."""
 
+from typing import Any
+
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, InfeasibleProblem, InputError, Pieces, Problem, Window, synthesize, via
+from optlaws import Chebyshev, InfeasibleProblem, InputError, Pieces, Problem, Window, at_most, synthesize, via
 from tests.synthesis.grids import polynomials
 
 CASES = [
@@ -129,3 +131,24 @@ def test_jerk_at_the_ends_is_limited_at_both_ends_of_a_symmetric_law() -> None:
     assert ends.status == "optimal"
     assert max(abs(ends.law.j(0.0)), abs(ends.law.j(1.0))) == pytest.approx(60.0, rel=1e-9)
     assert ends.objective > free.objective
+
+
+@pytest.mark.parametrize(
+    ("place", "more"),
+    [
+        (0.12, {"minimise": "rms_j"}),
+        (0.3, {"minimise": "J", "basis": Chebyshev(9)}),
+        (0.2, {"minimise": "rms_c", "symmetric": False, "inflexion": 0.45}),
+    ],
+)
+def test_the_peak_acceleration_is_where_it_is_asked(place: float, more: dict[str, Any]) -> None:
+    peak = (via("c", 6.0, at=place), via("j", 0.0, at=place))
+    asked: dict[str, Any] = {"B": 1.8, "C": at_most(6.0), "order": 3, "basis": Chebyshev(11), "windows": peak}
+    solution = synthesize(Problem(**(asked | more)))
+    assert solution.status == "optimal"
+    highest = solution.law.extrema(2)[1]
+    assert highest.value == pytest.approx(6.0, abs=1e-9)
+    assert highest.k == pytest.approx(place, abs=1e-9)
+    assert solution.law.peak(2).value <= 6.0 + 1e-9
+    assert solution.constants.B.value == pytest.approx(1.8, abs=1e-8)
+    assert solution.law.peak(1).k == pytest.approx(more.get("inflexion", 0.5), abs=1e-6)
