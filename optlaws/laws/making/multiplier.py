@@ -19,7 +19,6 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import Segment
 from optlaws.numbers import finite, fractions
 from optlaws.series import chebyshev, exact
-from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
 Multiplier = Sequence[Any] | NDArray[Any] | Callable[[float], float]
@@ -27,8 +26,9 @@ Multiplier = Sequence[Any] | NDArray[Any] | Callable[[float], float]
 ROUNDING = 1e-12  # of the largest value: an odd part or a negative value below it is rounding
 STILL = 1e-9  # of C: a change of velocity below it is rounding
 MET = 1e-10  # of a wanted constant: it is met
-WANTED = ("B", "C", "D", "J", "c0")
-_ROUNDS = 60
+_CLOSE = 1e-14
+_DIFFERENCE = 1e-5
+_ROUNDS, _HALVINGS = 30, 12
 
 
 def multiplied(law: MotionLaw, y: Multiplier) -> MotionLaw:
@@ -71,7 +71,15 @@ def multiplied(law: MotionLaw, y: Multiplier) -> MotionLaw:
     return _made(law, even)
 
 
-def multiplier_for(law: MotionLaw, **constants: float) -> tuple[float, ...]:
+def multiplier_for(
+    law: MotionLaw,
+    *,
+    B: float | None = None,
+    C: float | None = None,
+    D: float | None = None,
+    J: float | None = None,
+    c0: float | None = None,
+) -> tuple[float, ...]:
     """The multiplier y of (1.6) with m coefficients that gives a law m - 1 wanted constants, and its own stroke.
 
     y is a sum of m even powers of 2k - 1, and is found by a search; `multiplied(law, y)` is the law that has them.
@@ -80,8 +88,10 @@ def multiplier_for(law: MotionLaw, **constants: float) -> tuple[float, ...]:
     ----------
     law
         As for `multiplied`.
-    constants
-        B, C, D or J of the law that is wanted, or c0, its acceleration at the start: one or more.
+    B, C, D, J
+        Peaks of the law that is wanted.
+    c0
+        Its acceleration at the start.
 
     Returns
     -------
@@ -90,8 +100,8 @@ def multiplier_for(law: MotionLaw, **constants: float) -> tuple[float, ...]:
     Raises
     ------
     InputError
-        If a constant is not known or no number, if no y with so many coefficients has been found that gives them, or if
-        the y that does is negative somewhere.
+        If no constant is given or one is no number, if no y with so many coefficients has been found that gives them,
+        or if the y that does is negative somewhere.
 
     Examples
     --------
@@ -100,7 +110,7 @@ def multiplier_for(law: MotionLaw, **constants: float) -> tuple[float, ...]:
     >>> multiplied(smoothstep(4), y)
     PolynomialLaw(degree=11, B=1.9, C=6.5, D=7.14..., J=53.2...)
     """
-    wanted = _wanted(constants)
+    wanted = _wanted({"B": B, "C": C, "D": D, "J": J, "c0": c0})
     powers = _scaled_powers(law, len(wanted) + 1)
     values = np.array(list(wanted.values()))
     start = _values(law, wanted)
@@ -112,7 +122,7 @@ def multiplier_for(law: MotionLaw, **constants: float) -> tuple[float, ...]:
 
     found = _searched(missing, len(wanted))
     even = _combined(powers, found)
-    if float(np.abs(missing(found)).max()) > MET:
+    if _most(missing(found)) > MET:
         nearest = _told(wanted, _values(_made(law, even), wanted))
         raise InputError(
             f"no y of {len(powers)} even powers was found that gives {_told(wanted, values)}; "
@@ -128,13 +138,11 @@ def _made(law: MotionLaw, even: Sequence[Fraction]) -> MotionLaw:
     return _of_polynomial(law if isinstance(law, PolynomialLaw) else as_polynomial(law), even)
 
 
-def _wanted(constants: Mapping[str, float]) -> dict[str, float]:
-    if not constants:
-        raise InputError(f"a multiplier is found for one or more constants, {', '.join(WANTED)}, such as B=1.9")
-    for name in constants:
-        if name not in WANTED:
-            raise InputError(unknown_key(name, WANTED, "constant"))
-    return {name: finite(value, name) for name, value in constants.items()}
+def _wanted(constants: Mapping[str, float | None]) -> dict[str, float]:
+    wanted = {name: finite(value, name) for name, value in constants.items() if value is not None}
+    if not wanted:
+        raise InputError(f"a multiplier is found for one or more of {', '.join(constants)}, such as B=1.9")
+    return wanted
 
 
 def _values(law: MotionLaw, wanted: Iterable[str]) -> Array:
@@ -165,17 +173,36 @@ def _combined(powers: Sequence[Sequence[Fraction]], weights: Array) -> list[Frac
 
 def _searched(missing: Callable[[Array], Array], count: int) -> Array:
     """What misses least, sought from y = 1, from a y that is less in the middle and from one that is more."""
-    from scipy.optimize import least_squares
-
     answers = []
     for first in (0.0, 0.5, -0.5):
         start = np.zeros(count)
         start[0] = first
-        answer = least_squares(missing, start, xtol=1e-15, ftol=1e-15, gtol=1e-15, max_nfev=_ROUNDS)
-        answers.append((float(np.abs(answer.fun).max()), np.asarray(answer.x)))
-        if answers[-1][0] <= MET:
+        answers.append(_newton(missing, start))
+        if _most(missing(answers[-1])) <= MET:
             break
-    return min(answers, key=lambda pair: pair[0])[1]
+    return min(answers, key=lambda weights: _most(missing(weights)))
+
+
+def _newton(missing: Callable[[Array], Array], weights: Array) -> Array:
+    """Newton's method by differences, each step halved until less is missing; peaks that change places bend its way."""
+    misses = missing(weights)
+    for _ in range(_ROUNDS):
+        if _most(misses) <= _CLOSE:
+            break
+        moves = _DIFFERENCE * np.eye(len(weights))
+        slopes = np.column_stack([(missing(weights + move) - missing(weights - move)) / 2.0 for move in moves])
+        step = np.linalg.lstsq(slopes / _DIFFERENCE, misses, rcond=None)[0]
+        shares = (0.5**n for n in range(_HALVINGS))
+        better = next((s for s in shares if np.linalg.norm(missing(weights - s * step)) < np.linalg.norm(misses)), None)
+        if better is None:
+            break
+        weights = weights - better * step
+        misses = missing(weights)
+    return weights
+
+
+def _most(misses: Array) -> float:
+    return float(np.abs(misses).max())
 
 
 def _told(names: Iterable[str], values: Iterable[float]) -> str:
