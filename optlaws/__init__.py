@@ -41,6 +41,7 @@ _load, __dir__, __all__ = face(
         "optlaws.mechanisms.machine.machine": "Machine",
         "optlaws.mechanisms.machine.masses": "Link",
         "optlaws.mechanisms.of_machines.parameters": "MachineSpectrum machine_spectrum",
+        "optlaws.cycles.side_by_side": "Comparison compare",
         "optlaws.mechanisms.spectrum.residual": "residual_functional residual_phasor",
         "optlaws.mechanisms.spectrum.robust": "residual",
         "optlaws.mechanisms.spectrum.spectrum": "ResponseSpectrum response_spectrum",
@@ -105,7 +106,7 @@ declare(
     "drawing",
     {
         "optlaws.drawing": "front proven_front spectrum",
-        "optlaws.law_pictures": "curve solution",
+        "optlaws.law_pictures": "comparison curve solution",
     },
 )
 declare("plain constant", {"optlaws.mechanisms.loader.constants": "B_loader C_loader D_loader"})

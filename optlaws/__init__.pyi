@@ -9,6 +9,8 @@ from optlaws.cycles.segments import Free as Free
 from optlaws.cycles.segments import Move as Move
 from optlaws.cycles.segments import Return as Return
 from optlaws.cycles.segments import Rise as Rise
+from optlaws.cycles.side_by_side import Comparison as Comparison
+from optlaws.cycles.side_by_side import compare as compare
 from optlaws.errors import InfeasibleProblem as InfeasibleProblem
 from optlaws.errors import InputError as InputError
 from optlaws.errors import NotNormalised as NotNormalised
@@ -136,6 +138,7 @@ __all__ = [
     "Certificate",
     "Chebyshev",
     "Clutch",
+    "Comparison",
     "ConstantVelocity",
     "Constants",
     "Contact",
@@ -191,6 +194,7 @@ __all__ = [
     "between",
     "cam_constant",
     "catalogue",
+    "compare",
     "compare_dwell_mechanisms",
     "construct",
     "deg",

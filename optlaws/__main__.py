@@ -1,5 +1,5 @@
 """`python -m optlaws` is the command `optlaws`."""
 
-from optlaws.cli.app import main
+from optlaws.cli import main
 
 main()

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws import drawing
+from optlaws.cycles.side_by_side import Comparison
 from optlaws.errors import InputError
 from optlaws.laws.curve import Curve
 from optlaws.laws.law import MotionLaw
@@ -158,7 +159,7 @@ def _line(curve: Curve, axes: Axes, nu: int, **style: Any) -> Artist:  # noqa: A
     return line
 
 
-def _with_peak(curve: Curve, axes: Axes, nu: int, style: dict[str, Any]) -> Iterator[Artist]:
+def _with_peak(curve: Curve, axes: Axes, nu: int, style: dict[str, Any], *, said: bool = True) -> Iterator[Artist]:
     k, values = broken(curve, nu)
     (line,) = axes.plot(k, values, **{"color": drawing.BLUES[3]} | style)
     yield line
@@ -167,7 +168,7 @@ def _with_peak(curve: Curve, axes: Axes, nu: int, style: dict[str, Any]) -> Iter
     if name is None:
         return
     peak = curve.peak(nu)
-    if not axes.get_title(loc="left"):
+    if said and not axes.get_title(loc="left"):
         axes.set_title(f"{name} = {peak.value:.7g} at k = {peak.k:.6g}", loc="left", fontsize=9.0)
     if isfinite(peak.value):
         low, high = curve.extrema(nu)
@@ -259,6 +260,47 @@ def draw_solution(
     for one in by_order:
         if any(not str(line.get_label()).startswith("_") for line in one.lines):
             one.legend(*_once(one), **_ABOVE)
+    return artists
+
+
+#: curves that can be told apart, in colour and in grey
+_COMPARED = (
+    {"color": drawing.GREY, "linestyle": "--"},
+    {"color": drawing.BLUES[3], "linestyle": "-"},
+    {"color": drawing.WARM, "linestyle": "-."},
+    {"color": drawing.GREEN, "linestyle": (0, (5, 1))},
+    {"color": "#7b3294", "linestyle": ":"},
+    {"color": "#a6761d", "linestyle": (0, (3, 1, 1, 1))},
+)
+
+
+@draws("comparison")
+def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401
+    """Draw a, b, c and j of several laws one over the other, dimensionless, with one legend in a new figure.
+
+    Raises
+    ------
+    InputError
+        If there are not four axes.
+
+    Examples
+    --------
+    >>> from optlaws.cycles.side_by_side import compare
+    >>> artists = draw_comparison(compare("modified sine", "cycloidal"))
+    >>> [text.get_text() for text in artists[0].figure.legends[0].get_texts()]
+    ['modified sine', 'cycloidal']
+    """
+    by_order = four(panels() if axes is None else axes)
+    artists: list[Artist] = []
+    firsts = []
+    for place, law in enumerate(comparison.laws.values()):
+        own = {**_COMPARED[place % len(_COMPARED)], **style}
+        drawn = [artist for nu, one in enumerate(by_order) for artist in _with_peak(law, one, nu, own, said=False)]
+        firsts.append(drawn[0])
+        artists += drawn
+    if axes is None:
+        figure: Any = by_order[0].get_figure(root=True)
+        figure.legend(firsts, list(comparison.laws), loc="outside lower center", ncols=3, frameon=False)
     return artists
 
 

@@ -1,5 +1,32 @@
 """The command `optlaws`: one file a command, and the file's name is the command's."""
 
-from optlaws.cli.app import exit_code, main
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NoReturn
 
 __all__ = ["exit_code", "main"]
+
+_INTERRUPTED = 130
+
+
+def exit_code(arguments: Sequence[str]) -> int:
+    """Run the command and return its exit code; an error is one clear text on stderr."""
+    try:
+        from optlaws.cli.app import exit_code as run
+    except KeyboardInterrupt:  # while what a command needs is imported
+        import sys
+
+        print("optlaws: interrupted", file=sys.stderr)  # noqa: T201
+        return _INTERRUPTED
+    return run(arguments)
+
+
+def main(arguments: Sequence[str] | None = None) -> NoReturn:
+    """Run the command and exit.
+
+    0 done, 1 a claim is not proven, 2 bad input, 3 infeasible, 4 solver failure, 130 interrupted.
+    """
+    import sys
+
+    sys.exit(exit_code(sys.argv[1:] if arguments is None else arguments))

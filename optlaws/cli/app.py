@@ -5,7 +5,6 @@ from __future__ import annotations
 import os
 import sys
 from collections.abc import Sequence
-from typing import NoReturn
 
 from cyclopts import App, CycloptsError, Parameter
 
@@ -17,6 +16,7 @@ NOT_PROVEN, BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 1, 2, 3, 4, 130
 #: commands by their files, which are imported when one is asked for; what each does, as its docstring says it
 COMMANDS = {
     "laws.catalogue": "List the standard laws, or those that a text may mean, the likeliest first.",
+    "laws.compare": "Compare laws: their constants, their peaks in a machine, the vibration they leave behind.",
     "laws.constants": "Peak constants of the rest-to-rest law with a given Z(k).",
     "laws.law": (
         "Show a law of the catalogue, a coded law, a member of Savin's families or a stored law, with its constants."
@@ -81,14 +81,6 @@ class NotProven(OptlawsError):  # noqa: N818
     >>> issubclass(NotProven, OptlawsError)
     True
     """
-
-
-def main(arguments: Sequence[str] | None = None) -> NoReturn:
-    """Run the command and exit.
-
-    0 done, 1 a claim is not proven, 2 bad input, 3 infeasible, 4 solver failure, 130 interrupted.
-    """
-    sys.exit(exit_code(sys.argv[1:] if arguments is None else arguments))
 
 
 def exit_code(arguments: Sequence[str]) -> int:

@@ -30,7 +30,7 @@ def state(value: Any) -> tuple[float, float]:  # noqa: ANN401 - whatever a calle
 
 
 def motion_law(value: Any, name: str = "law") -> MotionLaw:  # noqa: ANN401 - whatever a caller hands over
-    """The value, if it is a motion law.
+    """The value, if it is a motion law; of an entry of the catalogue or a solution, its law.
 
     Raises
     ------
@@ -43,8 +43,11 @@ def motion_law(value: Any, name: str = "law") -> MotionLaw:  # noqa: ANN401 - wh
     >>> motion_law(smoothstep(3)) == smoothstep(3)
     True
     """
-    if not isinstance(value, MotionLaw):
+    if isinstance(value, MotionLaw):
+        return value
+    law = getattr(value, "law", None)
+    if not isinstance(law, MotionLaw):
         raise InputError(
             f"{name} must be a motion law such as smoothstep(4) or savin('III', 7.2), got {shortened(value)}"
         )
-    return value
+    return law

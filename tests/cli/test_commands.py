@@ -390,3 +390,34 @@ def test_solve_takes_splines_bounds_and_an_inflexion(capsys: Capture) -> None:
 )
 def test_solve_refuses_shapes_and_bounds_that_make_no_sense(capsys: Capture, arguments: list[str], says: str) -> None:
     assert says in refused(capsys, "solve", "--order", "3", "--degree", "3", *arguments)
+
+
+def test_an_interrupt_while_starting_is_no_traceback() -> None:
+    script = (
+        "import sys\n"
+        "class Interrupt:\n"
+        "    def find_spec(self, name, *_):\n"
+        "        if name == 'cyclopts': raise KeyboardInterrupt\n"
+        "sys.meta_path.insert(0, Interrupt())\n"
+        "from optlaws.cli import main\n"
+        "main(['catalogue'])\n"
+    )
+    done = subprocess.run([sys.executable, "-c", script], check=False, capture_output=True, text=True)
+    assert (done.returncode, done.stdout, done.stderr) == (130, "", "optlaws: interrupted\n")
+
+
+@pytest.mark.parametrize(
+    ("asked", "meant"),
+    [(["--minimise", "rms_C"], "rms_c"), (["--most", "jerk=100"], "J"), (["--minimise", "C + peak_jerk"], "J")],
+)
+def test_the_constant_that_is_meant_is_named(capsys: Capture, asked: list[str], meant: str) -> None:
+    assert f"did you mean '{meant}'?" in refused(capsys, *SOLVE, *asked, code=2)
+
+
+def test_what_the_least_acceleration_alone_costs_is_said(capsys: Capture) -> None:
+    alone = ["solve", "--order", "3", "--peak-velocity", "1.7596", "--basis", "chebyshev", "--degree", "41"]
+    _, out, _ = called(capsys, *alone)
+    assert "times that of modified sine" in out
+    assert "--most-jerk" in out
+    _, out, _ = called(capsys, *alone, "--most-jerk", "69.4664")
+    assert "modified sine" not in out

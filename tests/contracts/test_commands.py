@@ -21,6 +21,7 @@ STUDY = "[problem]\norder = 2\nbasis = 'pieces'\nbreaks = 4\ncontinuity = 1\ndeg
 CALLS = {
     "atlas": f"--order 4 --peak-velocity 1.71 --file {ROOT}/results/atlas/atlas.csv",
     "catalogue": "",
+    "compare": "0050 cubic --nu 20",
     "constants": "--order 1 --z 0.5",
     "dwell": "K --dwell 90 --rise 90 --swing 20 --clutch-angle 15 --radius-ratio 1 --inertia-ratio 0.1 --most-torque 1",
     "follower": "0050 --nu 20",

@@ -10,6 +10,9 @@ from optlaws.cli.options import AsJson, check_files, save
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import constants_table, print_json, show, table
 
+#: the law that most designers would take, and the followers it is compared for: two to five vibrations in the motion
+_USUAL, _FREQUENCIES = "modified sine", (12.0, 32.0)
+
 
 @asks_for_a_problem(given={"degree": 9, "basis": "powers"})
 def solve(
@@ -59,4 +62,20 @@ def _show(solution: optlaws.Solution) -> None:
         facts.add_row("Z(k)", " ".join(f"{one:.9g}" for one in solution.z) + f"  ({solution.problem.basis.name})")
     facts.add_row("solved", f"{solution.problem!r}")
     facts.add_row("", f"{solution.iterations} iterations of IPOPT, {1e3 * solution.seconds:.0f} ms")
-    show(facts, constants_table(solution.constants))
+    show(facts, constants_table(solution.constants), *_remarks(solution))
+
+
+def _remarks(solution: optlaws.Solution) -> list[str]:
+    """What the least C alone costs, where nothing else was asked: far above the law that most would take."""
+    problem = solution.problem
+    if str(problem.minimise) != "C" or problem.bounded or problem.boundary is not None:
+        return []
+    from optlaws.cycles.side_by_side import costs
+
+    usual = optlaws.catalogue[_USUAL].law
+    found = costs(solution.law, usual, _USUAL, nu=_FREQUENCIES)
+    low, high = _FREQUENCIES
+    return [
+        f"note: the least C alone has {text}" + (f" (worst of nu {low:g} to {high:g})" if "residual" in text else "")
+        for text in found
+    ] + (["bound what matters, for example by --most-jerk"] if found else [])

@@ -10,6 +10,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.loader.law import LoaderLaw
 from optlaws.mechanisms.loader.tops import is_symmetric, tops
 from optlaws.numbers import bounded, real
@@ -48,8 +49,7 @@ class Loader:
     executive: MotionLaw
 
     def __post_init__(self) -> None:
-        if not isinstance(self.executive, MotionLaw):
-            raise InputError(f"law must be a MotionLaw, for example smoothstep(3), got {shortened(self.executive)}")
+        object.__setattr__(self, "executive", motion_law(self.executive))
         tops(self.executive)
 
     @kept_property

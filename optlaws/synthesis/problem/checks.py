@@ -133,4 +133,6 @@ def objective(minimise: Any) -> str | Expression:  # noqa: ANN401 - it is checke
         terms = minimise.expression()
     else:
         raise InputError(f"minimise must be a constant such as 'C', a sum or an expression, got {shortened(minimise)}")
+    if terms.vanishes:
+        raise InputError(f"an objective needs a weight above 0, got {terms!r}")
     return repr(terms) if all(is_named(leaf) for _, leaf in leaves(terms)) else terms

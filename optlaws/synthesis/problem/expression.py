@@ -41,18 +41,20 @@ class Term:
 
 @dataclass(frozen=True, repr=False)
 class Expression:
-    """A sum of terms with weights above 0 (dimensionless).
+    """A sum of terms with weights above 0 (dimensionless); terms of weight 0 beside others are left out.
 
     Raises
     ------
     InputError
-        If a weight is not a finite number above 0: with such a weight the sum would have no least value.
+        If a weight is not a finite number of at least 0: with such a weight the sum would have no least value.
 
     Examples
     --------
     >>> from optlaws.synthesis import C, D
     >>> (C / 4 + D / 2.25).weights()["C"]
     0.25
+    >>> 0 * C / 4 + D / 2
+    0.5*D
     """
 
     terms: tuple[tuple[float, Term], ...]
@@ -62,14 +64,21 @@ class Expression:
         for weight, term in _pairs(self.terms):
             if not isinstance(term, Term):
                 raise InputError(f"an objective is made of constants of the law and maxima, got {shortened(term)}")
-            if (number := real(weight)) is None or not 0.0 < number <= MAGNITUDE_LIMIT:
+            if (number := real(weight)) is None or not 0.0 <= number <= MAGNITUDE_LIMIT:
                 raise _no_weight(weight, f" for {shortened(term)}")
             gathered[term] = gathered.get(term, 0.0) + float(weight)
-        object.__setattr__(self, "terms", tuple((weight, term) for term, weight in gathered.items()))
+        pairs = tuple((weight, term) for term, weight in gathered.items())
+        # nothing but zeros is kept as it is: it may yet be added to something
+        object.__setattr__(self, "terms", tuple(pair for pair in pairs if pair[0]) or pairs)
 
     def expression(self) -> Expression:
         """Itself."""
         return self
+
+    @property
+    def vanishes(self) -> bool:
+        """Whether all weights are 0, so that every law is as good as any other."""
+        return not any(weight for weight, _ in self.terms)
 
     def weights(self) -> dict[str, float]:
         """Weights by the name of the term."""
@@ -112,7 +121,7 @@ def _factor(value: object) -> float:
 
 
 def _no_weight(value: object, where: str = "") -> InputError:
-    demand = "weights in an objective must be finite numbers above 0 and at most"
+    demand = "weights in an objective must be finite numbers above 0, or 0 beside others, and at most"
     return InputError(f"{demand} {MAGNITUDE_LIMIT:g}, got {shortened(value)}{where}")
 
 
@@ -146,7 +155,7 @@ def maximum(*parts: Term | Expression) -> Maximum:
     Raises
     ------
     InputError
-        If there are fewer than two parts.
+        If there are fewer than two parts, or all weights of one are 0.
 
     Examples
     --------
@@ -164,6 +173,8 @@ def maximum(*parts: Term | Expression) -> Maximum:
 def _check_part(part: object) -> None:
     if not isinstance(part, Term | Expression):
         raise InputError(f"a part of a maximum must be a constant of the law or a sum of them, got {shortened(part)}")
+    if part.expression().vanishes:
+        raise InputError(f"a part of a maximum needs a weight above 0, got {part!r}")
 
 
 def leaves(expression: Expression) -> Iterator[tuple[float, Term]]:

@@ -16,7 +16,7 @@ from optlaws.errors import InputError
 from optlaws.formulas.reading import parse as parse_formula
 from optlaws.formulas.scanner import FormulaError, Scanner, Token
 from optlaws.formulas.vocabulary import VOCABULARY
-from optlaws.suggest import unknown_key
+from optlaws.suggest import CONSTANTS, unknown_key
 from optlaws.synthesis.problem.expression import Expression, Term, maximum
 
 Value = float | Expression
@@ -75,6 +75,8 @@ def _objective(text: str, names: Mapping[str, Term], makers: Makers) -> Expressi
         reader.refuse("expected + * / or the end")
     if isinstance(value, float):
         reader.refuse("an objective needs at least one constant such as C or D", 0)
+    if value.vanishes:
+        reader.refuse("a weight must be above 0", reader.zero)
     return value
 
 
@@ -86,6 +88,7 @@ class _Reader(Scanner):
                 if token.kind == "sign" and token.text not in _SIGNS:
                     self.refuse(f"{token.text!r} is not understood", token.place)
         self.names, self.makers = names, makers
+        self.zero = 0  # where the last weight of 0 stands
 
     def sum(self) -> Value:
         value = self.product()
@@ -123,8 +126,10 @@ class _Reader(Scanner):
         return first / second
 
     def _scaled(self, expression: Expression, factor: float, place: int) -> Expression:
-        if factor <= 0.0:
-            self.refuse("a weight must be above 0", place)
+        if factor < 0.0:
+            self.refuse("a weight must be at least 0", place)
+        if factor == 0.0:
+            self.zero = place
         return expression * factor
 
     def factor(self) -> Value:
@@ -145,7 +150,7 @@ class _Reader(Scanner):
     def _named(self) -> Expression:
         token = self.token
         if token.text not in self.names and token.text not in self.makers:
-            self.refuse(unknown_key(token.text, {*self.names, *self.makers}, "constant"))
+            self.refuse(unknown_key(token.text, {*self.names, *self.makers}, "constant", words=CONSTANTS))
         self.take()
         if token.text in self.names and not (token.text in self.makers and self.token.text == "("):
             return self.names[token.text].expression()
@@ -239,4 +244,6 @@ class _Reader(Scanner):
         value = self.sum()
         if isinstance(value, float):
             self.refuse("a part of max needs a constant of the law", place)
+        if value.vanishes:
+            self.refuse("a weight must be above 0", self.zero)
         return value

@@ -10,7 +10,7 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import finite, real
-from optlaws.suggest import unknown_key
+from optlaws.suggest import CONSTANTS, unknown_key
 from optlaws.synthesis.problem.constants import MAKERS, WITHOUT_ARGUMENTS, Functional
 from optlaws.synthesis.problem.named_constants import is_named, named
 
@@ -188,7 +188,7 @@ def _constant(key: Any) -> Functional:  # noqa: ANN401 - it is checked here
     if "(" in key:
         return named(key)
     if key not in WITHOUT_ARGUMENTS:
-        raise InputError(unknown_key(key, (*WITHOUT_ARGUMENTS, *MAKERS), "constant"))
+        raise InputError(unknown_key(key, (*WITHOUT_ARGUMENTS, *MAKERS), "constant", words=CONSTANTS))
     return WITHOUT_ARGUMENTS[key]
 
 

@@ -235,12 +235,26 @@ def test_expressions_refuse_nonsense(make: Callable[[], object]) -> None:
         make()
 
 
-@pytest.mark.parametrize("factor", [0, 0.0, -1, -0.5, float("nan"), float("inf"), -float("inf")])
+@pytest.mark.parametrize("factor", [-1, -0.5, float("nan"), float("inf"), -float("inf")])
 def test_weights_that_make_no_sense_are_named(factor: float) -> None:
     makers: list[Callable[[], object]] = [lambda: factor * C, lambda: C * factor, lambda: (C + D) * factor]
     for make in makers:
         with pytest.raises(InputError, match="weights in an objective must be finite numbers above 0"):
             make()
+
+
+def test_a_weight_of_0_leaves_its_term_out() -> None:
+    # a sweep of weights starts there
+    assert 0 * C / 4 + 1 * D / 2.25 == D / 2.25
+    assert Problem(order=4, minimise="0*C/4 + 1*D/2.25") == Problem(order=4, minimise=D / 2.25)
+    assert Problem(order=4, minimise="0*C + D") == Problem(order=4, minimise="D")
+    for nothing in (0 * C, 0 * (C + D), 0 * C + 0.0 * D):
+        with pytest.raises(InputError, match="a weight above 0"):
+            Problem(order=4, minimise=nothing)
+    with pytest.raises(InputError, match="a weight above 0"):
+        maximum(0 * C, D)
+    with pytest.raises(InputError, match="a weight must be above 0"):
+        Problem(order=4, minimise="max(0*C, D)")
 
 
 def test_division_by_zero_is_refused() -> None:

@@ -1,0 +1,69 @@
+"""The command `optlaws compare`: laws side by side, in a table and in one figure."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import optlaws
+from optlaws.cli.options import AsJson, check_files, save_picture
+from optlaws.cli.show import NOISE, number, print_json, show, table
+from optlaws.errors import InputError
+
+_ONE, _INTERVAL = 1, 2
+
+
+def compare(
+    *laws: str,
+    stroke: str | None = None,
+    time: str | None = None,
+    nu: list[float] | None = None,
+    damping: float = 0.0,
+    plot: Path | None = None,
+    csv: Path | None = None,
+    as_json: AsJson = False,
+) -> None:
+    """Compare laws: their constants, their peaks in a machine, the vibration they leave behind.
+
+    Parameters
+    ----------
+    laws
+        Names or codes of the catalogue, members such as "III(7.2)", JSON files of laws or of `optlaws solve --output`.
+    stroke
+        Stroke of the machine with its unit, such as 35mm or 45deg; with --time gives peaks in machine units.
+    time
+        Duration of the motion with its unit, such as 0.1s.
+    nu
+        Frequency of an elastic follower, radians of its free vibration in the motion, or twice for an interval: the
+        greatest residual acceleration is told.
+    damping
+        Damping ratio of the follower.
+    plot
+        Draw a, b, c and j of all laws into this file, PNG or SVG.
+    csv
+        Write the table to this file.
+    as_json
+        Print one JSON object on stdout and nothing else.
+    """
+    check_files(csv, plot=plot)
+    if nu is not None and len(nu) > _INTERVAL:
+        raise InputError(f"--nu is given once for a frequency or twice for an interval, got {len(nu)} times")
+    asked = None if nu is None else nu[0] if len(nu) == _ONE else (nu[0], nu[1])
+    found = optlaws.compare(*laws, stroke=stroke, time=time, nu=asked, damping=damping)
+    if csv is not None:
+        _save(found, csv)
+    if plot is not None:
+        save_picture(plot, found)
+    if as_json:
+        print_json(found.to_dict())
+        return
+    rows = table(*found.rows[0])
+    for row in found.rows:
+        rows.add_row(*(cell if isinstance(cell, str) else number(cell, NOISE, ".7g") for cell in row.values()))
+    show(rows, *found.remarks)
+
+
+def _save(found: optlaws.Comparison, file: Path) -> None:
+    from optlaws.files import tables, writing
+
+    rows = [list(row.values()) for row in found.rows]
+    writing.write(file, tables.to_csv(list(found.rows[0]), rows, about="laws compared"))
