@@ -88,6 +88,19 @@ def test_the_nomogram_is_the_sizing(tmp_path: Path) -> None:
     assert (out / "nomogram.svg").exists()
 
 
+def test_the_nomogram_has_a_row_for_each_pre_twist(tmp_path: Path) -> None:
+    (tmp_path / "one").mkdir()
+    (tmp_path / "three").mkdir()
+    one, three = (
+        done(tmp_path / "one", LEVER_NOMOGRAM),
+        done(tmp_path / "three", f"{LEVER_NOMOGRAM}also = [0.05, 0.3]\n"),
+    )
+    drawn = (three / "nomogram.svg").read_text("utf-8")
+    assert all(f"<!-- Rocker at its extreme, rho = {rho} -->" in drawn for rho in ("0.05", "0.3"))
+    assert "rho = " not in (one / "nomogram.svg").read_text("utf-8")
+    assert read(one / "nomogram.csv") == read(three / "nomogram.csv")
+
+
 def test_the_drawing_is_the_same_each_time(tmp_path: Path) -> None:
     first = {file.name: file.read_bytes() for file in done(tmp_path, LEVER_DRAWING).iterdir()}
     assert set(first) == {"drawing.md", *(f"{n}.{k}" for n in ("mechanism", "motion") for k in ("svg", "png"))}

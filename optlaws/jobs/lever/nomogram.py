@@ -26,7 +26,7 @@ HEADINGS = ("beta", "swing, deg", "chi01, deg", "chi02, deg", "gamma01, deg", "x
 
 
 class Nomogram(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, rename={"lam": "lambda"}):
-    """The problem file; swings in degrees, `tabled` those of the table."""
+    """The problem file; swings in degrees, `tabled` those of the table, `also` more pre-twists rho for the figure."""
 
     job: str
     title: Text
@@ -36,17 +36,21 @@ class Nomogram(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, rename=
     nu: Twist
     tabled: Swings
     points: Annotated[int, msgspec.Meta(ge=2, le=1000)] = 81
+    also: Annotated[list[Twist], msgspec.Meta(max_length=4)] = []
     text: str = ""
 
 
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec = convert(data, Nomogram, file)
-    rows = [_row(one) for beta in spec.beta for swing in spec.tabled for one in _levers(spec, beta, [swing])]
+    rows = [_row(one) for beta in spec.beta for swing in spec.tabled for one in _levers(spec, beta, [swing], spec.rho)]
     if not rows:
         raise InputError("no combination of beta and swing keeps to the limits")
     swings = np.linspace(min(spec.tabled), max(spec.tabled), spec.points).tolist()
-    curves = {beta: found for beta in spec.beta if (found := _levers(spec, beta, swings))}
+    curves = {
+        rho: {beta: found for beta in spec.beta if (found := _levers(spec, beta, swings, rho))}
+        for rho in (spec.rho, *spec.also)
+    }
     about = f"{spec.title}; from {file.name}"
     figure = draw(curves)
     return [
@@ -56,8 +60,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     ]
 
 
-def _levers(spec: Nomogram, beta: float, swings: Sequence[float]) -> list[TorsionLever]:
-    return [one for swing in swings for one in levers(beta, swing, [spec.lam], [spec.rho], [spec.nu])]
+def _levers(spec: Nomogram, beta: float, swings: Sequence[float], rho: float) -> list[TorsionLever]:
+    return [one for swing in swings for one in levers(beta, swing, [spec.lam], [rho], [spec.nu])]
 
 
 def _row(one: TorsionLever) -> list[tables.Cell]:
@@ -76,26 +80,34 @@ def _page(spec: Nomogram, rows: Sequence[Sequence[tables.Cell]]) -> Page:
     return page.text(f"{held}; T in units of sqrt(I / c1).").table(HEADINGS, rows)
 
 
-def draw(curves: Mapping[float, Sequence[TorsionLever]]) -> Figure:
-    """The figure: for each beta, from the swing up to gamma01 and from there to xi."""
+def draw(curves: Mapping[float, Mapping[float, Sequence[TorsionLever]]]) -> Figure:
+    """The figure: a row for each rho, in it for each beta, from the swing up to gamma01 and from there to xi."""
+    with drawing.style():
+        figure = drawing.figure(9.2, 4.6 * len(curves))
+        rows = figure.subplots(len(curves), 2, squeeze=False)
+        for (left, right), (rho, of_beta) in zip(rows, curves.items(), strict=True):
+            told = f", rho = {rho:g}" if len(curves) > 1 else ""
+            _draw_row(left, right, of_beta)
+            left.set_title(f"Rocker at its extreme{told}")
+            right.set_title(f"Ratio of the stiffnesses{told}")
+        return figure
+
+
+def _draw_row(left: Axes, right: Axes, curves: Mapping[float, Sequence[TorsionLever]]) -> None:
     from matplotlib.ticker import FormatStrFormatter, LogLocator, NullLocator
 
-    with drawing.style():
-        figure = drawing.figure(9.2, 4.6)
-        left, right = figure.subplots(1, 2)
-        for beta, levers in curves.items():
-            colour = drawing.GREY if beta == 1.0 else drawing.BLUES[3] if beta < 1.0 else drawing.WARM
-            _curve(left, beta, levers, lambda one: degrees(one.gamma01), colour)
-            _curve(right, beta, levers, lambda one: one.xi, colour)
-        left.set(ylabel="gamma01 (degrees)", title="Rocker at its extreme")
-        right.set(ylabel="xi = c2/c1 (dimensionless)", yscale="log", title="Ratio of the stiffnesses")
-        right.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        right.yaxis.set_major_formatter(FormatStrFormatter("%g"))
-        right.yaxis.set_minor_locator(NullLocator())
-        for axes in (left, right):
-            axes.set_xlabel("swing of the driven link (degrees)")
-            axes.margins(x=0.12, y=0.09)
-        return figure
+    for beta, found in curves.items():
+        colour = drawing.GREY if beta == 1.0 else drawing.BLUES[3] if beta < 1.0 else drawing.WARM
+        _curve(left, beta, found, lambda one: degrees(one.gamma01), colour)
+        _curve(right, beta, found, lambda one: one.xi, colour)
+    left.set(ylabel="gamma01 (degrees)")
+    right.set(ylabel="xi = c2/c1 (dimensionless)", yscale="log")
+    right.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+    right.yaxis.set_major_formatter(FormatStrFormatter("%g"))
+    right.yaxis.set_minor_locator(NullLocator())
+    for axes in (left, right):
+        axes.set_xlabel("swing of the driven link (degrees)")
+        axes.margins(x=0.12, y=0.09)
 
 
 def _curve(
