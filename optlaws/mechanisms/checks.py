@@ -48,6 +48,7 @@ def motion_law(value: Any, name: str = "law") -> MotionLaw:  # noqa: ANN401 - wh
     law = getattr(value, "law", None)
     if not isinstance(law, MotionLaw):
         raise InputError(
-            f"{name} must be a motion law such as smoothstep(4) or savin('III', 7.2), got {shortened(value)}"
+            f"{name} must be a motion law, a MotionLaw such as smoothstep(4) or savin('III', 7.2), "
+            f"got {shortened(value)}"
         )
     return law

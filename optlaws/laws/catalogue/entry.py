@@ -101,6 +101,9 @@ class Entry:
             ),
         )
 
+    def __repr__(self) -> str:
+        return f"Entry({self.name!r}, {self.formula!r})"
+
     @property
     def aliases(self) -> tuple[str, ...]:
         """Its other names, without the numbers of enumerations."""

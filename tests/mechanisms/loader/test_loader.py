@@ -282,3 +282,7 @@ def test_laws_of_loaders_are_stored_and_copied(name: str) -> None:
         MotionLaw.from_dict({**law.to_dict(), "excutive": {}})
     segment = law._pieces.segments[0]
     assert type(segment).from_dict(segment.to_dict()) == segment
+
+
+def test_an_entry_of_the_catalogue_stands_for_its_law() -> None:
+    assert loader(catalogue["cycloidal"]) == loader(catalogue["cycloidal"].law)  # type: ignore[arg-type] # it has one
