@@ -106,6 +106,7 @@ declare(
     "drawing",
     {
         "optlaws.drawing": "front proven_front spectrum",
+        "optlaws.jobs.cycle.picture": "cycle",
         "optlaws.law_pictures": "comparison curve solution",
     },
 )

@@ -21,6 +21,9 @@ COMMANDS = {
     "laws.law": (
         "Show a law of the catalogue, a coded law, a member of Savin's families or a stored law, with its constants."
     ),
+    "mechanisms.cycle": (
+        "Whole cycles of a machine in physical units, optimal as a whole: peaks, joints, drives, tables and pictures."
+    ),
     "mechanisms.dwell": (
         "Balancing mechanisms of types I, II and III for an executive link that dwells, and which of them to take."
     ),

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import reduce
 from itertools import pairwise
 from math import hypot
@@ -17,12 +17,15 @@ from optlaws.cycles.drive import Drive, read_drive
 from optlaws.cycles.durations import durations
 from optlaws.cycles.effort import Effort, effort
 from optlaws.cycles.joints import Layout, layout
-from optlaws.cycles.optimal import OBJECTIVES, Wanted, read_limits, solve
-from optlaws.cycles.programme import TURN, Programme, period_of, programme
-from optlaws.cycles.segments import CycleSegment
+from optlaws.cycles.optimal import OBJECTIVES, Wanted, limits_of_stretch, read_limits, solve
+from optlaws.cycles.programme import TURN, Programme, is_optimal, period_of, programme
+from optlaws.cycles.quantities import quantity
+from optlaws.cycles.segments import CycleSegment, Dwell, Move
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.mechanisms.cam.polydyne import polydyne
 from optlaws.numbers import MOST_DEGREE, derivative, real_times, whole
+from optlaws.plotting import plotted
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.solution import Solution, Status
 
@@ -105,7 +108,7 @@ class Cycle:
             raise InputError(f"minimise: {unknown_key(self.minimise, OBJECTIVES, 'objective')}")
         if all(one.fixed for one in self.programme.stretches):
             self._layout  # noqa: B018 - velocities that do not meet are refused at once
-        self._wanted  # noqa: B018 - and so are limits and drives
+        self.limits_of_segments  # noqa: B018 - and so are limits and drives
 
     @kept_property
     def programme(self) -> Programme:
@@ -234,6 +237,88 @@ class Cycle:
     def per_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
         """Derivatives by the master's angle in radians, as cams and controllers take them."""
         return self.at_angle(degrees, nu) * (self.duration / TURN) ** nu
+
+    def cam(self, period: Any, damping: float = 0.0) -> Cycle:  # noqa: ANN401 - a quantity
+        """The cycle of the cam that makes an elastic follower's mass move as this cycle says (1.27).
+
+        Each move is corrected by the follower's frequency over its own duration: nu = 2 pi T / T_k. The mass comes to
+        rest with each move, so that nothing vibrates in the dwells.
+
+        Parameters
+        ----------
+        period
+            The period T_k of the follower's free vibration, such as "12 ms".
+        damping
+            Its damping ratio.
+
+        Raises
+        ------
+        InputError
+            If a move is not from rest to rest by a law whose jerk is continuous and 0 at both ends (order 4).
+
+        Examples
+        --------
+        >>> from optlaws.cycles.segments import Dwell, Move
+        >>> moves = [Move("30 mm", "120 deg", law="III(7.2)"), Dwell("60 deg"), Move("-30 mm", law="III(7.2)")]
+        >>> round(Cycle(moves, speed="300 rpm").cam("20 ms", damping=0.05).peak(2), 6)
+        39.380514
+        """
+        natural = quantity(period, "time", "follower: period")
+        if natural <= 0.0:
+            raise InputError(f"follower: period must be above 0, got {period!r}")
+        if len(self.pieces) != len(self.segments):
+            raise InputError("the cam of an elastic follower is made move by move: take moves in place of free motions")
+        made: list[CycleSegment] = []
+        for one, given, piece in zip(self.programme.stretches, self.segments, self.pieces, strict=True):
+            time = f"{piece.duration!r} s"
+            if piece.stroke == 0.0:
+                made.append(Dwell(time, name=given.label))
+                continue
+            try:
+                law = polydyne(piece.law, TURN * piece.duration / natural, damping)
+            except InputError as error:
+                raise InputError(f"{one.where}: {error}") from None
+            made.append(Move(self._shown(one.displacement), time, law=law, name=given.label))
+        return replace(self, segments=made, speed=None, period=f"{self.duration!r} s")
+
+    @property
+    def limits_of_segments(self) -> tuple[dict[int, float], ...]:
+        """The limits that each segment was asked to keep, in SI units, by the order of the derivative."""
+        return tuple(
+            limits_of_stretch(one, self._wanted, self.axis) if is_optimal(one.given) else {}
+            for one in self.programme.stretches
+        )
+
+    def _shown(self, displacement: float) -> str:
+        return f"{displacement!r} {'m' if self.axis == 'length' else 'rad'}"
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw position, velocity, acceleration and jerk over time, with segments and limits, by matplotlib.
+
+        Parameters
+        ----------
+        ax
+            Four axes; a new figure unless given.
+        style
+            What `Axes.plot` takes, for the curves.
+
+        Returns
+        -------
+        The artists; `[0].figure` is the figure.
+
+        Raises
+        ------
+        InputError
+            If there are not four axes.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.segments import Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
+        >>> [one.axes.get_ylabel() for one in cycle.plot()][2]
+        'acceleration, m/s²'
+        """
+        return plotted("cycle", self, ax, **style)
 
     @kept_property
     def _drive(self) -> Drive | None:

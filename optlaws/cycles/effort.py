@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from functools import partial
 
 import numpy as np
@@ -16,6 +16,7 @@ Array = NDArray[np.float64]
 
 _EVEN = 400  # stretches of a piece in which extremes and zeros are looked for, before they are polished
 _GAUSS = 12
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -37,6 +38,10 @@ class Effort:
     rms_force: float
     peak_power: float
     mean_power: float
+
+    def to_dict(self) -> dict[str, float]:
+        """Plain JSON-able dict."""
+        return asdict(self)
 
     def shaft_torque(self, angular_velocity: float) -> float:
         """The greatest torque at a shaft of constant angular velocity, rad/s."""
@@ -60,7 +65,8 @@ def effort(drive: Drive, pieces: Sequence[Piece], period: float) -> Effort:
         force, power = max(force, _peak(piece, forces)), max(power, _peak(piece, powers))
         square += _integral(piece, partial(_square, drive, piece))
         work += _integral(piece, powers)
-    return Effort(force, float(np.sqrt(square / period)), power, work / period)
+    mean = work / period
+    return Effort(force, float(np.sqrt(square / period)), power, mean if abs(mean) > _ROUNDING * power else 0.0)
 
 
 def _power(drive: Drive, piece: Piece, times: Array) -> Array:

@@ -15,6 +15,7 @@ Job = Callable[[Mapping[str, Any], Path, Path], list[Path]]
 
 _MODULES = {
     "atlas": "laws.atlas",
+    "cycle": "cycle.cycle",
     "dwell drawing": "dwell.drawing",
     "dwell types": "dwell.types",
     "follower": "follower.follower",

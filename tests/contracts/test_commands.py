@@ -23,6 +23,7 @@ CALLS = {
     "catalogue": "",
     "compare": "0050 cubic --nu 20",
     "constants": "--order 1 --z 0.5",
+    "cycle": "cycle.toml",
     "dwell": "K --dwell 90 --rise 90 --swing 20 --clutch-angle 15 --radius-ratio 1 --inertia-ratio 0.1 --most-torque 1",
     "follower": "0050 --nu 20",
     "front": "--order 2 --degree 3 --points 2",
@@ -54,6 +55,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with the files that the calls name, and one that holds a file in the place of a folder."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "study.toml").write_text(STUDY, "utf-8")
+    (tmp_path / "cycle.toml").write_bytes((ROOT / "problems" / "cycle_press.toml").read_bytes())
     (tmp_path / "problem.toml").write_bytes((ROOT / "problems" / "lever_nomogram.toml").read_bytes())
     (tmp_path / "file").write_text("", "utf-8")
     return tmp_path

@@ -15,6 +15,28 @@ order = [3, 4]
 degree = [5, 7]
 B = [1.5, 1.8]
 """
+CYCLE = """
+job = "cycle"
+title = "Slide"
+speed = "200 rpm"
+rows = 13
+[[axis]]
+name = "slide"
+limits = { velocity = "616 mm/s" }
+drive = { mass = "2 kg", dry = "5 N" }
+[[axis.segment]]
+kind = "rise"
+by = "35 mm"
+duration = "120 deg"
+[[axis.segment]]
+kind = "dwell"
+duration = "90 deg"
+[[axis.segment]]
+kind = "return"
+duration = "100 deg"
+[[axis.segment]]
+kind = "dwell"
+"""
 DWELL_TYPES = """
 job = "dwell types"
 title = "Few"
@@ -310,6 +332,17 @@ EXAMPLES = {
             ("order = [3, 4]", "ordre = [3, 4]", "ordre.*order"),
             ("order = [3, 4]\n", "", "an atlas varies minimise, order, degree, B"),
             ("order = [3, 4]", "order = [0]", "order"),
+        ),
+    ),
+    "cycle": Example(
+        CYCLE,
+        (
+            ("200 rpm", "200 mm", "speed must be an angular velocity such as '200 rpm', but '200 mm' is a length"),
+            ('"616 mm/s"', '"616 mm"', "axis slide: limits, velocity must be a velocity.*is a length"),
+            ("120 deg", "220 deg", "axis slide: the durations sum to 410 deg"),
+            ('kind = "return"', 'kind = "retrun"', "kind"),
+            ('duration = "90 deg"', 'duration = "90 deg"\nby = "3 mm"', "segment 2: a dwell takes no by"),
+            ("mass =", "inertia =", "drive: .*inertia"),
         ),
     ),
     "dwell drawing": Example(

@@ -1,0 +1,1 @@
+"""The job about whole cycles in machine units: entries, tables, pictures."""

@@ -1,0 +1,160 @@
+"""The job "cycle": whole cycles of one or several axes, tabled, drawn and kept with their proofs."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Mapping
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from optlaws import drawing
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.optimal import OBJECTIVES
+from optlaws.files import tables, writing
+from optlaws.jobs.cycle.entries import Study, read
+from optlaws.jobs.cycle.picture import QUANTITIES, UNITS, draw
+from optlaws.jobs.pages.page import Page
+
+_ROUNDING = 1e-11  # what is below this share of a peak is 0
+_SHARE = 360.0
+
+
+def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
+    """Do the job and return the files written."""
+    spec, cycles = read(data, file)
+    about = f"{spec.title}; from {file.name}"
+    texts = {"cycle.md": str(page(spec, cycles)), "cycle.json": _stored(cycles, about)}
+    for name, cycle in cycles.items():
+        texts[f"{_file_name(name)}.csv"] = tables.to_csv(_columns(cycle), _rows(cycle, spec.rows), about=about)
+    figures = {_file_name(name): draw(cycle, f"{spec.title}: {name}") for name, cycle in cycles.items()}
+    return [writing.write(out / name, text) for name, text in texts.items()] + drawing.save_pictures(figures, out)
+
+
+def answer(cycles: Mapping[str, Cycle]) -> dict[str, Any]:
+    """What a program is told of the cycles, in SI units, by the names of the axes."""
+    return {name: _facts(cycle) for name, cycle in cycles.items()}
+
+
+def page(spec: Study, cycles: Mapping[str, Cycle]) -> Page:
+    """The page of results."""
+    made = Page(spec.title).text(spec.text)
+    for name, cycle in cycles.items():
+        made.heading(name).figure(_file_name(name), f"{spec.title}: {name}")
+        made.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
+        made.table(("what", "value", "unit"), _told(cycle), digits=9)
+    return made
+
+
+def _file_name(axis: str) -> str:
+    return "".join(letter if letter.isalnum() else "_" for letter in axis.lower())
+
+
+def _headings(cycle: Cycle) -> list[str]:
+    sized = [f"peak {name}, {unit}" for name, (unit, _) in zip(QUANTITIES, UNITS[cycle.axis], strict=True)]
+    return ["segment", "from, ms", "takes, ms", "takes, deg", "ends at, " + UNITS[cycle.axis][0][0], *sized[1:]]
+
+
+def _segment_rows(cycle: Cycle) -> list[list[tables.Cell]]:
+    position, factor = cycle.programme.start, UNITS[cycle.axis][0][1]
+    rows: list[list[tables.Cell]] = []
+    for one, peaks in zip(cycle.programme.stretches, cycle.peaks, strict=True):
+        position += one.displacement
+        rows.append(
+            [
+                peaks.name,
+                1e3 * peaks.start,
+                1e3 * peaks.duration,
+                _SHARE * peaks.duration / cycle.duration,
+                _plain(factor * position, factor * max(abs(position), abs(cycle.peak(0)))),
+                *(peaks.peak(nu) * UNITS[cycle.axis][nu][1] for nu in (1, 2, 3)),
+            ]
+        )
+    return rows
+
+
+def _whole_row(cycle: Cycle) -> list[tables.Cell]:
+    peaks = [cycle.peak(nu) * UNITS[cycle.axis][nu][1] for nu in (1, 2, 3)]
+    return ["whole cycle", 0.0, 1e3 * cycle.duration, _SHARE, None, *peaks]
+
+
+def _told(cycle: Cycle) -> list[list[tables.Cell]]:
+    """What is least, how it is proven, and what the drive takes."""
+    rows: list[list[tables.Cell]] = []
+    if cycle.solutions:
+        unit = _objective_unit(cycle)
+        rows += [["status", cycle.status.value, None], [f"least {cycle.minimise}", cycle.objective, unit]]
+        if cycle.lower_bound is not None:
+            rows.append(["proven lower bound", cycle.lower_bound, unit])
+    if cycle.drive is not None:
+        force, power = ("N", "W") if cycle.axis == "length" else ("N m", "W")
+        effort = cycle.effort
+        rows += [
+            ["peak of force" if cycle.axis == "length" else "peak of torque", effort.peak_force, force],
+            ["RMS of it", effort.rms_force, force],
+            ["peak of power", effort.peak_power, power],
+            ["mean of power", effort.mean_power, power],
+            ["peak torque at the master's shaft", effort.shaft_torque(2.0 * pi / cycle.duration), "N m"],
+        ]
+    leaps = {name: max(abs(joint[name]) for joint in cycle.joints) for name in ("velocity", "acceleration")}
+    return [*rows, *([f"greatest leap of the {name} at a joint", leap, "SI"] for name, leap in leaps.items())]
+
+
+def _objective_unit(cycle: Cycle) -> str:
+    nu, _ = OBJECTIVES[cycle.minimise]
+    if nu < 0:
+        return "N" if cycle.axis == "length" else "N m"
+    return {"length": "m", "angle": "rad"}[cycle.axis] + ("/s", "/s²", "/s³")[nu - 1]
+
+
+def _columns(cycle: Cycle) -> list[str]:
+    return [
+        "master, deg",
+        "time, s",
+        *(f"{name}, {unit}" for name, (unit, _) in zip(QUANTITIES, UNITS[cycle.axis], strict=True)),
+    ]
+
+
+def _rows(cycle: Cycle, count: int) -> list[list[tables.Cell]]:
+    degrees = np.linspace(0.0, _SHARE, count)
+    times = degrees * (cycle.duration / _SHARE)
+    columns = [
+        [_plain(value * factor, cycle.peak(nu) * factor) for value in cycle(times, nu).tolist()]
+        for nu, (_, factor) in enumerate(UNITS[cycle.axis])
+    ]
+    return [list(row) for row in zip(degrees.tolist(), times.tolist(), *columns, strict=True)]
+
+
+def _plain(value: float, size: float) -> float:
+    return 0.0 if abs(value) <= _ROUNDING * size else value
+
+
+def _stored(cycles: Mapping[str, Cycle], about: str) -> str:
+    axes = answer(cycles)
+    for name, cycle in cycles.items():
+        axes[name]["laws"] = [
+            {"start": piece.start, "duration": piece.duration, "offset": piece.offset, "stroke": piece.stroke,
+             "law": piece.law.to_dict()}
+            for piece in cycle.pieces
+        ]  # fmt: skip
+    return json.dumps({"about": f"{about}; {writing.MARK}", "unit": "SI", "axes": axes}, indent=1) + "\n"
+
+
+def _facts(cycle: Cycle) -> dict[str, Any]:
+    drive = {} if cycle.drive is None else {"effort": cycle.effort.to_dict()}
+    return {
+        "period": cycle.duration,
+        "status": cycle.status.value,
+        "minimise": cycle.minimise,
+        "objective": cycle.objective if cycle.solutions else None,
+        "lower_bound": cycle.lower_bound if cycle.solutions else None,
+        "segments": [
+            {"name": one.name, "start": one.start, "duration": one.duration}
+            | {name: one.peak(nu) for nu, name in enumerate(QUANTITIES) if nu}
+            for one in cycle.peaks
+        ],
+        "joints": list(cycle.joints),
+        **drive,
+    }

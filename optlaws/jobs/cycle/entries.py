@@ -1,0 +1,143 @@
+"""The problem file of the job "cycle": axes with their segments, every number with its unit."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move, Return, Rise
+from optlaws.errors import InputError
+from optlaws.files.problem_file import Text, convert
+
+Kind = Literal["dwell", "constant velocity", "move", "rise", "return", "free"]
+KINDS: dict[str, type[Any]] = {
+    "dwell": Dwell,
+    "constant velocity": ConstantVelocity,
+    "move": Move,
+    "rise": Rise,
+    "return": Return,
+    "free": Free,
+}
+
+
+class AskedSegment(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A segment; which entries it may have beside its duration depends on its kind."""
+
+    kind: Kind
+    duration: str | list[str] | None = None
+    name: str | None = None
+    by: str | None = None
+    to: str | None = None
+    law: Text | None = None
+    limits: dict[str, str] | None = None
+    velocity: str | None = None
+    start_velocity: str | None = None
+    end_velocity: str | None = None
+    via: list[list[str]] | None = None
+
+
+class AskedFollower(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """An elastic follower whose mass is to move as the cycle says."""
+
+    period: str
+    damping: float = 0.0
+
+
+class Axis(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """One axis of the machine."""
+
+    name: Text
+    segment: Annotated[list[AskedSegment], msgspec.Meta(min_length=1, max_length=100)]
+    minimise: str = "acceleration"
+    limits: dict[str, str] = {}
+    start: str | None = None
+    advance: str | None = None
+    drive: dict[str, str] | None = None
+    follower: AskedFollower | None = None
+    order: int = 3
+    degree: int = 9
+
+
+class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The problem file."""
+
+    job: str
+    title: Text
+    axis: Annotated[list[Axis], msgspec.Meta(min_length=1, max_length=8)]
+    speed: str | None = None
+    period: str | None = None
+    rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
+    text: str = ""
+
+
+def read(data: Mapping[str, Any], file: Path) -> tuple[Study, dict[str, Cycle]]:
+    """The entries of a file, and the cycles of its axes by their names.
+
+    Raises
+    ------
+    InputError
+        If an entry is unknown or wrong; the error names the file, the axis and the segment.
+    """
+    spec = convert(data, Study, file)
+    cycles: dict[str, Cycle] = {}
+    for one in spec.axis:
+        if one.name in cycles:
+            raise InputError(f"{file}: two axes are called {one.name}: give each a name of its own")
+        try:
+            cycles[one.name] = cycle_of(one, spec)
+        except InputError as error:
+            raise InputError(f"{file}: axis {one.name}: {error}") from None
+    return spec, cycles
+
+
+def cycle_of(axis: Axis, spec: Study) -> Cycle:
+    """The cycle of an axis: that of the cam, where there is a follower.
+
+    Raises
+    ------
+    InputError
+        If durations, positions or velocities do not fit, or a quantity is wrong.
+    """
+    found = Cycle(
+        [segment_of(one, i + 1) for i, one in enumerate(axis.segment)],
+        speed=spec.speed,
+        period=spec.period,
+        minimise=axis.minimise,
+        limits=axis.limits,
+        start=axis.start,
+        advance=axis.advance,
+        drive=axis.drive,
+        order=axis.order,
+        degree=axis.degree,
+    )
+    return found if axis.follower is None else found.cam(axis.follower.period, axis.follower.damping)
+
+
+def segment_of(asked: AskedSegment, number: int) -> CycleSegment:
+    """A segment of a file.
+
+    Raises
+    ------
+    InputError
+        If it has an entry that its kind does not take, or lacks one.
+
+    Examples
+    --------
+    >>> segment_of(AskedSegment(kind="dwell", duration="90 deg"), 1)
+    Dwell(duration='90 deg', name='')
+    """
+    kind = KINDS[asked.kind]
+    given = {name: value for name, value in msgspec.structs.asdict(asked).items() if value is not None}
+    del given["kind"]
+    taken = kind.__dataclass_fields__
+    for name in given:
+        if name not in taken:
+            raise InputError(f"segment {number}: a {asked.kind} takes no {name}; it takes {', '.join(taken)}")
+    if asked.kind == "constant velocity" and asked.velocity is None:
+        raise InputError(f"segment {number}: a constant velocity needs its velocity, such as velocity = '300 mm/s'")
+    found: CycleSegment = kind(**given)
+    return found

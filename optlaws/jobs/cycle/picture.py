@@ -1,0 +1,102 @@
+"""Pictures of cycles: position, velocity, acceleration and jerk over time, with the segments and the limits marked."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from optlaws import drawing
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.programme import TURN
+from optlaws.law_pictures import four
+from optlaws.plotting import draws
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+#: units of tables and pictures, and how many of them make one of SI
+UNITS = {
+    "length": (("mm", 1e3), ("mm/s", 1e3), ("m/s²", 1.0), ("m/s³", 1.0)),
+    "angle": (("deg", 360.0 / TURN), ("deg/s", 360.0 / TURN), ("rad/s²", 1.0), ("rad/s³", 1.0)),
+}
+QUANTITIES = ("position", "velocity", "acceleration", "jerk")
+_EACH = 200
+
+
+def draw(cycle: Cycle, title: str) -> Figure:
+    """The motion of one cycle, as a figure."""
+    with drawing.style():
+        figure = drawing.new_figure(8.6, 8.2)
+        draw_cycle(cycle, list(figure.subplots(4, 1, sharex=True)))
+        figure.suptitle(title, x=0.01, ha="left", fontsize=11.0)
+        figure.align_ylabels()
+        return figure
+
+
+@draws("cycle")
+def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
+    """Draw position, velocity, acceleration and jerk into four axes, new ones unless given, and return the artists.
+
+    Raises
+    ------
+    InputError
+        If there are not four axes.
+    """
+    if axes is None:
+        with drawing.style():
+            axes = list(drawing.new_figure(8.6, 8.2).subplots(4, 1, sharex=True))
+    panels = four(axes)
+    artists: list[Artist] = []
+    for nu, one in enumerate(panels):
+        artists += _draw_curve(cycle, one, nu, {"color": drawing.BLUES[3]} | style)
+        _mark_segments(cycle, one)
+        artists += _mark_limits(cycle, one, nu)
+    for peaks in cycle.peaks:
+        _name_segment(panels[0], peaks.name, 1e3 * (peaks.start + 0.5 * peaks.duration))
+    panels[-1].set(xlabel="time, ms", xlim=(0.0, 1e3 * cycle.duration))
+    return artists
+
+
+def _name_segment(axes: Axes, name: str, place: float) -> None:
+    above: Any = {"xycoords": ("data", "axes fraction"), "ha": "center", "va": "bottom", "fontsize": 8.0}
+    axes.annotate(name, (place, 1.02), color=drawing.GREY, **above)
+
+
+def _starts(cycle: Cycle) -> list[float]:
+    return [peaks.start for peaks in cycle.peaks]
+
+
+def _draw_curve(cycle: Cycle, axes: Axes, nu: int, style: dict[str, Any]) -> list[Artist]:
+    unit, factor = UNITS[cycle.axis][nu]
+    times, values = [], []
+    for piece in cycle.pieces:
+        breaks = piece.start + piece.duration * np.array(piece.law.breaks)
+        inside = np.unique(np.concatenate([np.linspace(piece.start, piece.stop, _EACH), breaks]))
+        # a leap is drawn upright: the last value before the end of the piece, then the first of the next
+        times.append(inside)
+        values.append(factor * piece.values(inside, nu))
+    axes.set_ylabel(f"{QUANTITIES[nu]}, {unit}")
+    return list(axes.plot(1e3 * np.concatenate(times), np.concatenate(values), **style))
+
+
+def _mark_segments(cycle: Cycle, axes: Axes) -> None:
+    for start in _starts(cycle)[1:]:
+        axes.axvline(1e3 * start, color=drawing.GREY, linewidth=0.7, linestyle=":")
+
+
+def _mark_limits(cycle: Cycle, axes: Axes, nu: int) -> list[Artist]:
+    """The limits of each optimal segment, where they are within sight."""
+    factor = UNITS[cycle.axis][nu][1]
+    look: dict[str, Any] = {"color": drawing.WARM, "linewidth": 1.1, "linestyle": "--"}
+    artists: list[Artist] = []
+    for peaks, limits in zip(cycle.peaks, cycle.limits_of_segments, strict=True):
+        most = limits.get(nu, inf)
+        if most < 4.0 * max(cycle.peak(nu), 1e-300):
+            span = [1e3 * peaks.start, 1e3 * (peaks.start + peaks.duration)]
+            for side in (1.0, -1.0):
+                artists += axes.plot(span, [side * most * factor] * 2, **look)
+    return artists

@@ -1,0 +1,172 @@
+"""What people say of cycles: errors that name the remedy, and motions that are what was said."""
+
+import json
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws import (
+    ConstantVelocity,
+    Cycle,
+    Dwell,
+    Follower,
+    Free,
+    InputError,
+    Move,
+    Return,
+    Rise,
+    catalogue,
+    smoothstep,
+)
+from optlaws.cli.app import exit_code
+from optlaws.cycles.programme import TURN
+from tests.documents import ROOT
+
+SINE = "modified sine"
+
+
+def cycle(*segments: Any, **others: Any) -> Cycle:  # noqa: ANN401 - whatever a person says
+    return Cycle(list(segments), **({"speed": "200 rpm"} | others))
+
+
+LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
+
+
+@pytest.mark.parametrize(
+    ("segments", "others", "said"),
+    [
+        ([], {}, "a cycle is a list of segments"),
+        ([Dwell()], {"speed": None}, 'either a speed such as "200 rpm" or a period'),
+        ([Dwell()], {"period": "1 s"}, "either a speed"),
+        ([Dwell()], {"speed": "0 rpm"}, "speed must be above 0"),
+        ([Dwell()], {"speed": 200}, "speed must be an angular velocity .* got 200 without a unit"),
+        ([Dwell("120 mm")], {}, r"segment 1 \(Dwell\): duration must be an angle .* or a time .* is a length"),
+        ([Dwell("-3 deg"), Dwell()], {}, "must be above 0"),
+        (
+            [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return(duration="100 deg")],
+            {},
+            "sum to 310 deg .* lengthen .* 50",
+        ),
+        ([Rise("35 mm", "220 deg"), Return(duration="200 deg")], {}, "sum to 420 deg .* shorten segments by 60 deg"),
+        (LEVEL, {}, "the positions do not close: .*5 mm from its start"),
+        (LEVEL, {}, r"change a displacement by -5 mm, .*advance='5 mm'"),
+        (
+            [Rise("35 mm", "90 deg"), Dwell(), Return(duration="20 deg"), Dwell()],
+            {},
+            "with several free ones only moves",
+        ),
+        ([Rise("-35 mm", "90 deg"), Return()], {}, "`by` is given as a positive displacement"),
+        ([Move(duration="90 deg"), Return()], {}, "either a displacement `by` or a position `to`"),
+        ([Rise("35 mm", "90 deg", law="modified sin x"), Return()], {}, r"segment 1 \(Rise\): law: .*modified sin x"),
+        ([Rise("35 mm", "90 deg", law=5), Return()], {}, "a name of the catalogue, a JSON file or 'optimal', got 5"),
+        ([Rise("35 mm", "9 deg", limits={"sped": "1 m/s"}), Return()], {}, "limits: unknown limit .*sped"),
+        ([Rise("35 mm", "90 deg"), Return()], {"minimise": "accel"}, "minimise: unknown objective"),
+        ([Rise("35 mm", "90 deg"), Return()], {"drive": {"mass": "-2 kg"}}, "drive: mass must be at least 0"),
+        ([Rise("35 mm", "90 deg"), Return()], {"drive": {"mass": "2 N"}}, "drive: mass must be a mass .* is a force"),
+        ([Rise("35 mm", "90 deg"), Return("30 deg")], {}, "by must be a length .* '30 deg' is an angle"),
+        (
+            [ConstantVelocity("1 m/s", "90 deg"), Return(law=SINE)],
+            {},
+            "ends with 0 mm/s and .*starts with 1000 mm/s: .* law='optimal'",
+        ),
+        ([ConstantVelocity("1 m/s", "90 deg"), Dwell(), Return(duration="9 deg")], {}, "put a motion between them"),
+        ([Free("1 mm", "90 deg"), Free("-1 mm")], {}, "begin it after a Dwell"),
+        (
+            [Dwell("9 deg"), Free("1 mm", via=[("200 deg", "3 mm"), ("5 mm", "3 mm")])],
+            {"advance": "1 mm"},
+            "is a length",
+        ),
+        ([Dwell("9 deg"), Free("1 mm", via=[("359 deg", "3 mm")])], {"advance": "1 mm"}, "must be within the segment"),
+    ],
+)
+def test_errors_say_what_is_wrong_and_the_remedy(segments: list[Any], others: dict[str, Any], said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        cycle(*segments, **others)
+
+
+def test_a_segment_without_a_duration_takes_what_is_left() -> None:
+    one = cycle(Rise("35 mm", "120 deg", law=SINE), Dwell("0.1 s"), Return(duration="100 deg", law=SINE), Dwell())
+    assert one.durations == pytest.approx([0.1, 0.1, 0.3 * 100 / 360, 0.1 - 0.3 * 100 / 360])
+
+
+def test_motion_is_the_law_in_machine_units() -> None:
+    one = cycle(Rise("35 mm", "120 deg", law=SINE), Dwell(), Return(duration="100 deg", law=SINE))
+    law = catalogue[SINE].law
+    k = np.linspace(0.0, 0.999, 50)
+    for nu in range(4):
+        assert one(0.1 * k, nu) == pytest.approx(0.035 / 0.1**nu * law(k, nu), rel=1e-9, abs=1e-12)
+    C = law.constants.C.value
+    assert one.peak(2) == pytest.approx(C * 0.035 / (0.3 * 100 / 360) ** 2)
+    assert one.peaks[0].peak(1) == pytest.approx(law.constants.B.value * 0.35)
+    assert one(0.05 + 3 * 0.3) == pytest.approx(one(0.05), rel=1e-9)
+    assert one.at_angle(60.0) == pytest.approx(one(0.05))
+    assert one.per_angle(60.0, 1) == pytest.approx(one(0.05, 1) * 0.3 / TURN)
+
+
+def test_derivatives_are_those_of_differences() -> None:
+    one = cycle(ConstantVelocity("500 mm/s", "100 deg"), Return())
+    times, step = np.linspace(0.001, 0.295, 40), 1e-6
+    for nu in (1, 2, 3):
+        moved = (one(times + step, nu - 1) - one(times - step, nu - 1)) / (2 * step)
+        assert moved == pytest.approx(one(times, nu), rel=1e-5, abs=1e-5 * one.peak(nu))
+
+
+def test_joints_tell_what_leaps() -> None:
+    one = cycle(Rise("35 mm", "120 deg", law="constant acceleration"), Dwell(), Return(duration="100 deg", law=SINE))
+    rise, dwell = one.joints[0], one.joints[1]
+    assert rise["acceleration"] == pytest.approx(4 * 3.5)
+    assert dwell["acceleration"] == pytest.approx(4 * 3.5)
+    assert rise["velocity"] == dwell["velocity"] == 0.0
+
+
+def test_a_table_that_indexes_goes_on() -> None:
+    one = cycle(Rise("45 deg", "90 deg", law=SINE), Dwell(), advance="45 deg", period="2 s", speed=None)
+    assert [one(2.0 * turn) for turn in range(4)] == pytest.approx([turn * pi / 4 for turn in range(4)])
+
+
+def test_the_drive_gives_back_what_it_takes_but_for_friction() -> None:
+    segments = [Rise("35 mm", "120 deg", law=SINE), Dwell(), Return(duration="100 deg", law=SINE)]
+    kept = cycle(*segments, drive={"mass": "2 kg", "stiffness": "3 N/mm", "gravity": "19.6 N"}).effort
+    rubbed = cycle(*segments, drive={"mass": "2 kg", "dry": "5 N"}).effort
+    assert kept.mean_power == 0.0
+    assert rubbed.mean_power == pytest.approx(5 * 2 * 0.035 / 0.3)
+    mass = cycle(*segments, drive={"mass": "2 kg"})
+    assert mass.effort.peak_force == pytest.approx(2 * mass.peak(2), rel=1e-12)
+    assert mass.effort.rms_force == pytest.approx(
+        2 * np.sqrt(sum(piece.duration * piece.mean_square(2) for piece in mass.pieces) / 0.3), rel=1e-9
+    )
+    d = catalogue[SINE].law.power_peak().value
+    assert mass.effort.peak_power == pytest.approx(2 * d * 0.035**2 / (0.3 * 100 / 360) ** 3, rel=1e-9)
+
+
+def test_the_mass_on_the_cam_moves_as_the_cycle_says() -> None:
+    asked = cycle(Rise("30 mm", "120 deg", law=smoothstep(4)), Dwell("60 deg"),
+                  Return(duration="120 deg", law=smoothstep(4)), Dwell())  # fmt: skip
+    cam = asked.cam("20 ms", damping=0.05)
+    nu = 2 * pi * asked.durations[0] / 0.020
+    mass = Follower(nu, 0.05).cycle(cam.pieces[0].law, cam.pieces[2].law, dwell=0.5, fall_duration=1.0, rest=0.5)
+    k = np.linspace(0.0, 2.99, 100)
+    assert 0.03 * mass(k) == pytest.approx(asked(k * asked.durations[0]), abs=1e-10)
+
+
+def test_a_mass_law_that_is_too_rough_is_named() -> None:
+    with pytest.raises(InputError, match=r"segment 1 \(Rise\): the mass law has"):
+        cycle(Rise("30 mm", "120 deg", law=SINE), Return(duration="120 deg"), Dwell()).cam("20 ms")
+
+
+def test_the_command_tells_a_program_what_the_cycle_is(capsys: pytest.CaptureFixture[str]) -> None:
+    assert exit_code(["cycle", str(ROOT / "problems" / "cycle_press.toml"), "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)["slide"]
+    assert told["status"] == "optimal"
+    assert told["lower_bound"] == pytest.approx(told["objective"], rel=1e-9)
+    assert told["segments"][0]["velocity"] <= 0.616 * (1 + 1e-9)
+
+
+def test_a_file_of_another_job_is_refused(capsys: pytest.CaptureFixture[str], tmp_path: Path) -> None:
+    file = tmp_path / "problem.toml"
+    file.write_text((ROOT / "problems" / "lever_nomogram.toml").read_text("utf-8"), "utf-8")
+    assert exit_code(["cycle", str(file), "--json"]) == 2
+    assert "problem.toml" in capsys.readouterr().err
