@@ -3,7 +3,7 @@
 import json
 from math import pi
 from pathlib import Path
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -61,7 +61,11 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
         ([Rise("-35 mm", "90 deg"), Return()], {}, "`by` is given as a positive displacement"),
         ([Move(duration="90 deg"), Return()], {}, "either a displacement `by` or a position `to`"),
         ([Rise("35 mm", "90 deg", law="modified sin x"), Return()], {}, r"segment 1 \(Rise\): law: .*modified sin x"),
-        ([Rise("35 mm", "90 deg", law=5), Return()], {}, "a name of the catalogue, a JSON file or 'optimal', got 5"),
+        (
+            [Rise("35 mm", "90 deg", law=cast("Any", 5)), Return()],
+            {},
+            "a name of the catalogue, a JSON file or 'optimal', got 5",
+        ),
         ([Rise("35 mm", "9 deg", limits={"sped": "1 m/s"}), Return()], {}, "limits: unknown limit .*sped"),
         ([Rise("35 mm", "90 deg"), Return()], {"minimise": "accel"}, "minimise: unknown objective"),
         ([Rise("35 mm", "90 deg"), Return()], {"drive": {"mass": "-2 kg"}}, "drive: mass must be at least 0"),
