@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+from collections.abc import Callable, Mapping
+from dataclasses import MISSING, dataclass, field, fields
 from enum import StrEnum
 from functools import cache
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -106,6 +107,21 @@ class Solution:
     peak_certificate: PeakCertificate | None = field(default=None, repr=False)
     active_set: ActiveSet = field(repr=False, kw_only=True, compare=False)
 
+    if not TYPE_CHECKING:
+
+        def __getattr__(self, name: str) -> Any:  # noqa: ANN401 - called for what is not there yet
+            later = self.__dict__.get("_later", {})
+            if name not in later:
+                raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}", name=name, obj=self)
+            value = later[name](self)
+            self.__dict__[name] = value
+            return value
+
+    def __getstate__(self) -> dict[str, Any]:
+        for name in self.__dict__.get("_later", ()):
+            getattr(self, name)
+        return {name: value for name, value in self.__dict__.items() if name != "_later"}
+
     @property
     def constants(self) -> Constants:
         """B, C, D, J of the law, each with its k, and the RMS of c."""
@@ -181,6 +197,25 @@ class Solution:
             f"Solution(status={self.status.value!r}, objective={self.objective:.9g}, "
             f"lower_bound={self.lower_bound:.9g}, gap={self.gap:.1e}, {limit}problem={self.problem!r})"
         )
+
+
+def partly_known(known: dict[str, Any], later: Mapping[str, Callable[[Solution], Any]]) -> Solution:
+    """A solution of which some attributes are computed when they are first asked for; equal to one that has all.
+
+    Examples
+    --------
+    >>> import optlaws
+    >>> whole = optlaws.synthesize(optlaws.Problem(B=1.859, order=4))
+    >>> known = {one.name: getattr(whole, one.name) for one in fields(whole) if one.name != "law"}
+    >>> partly_known(known, {"law": lambda one: whole.law}) == whole
+    True
+    """
+    made = object.__new__(Solution)
+    made.__dict__.update(_DEFAULTS | known, _later=later)
+    return made
+
+
+_DEFAULTS = {one.name: one.default for one in fields(Solution) if one.default is not MISSING}
 
 
 @cache

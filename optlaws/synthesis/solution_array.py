@@ -24,7 +24,7 @@ from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.certificate import OBJECTIVE
 from optlaws.synthesis.proof.make import certificate
 from optlaws.synthesis.search import status_of
-from optlaws.synthesis.solution import NOTHING, Solution, Status
+from optlaws.synthesis.solution import NOTHING, Solution, Status, partly_known
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
@@ -327,24 +327,28 @@ class SolutionArray:
 
 
 def _solution(problems: ProblemArray, part: Part, row: int, seconds: float) -> Solution:
-    problem = problems.problem(int(part.places[row]))
-    model, optimum = replace(part.model, problem=problem), part.found.active_set(row)
-    coordinates = model.coordinates(optimum.x)
-    proof, limit, objective = certificate(model, optimum, OBJECTIVE), known_limit(problem), part.found.objective[row]
-    bound = max(float(part.found.bound[row]), -inf if limit is None else limit)
-    return Solution(
-        problem=problem,
-        law=model.law(optimum.x),
-        z_series=tuple(model.space.z_series(coordinates).tolist()),
-        objective=float(objective),
-        certificate=proof,
-        lower_bound=bound,
-        limit=limit,
-        status=status_of(float(objective), bound, proven=True),
-        iterations=0,
-        seconds=seconds,
-        active_set=optimum,
-    )
+    """The solution of a row, of which only what the array holds is there before it is asked for."""
+    model, bound = part.model, float(part.found.bound[row])
+
+    def lower_bound(one: Solution) -> float:
+        return max(bound, -inf if one.limit is None else one.limit)
+
+    known = {
+        "problem": problems.problem(int(part.places[row])),
+        "objective": float(part.found.objective[row]),
+        "iterations": 0,
+        "seconds": seconds,
+        "active_set": part.found.active_set(row),
+    }
+    later: dict[str, Callable[[Solution], Any]] = {
+        "law": lambda one: model.law(one.active_set.x),
+        "z_series": lambda one: tuple(model.space.z_series(model.coordinates(one.active_set.x)).tolist()),
+        "certificate": lambda one: certificate(replace(model, problem=one.problem), one.active_set, OBJECTIVE),
+        "limit": lambda one: known_limit(one.problem),
+        "lower_bound": lower_bound,
+        "status": lambda one: status_of(one.objective, one.lower_bound, proven=True),
+    }
+    return partly_known(known, later)
 
 
 def _coordinates(part: Part) -> Array:

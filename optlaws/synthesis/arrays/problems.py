@@ -12,13 +12,14 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_VELOCITY
-from optlaws.suggest import unknown_key
-from optlaws.synthesis.problem.fields import FIELDS
 from optlaws.synthesis.problem.problem import Problem
 
 Array = NDArray[np.float64]
 
-_NAMES = tuple(field.name for field in FIELDS)
+#: what `Problem` takes for an entry, or arrays of it
+Entry = Any
+#: of an entry that `Problem` fills in
+NOT_GIVEN = ...
 
 
 class ProblemArray:
@@ -30,14 +31,15 @@ class ProblemArray:
 
     Parameters
     ----------
-    entries
+    B, C, D, J, minimise, order, bounds, inflexion, basis, monotone, symmetric, boundary, windows
         As `Problem` takes them, dimensionless: `B=np.linspace(1.5, 2.5, 1000)`, `J=(None, jerks)` for upper bounds,
-        `bounds={"rms_c": (None, sizes)}`, `minimise=each("{:.17g}*C/4 + J/32".format, weights)`.
+        `bounds={"rms_c": (None, sizes)}`, `minimise=each("{:.17g}*C/4 + J/32".format, weights)`. What is not given is
+        as `Problem` has it.
 
     Raises
     ------
     InputError
-        If an entry is unknown, or the arrays do not fit together.
+        If the arrays do not fit together.
 
     Examples
     --------
@@ -48,11 +50,27 @@ class ProblemArray:
     (3, 2)
     """
 
-    def __init__(self, **entries: Any) -> None:  # noqa: ANN401 - what Problem takes, or arrays of it
-        for name in entries:
-            if name not in _NAMES:
-                raise InputError(unknown_key(name, _NAMES))
-        self._entries = {name: _frozen(value) for name, value in entries.items()}
+    def __init__(
+        self,
+        *,
+        B: Entry = NOT_GIVEN,
+        order: Entry = NOT_GIVEN,
+        basis: Entry = NOT_GIVEN,
+        minimise: Entry = NOT_GIVEN,
+        monotone: Entry = NOT_GIVEN,
+        symmetric: Entry = NOT_GIVEN,
+        C: Entry = NOT_GIVEN,
+        D: Entry = NOT_GIVEN,
+        J: Entry = NOT_GIVEN,
+        boundary: Entry = NOT_GIVEN,
+        windows: Entry = NOT_GIVEN,
+        bounds: Entry = NOT_GIVEN,
+        inflexion: Entry = NOT_GIVEN,
+    ) -> None:
+        named = {"B": B, "order": order, "basis": basis, "minimise": minimise, "monotone": monotone}
+        named |= {"symmetric": symmetric, "C": C, "D": D, "J": J, "boundary": boundary, "windows": windows}
+        named |= {"bounds": bounds, "inflexion": inflexion}
+        self._entries = {name: _frozen(value) for name, value in named.items() if value is not NOT_GIVEN}
         arrays = {name: list(_arrays(value)) for name, value in self._entries.items()}
         try:
             shape = np.broadcast_shapes(*(one.shape for found in arrays.values() for one in found))

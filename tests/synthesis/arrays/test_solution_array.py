@@ -1,5 +1,10 @@
 """Solutions as arrays: their shape, their numbers, what a wrong entry does, and the ordinary solutions within."""
 
+import copy
+import inspect
+import pickle
+from dataclasses import FrozenInstanceError, fields, replace
+
 import numpy as np
 import pytest
 
@@ -10,6 +15,7 @@ from optlaws import (
     Problem,
     ProblemArray,
     Solution,
+    SolutionArray,
     at_most,
     each,
     synthesize,
@@ -83,16 +89,36 @@ def test_values_that_are_no_numbers_come_from_a_function() -> None:
     assert ProblemArray(J=(None, np.array([60.0, 70.0])), B=1.7, order=4)[0] == problems[0]
 
 
-@pytest.mark.parametrize(
-    ("entries", "said"),
-    [
-        ({"ordr": 4}, "did you mean 'order'"),
-        ({"B": np.ones(2), "J": np.ones(3)}, "one shape"),
-    ],
-)
-def test_what_makes_no_array_of_problems_is_refused(entries: dict[str, object], said: str) -> None:
-    with pytest.raises(InputError, match=said):
-        ProblemArray(**entries)
+def test_what_makes_no_array_of_problems_is_refused() -> None:
+    with pytest.raises(InputError, match="one shape"):
+        ProblemArray(B=np.ones(2), J=np.ones(3))
+    with pytest.raises(TypeError, match="unexpected keyword argument 'ordr'"):
+        ProblemArray(ordr=4)  # type: ignore[call-arg]
+
+
+def test_an_array_of_problems_takes_the_entries_of_a_problem_and_fills_in_none() -> None:
+    assert set(inspect.signature(ProblemArray).parameters) == set(inspect.signature(Problem).parameters)
+    assert ProblemArray(order=4, B=None).entries == {"order": 4, "B": None}
+
+
+@pytest.fixture(scope="module")
+def together() -> SolutionArray:
+    return synthesize_array(ProblemArray(B=np.linspace(1.5, 2.0, 200), order=4))
+
+
+def test_a_solution_of_an_array_is_a_solution_however_it_is_asked(together: SolutionArray) -> None:
+    one, whole = together[50], together[50]
+    values = {entry.name: getattr(whole, entry.name) for entry in fields(whole)}
+    assert Solution(**values) == one == pickle.loads(pickle.dumps(one)) == copy.deepcopy(together[50])  # noqa: S301
+    assert repr(together[50]) == repr(one)
+    assert replace(together[50], iterations=3) == replace(one, iterations=3)
+    assert together[50].to_dict() == one.to_dict()
+    assert together[50].lower_bound == together.lower_bound[50]
+    assert one.certificate.bound == pytest.approx(one.lower_bound, rel=1e-11)
+    with pytest.raises(AttributeError, match="has no attribute 'objectiv'"):
+        together[50].objectiv  # noqa: B018
+    with pytest.raises(FrozenInstanceError):
+        together[50].status = "local"
 
 
 def test_what_is_no_array_of_problems_is_refused() -> None:
