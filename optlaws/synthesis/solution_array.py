@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
+from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.arrays import constants
@@ -28,6 +28,16 @@ from optlaws.synthesis.solution import NOTHING, Solution, Status, partly_known
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
+from optlaws.synthesis.stored_solutions import (
+    FAILED,
+    INFEASIBLE,
+    INVALID,
+    plain_alone,
+    plain_error,
+    plain_problems,
+    read_solutions,
+    status_of_error,
+)
 
 if TYPE_CHECKING:
     import pandas as pd
@@ -35,8 +45,6 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
-#: what stands for the status of a problem without a law
-INFEASIBLE, FAILED, INVALID = "infeasible", "failed", "invalid"
 NUMBERS = ("objective", "lower_bound", "gap", "B", "C", "D", "J", "rms_c")
 _PEAKS = {"B": 1, "C": 2, "J": 3}
 
@@ -151,7 +159,7 @@ class SolutionArray:
         known = [one.value for one in Status] + [INFEASIBLE, FAILED, INVALID]
         found = np.full(self.size, Status.OPTIMAL.value, dtype=f"U{max(map(len, known))}")
         for place, one in self.others.items():
-            found[place] = one.status.value if isinstance(one, Solution) else _status_of_error(one)
+            found[place] = one.status.value if isinstance(one, Solution) else status_of_error(one)
         return _frozen(found.reshape(self.shape))
 
     @kept_property
@@ -273,10 +281,53 @@ class SolutionArray:
         return xr.Dataset(variables, coords)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict: the shape, and each solution or error in the order of the flattened array."""
-        results = map(self.result, range(self.size))
-        rows = [one.to_dict() if isinstance(one, Solution) else _error_to_dict(one) for one in results]
-        return {"shape": list(self.shape), "seconds": self.seconds, "solutions": rows}
+        """Plain JSON-able dict: each solution or error in the order of the flattened array, and the arrays themselves.
+
+        `optlaws verify` checks each solution, and `from_dict` reads it again.
+        """
+        results = [self.result(place) for place in range(self.size)]
+        alone = {str(place): plain_alone(one) for place, one in self.others.items() if isinstance(one, Solution)}
+        return {
+            "shape": list(self.shape),
+            "seconds": self.seconds,
+            "solutions": [one.to_dict() if isinstance(one, Solution) else plain_error(one) for one in results],
+            "problems": plain_problems(self.problems),
+            "parts": [
+                {
+                    "places": part.places.tolist(),
+                    "problem": part.model.problem.to_dict(),
+                    "found": part.found.to_dict(),
+                }
+                for part in self.parts
+            ],
+            "alone": alone,
+        }
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> SolutionArray:
+        """Read what `to_dict` wrote, from JSON or as it is.
+
+        Raises
+        ------
+        InputError
+            If an entry is missing or wrong, or a solution is another than the arrays have.
+
+        Examples
+        --------
+        >>> import numpy as np
+        >>> from optlaws import ProblemArray, synthesize_array
+        >>> laws = synthesize_array(ProblemArray(B=np.array([1.6, 1.62]), order=4))
+        >>> SolutionArray.from_dict(laws.to_dict())[1] == laws[1]
+        True
+        """
+        stored = read_solutions(data)
+        parts = tuple(Part(places, model, found) for places, model, found in stored.parts)
+        made = cls(stored.problems, parts, stored.others, stored.seconds)
+        stated = [row.get("objective") for row in stored.rows]
+        for place, (said, known) in enumerate(zip(stated, made.objective.reshape(-1).tolist(), strict=True)):
+            if (np.nan if said is None else said) != known and not (said is None and np.isnan(known)):
+                raise InputError(f"the objective of solutions[{place}] is {said!r}, but that of the arrays {known!r}")
+        return made
 
     def __repr__(self) -> str:
         names, counts = np.unique(self.status, return_counts=True)
@@ -404,16 +455,6 @@ def _contacts(part: Part) -> tuple[NDArray[np.intp], dict[str, NDArray[Any]]]:
     rows["sign"] = np.where(none, np.nan, found.sign)
     rows["multiplier"] = np.where(none, np.nan, found.multiplier)
     return part.places, rows
-
-
-def _status_of_error(error: OptlawsError) -> str:
-    if isinstance(error, InfeasibleProblem):
-        return INFEASIBLE
-    return INVALID if isinstance(error, InputError) else FAILED
-
-
-def _error_to_dict(error: OptlawsError) -> dict[str, Any]:
-    return {"status": _status_of_error(error), "error": str(error)}
 
 
 def _axes(problems: ProblemArray) -> tuple[list[str], dict[str, Any]]:

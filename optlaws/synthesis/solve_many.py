@@ -61,7 +61,7 @@ def synthesize_many(
     >>> problems = [Problem(B=B, order=order) for order in (3, 4) for B in (1.05, 1.6)]
     >>> found = list(synthesize_many(problems, errors="return"))
     >>> [round(one.objective, 4) if isinstance(one, Solution) else type(one).__name__ for one in found]
-    ['InfeasibleProblem', 4.6671, 'InfeasibleProblem', 5.2622]
+    ['InfeasibleProblem', 4.6751, 'InfeasibleProblem', 5.2622]
     """
     check_errors(errors)
     if bound not in BOUNDS:

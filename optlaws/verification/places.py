@@ -8,6 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from math import prod
 from typing import Any, Literal
 
 import msgspec
@@ -66,6 +67,18 @@ class FrontFile(msgspec.Struct, forbid_unknown_fields=True):
     values: list[list[float]]
     points: list[Any]
     failed: list[float] = []
+    about: str = ""
+
+
+class SolutionArrayFile(msgspec.Struct, forbid_unknown_fields=True):
+    """What `SolutionArray.to_dict` writes; its solutions are claimed, from its arrays they are computed again."""
+
+    shape: list[int]
+    solutions: list[dict[str, Any]]
+    seconds: float = 0.0
+    problems: Any = None
+    parts: Any = None
+    alone: Any = None
     about: str = ""
 
 
@@ -162,6 +175,8 @@ def _walk(data: object, path: str, around: Around) -> Iterator[tuple[str, Entry]
         yield path, Entry(data, around)
     elif {"solution", "asked"} & data.keys():
         yield from _row(_stated(data, Row, path), path, around)
+    elif {"shape", "solutions"} <= data.keys():
+        yield from _array(_stated(data, SolutionArrayFile, path or "the array of solutions"), path)
     elif "over" in data:
         yield from _front(_stated(data, FrontFile, path or "the front"), path)
     elif "B" in data:
@@ -184,6 +199,21 @@ def _row(row: Row, path: str, around: Around) -> Iterator[tuple[str, Entry]]:
     if not inside and row.status not in {None, "not found"}:
         inside = [(path, Entry({}, said))]
     yield from inside
+
+
+def _array(array: SolutionArrayFile, path: str) -> Iterator[tuple[str, Entry]]:
+    if prod(array.shape) != len(array.solutions):
+        raise InputError(f"{path or 'the array'}: {len(array.solutions)} solutions are not of shape {array.shape}")
+    for i, row in enumerate(array.solutions):
+        place = f"{path}.solutions[{i}]" if path else f"solutions[{i}]"
+        if is_entry(row):
+            yield place, Entry(row)
+        elif row.get("status") == "infeasible":
+            proof = row.get("proof")
+            said = Around(status="infeasible")
+            yield (f"{place}.proof", Entry(proof, said)) if isinstance(proof, Mapping) else (place, Entry({}, said))
+        elif {"error", "status"} != row.keys() - {"problem", "tried"}:
+            raise InputError(f"{NO_FILE}: {place} is neither a solution nor an error")
 
 
 def _front(front: FrontFile, path: str) -> Iterator[tuple[str, Entry]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, fields
 from typing import Any, Self
 
@@ -99,6 +100,12 @@ class Found:
     def to_dict(self) -> dict[str, Any]:
         """Plain lists, NaN as None."""
         return {one.name: _plain(getattr(self, one.name)) for one in fields(self)}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Self:
+        """Read what `to_dict` wrote."""
+        kinds = {"family": np.int16, "free": np.bool_}
+        return cls(**{name: np.array(value, dtype=kinds.get(name, np.float64)) for name, value in data.items()})
 
 
 def _plain(values: NDArray[Any]) -> Any:  # noqa: ANN401

@@ -82,8 +82,8 @@ class ProblemArray:
         self._shape: tuple[int, ...] = tuple(shape)
 
     @classmethod
-    def of(cls, problems: Sequence[Problem], shape: tuple[int, ...] | None = None) -> ProblemArray:
-        """Problems that are there already, as an array of one dimension or of another shape.
+    def of(cls, problems: Sequence[Problem | None], shape: tuple[int, ...] | None = None) -> ProblemArray:
+        """Problems that are there already, as an array of one dimension or of another shape; None where there is none.
 
         Examples
         --------
@@ -95,7 +95,7 @@ class ProblemArray:
         made._given = tuple(problems)
         return made
 
-    _given: tuple[Problem, ...] | None = None
+    _given: tuple[Problem | None, ...] | None = None
 
     @property
     def shape(self) -> tuple[int, ...]:
@@ -150,7 +150,10 @@ class ProblemArray:
             If the entries at that place make no problem.
         """
         if self._given is not None:
-            return self._given[place]
+            given = self._given[place]
+            if given is None:
+                raise InputError(f"what was at place {place} is no problem")
+            return given
         if self.velocities is not None and not np.isnan(self.velocities[place]) and self._first is not None:
             return self._first.at_velocity(float(self.velocities[place]))
         at = np.unravel_index(place, self._shape)

@@ -2,6 +2,7 @@
 
 import copy
 import inspect
+import json
 import pickle
 from dataclasses import FrozenInstanceError, fields, replace
 
@@ -23,6 +24,7 @@ from optlaws import (
     synthesize_chunks,
 )
 from optlaws.synthesis.solve_array import solved
+from optlaws.verification import verify_all
 
 B = np.array([[1.6, np.nan, 1.7], [1.8, 0.5, 1.9]])
 
@@ -133,3 +135,49 @@ def test_tables_have_a_row_and_datasets_a_place_for_each_problem() -> None:
     assert dataset["C"].shape == (2, 2)
     assert dataset["B asked"].to_numpy().tolist() == [1.5, 1.6]
     assert dataset.sizes["contact"] == laws.contacts["k"].shape[-1]
+
+
+@pytest.mark.parametrize(
+    "problems",
+    [
+        ProblemArray(B=np.append(np.linspace(1.5, 2.0, 140), [np.nan, 1.02]), order=4),
+        ProblemArray(B=np.array([[1.6], [1.7]]), J=(None, np.array([60.0, 80.0])), order=4, basis=Chebyshev(5)),
+        ProblemArray(B=each(float, np.array([1.6, 0.5])), order=4, minimise="J"),
+    ],
+    ids=["together and alone", "a table", "objects"],
+)
+def test_an_array_is_stored_and_read_as_it_was(problems: ProblemArray) -> None:
+    laws = synthesize_array(problems)
+    stored = json.dumps(laws.to_dict(), allow_nan=False)
+    again = SolutionArray.from_dict(json.loads(stored))
+    assert json.dumps(again.to_dict()) == stored
+    for name in ("objective", "lower_bound", "gap", "B", "C", "D", "J", "rms_c", "z", "z_series", "limit", "status"):
+        np.testing.assert_array_equal(getattr(again, name), getattr(laws, name))
+    assert {at: (type(one), str(one)) for at, one in again.errors.items()} == {
+        at: (type(one), str(one)) for at, one in laws.errors.items()
+    }
+    for at in set(range(laws.size)) - set(laws.errors):
+        assert again.result(at) == laws.result(at)
+        assert again.result(at).certificate.bound == laws.result(at).certificate.bound  # type: ignore[union-attr]
+    if set(problems.varied) == set(again.problems.varied):
+        assert again.to_pandas().equals(laws.to_pandas())
+
+
+def test_an_array_that_was_edited_is_refused() -> None:
+    data = synthesize_array(ProblemArray(B=np.linspace(1.5, 2.0, 130), order=4)).to_dict()
+    data["solutions"][3]["objective"] *= 0.9
+    with pytest.raises(InputError, match=r"objective of solutions\[3\]"):
+        SolutionArray.from_dict(data)
+    with pytest.raises(InputError, match="130 solutions, got 129"):
+        SolutionArray.from_dict({**data, "solutions": data["solutions"][1:]})
+    with pytest.raises(InputError, match="this is not a array of solutions"):
+        SolutionArray.from_dict({"shape": [1]})
+    with pytest.raises(InputError, match="twice"):
+        SolutionArray.from_dict({**data, "parts": data["parts"] * 2})
+
+
+def test_each_solution_of_a_stored_array_is_verified() -> None:
+    data = synthesize_array(ProblemArray(B=np.array([1.02, 1.6, np.nan]), order=4)).to_dict()
+    proven = verify_all(data)
+    assert list(proven) == ["solutions[0].proof", "solutions[1]"]
+    assert all(claim.proven for one in proven.values() for claim in one.claims)
