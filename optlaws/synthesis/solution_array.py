@@ -22,6 +22,7 @@ from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.certificate import OBJECTIVE
+from optlaws.synthesis.proof.data import as_json
 from optlaws.synthesis.proof.make import certificate
 from optlaws.synthesis.search import status_of
 from optlaws.synthesis.solution import NOTHING, Solution, Status, partly_known
@@ -323,10 +324,12 @@ class SolutionArray:
         stored = read_solutions(data)
         parts = tuple(Part(places, model, found) for places, model, found in stored.parts)
         made = cls(stored.problems, parts, stored.others, stored.seconds)
-        stated = [row.get("objective") for row in stored.rows]
-        for place, (said, known) in enumerate(zip(stated, made.objective.reshape(-1).tolist(), strict=True)):
-            if (np.nan if said is None else said) != known and not (said is None and np.isnan(known)):
+        for place, row in enumerate(stored.rows):
+            said, known = row.get("objective"), float(made.objective.reshape(-1)[place])
+            if said != (None if np.isnan(known) else known):
                 raise InputError(f"the objective of solutions[{place}] is {said!r}, but that of the arrays {known!r}")
+            if said is not None and as_json(stored.problems.problem(place).to_dict()) != row.get("problem"):
+                raise InputError(f"the problem of solutions[{place}] is another than that of the arrays")
         return made
 
     def __repr__(self) -> str:

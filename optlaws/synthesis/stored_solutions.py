@@ -115,9 +115,9 @@ def read_solutions(data: object) -> Stored:
     InputError
         If an entry is missing or wrong.
     """
-    found = stated(data, StatedSolutions, "array of solutions")
+    found = stated(data, StatedSolutions, "stored array of solutions")
     size, shape = prod(found.shape), tuple(found.shape)
-    if size != len(found.solutions):
+    if min(shape, default=0) < 0 or size != len(found.solutions):
         raise InputError(f"an array of solutions of shape {shape} has {size} solutions, got {len(found.solutions)}")
     together = [place for part in found.parts for place in part.places]
     others = [place for place in range(size) if place not in set(together)]
@@ -131,7 +131,7 @@ def read_solutions(data: object) -> Stored:
             found.seconds,
             found.solutions,
         )
-    except (KeyError, TypeError, ValueError) as error:
+    except (IndexError, KeyError, TypeError, ValueError) as error:
         raise (
             error if isinstance(error, InputError) else InputError(f"this is no array of solutions: {error}")
         ) from None
@@ -143,12 +143,20 @@ def _problems(found: StatedSolutions, shape: tuple[int, ...]) -> ProblemArray:
             [problem_of(row["problem"]) if "problem" in row else None for row in found.solutions], shape
         )
     made = ProblemArray(**{name: _read(value) for name, value in found.problems.items()})
-    return made if made.shape == shape else made.taken(np.arange(made.size).reshape(shape))
+    if made.shape == shape:
+        return made
+    # entries without arrays may have been taken many times
+    places = np.arange(made.size) if made.size > 1 else np.zeros(prod(shape), dtype=np.intp)
+    return made.taken(places.reshape(shape))
 
 
 def _part(part: StatedPart) -> tuple[NDArray[np.intp], Model, Found]:
-    places = np.array(part.places, dtype=np.intp)
-    return places, model_of(problem_of(part.problem)), Found.from_dict(part.found).frozen()
+    places, model, found = np.array(part.places, dtype=np.intp), model_of(problem_of(part.problem)), part.found
+    optima = Found.from_dict(found).frozen()
+    rows = {len(getattr(optima, one.name)) for one in fields(optima)}
+    if rows != {len(places)} or optima.x.shape[1] != model.program.size:
+        raise InputError("a part of an array of solutions has optima of other problems, or more or fewer than places")
+    return places, model, optima
 
 
 def _alone(row: Plain, kept: StatedAlone | None) -> Solution | OptlawsError:

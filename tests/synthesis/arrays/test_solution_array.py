@@ -170,10 +170,16 @@ def test_an_array_that_was_edited_is_refused() -> None:
         SolutionArray.from_dict(data)
     with pytest.raises(InputError, match="130 solutions, got 129"):
         SolutionArray.from_dict({**data, "solutions": data["solutions"][1:]})
-    with pytest.raises(InputError, match="this is not a array of solutions"):
+    with pytest.raises(InputError, match="this is not a stored array of solutions"):
         SolutionArray.from_dict({"shape": [1]})
     with pytest.raises(InputError, match="twice"):
         SolutionArray.from_dict({**data, "parts": data["parts"] * 2})
+    data = synthesize_array(ProblemArray(B=np.linspace(1.5, 2.0, 130), order=4)).to_dict()
+    (part,) = data["parts"]
+    with pytest.raises(InputError, match="optima of other problems"):
+        SolutionArray.from_dict({**data, "parts": [{**part, "problem": part["problem"] | {"degree": 11}}]})
+    with pytest.raises(InputError, match=r"the problem of solutions\[0\]"):
+        SolutionArray.from_dict({**data, "problems": {**data["problems"], "B": 1.6}})
 
 
 def test_each_solution_of_a_stored_array_is_verified() -> None:
