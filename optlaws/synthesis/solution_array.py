@@ -366,7 +366,10 @@ class SolutionArray:
         return _frozen(self._filled(rows, max((values.shape[1] for _, values in rows), default=0)))
 
     def _constant(self, name: str) -> Array:
-        return self._gathered(lambda part: _constants(part, name), lambda one: _constant_of(one, name))
+        alone = self.problems.one_objective
+        return self._gathered(
+            lambda part: _constants(part, name, one_objective=alone), lambda one: _constant_of(one, name)
+        )
 
     def _taken(self, places: NDArray[np.intp]) -> SolutionArray:
         flat = places.ravel()
@@ -423,9 +426,9 @@ def _z(part: Part) -> Array:
     return np.array([basis.coefficients(series) for series in _z_series(part)])
 
 
-def _constants(part: Part, name: str) -> Array:
+def _constants(part: Part, name: str, *, one_objective: bool) -> Array:
     """A constant of each law of a part."""
-    if repr(part.model.problem.objective) == name:
+    if one_objective and repr(part.model.problem.objective) == name:
         return part.found.objective
     space = part.model.space
     if not isinstance(space, PolynomialSpace):

@@ -181,6 +181,13 @@ class ProblemArray:
         return made
 
     @kept_property
+    def one_objective(self) -> bool:
+        """Whether the same is minimised in all of them."""
+        if self._given is None:
+            return "minimise" not in self.varied
+        return len({repr(one.objective) for one in self._given if isinstance(one, Problem)}) <= 1
+
+    @kept_property
     def velocities(self) -> Array | None:
         """The B of each problem, flattened, where numbers for B are all that varies; NaN where it can be no B."""
         if self._given is not None or self.varied.keys() != {"B"} or not isinstance(self._entries["B"], np.ndarray):

@@ -187,3 +187,10 @@ def test_each_solution_of_a_stored_array_is_verified() -> None:
     proven = verify_all(data)
     assert list(proven) == ["solutions[0].proof", "solutions[1]"]
     assert all(claim.proven for one in proven.values() for claim in one.claims)
+
+
+def test_constants_are_those_of_the_laws_where_the_weight_of_one_varies() -> None:
+    weighted = each("{:.17g}*C".format, np.linspace(1.0, 2.0, 140))
+    problems = ProblemArray(B=1.7, minimise=weighted, order=4)
+    for laws in (synthesize_array(problems), solved(ProblemArray.of(list(problems)))):
+        np.testing.assert_allclose(laws.C, laws[0].constants.C.value, rtol=1e-9)
