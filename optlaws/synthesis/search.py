@@ -16,6 +16,7 @@ from optlaws.synthesis.method import starts
 from optlaws.synthesis.method.exchange import Outcome, solve
 from optlaws.synthesis.method.lower_bounds import raised, raised_at
 from optlaws.synthesis.method.narrow import narrowed, on_equations
+from optlaws.synthesis.problem.constants import Peak
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import Worth, shortfalls, worth
 from optlaws.synthesis.program.writer import Model, model_of
@@ -37,6 +38,8 @@ GAP = 1e-8
 _LEFT = 0.9
 #: of an objective: two starts that differ by less led to the same law
 _SAME_OBJECTIVE = 1e-9
+#: how far the place of a peak is moved at first, and how often at most
+_FIRST_MOVE, _MOVES = 2e-3, 6
 # what passes without a look at the divided rows, in which a contact pinned to the middle may hide a larger excess
 _ROUNDING = 1e-13
 # an objective that is better than what is proven by more than this share belongs to a law that breaks a bound
@@ -98,7 +101,11 @@ class Search:
             return None
         plain = self._tightened(self.sound[0])
         best = self._held_up(plain)
-        return self.certified(plain, self._placed(plain, best) if self.tight and best is not plain else best)
+        if best is not plain:
+            # where the mirror image is as good, places have been tried on either side
+            moved = best if self.problem.mirrored else self._moved(plain, best)
+            best = self._placed(plain, moved) if self.tight else moved
+        return self.certified(plain, best)
 
     def error(self) -> InfeasibleProblem | SolverFailure:
         """Why there is no law."""
@@ -150,6 +157,28 @@ class Search:
             problem=self.problem,
             tried="every extremum was held up, step by step, and the peak was asked at one place after the other",
         )
+
+    def _moved(self, plain: Attempt, best: Attempt) -> Attempt:
+        """The best law to which steps of the place of a peak lead that is held up, as long as they pay."""
+        constant, low = (
+            next(iter(shortfalls(self.problem, plain.law).items())) if plain.law is not None else (None, 0.0)
+        )
+        if not isinstance(constant, Peak) or plain.outcome.optimum is None:
+            return best
+        step, side = _FIRST_MOVE, 1.0
+        for _ in range(_MOVES):
+            k = self._place(best, constant) + side * step
+            states = raised_at(self.model, plain.outcome.optimum, constant, low, k) if 0.0 < k < 1.0 else []
+            moved = self._best_of(plain, states)
+            if moved is not None and moved.objective < best.objective * (1.0 - GAP):
+                best, step = moved, 2.0 * step
+            else:
+                side, step = -side, step if side > 0.0 else 0.25 * step
+        return best
+
+    @staticmethod
+    def _place(attempt: Attempt, peak: Peak) -> float:
+        return 0.5 if attempt.law is None else attempt.law.peak(peak.nu).k
 
     def _placed(self, plain: Attempt, best: Attempt) -> Attempt:
         """The best law that the search over the places of a peak held up comes upon; notes its proof."""
