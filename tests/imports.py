@@ -3,6 +3,7 @@
 import ast
 from collections.abc import Iterator
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 
 
@@ -30,6 +31,11 @@ def modules(package: Path) -> dict[str, Path]:
 
 def imports(package: Path) -> list[Import]:
     """Every import statement in the package, deferred ones included."""
+    return _imports(package, tuple(path.stat().st_mtime_ns for path in modules(package).values()))
+
+
+@cache
+def _imports(package: Path, _changed: tuple[int, ...]) -> list[Import]:
     known = modules(package)
     return [found for name, path in known.items() for found in _imports_of(name, path, known)]
 

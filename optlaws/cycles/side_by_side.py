@@ -41,6 +41,13 @@ class Comparison:
         That of the stroke, "m" or "rad".
     nu, damping
         Of the follower whose residual acceleration is told, in units of a''; nu may be an interval, or None.
+
+    Examples
+    --------
+    >>> from optlaws import compare
+    >>> found = compare("modified sine", "cycloidal")
+    >>> [row["law"] for row in found.rows], [round(row["C"], 4) for row in found.rows]
+    (['modified sine', 'cycloidal'], [5.528, 6.2832])
     """
 
     laws: Mapping[str, MotionLaw]

@@ -52,7 +52,8 @@ def write(file: Path, content: str | bytes, *, digits: int | None = None) -> Pat
         return _written(file, content, digits)
     except OSError as error:
         # the user knows the name of his file, not that of our copy beside it
-        error.filename = str(file)
+        if error.errno is not None:
+            error.filename = str(file)
         raise
 
 

@@ -24,7 +24,7 @@ pytestmark = pytest.mark.skipif(not Path("/proc/self/task").exists(), reason="pr
 
 SWEPT: dict[str, Any] = {
     "problem": {"order": 4, "degree": 7},
-    "vary": {"minimise": ["C", "rms_c"], "B": {"from": 1.5, "to": 2.4, "steps": 250}},
+    "vary": {"minimise": ["rms_j", "rms_c"], "B": {"from": 1.5, "to": 2.4, "steps": 250}},
     "chunk": 10,
 }
 FILE = """
@@ -33,7 +33,7 @@ chunk = 10
 order = 4
 degree = 7
 [vary]
-minimise = ["C", "rms_c"]
+minimise = ["rms_j", "rms_c"]
 B = { from = 1.5, to = 2.4, steps = 250 }
 """
 

@@ -76,10 +76,17 @@ def c_of(segment: Segment, length: mpf, s: mpf) -> mpf:
 
 
 def highest(value: Function, length: mpf) -> mpf:
-    """The greatest magnitude on a stretch, by golden section around the best of some points."""
+    """The greatest magnitude on a stretch, by golden section around the good ones of some points.
+
+    Peaks of an optimum are as high as one another but for its last digit: the best point need not be at the highest.
+    """
     places = [length * i / 24 for i in range(25)]
     values = [abs(value(s)) for s in places]
-    best = max(range(25), key=lambda i: values[i])
+    tops = [i for i in range(25) if values[i] >= max(values[max(i - 1, 0)], values[min(i + 1, 24)])]
+    return max(*values, *(_risen(value, places, i) for i in tops if values[i] >= mpf("0.97") * max(values)))
+
+
+def _risen(value: Function, places: list[mpf], best: int) -> mpf:
     low, high = places[max(best - 1, 0)], places[min(best + 1, 24)]
     share = (mp.sqrt(5) - 1) / 2
     inner = [high - share * (high - low), low + share * (high - low)]
@@ -93,7 +100,7 @@ def highest(value: Function, length: mpf) -> mpf:
             low, inner, heights = inner[0], [inner[1], mpf(0)], [heights[1], mpf(0)]
             inner[1] = low + share * (high - low)
             heights[1] = abs(value(inner[1]))
-    return max(*values, *heights)
+    return max(heights)
 
 
 def squared(value: Function, length: mpf) -> mpf:
