@@ -46,13 +46,25 @@ nitpicky = True
 nitpick_ignore_regex = [("py:.*", r"(?!optlaws\.).*"), ("py:.*", r"optlaws\.(.*\.)?_.*")]
 # what a solution keeps for its neighbours, and the engine that constants are written over; not public
 nitpick_ignore = [
+    ("py:class", "optlaws.formulas.of_motion.Motion"),
+    ("py:class", "optlaws.mechanisms.machine.dynamics.Drive"),
+    ("py:class", "optlaws.mechanisms.machine.dynamics.Dynamics"),
+    ("py:class", "optlaws.mechanisms.machine.dynamics.Panel"),
+    ("py:class", "optlaws.mechanisms.machine.modes.Mode"),
+    ("py:class", "optlaws.mechanisms.machine.state_space.StateSpace"),
     ("py:class", "optlaws.synthesis.families.active_set.ActiveSet"),
     ("py:class", "optlaws.synthesis.families.cone.ConeFamily"),
     ("py:class", "optlaws.synthesis.proof.peaks.certificate.Cell"),
     ("py:class", "optlaws.synthesis.proof.power.certificate.Cut"),
     ("py:class", "optlaws.synthesis.proof.power.certificate.Step"),
+    ("py:class", "optlaws.synthesis.problem.constants.Asked"),
+    ("py:class", "optlaws.synthesis.proven.front.Lazily"),
+    ("py:class", "optlaws.synthesis.proven.running.RunningNumber"),
+    ("py:class", "optlaws.synthesis.solution_array.Part"),
     ("py:class", "optlaws.synthesis.spaces.space.LawSpace"),
 ]
+# B, C and D are attributes of several classes: which one a text means is said beside it
+suppress_warnings = ["ref.python"]
 
 html_theme = "furo"
 html_title = f"optlaws {version}"

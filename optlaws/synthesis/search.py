@@ -17,6 +17,7 @@ from optlaws.synthesis.method.exchange import Outcome, solve
 from optlaws.synthesis.method.lower_bounds import raised, raised_at
 from optlaws.synthesis.method.narrow import narrowed, on_equations
 from optlaws.synthesis.problem.constants import Peak
+from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import Worth, shortfalls, worth
 from optlaws.synthesis.program.writer import Model, model_of
@@ -39,7 +40,7 @@ _LEFT = 0.9
 #: of an objective: two starts that differ by less led to the same law
 _SAME_OBJECTIVE = 1e-9
 #: how far the place of a peak is moved at first, and how often at most
-_FIRST_MOVE, _MOVES = 2e-3, 6
+_FIRST_MOVE, _MOVES = 4e-3, 4
 # what passes without a look at the divided rows, in which a contact pinned to the middle may hide a larger excess
 _ROUNDING = 1e-13
 # an objective that is better than what is proven by more than this share belongs to a law that breaks a bound
@@ -163,7 +164,8 @@ class Search:
         constant, low = (
             next(iter(shortfalls(self.problem, plain.law).items())) if plain.law is not None else (None, 0.0)
         )
-        if not isinstance(constant, Peak) or plain.outcome.optimum is None:
+        alone = all(leaf == constant for _, leaf in leaves(self.problem.objective))
+        if alone or not isinstance(constant, Peak) or plain.outcome.optimum is None:
             return best
         step, side = _FIRST_MOVE, 1.0
         for _ in range(_MOVES):

@@ -303,7 +303,7 @@ def test_a_new_kind_makes_laws_that_are_stored(exponential: Any) -> None:  # noq
     assert height == pytest.approx(-np.exp(0.5))
     assert (law.continuity, law.constants.J.value) == (1, np.inf)
     assert law.constants.C.value == pytest.approx(np.exp(0.5), rel=1e-15)
-    assert law.rms(1) ** 2 == pytest.approx(np.expm1(1.0) / 2 + 0.5 * np.e, rel=1e-14)
+    assert law.rms(1) ** 2 == pytest.approx(np.expm1(1.0) / 2 + 0.5 * np.exp(1.0), rel=1e-14)
     with pytest.raises(InputError, match="rate must be a finite real number"):
         exponential(float("inf"))
 

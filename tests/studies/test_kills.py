@@ -49,6 +49,8 @@ class Run:
     def __init__(self, file: Path, out: Path) -> None:
         command = [sys.executable, "-m", "optlaws", "study", str(file), "--out", str(out), "--workers", "2"]
         self.out = out
+        # whoever runs the tests in the background may have Ctrl-C ignored, and with it all that is started from there
+        signal.signal(signal.SIGINT, signal.default_int_handler)
         self.process = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
 
     def size(self) -> int:
