@@ -9,6 +9,9 @@ from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.numbers import numbers
 
+#: of a stroke, what it may differ by from another
+RETURNED = 1e-9
+
 
 def state(value: Any) -> tuple[float, float]:  # noqa: ANN401 - whatever a caller hands over
     """Displacement and velocity of a mass as two floats.
@@ -52,3 +55,21 @@ def motion_law(value: Any, name: str = "law") -> MotionLaw:  # noqa: ANN401 - wh
             f"got {shortened(value)}"
         )
     return law
+
+
+def leads_back(rise: MotionLaw, fall: MotionLaw) -> None:
+    """Refuse a return whose stroke is not that of the rise.
+
+    Raises
+    ------
+    InputError
+        Naming both strokes.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> leads_back(smoothstep(3), smoothstep(4))
+    """
+    strokes = [float(law.a(1.0)) - float(law.a(0.0)) for law in (rise, fall)]
+    if abs(strokes[1] - strokes[0]) > RETURNED * max(1.0, abs(strokes[0])):
+        raise InputError(f"fall must lead back over the rise's stroke {strokes[0]:g}, but has {strokes[1]:g}")

@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.mechanisms.checks import leads_back
 from optlaws.mechanisms.follower.cam_motion import Forcing, rest
 from optlaws.mechanisms.follower.chain import Motion
 from optlaws.mechanisms.follower.law_motion import forcings
@@ -18,7 +19,6 @@ from optlaws.mechanisms.follower.vibration import Oscillator
 
 Array = NDArray[np.float64]
 
-RETURNED = 1e-9
 RESONANT = 1e-9
 BRIEF = 1e-12  # a dwell shorter than this is none
 
@@ -56,9 +56,7 @@ class CycleResponse(MassMotion):
     rest: float
 
     def __post_init__(self) -> None:
-        strokes = [float(law.a(1.0)) - float(law.a(0.0)) for law in (self.rise, self.fall)]
-        if abs(strokes[1] - strokes[0]) > RETURNED * max(1.0, abs(strokes[0])):
-            raise InputError(f"fall must lead back over the rise's stroke {strokes[0]:g}, but has {strokes[1]:g}")
+        leads_back(self.rise, self.fall)
         self._initial  # noqa: B018 - a cycle in resonance is refused at once
 
     @property

@@ -13,6 +13,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws.mechanisms.checks import leads_back
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import RADIANS, Drive, Panel
 from optlaws.mechanisms.machine.output_curve import OutputCurve
@@ -23,7 +24,6 @@ Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
 BRIEF = 1e-12  # a dwell shorter than this is none
-RETURNED = 1e-9
 RESONANT = 1e-9
 
 
@@ -198,9 +198,7 @@ class MachineCycle(MachineMotion):
     rest: float
 
     def __post_init__(self) -> None:
-        strokes = [float(law.a(1.0)) - float(law.a(0.0)) for law in (self.rise, self.fall)]
-        if abs(strokes[1] - strokes[0]) > RETURNED * max(1.0, abs(strokes[0])):
-            raise InputError(f"fall must lead back over the rise's stroke {strokes[0]:g}, but has {strokes[1]:g}")
+        leads_back(self.rise, self.fall)
         self._panels  # noqa: B018 - a cycle in resonance is refused at once
 
     @property
