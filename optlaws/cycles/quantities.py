@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 from functools import cache
 from math import isfinite
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -115,6 +115,44 @@ def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, flo
             return dimension, quantity(value, dimension, name)
     kinds = " or ".join(f"{_article(one)} such as {DIMENSIONS[one][1]!r}" for one in dimensions)
     raise InputError(f"{name} must be {kinds}, but {shortened(value)} is {_kind(unit)}")
+
+
+class Given(NamedTuple):
+    """A quantity in the very unit in which it was given."""
+
+    dimension: str
+    number: float
+    unit: str
+
+    def same_unit(self, value: Any, name: str) -> float:  # noqa: ANN401 - a quantity
+        """Another quantity of the same dimension, as a number of this unit.
+
+        Raises
+        ------
+        InputError
+            If it is wrong, or of another dimension.
+        """
+        return quantity(value, self.dimension, name) / quantity(f"1 {self.unit}", self.dimension, name)
+
+
+def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:  # noqa: ANN401 - it is checked here
+    """A quantity of one of several dimensions, in the unit in which it is written: tables of machines are in such.
+
+    Raises
+    ------
+    InputError
+        If it is of none of them.
+
+    Examples
+    --------
+    >>> given_quantity("35 mm", ("length", "angle"), "stroke")
+    Given(dimension='length', number=35.0, unit='mm')
+    """
+    dimension, _ = either(value, dimensions, name)
+    match = _NUMBER.fullmatch(value)
+    if match is None:
+        raise AssertionError  # it has been read above
+    return Given(dimension, float(match[1]), match[2].strip())
 
 
 def _parts(value: Any, dimension: str, name: str) -> tuple[float, Any]:  # noqa: ANN401

@@ -1,0 +1,307 @@
+"""What is exported: one exact motion y(x) of a slave over its master, in machine units, with its derivatives."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import inf
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cycles.conversion import Piece, factor
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.named import STROKE
+from optlaws.cycles.quantities import Given, either, given_quantity, quantity
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.numbers import derivative, real_times
+
+Array = NDArray[np.float64]
+Place = tuple[float, float]
+
+TURN_DEGREES = 360.0
+SLAVES = ("length", "angle")
+MASTERS = ("angle", "length")
+LEAP = 1e-9  # a leap below this share of the derivative's greatest value is rounding
+
+
+@dataclass(frozen=True)
+class Units:
+    """Units of master and slave as texts; `rate` is how many of the master's pass in a second, None if not known.
+
+    A master that is time itself has the unit "s" and the rate 1.
+    """
+
+    master: str
+    slave: str
+    rate: float | None
+
+
+@dataclass(frozen=True)
+class Motion:
+    """A motion y(x) in machine units: x of the master from `start` to `stop`, y of the slave.
+
+    Derivatives are by the master: V = dy/dx, A = d²y/dx², J = d³y/dx³, as cam tables take them; with a master that
+    is time they are velocity, acceleration and jerk. A master at a constant rate w makes of them V w, A w², J w³.
+
+    Parameters
+    ----------
+    pieces
+        Laws in their places, one after another, in the units of master and slave.
+    units
+        Units of both.
+    repeats
+        Whether the end goes on with the start (`advance` further), or rest comes before and after.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg", time="0.1 s")
+    >>> motion.units
+    Units(master='deg', slave='mm', rate=1200.0)
+    >>> motion(60.0), round(motion(60.0, 1), 9), motion.start, motion.stop
+    (17.5, 0.546875, 0.0, 120.0)
+    """
+
+    pieces: tuple[Piece, ...]
+    units: Units
+    repeats: bool
+
+    @property
+    def start(self) -> float:
+        """The first x of the master."""
+        return self.pieces[0].start
+
+    @property
+    def stop(self) -> float:
+        """The last x of the master."""
+        return self.pieces[-1].stop
+
+    @property
+    def length(self) -> float:
+        """How far the master goes."""
+        return self.stop - self.start
+
+    @kept_property
+    def joints(self) -> tuple[float, ...]:
+        """Where pieces meet, both ends included."""
+        return (*(piece.start for piece in self.pieces), self.stop)
+
+    @kept_property
+    def breaks(self) -> tuple[float, ...]:
+        """Where the function is put together, within laws as well, both ends included."""
+        inner = (self._break(piece, k) for piece in self.pieces for k in piece.law.breaks[:-1] if _counts(piece, k))
+        return (*inner, self.stop)
+
+    @kept_property
+    def stroke(self) -> float:
+        """Between the least and the greatest position."""
+        (low, _), (high, _) = self.extrema(0)
+        return high - low
+
+    @property
+    def advance(self) -> float:
+        """How much further than it began the motion ends."""
+        return self.pieces[-1].end(0, 1) - self.pieces[0].end(0, 0)
+
+    def __call__(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+        """The derivative of order nu at x; at a break just after it, at the end just before it.
+
+        Raises
+        ------
+        InputError
+            If an x is no finite number or lies beyond the motion.
+        """
+        places, order = real_times(x), derivative(nu)
+        beyond = (places < self.start) | (places > self.stop)
+        if beyond.any():
+            wrong = float(places[beyond].flat[0])
+            raise InputError(f"x must be from {self.start:g} to {self.stop:g} {self.units.master}, got {wrong!r}")
+        starts = np.array(self.joints[1:-1])
+        values = self._at(places, np.searchsorted(starts, places, side="right"), order)
+        return values if np.ndim(values) else float(values)
+
+    def sides(self, nu: int) -> Iterator[tuple[float, float, float]]:
+        """Every joint of pieces inside, and leaps within laws: the place, the value before it and the one after."""
+        for before, after in pairwise(self.pieces):
+            yield after.start, before.end(nu, 1), after.end(nu, 0)
+        for piece in self.pieces:
+            size = factor(piece.stroke, piece.duration, nu)
+            for k, leap in piece.law.jumps(nu) if piece.stroke else ():
+                value = size * float(piece.law(k, nu))
+                yield piece.start + k * piece.duration, value - size * leap, value
+
+    def ends(self, nu: int) -> tuple[float, float]:
+        """The derivative of order nu at the start and at the end."""
+        return self.pieces[0].end(nu, 0), self.pieces[-1].end(nu, 1)
+
+    def extrema(self, nu: int) -> tuple[Place, Place]:
+        """Least and greatest value of the derivative of order nu, each with its x, over the whole motion."""
+        known = [piece.extremes(nu, piece.start, piece.stop) for piece in self.pieces]
+        return min((low for low, _ in known), key=_value), max((high for _, high in known), key=_value)
+
+    def peak(self, nu: int) -> float:
+        """The greatest magnitude of the derivative of order nu; inf where a lower one leaps, joints included."""
+        leaps = max((self.leap(lower) for lower in range(1, nu)), default=0.0)
+        return inf if leaps else max(abs(value) for value, _ in self.extrema(nu))
+
+    def leap(self, nu: int) -> float:
+        """The greatest leap of the derivative of order nu inside; what is rounding beside its peak is 0."""
+        size = max(abs(value) for value, _ in self.extrema(nu))
+        worst = max((abs(after - before) for _, before, after in self.sides(nu)), default=0.0)
+        return worst if worst > LEAP * size else 0.0
+
+    def rms(self, nu: int) -> float:
+        """Root mean square of the derivative of order nu over the motion."""
+        squares = sum(piece.duration * piece.mean_square(nu) for piece in self.pieces)
+        return float(np.sqrt(squares / self.length))
+
+    def over_time(self) -> Motion:
+        """The same motion over time in seconds.
+
+        Raises
+        ------
+        InputError
+            If it is not known how fast the master goes.
+        """
+        if self.units.rate is None:
+            raise InputError("how fast the master goes is not known: say how long the motion takes, time='0.1 s'")
+        if self.units.master == "s":
+            return self
+        return self._scaled(1.0 / self.units.rate, Units("s", self.units.slave, 1.0))
+
+    def _scaled(self, share: float, units: Units) -> Motion:
+        pieces = [replace(one, start=share * one.start, duration=share * one.duration) for one in self.pieces]
+        return replace(self, pieces=tuple(pieces), units=units)
+
+    @staticmethod
+    def _break(piece: Piece, k: float) -> float:
+        return piece.start + k * piece.duration
+
+    def _at(self, x: Array, which: NDArray[np.intp], nu: int) -> Array:
+        values = np.empty(x.shape)
+        for i, piece in enumerate(self.pieces):
+            here = which == i
+            if here.any():
+                values[here] = piece.values(x[here], nu)
+        return values
+
+
+def motion_of_law(
+    law: MotionLaw,
+    *,
+    stroke: Any = None,  # noqa: ANN401 - a quantity
+    time: Any = None,  # noqa: ANN401
+    master: Any = None,  # noqa: ANN401
+    start: Any = None,  # noqa: ANN401
+) -> Motion:
+    """The motion that a law makes, from rest to rest in one shot.
+
+    Parameters
+    ----------
+    law
+        A law with the stroke 1.
+    stroke
+        How far the slave moves, such as "35 mm", "-20 deg": positions are in its unit.
+    time
+        How long it takes, such as "0.1 s".
+    master
+        How far the master goes meanwhile, such as "120 deg"; without it the master is time in seconds.
+    start
+        Position of the slave at the start; 0 unless given.
+
+    Raises
+    ------
+    InputError
+        If a quantity is wrong, or neither time nor master are given; the error names it and an example.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> motion_of_law(smoothstep(3), stroke="90 deg", time="400 ms").peak(1)
+    421.875
+    """
+    moved = given_quantity(stroke, SLAVES, "stroke")
+    if moved.number == 0.0:
+        raise InputError("stroke must not be 0: nothing would move")
+    if time is None and master is None:
+        raise InputError("say how long the motion takes, time='0.1 s', or how far its master goes, master='120 deg'")
+    seconds = None if time is None else _positive(quantity(time, "time", "time"), "time", time)
+    span = _span(master, seconds)
+    rate = None if seconds is None else span.number / seconds
+    offset = 0.0 if start is None else moved.same_unit(start, "start")
+    piece = Piece(0.0, span.number, offset, moved.number, _of_stroke_one(law))
+    return Motion((piece,), Units(span.unit, moved.unit, rate), repeats=False)
+
+
+def motion_of_cycle(cycle: Cycle, *, master: Any = "360 deg", unit: str | None = None) -> Motion:  # noqa: ANN401
+    """The motion of a whole cycle, which repeats.
+
+    Parameters
+    ----------
+    cycle
+        The cycle; its optimal laws are looked for now if they have not been.
+    master
+        How far the master goes in a cycle, such as "360 deg"; None for a master that is time in seconds.
+    unit
+        Of positions; "mm" for lengths and "deg" for angles unless given.
+
+    Raises
+    ------
+    InputError
+        If the quantity or the unit is wrong.
+
+    Examples
+    --------
+    >>> from optlaws.cycles.segments import Return, Rise
+    >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
+    >>> motion = motion_of_cycle(cycle)
+    >>> round(float(motion(120.0)), 12), motion.units, round(motion.peak(1), 9)
+    (35.0, Units(master='deg', slave='mm', rate=1200.0), 0.583333333)
+    """
+    span = _span(master, cycle.duration)
+    chosen = {"length": "mm", "angle": "deg"}[cycle.axis] if unit is None else unit
+    size = 1.0 / quantity(f"1 {chosen}", cycle.axis, "unit")
+    share = span.number / cycle.duration
+    starts = [*(share * piece.start for piece in cycle.pieces), span.number]
+    pieces = tuple(
+        replace(one, start=low, duration=high - low, offset=size * one.offset, stroke=size * one.stroke)
+        for one, (low, high) in zip(cycle.pieces, pairwise(starts), strict=True)
+    )
+    return Motion(pieces, Units(span.unit, chosen, share), repeats=True)
+
+
+def _span(master: Any, seconds: float | None) -> Given:  # noqa: ANN401 - a quantity
+    """How far the master goes, in its unit."""
+    if master is None:
+        return Given("time", seconds or 0.0, "s")
+    either(master, MASTERS, "master")
+    span = given_quantity(master, MASTERS, "master")
+    _positive(span.number, "master", master)
+    return span
+
+
+def _of_stroke_one(law: MotionLaw) -> MotionLaw:
+    stroke = float(law.a(1.0)) - float(law.a(0.0))
+    if abs(stroke - 1.0) > STROKE:
+        raise InputError(f"the law must have the stroke 1, which `stroke` multiplies, but it has {stroke:g}")
+    return law
+
+
+def _counts(piece: Piece, k: float) -> bool:
+    """Whether a break of a law is one of the motion: at rest it is none."""
+    return k == 0.0 or piece.stroke != 0.0
+
+
+def _positive(number: float, name: str, given: Any) -> float:  # noqa: ANN401
+    if number <= 0.0:
+        raise InputError(f"{name} must be above 0, got {given!r}")
+    return number
+
+
+def _value(found: Place) -> float:
+    return found[0]
