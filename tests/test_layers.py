@@ -12,7 +12,7 @@ from tests.imports import Import, cycles, imports, modules
 
 BASE = {"echo", "errors", "exporting", "files", "kept", "lazy", "locks", "numbers", "plotting", "suggest"}
 KNOWN = BASE | {"series"}
-CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "cycles", "verification"}
+CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "cycles", "exports", "verification"}
 MAY_IMPORT = {
     "echo": set[str](),
     "errors": {"echo"},
@@ -104,6 +104,7 @@ MUST_NOT_IMPORT = {
     "synthesis": {"matplotlib"},
     "mechanisms": {"matplotlib"},
     "cycles": {"matplotlib"},
+    "exports": {"casadi", "matplotlib"},
     "verification": {"casadi", "matplotlib", "scipy"},
 }
 

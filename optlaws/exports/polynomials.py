@@ -1,0 +1,398 @@
+"""Motions as controllers run them: polynomials of time or of the master between breaks, their extremes and jumps."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from math import comb
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.numbers import derivative, listed, numbers, real_times
+from optlaws.series import bernstein, chebyshev
+
+Array = NDArray[np.float64]
+#: a motion by its derivatives: of places and of the order nu of the derivative
+Motion = Callable[[Array, int], Array]
+
+_NODES = 10
+_RESOLVED, _SHARE = 2.0**-46, 1e-10
+_CUTS = 30
+_REACH = 1e-3
+_STEPS = 3
+
+
+class Extreme(NamedTuple):
+    """An extreme value and where it is taken, at the first place where several are as high; in machine units."""
+
+    value: float
+    x: float
+
+
+@dataclass(frozen=True, init=False)
+class PiecewiseMotion:
+    """Polynomials between breaks, in ascending powers of x - x_i, in machine units; call it with an order nu.
+
+    x is what the controller counts: time or the position of the master. What is not continuous at a break stays so:
+    a value there is the one after it, extremes look at both sides, and `jumps` tells how much. Derivatives are those
+    of the pieces; where one jumps, those above it are no impulses here.
+
+    Parameters
+    ----------
+    breaks
+        x_0 < x_1 < ... < x_n, shape (n + 1,).
+    coefficients
+        n rows; piece i is y = sum coefficients[i][m] (x - x_i)^m.
+
+    Raises
+    ------
+    InputError
+        If the breaks do not increase, or there is not a row of finite numbers for every piece.
+
+    Examples
+    --------
+    >>> motion = PiecewiseMotion([0, 1, 2], [[0, 0, 1], [1, 2, -1]])
+    >>> motion(1.5), motion.extremes(1), motion.jumps(2).tolist()
+    (1.75, (Extreme(value=0.0, x=0.0), Extreme(value=2.0, x=1.0)), [-4.0])
+    """
+
+    breaks: tuple[float, ...]
+    coefficients: tuple[tuple[float, ...], ...]
+
+    def __init__(self, breaks: Any, coefficients: Any) -> None:  # noqa: ANN401 - rows of numbers, arrays too
+        places = numbers(_plain(breaks), "breaks")
+        if len(places) < 2 or any(high <= low for low, high in pairwise(places)):
+            raise InputError(f"breaks must be at least two increasing numbers, got {shortened(places)}")
+        rows = listed(_plain(coefficients), "coefficients", len(places))
+        if len(rows) != len(places) - 1:
+            raise InputError(f"coefficients must be {len(places) - 1} rows, one between breaks, got {len(rows)}")
+        kept = tuple(numbers(_plain(row), f"coefficients[{i}]") or (0.0,) for i, row in enumerate(rows))
+        object.__setattr__(self, "breaks", places)
+        object.__setattr__(self, "coefficients", kept)
+
+    def __repr__(self) -> str:
+        shape = f"{len(self.coefficients)} pieces of degree {self.degree}"
+        return f"PiecewiseMotion({shape} from {self.start:g} to {self.stop:g})"
+
+    def __call__(self, x: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+        """The derivative of order nu at x.
+
+        Raises
+        ------
+        InputError
+            If an x is outside the breaks, or nu is no order of a derivative.
+
+        Examples
+        --------
+        >>> PiecewiseMotion([0, 2], [[0, 0, 1]])([0.5, 2.0], 1).tolist()
+        [1.0, 4.0]
+        """
+        places, order = real_times(x), derivative(nu)
+        outside = places[(places < self.start) | (places > self.stop)]
+        if outside.size:
+            raise InputError(f"x must be from {self.start!r} to {self.stop!r}, got {float(outside.flat[0])!r}")
+        values = self._values(places, order)
+        return values if values.ndim else float(values)
+
+    @property
+    def start(self) -> float:
+        """The first break."""
+        return self.breaks[0]
+
+    @property
+    def stop(self) -> float:
+        """The last break."""
+        return self.breaks[-1]
+
+    @kept_property
+    def degree(self) -> int:
+        """The highest power of any piece."""
+        return max(map(len, self.coefficients)) - 1
+
+    @kept_property
+    def lengths(self) -> Array:
+        """How long each piece is, shape (n,)."""
+        return np.diff(self.breaks)
+
+    def powers(self, nu: int = 0) -> Array:
+        """Ascending powers of x - x_i of the derivative of order nu, a row for each piece.
+
+        Examples
+        --------
+        >>> PiecewiseMotion([0, 1, 2], [[0, 0, 1], [1]]).powers(1).tolist()
+        [[0.0, 2.0], [0.0, 0.0]]
+        """
+        if nu not in self._powers:
+            table = self._powers[0]
+            self._powers[nu] = np.asarray(
+                np.polynomial.polynomial.polyder(table, nu, axis=1)
+                if nu < table.shape[1]
+                else np.zeros((len(table), 1))
+            )
+        return self._powers[nu]
+
+    def ends(self, nu: int) -> tuple[Array, Array]:
+        """The derivative of order nu just after the start and just before the end of each piece."""
+        table = self.powers(derivative(nu))
+        return table[:, 0].copy(), _horner(table, self.lengths)
+
+    def jumps(self, nu: int) -> Array:
+        """By how much the derivative of order nu leaps at each break inside: the value after it less the one before.
+
+        Examples
+        --------
+        >>> PiecewiseMotion([0, 1, 3], [[0, 1], [1, -0.5]]).jumps(1).tolist()
+        [-1.5]
+        """
+        first, last = self.ends(nu)
+        return first[1:] - last[:-1]
+
+    def seam(self, nu: int) -> float:
+        """By how much the derivative of order nu leaps where the motion begins again; for nu 0 how far it leads back.
+
+        Examples
+        --------
+        >>> PiecewiseMotion([0, 1], [[0, 0, 1]]).seam(1)
+        -2.0
+        """
+        first, last = self.ends(nu)
+        return float(first[0] - last[-1])
+
+    def extremes(self, nu: int) -> tuple[Extreme, Extreme]:
+        """The least and the greatest value of the derivative of order nu, both sides of every break counted.
+
+        They are enclosed by Bernstein coefficients of the pieces, halved until nothing is left but rounding.
+
+        Examples
+        --------
+        >>> PiecewiseMotion([0, 1], [[0, 1, -1]]).extremes(0)
+        (Extreme(value=0.0, x=0.0), Extreme(value=0.25, x=0.5))
+        """
+        low, high = (self._top(derivative(nu), sign) for sign in (-1.0, 1.0))
+        return Extreme(-low.value if low.value else 0.0, low.x), high
+
+    def peak(self, nu: int) -> Extreme:
+        """The greatest magnitude of the derivative of order nu."""
+        low, high = self.extremes(nu)
+        return max(Extreme(-low.value, low.x), high, key=lambda one: (one.value, -one.x))
+
+    def rms(self, nu: int) -> float:
+        """Root mean square of the derivative of order nu, impulses left out.
+
+        Examples
+        --------
+        >>> round(PiecewiseMotion([0, 1], [[0, 1]]).rms(0) ** 2, 12)
+        0.333333333333
+        """
+        table = self.powers(derivative(nu))
+        u, weights = np.polynomial.legendre.leggauss(table.shape[1])
+        squares = _horner(table[:, None], self.lengths[:, None] * (u + 1.0) / 2.0) ** 2 @ (weights / 2.0)
+        return float(np.sqrt(squares @ self.lengths / (self.stop - self.start)))
+
+    def in_single(self) -> PiecewiseMotion:
+        """The motion with breaks and coefficients rounded to REAL32.
+
+        Raises
+        ------
+        InputError
+            If a number is beyond REAL32, or two breaks round to one.
+
+        Examples
+        --------
+        >>> PiecewiseMotion([0, 0.1], [[0.1]]).in_single().breaks
+        (0.0, 0.10000000149011612)
+        """
+        with np.errstate(over="ignore"):
+            breaks = np.array(self.breaks, dtype=np.float32)
+            rows = [np.array(row, dtype=np.float32) for row in self.coefficients]
+        if not all(np.isfinite(one).all() for one in (breaks, *rows)):
+            raise InputError("a number of the motion is beyond REAL32 (3.4e38): choose units that make it smaller")
+        if (np.diff(breaks) <= 0).any():
+            raise InputError("two breaks are the same in REAL32: take fewer pieces or let x start at 0")
+        return PiecewiseMotion(breaks, [row.tolist() for row in rows])
+
+    def deviation(self, motion: Motion | PiecewiseMotion, nu: int = 0, breaks: Sequence[float] = ()) -> Extreme:
+        """The greatest magnitude of the difference to another motion, over the whole interval.
+
+        Parameters
+        ----------
+        motion
+            Another piecewise motion over the same interval, or a function of places and of an order nu.
+        nu
+            Order of the derivative that is compared.
+        breaks
+            Where a function is not smooth, in addition to the breaks of this motion.
+
+        Raises
+        ------
+        InputError
+            If the intervals differ, or a function is not smooth between the breaks.
+
+        Examples
+        --------
+        >>> line = PiecewiseMotion([0, np.pi / 2], [[0, 2 / np.pi]])
+        >>> found = line.deviation(lambda x, nu: np.sin(x + nu * np.pi / 2))
+        >>> round(found.value, 9), round(found.x, 6)
+        (0.210513662, 0.880689)
+        """
+        order = derivative(nu)
+        if isinstance(motion, PiecewiseMotion):
+            return self.minus(motion).peak(order)
+        inner = [x for x in breaks if self.start < x < self.stop]
+        places = np.unique(np.concatenate([self.breaks, inner]))
+        return _greatest(self, motion, order, places)
+
+    def minus(self, other: PiecewiseMotion) -> PiecewiseMotion:
+        """The difference, between the breaks of both.
+
+        Raises
+        ------
+        InputError
+            If the two are not over the same interval.
+
+        Examples
+        --------
+        >>> PiecewiseMotion([0, 2], [[0, 1]]).minus(PiecewiseMotion([0, 1, 2], [[0, 1], [1]])).coefficients
+        ((0.0, 0.0), (0.0, 1.0))
+        """
+        if (self.start, self.stop) != (other.start, other.stop):
+            raise InputError(
+                f"motions are compared over the same interval, got {self.start!r} to {self.stop!r} "
+                f"and {other.start!r} to {other.stop!r}"
+            )
+        breaks = np.unique(np.concatenate([self.breaks, other.breaks]))
+        first, second = self._cut(breaks), other._cut(breaks)
+        table = np.zeros((len(first), max(first.shape[1], second.shape[1])))
+        table[:, : first.shape[1]] = first
+        table[:, : second.shape[1]] -= second
+        return PiecewiseMotion(breaks, table)
+
+    def then(self, other: PiecewiseMotion) -> PiecewiseMotion:
+        """First this motion and then another that begins where it ends.
+
+        Raises
+        ------
+        InputError
+            If the other begins elsewhere.
+        """
+        if other.start != self.stop:
+            raise InputError(f"the next motion must begin at {self.stop!r}, where this one ends, got {other.start!r}")
+        return PiecewiseMotion((*self.breaks, *other.breaks[1:]), (*self.coefficients, *other.coefficients))
+
+    def in_units(self, x: float = 1.0, y: float = 1.0) -> PiecewiseMotion:
+        """The motion with places times x and values times y, coefficients rounded once.
+
+        Examples
+        --------
+        >>> PiecewiseMotion([0, 0.5], [[0, 0, 1]]).in_units(720.0, 1000.0).coefficients
+        ((0.0, 0.0, 0.0019290123456790122),)
+        """
+        across, up = Fraction(x), Fraction(y)
+        rows = [[float(Fraction(c) * up / across**n) for n, c in enumerate(row)] for row in self.coefficients]
+        return PiecewiseMotion([float(Fraction(one) * across) for one in self.breaks], rows)
+
+    @kept_property
+    def _powers(self) -> dict[int, Array]:
+        table = np.zeros((len(self.coefficients), self.degree + 1))
+        for i, row in enumerate(self.coefficients):
+            table[i, : len(row)] = row
+        return {0: table}
+
+    def _values(self, places: Array, nu: int) -> Array:
+        which = np.searchsorted(self.breaks[1:-1], places, side="right")
+        return np.asarray(_horner(self.powers(nu)[which], places - np.array(self.breaks)[which]))
+
+    def _cut(self, breaks: Array) -> Array:
+        """Powers on finer pieces."""
+        table = self.powers()
+        which = np.searchsorted(self.breaks[1:-1], breaks[:-1], side="right")
+        moved, by = table[which], breaks[:-1] - np.array(self.breaks)[which]
+        count = table.shape[1]
+        columns = [
+            sum((comb(m, n) * moved[:, m] * by ** (m - n) for m in range(n, count)), np.zeros(len(by)))
+            for n in range(count)
+        ]
+        return np.stack(columns, axis=1)
+
+    def _top(self, nu: int, sign: float) -> Extreme:
+        table = self.powers(nu)
+        scaled = table * self.lengths[:, None] ** np.arange(table.shape[1])
+        found = bernstein.top(sign * bernstein.from_powers(scaled))
+        low, length = self.breaks[found.row], float(self.lengths[found.row])
+        if found.u in {0.0, 1.0}:
+            return Extreme(found.value, self.breaks[found.row + int(found.u)])
+        return Extreme(found.value, low + length * self._stationary(found.row, found.u * length, nu))
+
+    def _stationary(self, row: int, s: float, nu: int) -> float:
+        """The place near one found by halving where the derivative is stationary, as a share of the piece."""
+        length = float(self.lengths[row])
+        slope, bend = (self.powers(nu + order)[row] for order in (1, 2))
+        for _ in range(_STEPS):
+            steepness, curvature = float(_horner(slope, s)), float(_horner(bend, s))
+            step = steepness / curvature if curvature else 0.0
+            if abs(step) > _REACH * length or not 0.0 <= s - step <= length:
+                break
+            s -= step
+        return s / length
+
+
+def from_exact(breaks: Sequence[Fraction], rows: Sequence[Sequence[Fraction]]) -> PiecewiseMotion:
+    """The piecewise motion nearest to an exact one: every number is rounded once.
+
+    Examples
+    --------
+    >>> from_exact([Fraction(0), Fraction(1, 3)], [[Fraction(1, 3)]]).coefficients
+    ((0.3333333333333333,),)
+    """
+    return PiecewiseMotion([float(one) for one in breaks], [[float(c) for c in row] for row in rows])
+
+
+def _greatest(run: PiecewiseMotion, motion: Motion, nu: int, places: Array) -> Extreme:
+    """The greatest |run - motion|: series of the difference on parts that are halved until they resolve it."""
+    low, high = places[:-1], places[1:]
+    control, lows, highs = [], [], []
+    for _ in range(_CUTS):
+        values, size = _differences(run, motion, nu, low, high)
+        tail = np.abs(chebyshev.from_values(values.T)[-2:]).max(axis=0)
+        done = tail <= np.maximum(_RESOLVED * size, _SHARE * np.abs(values).max())
+        control.append(bernstein.from_values(values[done]))
+        lows.append(low[done])
+        highs.append(high[done])
+        if done.all():
+            break
+        low, high = low[~done], high[~done]
+        middle = (low + high) / 2.0
+        low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
+    else:
+        raise InputError(f"the motion is not smooth near x = {float(low[0])!r}: name its breaks")
+    table, start, stop = np.concatenate(control), np.concatenate(lows), np.concatenate(highs)
+    order = np.argsort(start)
+    found = bernstein.top(np.stack([table[order], -table[order]], axis=1).reshape(-1, table.shape[1]))
+    row = order[found.row // 2]
+    return Extreme(found.value, float(start[row] + (stop[row] - start[row]) * found.u))
+
+
+def _differences(run: PiecewiseMotion, motion: Motion, nu: int, low: Array, high: Array) -> tuple[Array, Array]:
+    x = low[:, None] + (high - low)[:, None] * (chebyshev.nodes(_NODES) + 1.0) / 2.0
+    theirs = np.asarray(motion(x.ravel(), nu), dtype=np.float64).reshape(x.shape)
+    if not np.isfinite(theirs).all():
+        raise InputError("the motion to compare with must have finite values on the whole interval")
+    return run._values(x, nu) - theirs, np.abs(theirs).max(axis=1)  # noqa: SLF001 - places are inside
+
+
+def _horner(table: Array, x: Any) -> Any:  # noqa: ANN401 - numbers or arrays
+    total = table[..., -1]
+    for n in range(table.shape[-1] - 2, -1, -1):
+        total = total * x + table[..., n]
+    return total
+
+
+def _plain(values: Any) -> Any:  # noqa: ANN401 - whatever is given; it is checked where it goes
+    return values.tolist() if isinstance(values, np.ndarray) else values
