@@ -26,6 +26,10 @@ BLUES = ("#b3cde3", "#74add1", "#4292c6", "#2166ac", "#08306b")
 WARM = "#d95f02"
 GREEN = "#1b7f5c"
 GREY = "#595959"
+VIOLET = "#7b3294"
+BROWN = "#a6761d"
+#: colours of curves that have no order of their own, apart for those too who see no red and green
+DISTINCT = (BLUES[3], WARM, GREEN, VIOLET, BROWN, GREY)
 
 _STYLE: Any = {  # matplotlib's type lists every key there is
     "font.family": "DejaVu Sans",
@@ -88,6 +92,35 @@ def new_axes() -> Axes:
     """
     with style():
         return new_figure().subplots()
+
+
+def shades(count: int) -> list[str]:
+    """Blues from light to dark for curves that have an order, at most five, as far apart as there are.
+
+    Examples
+    --------
+    >>> shades(2) == [BLUES[1], BLUES[4]]
+    True
+    """
+    if count >= len(BLUES):
+        return list(BLUES)
+    last = len(BLUES) - 1
+    return [BLUES[last - round((last - 1) * place / max(1, count - 1))] for place in range(count)][::-1]
+
+
+def name_point(axes: Axes, text: str, point: tuple[float, float], at: tuple[float, float] = (6.0, 4.0)) -> Artist:
+    """A small text beside a point, legible over lines; `at` is its offset in points.
+
+    Examples
+    --------
+    >>> name_point(new_axes(), "l = 3", (1.875, 5.77)).get_text()
+    'l = 3'
+    """
+    from matplotlib.patheffects import withStroke
+
+    style: dict[str, Any] = {"color": WARM, "fontsize": 8.0, "zorder": 6, "ha": "right" if at[0] < 0.0 else "left"}
+    style["path_effects"] = [withStroke(linewidth=2.5, foreground="white")]
+    return axes.annotate(text, point, xytext=at, textcoords="offset points", **style)
 
 
 _AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D", "J": "peak jerk J"}

@@ -269,8 +269,8 @@ _COMPARED = (
     {"color": drawing.BLUES[3], "linestyle": "-"},
     {"color": drawing.WARM, "linestyle": "-."},
     {"color": drawing.GREEN, "linestyle": (0, (5, 1))},
-    {"color": "#7b3294", "linestyle": ":"},
-    {"color": "#a6761d", "linestyle": (0, (3, 1, 1, 1))},
+    {"color": drawing.VIOLET, "linestyle": ":"},
+    {"color": drawing.BROWN, "linestyle": (0, (3, 1, 1, 1))},
 )
 
 

@@ -80,7 +80,7 @@ SHADES = {
     "dwell": "#eeeeee",
     "clutch": "#fbe0cc",
     "run-out": "#cfe0f0",
-    "run-up": "#cfe0f0",
+    "run-up": "#e3d6ee",
     "reverse": "#cfe5dc",
     "standstill": "#f7f7f7",
 }
@@ -105,8 +105,15 @@ def draw_cams(types: Mapping[str, DwellMechanism]) -> Figure:
             colour = drawing.BLUES[3] if i == 0 else drawing.GREEN
             cam(axes, (i * apart, 0.0), radius, angles, shown=0.0, colour=colour)
             axes.text(i * apart, -0.5 * apart - 0.25, name, ha="center")
+        _scale(axes, -0.45 * apart, -0.5 * apart + 0.4)
         axes.set(xlim=(-0.55 * apart, 3.55 * apart), ylim=(-0.5 * apart - 0.5, 0.5 * apart + 0.1))
         return figure
+
+
+def _scale(axes: Axes, x: float, y: float) -> None:
+    """A bar as long as the stroke of the executive link, from a place to the right."""
+    axes.plot([x, x + 1.0], [y, y], "|-", color=drawing.GREY, linewidth=1.2, markersize=7.0)
+    axes.text(x + 0.5, y + 0.2, "stroke S", color=drawing.GREY, ha="center", fontsize=9.0)
 
 
 def draw_motions(types: Mapping[str, DwellMechanism]) -> Figure:

@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import cycle
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated, Any, Literal
 
@@ -28,7 +29,7 @@ from optlaws.synthesis import Chebyshev, Problem, Solution, Status, at_most, syn
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
-    from matplotlib.figure import Figure
+    from matplotlib.figure import Figure, SubFigure
 
 
 @dataclass(frozen=True, eq=False)
@@ -181,20 +182,43 @@ _POINTS = 601
 _LEAST = 2e-3
 
 
+#: what is shown together: pictures of more curves cannot be read
+_GROUPS: tuple[tuple[str, Callable[[Compared], bool]], ...] = (
+    ("Least C of the cam, beside Savin's families", lambda one: one.kind == "optimal" or _member(one)),
+    ("Robust laws, beside standard laws on the cam", lambda one: one.kind == "robust" or not one.polydyne),
+)
+_STROKES = ("-", (0, (4, 1.5)), "-.", (0, (1, 1.2)))
+
+
 def draw(title: str, found: Sequence[Sequence[Compared]], between: tuple[float, float]) -> Figure:
-    """Residual accelerations over nu and accelerations over k, two panels for each damping."""
+    """Residual accelerations over nu and accelerations over k, for each group two panels for each damping."""
     with drawing.style():
-        figure = drawing.figure(9.6, 3.9 * len(found) + 1.1)
-        panels = figure.subplots(len(found), 2, squeeze=False, width_ratios=(3, 2))
-        for (left, right), laws in zip(panels, found, strict=True):
-            _residuals(left, laws, between)
-            _accelerations(right, laws)
-        panels[-1, 0].set_xlabel("frequency nu of the follower")
-        panels[-1, 1].set_xlabel("k")
-        handles, labels = panels[0, 0].get_legend_handles_labels()
+        figure = drawing.figure(9.6, 2 * (3.1 * len(found) + 1.3))
         figure.suptitle(title, x=0.01, ha="left", fontsize=11.0)
-        figure.legend(handles, labels, loc="outside lower center", ncols=3)
+        parts: Any = figure.subfigures(len(_GROUPS), 1)
+        for part, (name, belongs) in zip(parts, _GROUPS, strict=True):
+            groups = [[one for one in laws if belongs(one)] for laws in found]
+            _draw_group(part, name, [laws for laws in groups if laws], between)
         return figure
+
+
+def _member(one: Compared) -> bool:
+    return one.kind == "known" and one.polydyne
+
+
+def _draw_group(part: SubFigure, name: str, found: Sequence[Sequence[Compared]], between: tuple[float, float]) -> None:
+    if not found:
+        return
+    panels = part.subplots(len(found), 2, squeeze=False, width_ratios=(3, 2))
+    for (left, right), laws in zip(panels, found, strict=True):
+        told = f"damping ratio {laws[0].design.damping:g}"
+        _residuals(left, laws, between)
+        _accelerations(right, laws)
+        left.set_title(f"{name}, {told}", fontsize=10.0)
+        right.set_title(f"on the cam, {told}", fontsize=10.0)
+    panels[-1, 0].set_xlabel("frequency nu of the follower (dimensionless)")
+    panels[-1, 1].set_xlabel("k (dimensionless)")
+    part.legend(*panels[0, 0].get_legend_handles_labels(), loc="outside lower center", ncols=3)
 
 
 def _residuals(axes: Axes, laws: Sequence[Compared], between: tuple[float, float]) -> None:
@@ -207,28 +231,20 @@ def _residuals(axes: Axes, laws: Sequence[Compared], between: tuple[float, float
     axes.plot(
         design.between, [design.residual] * 2, color="black", linewidth=0.9, linestyle=":", label="most that is asked"
     )
-    axes.set(xlim=between, ylim=(_LEAST, None), title=f"damping ratio {design.damping:g}")
-    axes.set_ylabel("residual acceleration")
+    axes.set(xlim=between, ylim=(_LEAST, None), ylabel="residual acceleration")
 
 
 def _accelerations(axes: Axes, laws: Sequence[Compared]) -> None:
     k = np.linspace(0.0, 1.0, _POINTS)
     for one, style in zip(laws, _styles(laws), strict=True):
-        if one.polydyne:
-            axes.plot(k, one.cam.c(k), **style)
-    axes.set(xlim=(0.0, 1.0), title="acceleration of polydyne cams")
+        axes.plot(k, one.cam.c(k), **style)
+    axes.set(xlim=(0.0, 1.0), ylabel="acceleration c of the cam")
 
 
 def _styles(laws: Sequence[Compared]) -> list[dict[str, Any]]:
-    colours = {"optimal": iter(drawing.BLUES[1:]), "robust": iter((drawing.GREEN, "#66c2a5", "#a6761d", "#e6ab02"))}
-    warm = iter((drawing.WARM, "#fdae61"))
-    grey = iter(("#595959", "#8c8c8c", "#bfbfbf"))
-    found = []
-    for one in laws:
-        if one.kind == "known":
-            colour = next(warm if one.polydyne else grey, drawing.GREY)
-            found.append({"color": colour, "linestyle": "-" if one.polydyne else "--", "linewidth": 1.2})
-        else:
-            style = "-" if one.polydyne else "-."
-            found.append({"color": next(colours[one.kind], drawing.BLUES[-1]), "linestyle": style})
-    return found
+    """A colour for each law of a group, and a stroke, so that they are told apart without colours too."""
+    plain = [one.kind == "known" for one in laws]
+    return [
+        {"color": colour, "linestyle": stroke, "linewidth": 1.2 if known else 1.7}
+        for known, colour, stroke in zip(plain, cycle((*drawing.DISTINCT, "black")), cycle(_STROKES), strict=False)
+    ]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from itertools import pairwise
+from itertools import cycle, pairwise
 from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING, Any
@@ -84,39 +84,53 @@ def _costs(points: Sequence[StudyPoint], constant: str) -> tuple[list[str], list
     return headings, rows
 
 
-_STROKES = ((0, (1, 1.5)), (0, (4, 1.5)), "-")
+#: by order, so that curves are told apart without colours too
+_STROKES = ((0, (1, 1.2)), (0, (4, 1.5)), "-.", "-")
 _ROOM = 2.5
 
 
 def draw(points: Sequence[StudyPoint]) -> dict[str, Figure]:
     """The figures by name."""
-    drawn = {}
-    for constant, word in (("C", "acceleration"), ("D", "power")):
-        some = [point for point in points if point.inputs["minimise"] == constant]
-        with drawing.style():
-            figure = drawing.figure(8.6, 5.0)
-            axes = figure.subplots()
-            _curves(axes, some)
-            axes.set(
-                title=f"Least {constant} by order l of the end conditions and degree of Z",
-                xlabel="peak velocity B (dimensionless)",
-                ylabel=f"peak {word} {constant} (dimensionless)",
-            )
-            figure.legend(loc="outside right upper")
-            drawn[f"least-{constant.lower()}"] = figure
-    return drawn
+    return {
+        f"least-{constant.lower()}": _draw_least(
+            [point for point in points if point.inputs["minimise"] == constant], constant, word
+        )
+        for constant, word in (("C", "acceleration"), ("D", "power"))
+    }
+
+
+def _draw_least(points: Sequence[StudyPoint], constant: str, word: str) -> Figure:
+    """A panel for each degree of Z, in it a curve for each order."""
+    degrees = sorted({point.inputs["degree"] for point in points})
+    with drawing.style():
+        figure = drawing.figure(1.6 + 3.2 * len(degrees), 4.8)
+        panels = figure.subplots(1, len(degrees), sharex=True, sharey=True, squeeze=False)[0]
+        for axes, degree in zip(panels, degrees, strict=True):
+            _curves(axes, [point for point in points if point.inputs["degree"] == degree])
+            axes.set(title=f"degree of Z: {degree}", xlabel="peak velocity B (dimensionless)")
+        panels[0].set(ylabel=f"peak {word} {constant} (dimensionless)", ylim=_heights(points))
+        figure.suptitle(f"Least {constant} at given B by order l of the end conditions", x=0.01, ha="left", fontsize=11)
+        figure.legend(*panels[0].get_legend_handles_labels(), loc="outside lower center", ncols=5)
+        return figure
 
 
 def _curves(axes: Axes, points: Sequence[StudyPoint]) -> None:
-    orders, degrees = (sorted({point.inputs[name] for point in points}) for name in ("order", "degree"))
-    for order, shade in zip(orders, drawing.BLUES[-len(orders) :], strict=False):
-        for degree, stroke in zip(degrees, _STROKES[-len(degrees) :], strict=False):
-            curve = [p for p in points if p.inputs["order"] == order and p.inputs["degree"] == degree]
-            B = [point.inputs["B"] for point in curve]
-            values = [np.nan if point.objective is None else point.objective for point in curve]
-            axes.plot(B, values, color=shade, linestyle=stroke, label=f"l = {order}, degree {degree}")
-    limits = {point.inputs["B"]: point.limit for point in points if point.limit is not None}
+    orders = sorted({point.inputs["order"] for point in points})
+    for order, colour, stroke in zip(orders, drawing.DISTINCT, cycle(_STROKES), strict=False):
+        curve = [point for point in points if point.inputs["order"] == order]
+        values = [np.nan if point.objective is None else point.objective for point in curve]
+        style: dict[str, Any] = {"color": colour, "linestyle": stroke}
+        axes.plot([point.inputs["B"] for point in curve], values, label=f"l = {order}", **style)
+    limits = _limits(points)
     if limits:
-        axes.plot(list(limits), list(limits.values()), color=drawing.GREY, linewidth=1.2, label="limit of all laws")
+        axes.plot(list(limits), list(limits.values()), color=drawing.GREY, linewidth=1.0, label="limit of all laws")
+
+
+def _limits(points: Sequence[StudyPoint]) -> dict[float, float]:
+    return {point.inputs["B"]: point.limit for point in points if point.limit is not None}
+
+
+def _heights(points: Sequence[StudyPoint]) -> tuple[float, float]:
     found = [point.objective for point in points if point.objective is not None]
-    axes.set_ylim(0.95 * min([*limits.values(), *found]), min(1.03 * max(found), _ROOM * float(np.median(found))))
+    low = min([*_limits(points).values(), *found])
+    return 0.95 * low, min(1.03 * max(found), _ROOM * float(np.median(found)))

@@ -193,18 +193,13 @@ def draw_beside(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
 
 def _smoothsteps(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
     label = "smoothsteps, by order l"
+    ring: dict[str, Any] = {"color": drawing.WARM, "markerfacecolor": "white", "markersize": 6.5, "zorder": 5}
     for order in (2, 3, 4, 5):
         point = _point(smoothstep(order), picture)
         if _inside(point, x, y):
-            ring: dict[str, Any] = {
-                "color": drawing.WARM,
-                "markerfacecolor": "white",
-                "markersize": 11.0,
-                "zorder": 5,
-            }
             axes.plot(*point, "o", label=label, **ring)
-            centred: dict[str, Any] = {"ha": "center", "va": "center_baseline", "fontsize": 8.0, "zorder": 6}
-            axes.annotate(f"{order}", point, color=drawing.WARM, **centred)
+            # in words, for bare numbers are those of the catalogue's laws
+            drawing.name_point(axes, f"l = {order}", point, (7.0, -9.0))
             label = "_nolegend_"
 
 
@@ -213,17 +208,12 @@ def _laws(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
     named = [name for name in picture.catalogue if name not in FAMILIES and name != SMOOTHSTEPS]
     found = [(catalogue[name].name, _point(catalogue[name].law, picture)) for name in named]
     shown = [(name, point) for name, point in found if _inside(point, x, y)]
-    from matplotlib.patheffects import withStroke
-
     for number, (name, point) in enumerate(shown, 1):
         diamond: dict[str, Any] = {"color": drawing.WARM, "markersize": 5.0, "zorder": 5}
         axes.plot(*point, "D", label=f"{number}  {name}", **diamond)
         before = [other for _, other in shown[: number - 1]]
         crowded = any(_near(point, other, x, y) for other in before)
-        place: dict[str, Any] = {"xytext": (-6, -9) if crowded else (6, 4), "textcoords": "offset points"}
-        text: dict[str, Any] = {"fontsize": 8.0, "zorder": 6, "ha": "right" if crowded else "left"}
-        text["path_effects"] = [withStroke(linewidth=2.5, foreground="white")]
-        axes.annotate(f"{number}", point, color=drawing.WARM, **place, **text)
+        drawing.name_point(axes, f"{number}", point, (-6.0, -9.0) if crowded else (6.0, 4.0))
 
 
 def _near(first: Ends, second: Ends, x: Ends, y: Ends) -> bool:
@@ -250,7 +240,7 @@ def draw(picture: Picture, fronts: Sequence[Front]) -> Figure:
     with drawing.style():
         figure = drawing.figure(8.6, 5.0)
         axes = figure.subplots()
-        shades = drawing.BLUES[-len(fronts) :]
+        shades = drawing.shades(len(fronts))
         for curve, front, shade in zip(picture.front, fronts, shades, strict=True):
             _draw_curve(axes, front, color=shade, label=curve.label)
         draw_beside(axes, picture, x, y)
@@ -317,15 +307,16 @@ def _limit_curves(axes: Axes, picture: Picture, fronts: Sequence[Front], x: Ends
 
 def _corners(axes: Axes, picture: Picture, fronts: Sequence[Front], shades: Sequence[str]) -> None:
     """What no law can beat in either constant, which no one law need reach in both."""
-    axes.plot([], [], color=drawing.GREY, linestyle=(0, (1, 2)), label="limit of each constant alone")
-    for front, shade in zip(fronts, shades, strict=True):
+    for curve, front, shade in zip(picture.front, fronts, shades, strict=True):
+        style: dict[str, Any] = {"color": shade, "linewidth": 1.1, "linestyle": (0, (1, 2)), "zorder": 2}
         asked = _freed(front[0].problem, picture.over[0])
         limits = [known_limit(replace(asked, minimise=name)) for name in picture.over]
+        label = f"limit of each constant alone, {curve.label}"
         for line, value in zip((axes.axvline, axes.axhline), limits, strict=True):
             if value is not None:
-                style: dict[str, Any] = {"color": shade, "linewidth": 1.1, "linestyle": (0, (1, 2)), "zorder": 2}
                 draw_line: Callable[..., Any] = line
-                draw_line(value, **style)
+                draw_line(value, label=label, **style)
+                label = "_nolegend_"
 
 
 def _freed(problem: Problem, name: str) -> Problem:

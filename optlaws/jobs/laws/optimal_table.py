@@ -308,9 +308,6 @@ def _law(law: MotionLaw) -> dict[str, Any]:
     return {"law": law.to_dict(), "constants": law.constants.to_dict()}
 
 
-_FEWEST = 5  # coefficients of Z: a cubic, or one of degree 4 that has no more odd ones
-
-
 def draw(spec: Table, rows: Sequence[Row], curves: Curves) -> Figure:
     """C over B: optima by degree of Z, the printed laws, and what no law is below."""
     with drawing.style():
@@ -332,11 +329,12 @@ def draw(spec: Table, rows: Sequence[Row], curves: Curves) -> Figure:
 
 
 def _printed(axes: Axes, spec: Table, rows: Sequence[Row]) -> None:
-    plain = [row for row in rows if row.same.problem.order == spec.order and len(row.cells["z"].split()) <= _FEWEST]
+    least = min(_degree(row.same) for row in rows)
+    plain = [row for row in rows if row.same.problem.order == spec.order and _degree(row.same) == least]
     others = [row for row in rows if row not in plain]
     for some, face, label in (
-        (plain, drawing.WARM, "laws of the paper with cubic Z(k)"),
-        (others, "white", "of higher degree, or (B = 1.75) of order 3"),
+        (plain, drawing.WARM, f"laws of the paper with Z(k) of degree {least}"),
+        (others, "white", "other laws of the paper, with degree of Z(k)"),
     ):
         axes.plot(
             [row.B for row in some],
@@ -348,10 +346,17 @@ def _printed(axes: Axes, spec: Table, rows: Sequence[Row]) -> None:
             label=label,
             zorder=5,
         )
+    for row in others:
+        text = f"{_degree(row.same)}" if row.same.problem.order == spec.order else _shape(row.same)
+        drawing.name_point(axes, text, (row.B, row.law.constants.C.value), (6.0, -10.0))
+
+
+def _shape(solution: Solution) -> str:
+    return f"{_degree(solution)}, l = {solution.problem.order}"
 
 
 def _optima(axes: Axes, curves: Curves) -> None:
-    for (degree, found), shade in zip(curves.items(), drawing.BLUES[-len(curves) :], strict=True):
+    for (degree, found), shade in zip(curves.items(), drawing.shades(len(curves)), strict=True):
         line = [s.objective for s in found]
         label = "optimal, by degree of Z(k)" if degree == max(curves) else None
         axes.plot([s.constants.B.value for s in found], line, color=shade, label=label)

@@ -17,7 +17,6 @@ from optlaws.jobs.pages.page import Page
 from optlaws.laws.savin.family import SavinFamily
 
 if TYPE_CHECKING:
-    from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
 HEADINGS = ("family", "alpha", "delta", "order of a⁽ⁿ⁾(0)", "a⁽ⁿ⁾(0)", "B", "C", "k of C", "D", "k of D")
@@ -107,6 +106,7 @@ def _page(spec: Study, families: list[SavinFamily], lines: list[list[tables.Cell
     return page.table(HEADINGS, lines, digits=8)
 
 
+_NOTE: dict[str, Any] = {"color": drawing.GREY, "fontsize": 8.0, "va": "top", "linespacing": 1.4}
 _MARKS: dict[str, Any] = {"marker": "o", "markersize": 4.5, "linestyle": "", "zorder": 4}
 
 
@@ -115,8 +115,7 @@ def draw(title: str, families: Sequence[SavinFamily], points: int) -> Figure:
     with drawing.style():
         figure = drawing.figure(9.2, 6.6)
         panels = figure.subplots(2, 2, sharex=True)
-        shades = drawing.BLUES[-len(families) :] if len(families) <= len(drawing.BLUES) else drawing.BLUES * 2
-        for family, shade in zip(families, shades, strict=False):
+        for family, shade in zip(families, drawing.DISTINCT, strict=False):
             low, high = map(float, family.range)
             alphas = np.linspace(low, high, points).tolist()
             for axes, height in zip(panels.flat, _heights(family), strict=True):
@@ -151,26 +150,21 @@ def _heights(family: SavinFamily) -> list[Callable[[float], float]]:
 
 def _label(panels: Any, families: Sequence[SavinFamily]) -> None:  # noqa: ANN401 - an array of axes
     texts = (
-        "start derivative / base law's",
+        "start derivative over\nbase law's",
         "peak acceleration C",
         "peak velocity B",
         "peak power D",
     )
     for axes, text in zip(panels.flat, texts, strict=True):
-        axes.set_ylabel(text)
+        axes.set_ylabel(f"{text} (dimensionless)")
     for axes in panels[1]:
-        axes.set_xlabel("alpha")
-    starts = ", ".join(f"{family.start(0.0)[1]:g} ({_derivative(family)})" for family in families)
-    place: dict[str, Any] = {"transform": panels[0, 0].transAxes, "fontsize": 8.0, "va": "top"}
-    _note(panels[0, 0], f"base laws: {starts}", place)
+        axes.set_xlabel("alpha (dimensionless)")
+    starts = "\n".join(f"{_derivative(family)}(0) = {family.start(0.0)[1]:g}" for family in families)
+    panels[0, 0].text(0.03, 0.97, f"base laws:\n{starts}", transform=panels[0, 0].transAxes, **_NOTE)
 
 
 def _derivative(family: SavinFamily) -> str:
     return {2: "c", 3: "c'", 4: "c''", 5: "c'''"}.get(family.order, f"order {family.order}")
-
-
-def _note(axes: Axes, text: str, place: dict[str, Any]) -> None:
-    axes.text(0.02, 1.06, text, color=drawing.GREY, **place)
 
 
 def draw_multiplier(shown: Multiplier) -> Figure:

@@ -100,6 +100,8 @@ def _draw_row(left: Axes, right: Axes, curves: Mapping[float, Sequence[TorsionLe
         colour = drawing.GREY if beta == 1.0 else drawing.BLUES[3] if beta < 1.0 else drawing.WARM
         _curve(left, beta, found, lambda one: degrees(one.gamma01), colour)
         _curve(right, beta, found, lambda one: one.xi, colour)
+    for axes in (left, right):
+        _head(axes)
     left.set(ylabel="gamma01 (degrees)")
     right.set(ylabel="xi = c2/c1 (dimensionless)", yscale="log")
     right.yaxis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
@@ -121,3 +123,11 @@ def _curve(
     axes.plot(swing, values, color=colour)
     style: dict[str, Any] = {"textcoords": "offset points", "va": "center", "ha": "right", "fontsize": 8.5}
     axes.annotate(f"{beta:g}", (swing[0], values[0]), xytext=(-4, 0), color=colour, **style)
+
+
+def _head(axes: Axes) -> None:
+    """Say above the numbers before the curves what they are."""
+    starts = [np.asarray(line.get_data())[:, 0].tolist() for line in axes.lines]
+    first = max(starts, key=lambda point: point[1])
+    style: dict[str, Any] = {"textcoords": "offset points", "ha": "right", "fontsize": 8.5, "fontweight": "bold"}
+    axes.annotate("beta", first, xytext=(-4, 9), color=drawing.GREY, **style)
