@@ -9,7 +9,7 @@ _load, __dir__, __all__ = face(
     __name__,
     {
         "optlaws.cycles.cycle": "Cycle",
-        "optlaws.cycles.segments": "ConstantVelocity Dwell Free Move Return Rise",
+        "optlaws.cycles.asked.segments": "ConstantVelocity Dwell Free Move Return Rise",
         "optlaws.errors": "InfeasibleProblem InputError NotNormalised OptlawsError SolverFailure",
         "optlaws.laws.catalogue.catalogue": "catalogue",
         "optlaws.laws.constants": "Constants",

@@ -12,15 +12,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cycles.conversion import Piece
+from optlaws.cycles.asked.conversion import Piece
+from optlaws.cycles.asked.joints import Layout, layout
+from optlaws.cycles.asked.programme import TURN, Programme, is_optimal, period_of, programme
+from optlaws.cycles.asked.quantities import quantity
+from optlaws.cycles.asked.segments import CycleSegment, Dwell, Move
 from optlaws.cycles.drive import Drive, read_drive
 from optlaws.cycles.durations import durations
 from optlaws.cycles.effort import Effort, effort
-from optlaws.cycles.joints import Layout, layout
 from optlaws.cycles.optimal import OBJECTIVES, Wanted, limits_of_stretch, read_limits, solve
-from optlaws.cycles.programme import TURN, Programme, is_optimal, period_of, programme
-from optlaws.cycles.quantities import quantity
-from optlaws.cycles.segments import CycleSegment, Dwell, Move
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.cam.polydyne import polydyne
@@ -82,7 +82,7 @@ class Cycle:
 
     Examples
     --------
-    >>> from optlaws.cycles.segments import Dwell, Return, Rise
+    >>> from optlaws.cycles.asked.segments import Dwell, Return, Rise
     >>> rise, back = Rise("35 mm", "120 deg"), Return("35 mm", "100 deg")
     >>> cycle = Cycle([rise, Dwell("90 deg"), back, Dwell()], speed="200 rpm")
     >>> cycle.status.value, round(cycle.objective, 6), round(float(cycle(0.1)), 9)
@@ -258,7 +258,7 @@ class Cycle:
 
         Examples
         --------
-        >>> from optlaws.cycles.segments import Dwell, Move
+        >>> from optlaws.cycles.asked.segments import Dwell, Move
         >>> moves = [Move("30 mm", "120 deg", law="III(7.2)"), Dwell("60 deg"), Move("-30 mm", law="III(7.2)")]
         >>> round(Cycle(moves, speed="300 rpm").cam("20 ms", damping=0.05).peak(2), 6)
         39.380514
@@ -313,7 +313,7 @@ class Cycle:
 
         Examples
         --------
-        >>> from optlaws.cycles.segments import Return, Rise
+        >>> from optlaws.cycles.asked.segments import Return, Rise
         >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
         >>> [one.axes.get_ylabel() for one in cycle.plot()][2]
         'acceleration, m/s²'

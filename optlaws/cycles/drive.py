@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cycles.conversion import Piece, factor
-from optlaws.cycles.quantities import quantity
+from optlaws.cycles.asked.conversion import Piece, factor
+from optlaws.cycles.asked.quantities import quantity
 from optlaws.errors import InputError
 from optlaws.suggest import unknown_key
 

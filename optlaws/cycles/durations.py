@@ -16,12 +16,12 @@ from math import inf, log2
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cycles.conversion import factor
-from optlaws.cycles.joints import Span, State
-from optlaws.cycles.named import named_law
+from optlaws.cycles.asked.conversion import factor
+from optlaws.cycles.asked.joints import Span, State
+from optlaws.cycles.asked.named import named_law
+from optlaws.cycles.asked.programme import Programme, Stretch, is_optimal
+from optlaws.cycles.asked.segments import ConstantVelocity, Dwell, Free, Move
 from optlaws.cycles.optimal import OBJECTIVES, Wanted, limits_of_stretch, span_problem
-from optlaws.cycles.programme import Programme, Stretch, is_optimal
-from optlaws.cycles.segments import ConstantVelocity, Dwell, Free, Move
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.problem.ranges import Range

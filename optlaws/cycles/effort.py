@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cycles.conversion import Piece
+from optlaws.cycles.asked.conversion import Piece
 from optlaws.cycles.drive import Drive
 
 Array = NDArray[np.float64]

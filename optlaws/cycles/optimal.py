@@ -10,12 +10,12 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from optlaws.cycles.conversion import Piece, factor
+from optlaws.cycles.asked.conversion import Piece, factor
+from optlaws.cycles.asked.joints import Span, State
+from optlaws.cycles.asked.programme import AXES, Stretch, in_small_units
+from optlaws.cycles.asked.quantities import quantity
+from optlaws.cycles.asked.segments import Free, Move
 from optlaws.cycles.drive import Drive
-from optlaws.cycles.joints import Span, State
-from optlaws.cycles.programme import AXES, Stretch, in_small_units
-from optlaws.cycles.quantities import quantity
-from optlaws.cycles.segments import Free, Move
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.makers import peak, rms

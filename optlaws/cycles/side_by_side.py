@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from math import isfinite
 from typing import Any
 
-from optlaws.cycles.conversion import factor
-from optlaws.cycles.quantities import either, quantity
+from optlaws.cycles.asked.conversion import factor
+from optlaws.cycles.asked.quantities import either, quantity
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw

@@ -11,10 +11,10 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cycles.conversion import Piece, factor
+from optlaws.cycles.asked.conversion import Piece, factor
+from optlaws.cycles.asked.named import STROKE
+from optlaws.cycles.asked.quantities import Given, either, given_quantity, quantity
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.named import STROKE
-from optlaws.cycles.quantities import Given, either, given_quantity, quantity
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
@@ -257,7 +257,7 @@ def motion_of_cycle(cycle: Cycle, *, master: Any = "360 deg", unit: str | None =
 
     Examples
     --------
-    >>> from optlaws.cycles.segments import Return, Rise
+    >>> from optlaws.cycles.asked.segments import Return, Rise
     >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
     >>> motion = motion_of_cycle(cycle)
     >>> round(float(motion(120.0)), 12), motion.units, round(motion.peak(1), 9)

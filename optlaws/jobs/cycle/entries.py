@@ -8,8 +8,8 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 
+from optlaws.cycles.asked.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move, Return, Rise
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move, Return, Rise
 from optlaws.errors import InputError
 from optlaws.files.problem_file import Text, convert
 

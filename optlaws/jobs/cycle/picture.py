@@ -8,8 +8,8 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from optlaws import drawing
+from optlaws.cycles.asked.programme import TURN
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.programme import TURN
 from optlaws.law_pictures import four
 from optlaws.plotting import draws
 

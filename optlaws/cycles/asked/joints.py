@@ -7,11 +7,11 @@ from dataclasses import dataclass
 from itertools import accumulate
 from typing import NamedTuple
 
-from optlaws.cycles.conversion import Piece
-from optlaws.cycles.named import named_law
-from optlaws.cycles.programme import AXES, CLOSE, Programme, Stretch, is_optimal, time_of
-from optlaws.cycles.quantities import quantity
-from optlaws.cycles.segments import ConstantVelocity, Dwell, Free, Move
+from optlaws.cycles.asked.conversion import Piece
+from optlaws.cycles.asked.named import named_law
+from optlaws.cycles.asked.programme import AXES, CLOSE, Programme, Stretch, is_optimal, time_of
+from optlaws.cycles.asked.quantities import quantity
+from optlaws.cycles.asked.segments import ConstantVelocity, Dwell, Free, Move
 from optlaws.errors import InputError
 from optlaws.laws import smoothstep
 

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 from math import inf, isclose, pi
 from typing import Any
 
-from optlaws.cycles.quantities import either, quantity
-from optlaws.cycles.segments import OPTIMAL, ConstantVelocity, CycleSegment, Dwell, Free, Move, Return, Rise
+from optlaws.cycles.asked.quantities import either, quantity
+from optlaws.cycles.asked.segments import OPTIMAL, ConstantVelocity, CycleSegment, Dwell, Free, Move, Return, Rise
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 

@@ -5,7 +5,7 @@ from math import pi
 import pytest
 
 from optlaws import InputError
-from optlaws.cycles.quantities import DIMENSIONS, either, quantity
+from optlaws.cycles.asked.quantities import DIMENSIONS, either, quantity
 
 
 @pytest.mark.parametrize(
