@@ -14,6 +14,7 @@ from xdist.scheduler import LoadScopeScheduling
 from tests.documents import documents
 
 _PACKAGE = Path(__file__).parent / "optlaws"
+_SHARING = ("tests/jobs/", "tests/studies/test_kills.py")
 _collect_document = documents.pytest()
 
 
@@ -29,15 +30,15 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
     return found
 
 
-class DocumentScheduling(LoadScopeScheduling):  # type: ignore[misc]  # xdist is untyped
-    """Keeps a document's blocks, which use each other's names, in one process; all else is spread freely."""
+class SharingScheduling(LoadScopeScheduling):  # type: ignore[misc]  # xdist is untyped
+    """Keeps in one process the blocks of a document, which use each other's names, and what shares a whole run."""
 
     def _split_scope(self, nodeid: str) -> str:
         path = nodeid.partition("::")[0]
-        return path if path.endswith(".md") else nodeid
+        return path if path.endswith(".md") or path.startswith(_SHARING) else nodeid
 
 
 @pytest.hookimpl(optionalhook=True)
-def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> DocumentScheduling:
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> SharingScheduling:
     """Use the scheduling above; xdist's own groups (--dist=loadgroup) are lost under pytest 9.2."""
-    return DocumentScheduling(config, log)
+    return SharingScheduling(config, log)

@@ -20,6 +20,8 @@ Values = TypeVar("Values", Array, NDArray[np.complex128])
 NEGLIGIBLE = 2.0**-52
 FEWEST, MOST = 17, 1025
 RESOLVED = 2.0**-50  # what is left of the last tenth of the coefficients, relative to the largest
+_LONGEST, _SHORTER = 160, 0.9
+_CUT = -0.004849834917525  # no place that anybody would choose for a root
 
 
 @lru_cache(maxsize=256)
@@ -235,8 +237,22 @@ def _divided(odd: Array) -> Array:
 
 def _roots(series: Array) -> Array:
     size = np.abs(series)
-    kept = np.flatnonzero(size > NEGLIGIBLE * size.max())
-    count = int(kept[-1]) if len(kept) else 0
+    kept = shortened(series, NEGLIGIBLE * float(size.max()))
+    if len(kept) <= _LONGEST:
+        return _eigenvalues(kept)
+    # eigenvalues cost the cube of the length, and on a half of the interval a function has a shorter series
+    noise = RESOLVED * float(size.sum())
+    places = [np.array([_CUT])]
+    for low, high in ((-1.0, _CUT), (_CUT, 1.0)):
+        x = low + (high - low) * (nodes(len(kept)) + 1.0) / 2.0
+        half = shortened(from_values(np.asarray(value(kept, x))), noise)
+        local = _roots(half) if len(half) < _SHORTER * len(kept) else _eigenvalues(half)
+        places.append(low + (high - low) * (local + 1.0) / 2.0)
+    return np.concatenate(places)
+
+
+def _eigenvalues(series: Array) -> Array:
+    count = len(series) - 1
     if count == 0:
         return np.empty(0)
     if count == 1:

@@ -17,6 +17,7 @@ from optlaws.jobs.laws.atlas_lookup import best_law, look_up, read
 from optlaws.studies.points.study_file import read_study
 from tests.documents import ROOT
 from tests.jobs import examples
+from tests.sampling import sampled
 
 ATLAS = ROOT / "results" / "atlas" / "atlas.csv"
 
@@ -65,18 +66,20 @@ def test_a_law_is_looked_up_by_B_or_by_its_bounds() -> None:
 
 @pytest.mark.parametrize(
     ("minimise", "order", "B", "most"),
-    [
-        ("C", 4, None, {"D": 5.0}),
-        ("C", 4, None, {"D": 3.4}),
-        ("C", 5, None, {"B": 1.7, "J": 300.0}),
-        ("D", 4, None, {"C": 5.0}),
-        ("D", 2, None, {"J": 1720.0}),
-        ("D", 5, 2.3, {"J": 58.0}),
-        ("J", 3, 1.375, {"D": 3.85, "J": 380.0}),
-        ("J", 4, None, {"rms_c": 3.7, "C": 6.0}),
-        ("rms_c", 4, None, {"D": 3.36}),
-        ("rms_c", 3, 1.75, {"J": 255.0}),
-    ],
+    sampled(
+        [
+            ("C", 4, None, {"D": 5.0}),
+            ("C", 4, None, {"D": 3.4}),
+            ("C", 5, None, {"B": 1.7, "J": 300.0}),
+            ("D", 4, None, {"C": 5.0}),
+            ("D", 2, None, {"J": 1720.0}),
+            ("D", 5, 2.3, {"J": 58.0}),
+            ("J", 3, 1.375, {"D": 3.85, "J": 380.0}),
+            ("J", 4, None, {"rms_c": 3.7, "C": 6.0}),
+            ("rms_c", 4, None, {"D": 3.36}),
+            ("rms_c", 3, 1.75, {"J": 255.0}),
+        ]
+    ),
 )
 def test_no_law_of_the_atlas_that_keeps_the_limits_is_better(
     minimise: str, order: int, B: float | None, most: dict[str, float]

@@ -148,13 +148,13 @@ def registered() -> Iterator[None]:
     [
         ("errs", "error", "ZeroDivisionError: a mistake in a constant"),
         ("dies", "worker died", "its process died 3 times: signal 9"),
-        ("hangs", "time limit", "no answer within 4 s"),
+        ("hangs", "time limit", "no answer within 2 s"),
         ("dies_forked", "worker died", "its process died 3 times: signal 9"),
-        ("hangs_forked", "time limit", "no answer within 4 s"),
+        ("hangs_forked", "time limit", "no answer within 2 s"),
     ],
 )
 def test_a_point_in_trouble_is_one_row(tmp_path: Path, trouble: str, status: str, error: str) -> None:
-    study = run_study(troubled(trouble, time_limit=4.0 if "hangs" in trouble else 60.0), tmp_path, workers=1)
+    study = run_study(troubled(trouble, time_limit=2.0 if "hangs" in trouble else 60.0), tmp_path, workers=1)
     assert [point.status for point in study] == ["optimal", "optimal", status, "optimal"]
     assert study[2].error == error
     assert study[2].law is None

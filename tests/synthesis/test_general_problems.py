@@ -21,6 +21,7 @@ from optlaws import (
     synthesize,
 )
 from optlaws.synthesis import PolynomialBasis
+from tests.sampling import sampled
 from tests.synthesis.judge import Judged, judge, lower_bounded
 from tests.synthesis.random_general import random_problems
 from tests.synthesis.reference import Undecided, least
@@ -59,7 +60,7 @@ def outcome(problem: Problem) -> str:
     return solution.status.value
 
 
-@pytest.mark.parametrize("first", range(20, 60, 10))
+@pytest.mark.parametrize("first", sampled(range(20, 60, 10)))
 def test_random_problems_are_solved_and_judged(first: int) -> None:
     found = Counter(outcome(problem) for problem in PROBLEMS[first : first + 10])
     assert found["failed"] == 0
@@ -99,7 +100,7 @@ def agrees(problem: Problem) -> bool:
     return True
 
 
-@pytest.mark.parametrize("first", range(0, 30, 10))
+@pytest.mark.parametrize("first", sampled(range(0, 30, 10)))
 def test_highs_and_clarabel_agree_on_random_problems(first: int) -> None:
     assert sum(agrees(problem) for problem in CONVEX[first : first + 10]) >= 9
 

@@ -107,9 +107,9 @@ def test_residuals_are_proven(name: str) -> None:
 
 
 def test_random_optima_are_proven() -> None:
-    left = {repr(problem): unproven(problem) for problem in random_problems(2026, 30)}
+    left = {repr(problem): unproven(problem) for problem in random_problems(2026, 12)}
     assert {name: claims for name, claims in left.items() if claims} == {}
-    assert sum(claims is not None for claims in left.values()) > 12
+    assert sum(claims is not None for claims in left.values()) > 4
 
 
 @pytest.mark.long

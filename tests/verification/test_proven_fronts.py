@@ -8,6 +8,7 @@ import pytest
 
 from optlaws import InputError, Problem, proven_front
 from optlaws.verification import verify, verify_all
+from tests.sampling import sampled
 
 REST = Problem(order=4)
 MIXED = Problem(order=4, B=1.8, minimise="C/4 + rms_c/3.4641")
@@ -20,13 +21,15 @@ def written(problem: Problem, over: Any, between: tuple[float, float], gap: floa
 
 @pytest.mark.parametrize(
     ("problem", "over", "between"),
-    [
-        (REST, ("B", "C"), (1.5, 1.7)),
-        (REST, ("J", "C"), (60.0, 90.0)),
-        (Problem(order=4, minimise="rms_c"), "B", (1.7, 1.8)),
-        (Problem(order=4, B=1.9), ("rms_c", "C"), (3.98, 4.2)),
-        (MIXED, "weight of rms_c", (0.05, 0.6)),
-    ],
+    sampled(
+        [
+            (REST, ("B", "C"), (1.5, 1.7)),
+            (REST, ("J", "C"), (60.0, 90.0)),
+            (Problem(order=4, B=1.9), ("rms_c", "C"), (3.98, 4.2)),
+            (Problem(order=4, minimise="rms_c"), "B", (1.7, 1.8)),
+            (MIXED, "weight of rms_c", (0.05, 0.6)),
+        ]
+    ),
 )
 def test_a_front_is_proven_between_its_laws(problem: Problem, over: Any, between: tuple[float, float]) -> None:  # noqa: ANN401
     data = written(problem, over, between)
@@ -63,7 +66,9 @@ def other_problem(data: dict[str, Any]) -> None:
     data["problem"]["order"] = 5
 
 
-@pytest.mark.parametrize("tamper", [other_law, greater_gap, weaker_proof, negative_multiplier, other_problem])
+@pytest.mark.parametrize(
+    "tamper", sampled([other_law, greater_gap, weaker_proof, negative_multiplier, other_problem], 2)
+)
 def test_a_front_that_was_tampered_with_is_not_proven(tamper: Callable[[dict[str, Any]], None]) -> None:
     data = written(REST, ("B", "C"), (1.5, 1.7))
     tamper(data)

@@ -62,7 +62,7 @@ def test_no_changed_number_is_believed_in_any_kind_of_file(problem: Problem, bou
                 continue
 
 
-@settings(max_examples=50)
+@settings(max_examples=25)
 @given(st.sampled_from(FILES), st.data())
 def test_whatever_stands_anywhere_ends_in_an_answer_or_an_error(
     file: tuple[Problem, str], drawn: st.DataObject

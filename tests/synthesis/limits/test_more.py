@@ -18,6 +18,7 @@ from optlaws.synthesis.limits.closed_forms import (
     power_limit,
     rms_limit,
 )
+from tests.sampling import sampled
 from tests.synthesis.limit_programs import least_by_steps, least_by_velocities, least_of_polynomials
 
 
@@ -101,15 +102,17 @@ def test_piecewise_linear_velocities_approach_the_limit_of_d(B: float, *, monoto
 
 @pytest.mark.parametrize(
     ("B", "order", "monotone"),
-    [
-        (1.3, 2, False),
-        (1.8, 2, False),
-        (1.5, 2, False),
-        (1.6, 3, False),
-        (2.0, 3, False),
-        (2.4, 3, True),
-        (2.4, 4, False),
-    ],
+    sampled(
+        [
+            (1.3, 2, False),
+            (1.8, 2, False),
+            (1.5, 2, False),
+            (2.4, 3, True),
+            (1.6, 3, False),
+            (2.0, 3, False),
+            (2.4, 4, False),
+        ]
+    ),
 )
 def test_polynomials_of_growing_degree_approach_the_limit_of_j(B: float, order: int, *, monotone: bool) -> None:
     least = jerk_limit(B, monotone=monotone, order=order)

@@ -13,6 +13,7 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, Problem, synthesize
+from tests.sampling import sampled
 
 DEGREES = np.arange(9, 62, 4)
 
@@ -37,7 +38,7 @@ def falls(excess: np.ndarray) -> bool:
     return bool(np.all(excess > 0.0) and np.all(np.diff(excess) < 0.0))
 
 
-@pytest.mark.parametrize(("order", "B"), [(2, 1.3), (3, 1.4), (4, 1.53), (4, 1.641), (2, 1.641)])
+@pytest.mark.parametrize(("order", "B"), sampled([(2, 1.3), (3, 1.4), (4, 1.53), (4, 1.641), (2, 1.641)]))
 def test_below_2_the_excess_falls_with_the_square_of_the_degree(order: int, B: float) -> None:
     excess = excesses(order, B)
     assert falls(excess)
@@ -46,15 +47,17 @@ def test_below_2_the_excess_falls_with_the_square_of_the_degree(order: int, B: f
 
 @pytest.mark.parametrize(
     ("order", "B", "monotone"),
-    [
-        (2, 2.3, False),
-        (4, 2.3, False),
-        (2, 2.3, True),
-        (4, 2.3, True),
-        (3, 2.7, False),
-        (2, 2.0, False),
-        (4, 2.0, False),
-    ],
+    sampled(
+        [
+            (2, 2.3, False),
+            (4, 2.3, False),
+            (2, 2.3, True),
+            (4, 2.3, True),
+            (3, 2.7, False),
+            (2, 2.0, False),
+            (4, 2.0, False),
+        ]
+    ),
 )
 def test_from_2_on_the_excess_falls_with_the_degree(order: int, B: float, monotone: bool) -> None:  # noqa: FBT001
     excess = excesses(order, B, monotone=monotone)

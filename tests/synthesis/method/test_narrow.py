@@ -4,12 +4,13 @@ import pytest
 
 from optlaws import Basis, BSplines, Chebyshev, Pieces, Problem, at_most, synthesize
 from optlaws.synthesis.program.evaluation import worth
+from tests.sampling import sampled
 
 UNSYMMETRIC = [Chebyshev(5), Pieces(8, 5, 3), BSplines(4, 4, 3)]
 
 
 @pytest.mark.parametrize("basis", UNSYMMETRIC, ids=lambda basis: basis.name)
-@pytest.mark.parametrize(("bounded", "minimise"), [("rms_c", "rms_j"), ("rms_c", "C"), ("rms_j", "C")])
+@pytest.mark.parametrize(("bounded", "minimise"), sampled([("rms_c", "C"), ("rms_c", "rms_j"), ("rms_j", "C")]))
 @pytest.mark.parametrize("room", [0.0, 1e-12])
 def test_a_bound_at_the_least_value_is_kept(basis: Basis, bounded: str, minimise: str, room: float) -> None:
     least = synthesize(Problem(order=3, basis=basis, symmetric=False, minimise=bounded))

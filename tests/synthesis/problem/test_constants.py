@@ -1,6 +1,7 @@
 """Every objective against an optimum found another way: HiGHS, Clarabel, a linear system, SLSQP, an energy."""
 
 from functools import cache
+from itertools import product
 from typing import Any
 
 import numpy as np
@@ -8,6 +9,7 @@ import pytest
 
 from optlaws import Chebyshev, Powers, Problem, Solution, at_most, between, construct, synthesize
 from optlaws.synthesis import Basis
+from tests.sampling import sampled
 from tests.synthesis.independent import DENSE, z_of
 from tests.synthesis.judge import Judged, judge
 from tests.synthesis.reference import least, least_power_of_energies, power_by_slsqp, rms_by_a_linear_system
@@ -79,7 +81,7 @@ CURVED: list[dict[str, Any]] = [
 ]
 
 
-@pytest.mark.parametrize("given", LINEAR, ids=shape)
+@pytest.mark.parametrize("given", sampled(LINEAR), ids=shape)
 def test_highs_finds_the_same_least_peak_among_all_laws_of_eq_8(given: dict[str, Any]) -> None:
     one = problem(**given)
     solution = synthesize(one)
@@ -176,8 +178,7 @@ def least_power(B: float, *, monotone: bool = False) -> Solution:
 every_velocity = pytest.mark.parametrize("B", VELOCITIES)
 
 
-@every_velocity
-@pytest.mark.parametrize("monotone", [False, True], ids=["free", "monotone"])
+@pytest.mark.parametrize(("B", "monotone"), sampled(product(VELOCITIES, [False, True])))
 def test_slsqp_never_finds_less_power(B: float, monotone: bool) -> None:  # noqa: FBT001
     solution = least_power(B, monotone=monotone)
     judge(solution)

@@ -28,6 +28,7 @@ from optlaws import (
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.verification import verify
+from tests.sampling import sampled
 from tests.synthesis.judge import Judged, broken
 
 PROBLEM = Problem(B=1.8, order=4, basis=Chebyshev(9))
@@ -62,7 +63,7 @@ CONVEX = (
 )
 
 
-@pytest.mark.parametrize("text", CONVEX)
+@pytest.mark.parametrize("text", sampled(CONVEX, 2))
 def test_convex_ones_are_proven_and_verified(text: str) -> None:
     bounded = Problem(B=1.7, C=at_most(9.0), order=4, symmetric=False, basis=BSplines(4, 5, 4), minimise=text)
     for problem in (replace(PROBLEM, minimise=text), bounded):

@@ -21,6 +21,7 @@ from optlaws import (
 from optlaws.laws import smoothstep
 from optlaws.laws.making.between import law_between
 from optlaws.synthesis.program.evaluation import worth
+from tests.sampling import sampled
 
 REST = Problem(order=4)
 FIXED = Problem(order=4, B=1.9)
@@ -43,7 +44,7 @@ CASES: dict[str, tuple[Problem, Any, tuple[float, float], float]] = {
 }
 
 
-@pytest.mark.parametrize("case", CASES)
+@pytest.mark.parametrize("case", sampled(CASES))
 def test_between_the_laws_too_the_gap_is_as_stated(case: str) -> None:
     problem, over, between, gap = CASES[case]
     front = proven_front(problem, over, between=between, gap=gap)

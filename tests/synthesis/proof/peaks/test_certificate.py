@@ -12,6 +12,7 @@ from optlaws.synthesis.problem.constants import B, J
 from optlaws.synthesis.proof.peaks.certificate import Cell, PeakCertificate, excluded
 from optlaws.synthesis.proof.peaks.rows import PeakRows
 from optlaws.verification import verify
+from tests.sampling import sampled
 from tests.synthesis.judge import Judged, judge
 
 FAST = Problem(B=at_least(2.2), order=3, minimise="rms_c")
@@ -32,12 +33,14 @@ def certificate(fast: Solution) -> PeakCertificate:
 
 @pytest.mark.parametrize(
     "problem",
-    [
-        EARLY,
-        Problem(order=3, basis=Chebyshev(7), minimise="rms_c", J=at_least(600)),
-        Problem(order=3, basis=Chebyshev(7), B=1.7, minimise="rms_c", C=at_least(7.5)),
-        Problem(order=3, basis=Chebyshev(5), minimise="C", B=2.4, symmetric=False, boundary=ENDS),
-    ],
+    sampled(
+        [
+            EARLY,
+            Problem(order=3, basis=Chebyshev(7), minimise="rms_c", J=at_least(600)),
+            Problem(order=3, basis=Chebyshev(5), minimise="C", B=2.4, symmetric=False, boundary=ENDS),
+            Problem(order=3, basis=Chebyshev(7), B=1.7, minimise="rms_c", C=at_least(7.5)),
+        ]
+    ),
     ids=repr,
 )
 def test_a_tight_bound_meets_the_objective(problem: Problem) -> None:
