@@ -12,7 +12,7 @@ from tests.imports import Import, cycles, imports, modules
 
 BASE = {"echo", "errors", "exporting", "files", "kept", "lazy", "locks", "numbers", "plotting", "suggest"}
 KNOWN = BASE | {"series"}
-CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "cycles", "exports", "verification"}
+CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "cycles", "exports", "cams", "verification"}
 MAY_IMPORT = {
     "echo": set[str](),
     "errors": {"echo"},
@@ -32,6 +32,7 @@ MAY_IMPORT = {
     "verification": KNOWN | {"formulas", "laws", "synthesis"},
     "cycles": KNOWN | {"formulas", "laws", "synthesis", "mechanisms"},
     "exports": KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "cycles"},
+    "cams": KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "cycles", "exports"},
     "drawing": CORE,
     "law_pictures": CORE | {"drawing"},
     "studies": CORE | {"drawing"},
@@ -105,6 +106,7 @@ MUST_NOT_IMPORT = {
     "mechanisms": {"matplotlib"},
     "cycles": {"matplotlib"},
     "exports": {"casadi", "matplotlib"},
+    "cams": {"matplotlib"},
     "verification": {"casadi", "matplotlib", "scipy"},
 }
 

@@ -1,0 +1,279 @@
+"""What a follower does as a function of the cam's angle: smooth stretches of laws, with derivatives by the angle."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import pairwise
+from math import factorial
+from typing import Any, Self
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.curves.jets import Jet
+from optlaws.cycles.conversion import Piece, factor
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.named import named_law
+from optlaws.cycles.programme import TURN, in_small_units
+from optlaws.cycles.quantities import either, quantity
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw, PolynomialLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws.laws.segments.segment import PolynomialSegment, Segment
+from optlaws.numbers import derivative, real_times
+from optlaws.series import chebyshev
+from optlaws.suggest import unknown_key
+
+Array = NDArray[np.float64]
+
+DIRECTIONS = {"rise": 1.0, "return": -1.0}
+_CLOSED = 1e-9
+
+
+@dataclass(frozen=True)
+class Stretch:
+    """A smooth part of a motion: offset + stroke times a segment of a law, over a range of the cam's angle.
+
+    Parameters
+    ----------
+    start, stop
+        Angles of the cam, rad.
+    offset
+        Displacement at the start, m or rad.
+    stroke
+        What the law is multiplied by.
+    duration
+        The angle of the whole law of which this is a part.
+    segment, length
+        The part of the law, and how long it is in k.
+    """
+
+    start: float
+    stop: float
+    offset: float
+    stroke: float
+    duration: float
+    segment: Segment
+    length: float
+
+    def values(self, angle: Array, nu: int) -> Array:
+        """The derivative of order nu by the angle."""
+        u = np.clip((angle - self.start) / (self.stop - self.start), 0.0, 1.0)
+        if self.stroke == 0.0:
+            return np.full(np.shape(u), self.offset if nu == 0 else 0.0)
+        values = factor(self.stroke, self.duration, nu) * self.segment.derivative(u, self.length, nu)
+        return self.offset + values if nu == 0 else values
+
+    def jet(self, angle: Array, order: int) -> Jet:
+        """The displacement with its derivatives."""
+        return Jet(tuple(self.values(angle, nu) / factorial(nu) for nu in range(order + 1)))
+
+    def extremes(self, nu: int) -> tuple[float, float]:
+        """Least and greatest derivative of order nu."""
+        inner = self.segment.candidates(self.length, nu) if self.stroke else np.empty(0)
+        u = np.concatenate([[0.0, 1.0], inner])
+        values = self.values(self.start + (self.stop - self.start) * u, nu)
+        return float(values.min()), float(values.max())
+
+
+@dataclass(frozen=True)
+class CamMotion:
+    """The displacement of a follower over the cam's angle; call it for derivatives by the angle, in m or rad.
+
+    Parameters
+    ----------
+    stretches
+        Smooth parts, one after the other.
+    axis
+        "length" for followers that slide, "angle" for ones that swing.
+    closed
+        Whether it goes on from its end to its start, as whole turns do.
+
+    Examples
+    --------
+    >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
+    >>> round(float(rise(np.pi / 3)), 9), round(float(rise(np.pi / 3, nu=1)), 9)
+    (0.02, 0.038197186)
+    """
+
+    stretches: tuple[Stretch, ...]
+    axis: str
+    closed: bool
+
+    @classmethod
+    def of_cycle(cls, cycle: Cycle) -> Self:
+        """The motion of a whole cycle, which makes one turn of the cam.
+
+        Raises
+        ------
+        InputError
+            If the cycle goes on from where it ends, as no cam can.
+        """
+        pieces = cycle.pieces
+        moved = sum(one.displacement for one in cycle.programme.stretches)
+        size = max(abs(piece.stroke) for piece in pieces)
+        if abs(moved) > _CLOSED * size:
+            raise InputError(
+                f"motion: the cycle ends {in_small_units(moved, cycle.axis)} from where it starts, and a cam comes back"
+                " with every turn: end the cycle with a Return(), and give it no advance"
+            )
+        scale = TURN / cycle.duration
+        turns = [replace(piece, start=piece.start * scale, duration=piece.duration * scale) for piece in pieces]
+        return cls(tuple(part for piece in turns for part in _parts(piece)), cycle.axis, closed=True)
+
+    @classmethod
+    def of_law(cls, law: str | MotionLaw, stroke: Any, angle: Any, direction: str = "rise") -> Self:  # noqa: ANN401
+        """The motion of one law, over a part of the turn.
+
+        Parameters
+        ----------
+        law
+            A law, a name of the catalogue, or a JSON file.
+        stroke
+            Such as "40 mm" for a follower that slides, "25 deg" for one that swings.
+        angle
+            Of the cam while the follower moves, such as "120 deg".
+        direction
+            "rise", or "return" for the way back, which begins at the stroke.
+
+        Raises
+        ------
+        InputError
+            If the stroke or the angle is no such quantity, not above 0, or the angle is more than a turn.
+        """
+        axis, height = either(stroke, ("length", "angle"), "stroke")
+        turn = quantity(angle, "angle", "angle")
+        if height <= 0.0:
+            raise InputError(
+                f"stroke must be above 0, got {shortened(stroke)}; take direction='return' is the way back"
+            )
+        if not 0.0 < turn <= TURN * (1.0 + _CLOSED):
+            raise InputError(f"angle must be above 0 and at most 360 deg, got {shortened(angle)}")
+        if direction not in tuple(DIRECTIONS):
+            raise InputError(unknown_key(direction, DIRECTIONS, "direction"))
+        sign = DIRECTIONS[direction]
+        piece = Piece(0.0, turn, 0.0 if sign > 0.0 else height, sign * height, named_law(law, "motion"))
+        return cls(tuple(_parts(piece)), axis, closed=False)
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The first and the last angle, rad."""
+        return self.stretches[0].start, self.stretches[-1].stop
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Angles between which the motion is smooth, both ends included, rad."""
+        return (*(one.start for one in self.stretches), self.stretches[-1].stop)
+
+    @kept_property
+    def range(self) -> tuple[float, float]:
+        """Least and greatest displacement."""
+        return self._extremes(0)
+
+    @kept_property
+    def slopes(self) -> tuple[float, float]:
+        """Least and greatest derivative by the angle."""
+        return self._extremes(1)
+
+    def __call__(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+        """The derivative of order nu by the angle in rad; at a break that just after it.
+
+        Raises
+        ------
+        InputError
+            If an angle is no finite number, or out of the interval of a motion that is not closed.
+        """
+        order = derivative(nu)
+        values = self.jet(real_times(angle), order).derivative(order)
+        return values if np.ndim(values) else float(values)
+
+    def jet(self, angle: Array, order: int, *, before: bool = False) -> Jet:
+        """The displacement with its derivatives up to an order; at a break those just after it, or just before it."""
+        at = self.within(angle)
+        inner = [one.start for one in self.stretches[1:]]
+        which = np.searchsorted(inner, at, side="left" if before else "right")
+        terms = tuple(np.empty(at.shape) for _ in range(order + 1))
+        for i in np.unique(which):
+            here = which == i
+            for kept, term in zip(terms, self.stretches[i].jet(at[here], order).terms, strict=True):
+                kept[here] = term
+        return Jet(terms)
+
+    def within(self, angle: Array) -> Array:
+        """Angles of the interval that mean the same."""
+        first, last = self.interval
+        if self.closed:
+            beyond = (angle < first) | (angle > last)
+            return np.where(beyond, first + np.mod(angle - first, last - first), angle)
+        slack = _CLOSED * (last - first)
+        if np.any((angle < first - slack) | (angle > last + slack)):
+            raise InputError(
+                f"angles of this motion are {first:g} to {last:g} rad, got {shortened(np.asarray(angle).tolist())}:"
+                " a law moves a follower over a part of the turn; take a Cycle for the whole of it"
+            )
+        return np.clip(angle, first, last)
+
+    def _extremes(self, nu: int) -> tuple[float, float]:
+        lows, highs = zip(*(one.extremes(nu) for one in self.stretches), strict=True)
+        return min(lows), max(highs)
+
+    def reversed(self) -> Self:
+        """The same motion downward, as the second follower of a pair moves."""
+        turned = tuple(replace(one, offset=-one.offset, stroke=-one.stroke) for one in self.stretches)
+        return replace(self, stretches=turned)
+
+
+def as_motion(given: Any, axis: str) -> CamMotion:  # noqa: ANN401 - it is checked here
+    """The motion that a cycle or a motion by angle says, which must be a length or an angle as the follower asks.
+
+    Raises
+    ------
+    InputError
+        If it is neither, or of the other axis.
+    """
+    if isinstance(given, Cycle):
+        motion = CamMotion.of_cycle(given)
+    elif isinstance(given, CamMotion):
+        motion = given
+    else:
+        raise InputError(
+            "motion must be a Cycle, or a CamMotion such as CamMotion.of_law('cycloidal', '40 mm', '120 deg'), got "
+            f"{shortened(given)}"
+        )
+    if motion.axis != axis:
+        kinds = {"length": "slides, and the displacements of the motion are angles", "angle": "swings, and the "
+                 "displacements of the motion are lengths"}  # fmt: skip
+        other = {"length": "an oscillating", "angle": "a translating"}[axis]
+        raise InputError(f"motion: the follower {kinds[axis]}: take {other} follower, or displacements of its kind")
+    return motion
+
+
+def _parts(piece: Piece) -> Sequence[Stretch]:
+    """The smooth parts of a law in its place."""
+    first = float(piece.law.a(0.0))
+    found = []
+    for (start, stop), segment in zip(pairwise(piece.law.breaks), _segments(piece.law), strict=True):
+        offset = piece.offset + piece.stroke * (float(piece.law.a(start)) - first)
+        low, high = piece.start + start * piece.duration, piece.start + stop * piece.duration
+        found.append(Stretch(low, high, offset, piece.stroke, piece.duration, segment, stop - start))
+    return found
+
+
+def _segments(law: MotionLaw) -> Sequence[Segment]:
+    """The law between its breaks: exact where it is made of segments or a polynomial, else interpolated to rounding."""
+    if isinstance(law, PiecewiseLaw):
+        return law.segments
+    if isinstance(law, PolynomialLaw):
+        return (PolynomialSegment(law.acceleration, law.b0),)
+    return [_interpolated(law, start, stop) for start, stop in pairwise(law.breaks)]
+
+
+def _interpolated(law: MotionLaw, start: float, stop: float) -> Segment:
+    def c(x: Array) -> Array:
+        return law.c(start + 0.5 * (stop - start) * (x + 1.0))
+
+    series = chebyshev.interpolated(c, "acceleration of the law of a cam")
+    return PolynomialSegment(tuple(series.tolist()), float(law.b(start)))

@@ -1,0 +1,179 @@
+"""Plane curves as functions of the cam's angle: points, derivatives of every order, normals, curvature, offsets."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.curves.jets import Pair
+from optlaws.numbers import derivative, finite, real_times, whole
+
+Array = NDArray[np.float64]
+
+_MOST = 1_000_000
+
+
+class PlaneCurve(ABC):
+    """A curve around a cam's centre, as a function of the cam's angle; call it for points or derivatives by the angle.
+
+    Coordinates are those of the cam, in metres, with the follower's at the angle 0; angles are in radians. Curves are
+    as smooth as the motion; at its breaks they have their values just after them, or with `before=True` just before.
+
+    Examples
+    --------
+    >>> from optlaws.cams.disc import DiscCam
+    >>> from optlaws.cams.curves.motion_by_angle import CamMotion
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
+    >>> pitch = DiscCam(rise, base_radius="80 mm", follower=TranslatingRoller("12 mm")).pitch_curve
+    >>> pitch([0.0, 1.0]).shape, pitch(1.0, nu=2).shape, round(float(np.hypot(*pitch(0.0))), 9)
+    ((2, 2), (2,), 0.08)
+    """
+
+    @property
+    @abstractmethod
+    def breaks(self) -> tuple[float, ...]:
+        """Angles between which it is smooth, both ends included, rad."""
+
+    @property
+    @abstractmethod
+    def closed(self) -> bool:
+        """Whether it comes back to its start after a turn."""
+
+    @property
+    @abstractmethod
+    def turning(self) -> float:
+        """1 where it is run through clockwise as the angle grows, under a cam that turns counterclockwise; else -1."""
+
+    @abstractmethod
+    def jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:
+        """Both coordinates with their derivatives up to an order."""
+
+    @property
+    def interval(self) -> tuple[float, float]:
+        """The first and the last angle, rad."""
+        return self.breaks[0], self.breaks[-1]
+
+    def __call__(self, angle: Any, nu: int = 0, *, before: bool = False) -> Array:  # noqa: ANN401 - checked here
+        """Points, or derivatives of order nu by the angle, m.
+
+        Parameters
+        ----------
+        angle
+            Of the cam, rad; a number or an array of any shape.
+        nu
+            Order of the derivative.
+        before
+            At a break, take what is just before it.
+
+        Returns
+        -------
+        An array of the shape of `angle` and two more: x and y.
+
+        Raises
+        ------
+        InputError
+            If an angle is no finite number, or out of the interval of a curve that is not closed.
+        """
+        order = derivative(nu)
+        x, y = self.jets(real_times(angle), order, before=before)
+        return np.stack([x.derivative(order), y.derivative(order)], axis=-1)
+
+    def normal(self, angle: Any, *, before: bool = False) -> Array:  # noqa: ANN401 - as for points
+        """The unit normal away from the cam, shape of `angle` and two more."""
+        x, y = self.normal_jets(real_times(angle), 0, before=before)
+        return np.stack([x.terms[0], y.terms[0]], axis=-1)
+
+    def tangent(self, angle: Any, *, before: bool = False) -> Array:  # noqa: ANN401 - as for points
+        """The unit tangent, in the direction in which the angle grows."""
+        x, y = self.normal_jets(real_times(angle), 0, before=before)
+        return self.turning * np.stack([y.terms[0], -x.terms[0]], axis=-1)
+
+    def curvature(self, angle: Any, *, before: bool = False) -> Any:  # noqa: ANN401 - as for points
+        """The curvature, 1/m: above 0 where the curve bulges outward, below where it is hollow.
+
+        It is infinite at a cusp, and negative beyond one that ends in a loop.
+        """
+        x, y = self.jets(real_times(angle), 2, before=before)
+        tangents, (nx, ny) = (x.slope(), y.slope()), self.normal_jets(real_times(angle), 1, before=before)
+        # the normal turns by the curvature times the way along the tangent
+        sign = self.turning
+        along = (tangents[0].terms[0] * ny.terms[0] - tangents[1].terms[0] * nx.terms[0]) * sign
+        turns = (nx.terms[1] * ny.terms[0] - ny.terms[1] * nx.terms[0]) * sign
+        with np.errstate(divide="ignore", invalid="ignore"):
+            values = turns / along
+        return values if np.ndim(values) else float(values)
+
+    def radius_of_curvature(self, angle: Any, *, before: bool = False) -> Any:  # noqa: ANN401 - as for points
+        """The radius of curvature, m, with the sign of the curvature; infinite where the curve is straight."""
+        with np.errstate(divide="ignore"):
+            values = 1.0 / np.asarray(self.curvature(angle, before=before))
+        return values if np.ndim(values) else float(values)
+
+    def offset(self, distance: float) -> OffsetCurve:
+        """The parallel curve so many metres outward, or inward where it is below 0.
+
+        Raises
+        ------
+        InputError
+            If the distance is no finite number.
+        """
+        return OffsetCurve(self, finite(distance, "distance"))
+
+    def samples(self, count: int = 721) -> tuple[Array, Array]:
+        """Equally spaced angles with every break among them, and the points there.
+
+        Raises
+        ------
+        InputError
+            If `count` is no integer of at least 2.
+        """
+        even = np.linspace(*self.interval, whole(count, "count", least=2, most=_MOST))
+        angles = np.unique(np.concatenate([even, self.breaks]))
+        return angles, self(angles)
+
+    def normal_jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:
+        """The unit normal away from the cam with its derivatives up to an order."""
+        x, y = (one.slope() for one in self.jets(angle, order + 1, before=before))
+        length = (x * x + y * y).root()
+        return y / length * -self.turning, x / length * self.turning
+
+
+@dataclass(frozen=True)
+class OffsetCurve(PlaneCurve):
+    """The curve at a distance from another, along its normals; outward where the distance is above 0, m."""
+
+    base: PlaneCurve
+    distance: float
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Those of the other."""
+        return self.base.breaks
+
+    @property
+    def closed(self) -> bool:
+        """As the other."""
+        return self.base.closed
+
+    @property
+    def turning(self) -> float:
+        """As the other."""
+        return self.base.turning
+
+    def jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+        x, y = self.base.jets(angle, order, before=before)
+        if self.distance == 0.0:
+            return x, y
+        along_x, along_y = self.normal_jets(angle, order, before=before)
+        return x + along_x * self.distance, y + along_y * self.distance
+
+    def normal_jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+        return self.base.normal_jets(angle, order, before=before)
+
+    def offset(self, distance: float) -> OffsetCurve:  # noqa: D102
+        return OffsetCurve(self.base, self.distance + finite(distance, "distance"))

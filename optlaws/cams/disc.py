@@ -1,0 +1,197 @@
+"""A disc cam: a motion, a base circle and a follower, and what follows from them as functions of the cam's angle."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import degrees
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.curves.jets import Pair, turned, variable
+from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
+from optlaws.cams.curves.plane_curve import PlaneCurve
+from optlaws.cams.followers.contact import Contact, FaceContact, RollerContact
+from optlaws.cams.followers.follower import Follower, Place, positive
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.quantities import quantity
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.numbers import derivative, real_times
+from optlaws.suggest import unknown_key
+
+Array = NDArray[np.float64]
+
+TURNINGS = {"counterclockwise": 1.0, "clockwise": -1.0}
+
+
+@dataclass(frozen=True)
+class DiscCam:
+    """A disc cam and its follower; lengths in metres, angles in radians, derivatives by the cam's angle.
+
+    Parameters
+    ----------
+    motion
+        A `Cycle`, which is a turn of the cam, or the law of a part of the turn, `CamMotion.of_law(...)`.
+    base_radius
+        Distance of the roller's centre, or of the flat face, from the cam's centre where the follower is lowest: the
+        radius of the base circle of the pitch curve, such as "80 mm".
+    follower
+        `TranslatingRoller`, `TranslatingFlat`, `OscillatingRoller` or `OscillatingFlat`.
+    turning
+        "counterclockwise" or "clockwise", seen with a slide's way pointing up or a pivot to the right of the cam.
+    phase
+        By how much the coordinates of the cam are turned, counterclockwise; for cams on one shaft.
+
+    Raises
+    ------
+    InputError
+        If there is no such mechanism; the error says the remedy.
+
+    Examples
+    --------
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> from optlaws.cycles.segments import Dwell, Return, Rise
+    >>> segments = [Rise("40 mm", "120 deg", law="cycloidal"), Dwell("60 deg"), Return(law="cycloidal")]
+    >>> cam = DiscCam(Cycle(segments, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> round(float(np.degrees(cam.pressure_angle(1.0))), 6), cam.profile(1.0).shape
+    (21.157747, (2,))
+    """
+
+    motion: Cycle | CamMotion
+    base_radius: Any
+    follower: Follower
+    turning: str = field(default="counterclockwise", kw_only=True)
+    phase: Any = field(default="0 deg", kw_only=True)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.follower, Follower):
+            raise InputError(
+                "follower must be a TranslatingRoller, TranslatingFlat, OscillatingRoller or OscillatingFlat, got "
+                f"{shortened(self.follower)}"
+            )
+        if self.turning not in tuple(TURNINGS):
+            raise InputError(unknown_key(self.turning, TURNINGS, "turning"))
+        quantity(self.phase, "angle", "phase")
+        self.contact  # noqa: B018 - what cannot be built is refused at once
+
+    @kept_property
+    def displacement(self) -> CamMotion:
+        """What the follower does, by the cam's angle."""
+        motion = as_motion(self.motion, self.follower.axis)
+        _check_velocities(motion)
+        return motion
+
+    @kept_property
+    def contact(self) -> Contact:
+        """How the follower touches the cam, in numbers."""
+        radius, motion = positive(self.base_radius, "base_radius"), self.displacement
+        return self.follower.contact(Place(radius, *motion.range, motion.slopes, TURNINGS[self.turning]))
+
+    @kept_property
+    def pitch_curve(self) -> PlaneCurve:
+        """The way of the roller's centre around the cam; under a flat face the profile itself."""
+        return FollowerCurve(self.displacement, self.contact, quantity(self.phase, "angle", "phase"))
+
+    @kept_property
+    def profile(self) -> PlaneCurve:
+        """The cam's edge."""
+        return self.pitch_curve.offset(-self.contact.roller) if self.contact.roller else self.pitch_curve
+
+    def cutter_path(self, cutter_radius: Any) -> PlaneCurve:  # noqa: ANN401 - a quantity
+        """The way of the centre of a cutter or grinding wheel that makes the profile.
+
+        Raises
+        ------
+        InputError
+            If the radius is no length above 0.
+        """
+        return self.pitch_curve.offset(positive(cutter_radius, "cutter_radius") - self.contact.roller)
+
+    def pressure_angle(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, arrays for arrays
+        """The angle between the force on the follower and its way, rad, or a derivative of it by the cam's angle.
+
+        Raises
+        ------
+        InputError
+            If an angle is no finite number.
+        """
+        order = derivative(nu)
+        s = self.displacement.jet(real_times(angle), order + 2)
+        return _plain(self.contact.pressure(s).cut(order).arctangent().derivative(order))
+
+    def radius_of_curvature(self, angle: Any) -> Any:  # noqa: ANN401 - as for pressure angles
+        """The radius of curvature of the profile, m: above 0 where it bulges outward, below where it is hollow.
+
+        Raises
+        ------
+        InputError
+            If an angle is no finite number.
+        """
+        s = self.displacement.jet(real_times(angle), 2)
+        if isinstance(self.contact, RollerContact):
+            with np.errstate(divide="ignore"):
+                return _plain(1.0 / self.contact.curvature(s).terms[0] - self.contact.roller)
+        assert isinstance(self.contact, FaceContact)  # noqa: S101 - there are no others
+        return _plain(self.contact.radius(s).terms[0])
+
+
+@dataclass(frozen=True)
+class FollowerCurve(PlaneCurve):
+    """The curve that a roller's centre makes around the cam, or the one that a flat face envelops."""
+
+    motion: CamMotion
+    contact: Contact
+    phase: float
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Those of the motion."""
+        return self.motion.breaks
+
+    @property
+    def closed(self) -> bool:
+        """As the motion."""
+        return self.motion.closed
+
+    @property
+    def turning(self) -> float:
+        """As the cam."""
+        return self.contact.turning
+
+    def jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+        s = self.motion.jet(angle, order + self.contact.lost, before=before)
+        return self._in_cam(self.contact.point(s), angle, order)
+
+    def normal_jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+        normal = self.contact.normal(self.motion.jet(angle, order, before=before))
+        return (
+            super().normal_jets(angle, order, before=before) if normal is None else self._in_cam(normal, angle, order)
+        )
+
+    def _in_cam(self, pair: Pair, angle: Array, order: int) -> Pair:
+        return turned(pair, variable(self.motion.within(angle), order) * -self.turning + self.phase)
+
+
+def _check_velocities(motion: CamMotion) -> None:
+    """Refuse a motion whose velocity leaps, under which a cam would have a corner."""
+    inner = np.array(motion.breaks[1:-1] if not motion.closed else motion.breaks)
+    if not len(inner):
+        return
+    after = np.asarray(motion.jet(inner, 1).terms[1])
+    before = np.asarray(motion.jet(inner, 1, before=True).terms[1])
+    if motion.closed:  # what is before the start is at the end, and what is after the end at the start
+        before[0], after[-1] = before[-1], after[0]
+    leaps = np.abs(after - before)
+    if leaps.max() > 1e-9 * max(abs(slope) for slope in motion.slopes):
+        place = degrees(inner[int(np.argmax(leaps))])
+        raise InputError(
+            f"motion: its velocity leaps at {place:.6g} deg of the cam, where the cam would have a corner: take laws"
+            " whose velocities meet"
+        )
+
+
+def _plain(values: Array) -> Any:  # noqa: ANN401
+    return values if np.ndim(values) else float(values)

@@ -1,0 +1,1 @@
+"""Followers of disc cams: rollers and flat faces that slide or swing."""

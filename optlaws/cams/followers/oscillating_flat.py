@@ -1,0 +1,116 @@
+"""A flat face on an arm that swings about a pivot."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import asin, degrees, pi
+from typing import Any
+
+from optlaws.cams.curves.jets import Jet, Pair
+from optlaws.cams.followers.contact import FaceContact
+from optlaws.cams.followers.follower import Follower, Place, positive, shown
+from optlaws.cycles.quantities import quantity
+from optlaws.errors import InputError
+
+
+@dataclass(frozen=True)
+class OscillatingFlat(Follower):
+    """A follower that swings and has a flat face.
+
+    Parameters
+    ----------
+    pivot_distance
+        From the cam's centre to the pivot.
+    face_offset
+        From the pivot to the line of the face; above 0 where the face lies away from the cam.
+
+    Examples
+    --------
+    >>> OscillatingFlat(pivot_distance="120 mm", face_offset="8 mm").axis
+    'angle'
+    """
+
+    pivot_distance: Any
+    face_offset: Any = "0 mm"
+
+    @property
+    def axis(self) -> str:
+        """It swings."""
+        return "angle"
+
+    def contact(self, place: Place) -> FaceContact:  # noqa: D102
+        distance = positive(self.pivot_distance, "face: pivot_distance")
+        offset = quantity(self.face_offset, "length", "face: face_offset")
+        if abs(place.radius - offset) >= distance:
+            raise InputError(
+                f"face: a pivot {shown(distance)} away is too near for a base circle of radius {shown(place.radius)}"
+                f" and a face_offset of {shown(offset)}: put it farther than {shown(abs(place.radius - offset))}"
+            )
+        first = asin((place.radius - offset) / distance)
+        last = first + place.highest - place.lowest
+        if last >= 0.5 * pi:
+            raise InputError(
+                f"face: it swings from {degrees(first):.6g} to {degrees(last):.6g} deg from the line to the cam's"
+                " centre, and touches nothing from 90 deg on: make the swing smaller or pivot_distance greater"
+            )
+        swiftest = -min(place.turning * slope for slope in place.slopes)
+        if swiftest >= 1.0:
+            raise InputError(
+                f"face: it swings {swiftest:.6g} times as fast as the cam turns, in the same sense: the cam cannot"
+                " touch it: spread the motion over more of the turn, or swing less"
+            )
+        return SwingingFace(place.turning, place.lowest, first, distance, offset)
+
+
+@dataclass(frozen=True)
+class SwingingFace(FaceContact):
+    """The same in numbers: the pivot is at x = distance, the face at phi = first + s from the line to the cam's centre.
+
+    It is touched at distance cos(phi)/(1 ± phi') from the foot of the pivot.
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> face = SwingingFace(1.0, 0.0, np.arcsin(0.4), 0.1, 0.0)
+    >>> still = Jet(tuple(np.float64(0.0) for _ in range(3)))
+    >>> round(float(face.radius(still).terms[0]), 12)
+    0.04
+    """
+
+    first: float
+    distance: float
+    offset: float
+
+    @property
+    def lost(self) -> int:
+        """One: the place on the face is a derivative."""
+        return 1
+
+    def point(self, s: Jet) -> Pair:  # noqa: D102
+        sine, cosine = self._waves(s)
+        reach = self.reach(s)
+        return sine * self.offset - reach * cosine + self.distance, reach * sine + cosine * self.offset
+
+    def normal(self, s: Jet) -> Pair:  # noqa: D102
+        return self._waves(s)
+
+    def pressure(self, s: Jet) -> Jet:
+        """By where the face is touched: its point moves square to the ray from the pivot."""
+        reach = self.reach(s)
+        return (reach * 0.0 + self.offset) / reach * self.turning
+
+    def radius(self, s: Jet) -> Jet:  # noqa: D102
+        sine, _ = self._waves(s)
+        rate = self._rate(s)
+        return (sine * self.distance - self.reach(s).slope() * self.turning) / rate + self.offset
+
+    def reach(self, s: Jet) -> Jet:
+        """From the foot of the pivot towards the cam."""
+        _, cosine = self._waves(s)
+        return cosine * self.distance / self._rate(s)
+
+    def _waves(self, s: Jet) -> Pair:
+        return (s + (self.first - self.lowest)).waves()
+
+    def _rate(self, s: Jet) -> Jet:
+        return s.slope() * self.turning + 1.0
