@@ -14,8 +14,8 @@ from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.followers.contact import Contact, FaceContact, RollerContact
 from optlaws.cams.followers.follower import Follower, Place, positive
+from optlaws.cycles.asked.quantities import quantity
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.quantities import quantity
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -53,7 +53,7 @@ class DiscCam:
     Examples
     --------
     >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
-    >>> from optlaws.cycles.segments import Dwell, Return, Rise
+    >>> from optlaws.cycles.asked.segments import Dwell, Return, Rise
     >>> segments = [Rise("40 mm", "120 deg", law="cycloidal"), Dwell("60 deg"), Return(law="cycloidal")]
     >>> cam = DiscCam(Cycle(segments, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
     >>> round(float(np.degrees(cam.pressure_angle(1.0))), 6), cam.profile(1.0).shape

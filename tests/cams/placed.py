@@ -13,9 +13,9 @@ from optlaws.cams.followers.oscillating_flat import OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat
 from optlaws.cams.followers.translating_roller import TranslatingRoller
+from optlaws.cycles.asked.quantities import either
+from optlaws.cycles.asked.segments import Dwell, Return, Rise
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.quantities import either
-from optlaws.cycles.segments import Dwell, Return, Rise
 
 Array = NDArray[np.float64]
 Points = NDArray[np.complex128]

@@ -12,11 +12,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.cams.curves.jets import Jet
-from optlaws.cycles.conversion import Piece, factor
+from optlaws.cycles.asked.conversion import Piece, factor
+from optlaws.cycles.asked.named import named_law
+from optlaws.cycles.asked.programme import TURN, in_small_units
+from optlaws.cycles.asked.quantities import either, quantity
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.named import named_law
-from optlaws.cycles.programme import TURN, in_small_units
-from optlaws.cycles.quantities import either, quantity
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property

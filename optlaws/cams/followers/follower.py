@@ -7,7 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from optlaws.cams.followers.contact import Contact
-from optlaws.cycles.quantities import quantity
+from optlaws.cycles.asked.quantities import quantity
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 

@@ -9,7 +9,7 @@ from typing import Any
 from optlaws.cams.curves.jets import Jet, Pair
 from optlaws.cams.followers.contact import FaceContact
 from optlaws.cams.followers.follower import Follower, Place, positive, shown
-from optlaws.cycles.quantities import quantity
+from optlaws.cycles.asked.quantities import quantity
 from optlaws.errors import InputError
 
 

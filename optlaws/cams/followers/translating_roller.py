@@ -8,7 +8,7 @@ from typing import Any
 from optlaws.cams.curves.jets import Jet, Pair
 from optlaws.cams.followers.contact import RollerContact, side_of
 from optlaws.cams.followers.follower import Follower, Place, roller_radius, shown
-from optlaws.cycles.quantities import quantity
+from optlaws.cycles.asked.quantities import quantity
 from optlaws.errors import InputError
 
 
