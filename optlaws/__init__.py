@@ -10,6 +10,7 @@ _load, __dir__, __all__ = face(
     {
         "optlaws.cycles.cycle": "Cycle",
         "optlaws.cycles.asked.segments": "ConstantVelocity Dwell Free Move Return Rise",
+        "optlaws.cycles.machine_follower": "MachineFollower machine_follower",
         "optlaws.errors": "InfeasibleProblem InputError NotNormalised OptlawsError SolverFailure",
         "optlaws.laws.catalogue.catalogue": "catalogue",
         "optlaws.laws.constants": "Constants",

@@ -9,6 +9,8 @@ from optlaws.cycles.asked.segments import Move as Move
 from optlaws.cycles.asked.segments import Return as Return
 from optlaws.cycles.asked.segments import Rise as Rise
 from optlaws.cycles.cycle import Cycle as Cycle
+from optlaws.cycles.machine_follower import MachineFollower as MachineFollower
+from optlaws.cycles.machine_follower import machine_follower as machine_follower
 from optlaws.cycles.side_by_side import Comparison as Comparison
 from optlaws.cycles.side_by_side import compare as compare
 from optlaws.errors import InfeasibleProblem as InfeasibleProblem
@@ -159,6 +161,7 @@ __all__ = [
     "Link",
     "Loader",
     "Machine",
+    "MachineFollower",
     "MachineSpectrum",
     "MotionLaw",
     "Move",
@@ -210,6 +213,7 @@ __all__ = [
     "limit",
     "limit_law",
     "loader",
+    "machine_follower",
     "machine_spectrum",
     "mass_law",
     "maximum",

@@ -8,12 +8,14 @@ from typing import TYPE_CHECKING, Any
 import optlaws
 from optlaws.cli.options import AsJson, Whole, read_law
 from optlaws.cli.show import print_json, show, table
+from optlaws.errors import InputError
 
 if TYPE_CHECKING:
     from optlaws.mechanisms.dwell.choice import DwellComparison
     from optlaws.mechanisms.dwell.clutch import Teeth
 
 _TEETH = 3
+_TURN = 360.0 * (1.0 + 1e-9)
 
 
 def dwell(
@@ -67,6 +69,7 @@ def dwell(
     as_json
         Print one JSON object on stdout and nothing else; angles in radians.
     """
+    _check_turn(rise, dwell, lower_dwell)
     found = optlaws.compare_dwell_mechanisms(
         law=read_law(name),
         dwell=optlaws.deg(dwell),
@@ -88,6 +91,17 @@ def dwell(
         _show(found, clutches, teeth)
 
 
+def _check_turn(rise: float, dwell: float, lower_dwell: float | None) -> None:
+    """Refuse angles that one turn of the cam has no room for; that they are fewer is said with the answer."""
+    cycle = 2.0 * rise + dwell + (dwell if lower_dwell is None else lower_dwell)
+    if cycle > _TURN:
+        lower = "the lower dwell, as long as the upper one," if lower_dwell is None else "--lower-dwell"
+        raise InputError(
+            f"--rise, the return as long, --dwell and {lower} add up to {cycle:.6g} degrees, more than one turn; "
+            "shorten them, or give a shorter --lower-dwell"
+        )
+
+
 def _show(found: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: int) -> None:
     types = table("type", "a", "b", "S1", "S2", "usable")
     for kind, reason in found.reasons.items():
@@ -95,6 +109,8 @@ def _show(found: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: in
         cells = ["", "", "", ""] if one is None else [f"{value:.6g}" for value in (one.a, one.b, one.S1, one.S2)]
         types.add_row(kind, *cells, reason)
     chosen = "none is usable" if found.chosen is None else f"type {found.chosen}, the smallest cam of those usable"
+    remarks = {remark for one in found.mechanisms.values() for remark in one.remarks}
+    show(*(f"mind: {remark}" for remark in sorted(remarks)))
     show(types, f"take {chosen}; the paper's rule of thumb says {found.by_rule}")
     teeth_of = table("clutch", "p/N wanted", "p", "N", "off by, deg", "exact with")
     for kind, clutch in clutches.items():
@@ -103,8 +119,6 @@ def _show(found: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: in
             teeth_of.add_row(kind, f"{clutch.ratio:.8g}", str(choice.p), str(choice.N), error, _remedy(choice))
     if clutches:
         show(teeth_of)
-    remarks = {remark for one in found.mechanisms.values() for remark in one.remarks}
-    show(*(f"mind: {remark}" for remark in sorted(remarks)))
 
 
 def _choices(clutch: optlaws.Clutch, teeth: int) -> tuple[Teeth, ...]:

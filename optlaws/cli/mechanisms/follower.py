@@ -11,6 +11,7 @@ from optlaws.cli.show import print_json, show, table
 from optlaws.errors import InputError
 
 _POINTS = 2001
+_NONE = (None, None, None)
 
 
 def follower(
@@ -22,6 +23,11 @@ def follower(
     speed_rpm: float | None = None,
     rise_angle: float | None = None,
     natural_period: float | None = None,
+    frequency: str | None = None,
+    speed: str | None = None,
+    rise: str | None = None,
+    time: str | None = None,
+    stroke: str | None = None,
     damping: float = 0.0,
     design_nu: float | None = None,
     design_damping: float | None = None,
@@ -46,6 +52,16 @@ def follower(
         With --speed-rpm: angle of the cam during the rise, degrees.
     natural_period
         With --speed-rpm: period of the undamped free vibration, s.
+    frequency
+        In place of --nu: frequency of the undamped free vibration with its unit, such as "16.7 Hz".
+    speed
+        With --frequency: speed of the cam with its unit, such as "105 rpm".
+    rise
+        With --speed: angle of the cam during the rise with its unit, such as "120 deg".
+    time
+        In place of --speed and --rise: duration of the rise with its unit, such as "0.1 s".
+    stroke
+        Stroke of the cam with its unit, such as "35 mm" or "20 deg": peaks and vibration in machine units are told too.
     damping
         Damping ratio of the follower.
     design_nu
@@ -62,7 +78,13 @@ def follower(
     check_files(plot=plot)
     if (plot is None) != (spectrum is None):
         raise InputError("--spectrum LOW HIGH gives the range of nu for --plot FILE: name both or neither")
-    mass = _follower(nu, (speed_rpm, rise_angle, natural_period), damping)
+    mass, machine = _asked(
+        nu,
+        (speed_rpm, rise_angle, natural_period),
+        {"frequency": frequency, "speed": speed, "rise": rise, "time": time},
+        stroke,
+        damping,
+    )
     reference = read_law(law, alpha, by="--alpha")
     if design_nu is None and design_damping is not None:
         raise InputError("--design-damping needs --design-nu")
@@ -73,19 +95,47 @@ def follower(
     if plot is not None and spectrum is not None:
         _draw(cam, reference, mass.damping, spectrum, plot)
     found = _summary(mass, cam, reference, response)
+    if machine is not None:
+        found["machine"] = machine.response(cam).to_dict() | {"dynamic factor": found["dynamic_factor"]}
     if as_json:
         print_json(found)
     else:
         _show(found)
 
 
-def _follower(nu: float | None, speed: tuple[float | None, ...], damping: float) -> optlaws.Follower:
-    rpm, angle, period = speed
-    if nu is not None and speed == (None, None, None):
+Bare = tuple[float | None, float | None, float | None]
+
+
+def _asked(
+    nu: float | None, bare: Bare, quantities: dict[str, str | None], stroke: str | None, damping: float
+) -> tuple[optlaws.Follower, optlaws.MachineFollower | None]:
+    """The follower, and the machine that it is of, where a stroke is given."""
+    if any(one is not None for one in quantities.values()):
+        if nu is not None or bare != _NONE:
+            raise InputError("--frequency, --speed, --rise and --time are of a machine: give no --nu or numbers beside")
+        machine = optlaws.machine_follower(stroke=stroke or "1 m", damping=damping, **quantities)
+        return machine.follower, machine if stroke else None
+    mass = _follower(nu, bare, damping)
+    rpm, angle, period = bare
+    if stroke is None:
+        return mass, None
+    if rpm is None or angle is None:
+        raise InputError("--stroke needs the time of the rise: give --frequency with --speed and --rise, or --time")
+    return mass, optlaws.machine_follower(
+        stroke=stroke, period=f"{period!r} s", speed=f"{rpm!r} rpm", rise=f"{angle!r} deg", damping=damping
+    )
+
+
+def _follower(nu: float | None, bare: Bare, damping: float) -> optlaws.Follower:
+    rpm, angle, period = bare
+    if nu is not None and bare == _NONE:
         return optlaws.Follower(nu, damping)
     if nu is None and rpm is not None and angle is not None and period is not None:
         return optlaws.Follower.from_speed(speed_rpm=rpm, rise_angle_deg=angle, natural_period=period, damping=damping)
-    raise InputError("give either --nu or all of --speed-rpm, --rise-angle and --natural-period")
+    raise InputError(
+        "give either --nu or all of --speed-rpm, --rise-angle and --natural-period, or, with units, --frequency with "
+        "--time or with --speed and --rise"
+    )
 
 
 def _summary(
@@ -127,6 +177,9 @@ def _show(found: dict[str, Any]) -> None:
     for one in found["off_design"]:
         cells = (f"{one[key]:.6g}" for key in ("nu", "dynamic_factor", "residual_acceleration"))
         off.add_row(f"{one['percent']:+g} %" if one["percent"] else "0 %", *cells)
+    for name, value in found.get("machine", {}).items():
+        if name != "dynamic factor":
+            facts.add_row(name, f"{value:.6g}")
     show(facts, off)
 
 

@@ -43,6 +43,7 @@ DIMENSIONS = {
     "length": ("meter", "35 mm"),
     "angle": ("radian", "45 deg"),
     "time": ("second", "0.3 s"),
+    "frequency": ("1 / second", "16.7 Hz"),
     "velocity": ("meter / second", "616 mm/s"),
     "angular velocity": ("radian / second", "200 rpm"),
     "acceleration": ("meter / second ** 2", "12 m/s^2"),

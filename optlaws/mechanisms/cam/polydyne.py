@@ -55,7 +55,8 @@ def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
     optlaws.errors.InputError: the mass law has jerk j(0) = 120, so the velocity of the cam would jump there; ...
     """
     frequency, ratio = positive(nu, "nu"), not_negative(damping, "damping")
-    check_mass_law(motion_law(law))
+    law = motion_law(law)
+    check_mass_law(law)
     if isinstance(law, PolynomialLaw):
         return _from_powers(cam_powers(law.exact_powers(), frequency, ratio), law)
     once, twice = (float(one) for one in cam_factors(frequency, ratio))
@@ -100,12 +101,13 @@ def mass_law(cam: MotionLaw, nu: float, damping: float = 0.0) -> PolynomialLaw:
     >>> [round(value, 9) for value in back.to_powers()]
     [0.0, 0.0, 0.0, 0.0, 35.0, -84.0, 70.0, -20.0]
     """
-    if not isinstance(cam, PolynomialLaw):
+    moves = motion_law(cam, "cam")
+    if not isinstance(moves, PolynomialLaw):
         raise InputError(
             f"cam must be a PolynomialLaw; Follower(nu, damping).response(cam) takes any law, got {shortened(cam)}"
         )
     frequency, ratio = positive(nu, "nu"), not_negative(damping, "damping")
-    return PolynomialLaw.from_powers(mass_powers(cam.exact_powers(), frequency, ratio))
+    return PolynomialLaw.from_powers(mass_powers(moves.exact_powers(), frequency, ratio))
 
 
 def cam_powers(mass: tuple[Fraction, ...], nu: float, damping: float) -> list[Fraction]:

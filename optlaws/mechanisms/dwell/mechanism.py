@@ -11,7 +11,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
-from optlaws.mechanisms.dwell.section_laws import REST, check_law, loader_of, peak_power, peak_velocity, top
+from optlaws.mechanisms.dwell.section_laws import REST, check_law, loader_of, own_law, peak_power, peak_velocity, top
 from optlaws.mechanisms.dwell.sections import Section, composed, excursion
 from optlaws.mechanisms.loader.loader import Loader
 from optlaws.numbers import finite, real
@@ -70,6 +70,8 @@ class DwellMechanism:
     reverse_share: float = 0.5
 
     def __post_init__(self) -> None:
+        for name in LAWS:
+            object.__setattr__(self, name, own_law(getattr(self, name)))
         for name, other in INSTEAD.items():
             if getattr(self, name) is None:
                 object.__setattr__(self, name, getattr(self, other))

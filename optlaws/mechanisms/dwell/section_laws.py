@@ -67,6 +67,19 @@ def _ends(law: MotionLaw) -> tuple[float, float, float, float]:
     return a0, b0, a1, b1
 
 
+def own_law(given: Any) -> Any:  # noqa: ANN401 - whatever the caller gave, a law or not
+    """The law of an entry of the catalogue or of a solution; everything else as it is.
+
+    Examples
+    --------
+    >>> from optlaws.laws.catalogue.catalogue import catalogue
+    >>> own_law(catalogue["cycloidal"]) == catalogue["cycloidal"].law
+    True
+    """
+    law = getattr(given, "law", None)
+    return law if isinstance(law, MotionLaw) and not isinstance(given, MotionLaw) else given
+
+
 def check_law(name: str, law: Any) -> None:  # noqa: ANN401 - whatever the caller gave
     """Refuse what is no law from rest to rest over a stroke of 1.
 
@@ -76,7 +89,7 @@ def check_law(name: str, law: Any) -> None:  # noqa: ANN401 - whatever the calle
         Naming the law.
     """
     if not isinstance(law, MotionLaw):
-        raise InputError(f"{name} must be a MotionLaw, got {shortened(law)}")
+        raise InputError(f"{name} must be a MotionLaw, or what has one in `law`, got {shortened(law)}")
     a0, b0, a1, b1 = _ends(law)
     if max(abs(b0), abs(b1)) > REST * peak_velocity(law) or abs(a1 - a0 - 1.0) > REST:
         raise InputError(

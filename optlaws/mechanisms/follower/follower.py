@@ -162,8 +162,9 @@ class Follower:
         >>> Follower(nu=20).response(smoothstep(4), initial=(0.01, 0.0))(0.0)
         0.01
         """
-        at_start = (float(motion_law(law).a(0.0)), 0.0) if initial is None else state(initial)
-        return Response(self.nu, self.damping, law, at_start)
+        cam = motion_law(law)
+        at_start = (float(cam.a(0.0)), 0.0) if initial is None else state(initial)
+        return Response(self.nu, self.damping, cam, at_start)
 
     def cycle(
         self, rise: MotionLaw, fall: MotionLaw | None = None, *, dwell: float, fall_duration: float = 1.0, rest: float

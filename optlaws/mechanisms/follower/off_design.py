@@ -94,7 +94,7 @@ def off_design(
     >>> [round(one.dynamic_factor, 6) for one in off_design(polydyne(law, nu=20), law, Follower(nu=20))]
     [1.185564, 1.102502, 1.0, 0.963659, 0.945973]
     """
-    motion_law(reference, "reference")
+    meant = motion_law(reference, "reference")
     percents = numbers(list(deviations), "deviations")
     if min(percents, default=0.0) <= -100.0:
         raise InputError(f"deviations are changes of nu in percent and must be above -100, got {min(percents):g}")
@@ -104,5 +104,5 @@ def off_design(
     for percent in percents:
         factor = 1.0 + percent / 100.0
         ratio = design.damping if change == "speed" else design.damping / factor
-        found.append(Deviation(percent, Follower(design.nu * factor, ratio).response(cam), reference))
+        found.append(Deviation(percent, Follower(design.nu * factor, ratio).response(cam), meant))
     return tuple(found)

@@ -87,25 +87,25 @@ def driving_law(machine: StateSpace, law: MotionLaw, output: str | None = None) 
     >>> round(machine.response(cam)["position"](0.3) - smoothstep(4)(0.3), 12)
     0.0
     """
-    if not isinstance(motion_law(law), PolynomialLaw):
+    moves = motion_law(law)
+    if not isinstance(moves, PolynomialLaw):
         raise InputError(
             "the output's law must be a polynomial: one whose pieces join does not let the drive be smooth"
         )
     weights = flat_output(machine, output)
     for order in range(1, len(weights) + 1):
-        ends = np.abs(law([0.0, 1.0], order))
-        if ends.max() > _JUMP * law.peak(order).value:
+        ends = np.abs(moves([0.0, 1.0], order))
+        if ends.max() > _JUMP * moves.peak(order).value:
             raise InputError(
                 f"the output's law must be of order {len(weights) + 1} at least, its derivatives 1 to {len(weights)} "
                 f"zero at both ends, for the driving law not to jump: that of order {order} is {float(ends.max()):.6g}"
             )
-    assert isinstance(law, PolynomialLaw)  # noqa: S101 - as was asked above
-    series = np.array(law.acceleration or (0.0,))
+    series = np.array(moves.acceleration or (0.0,))
     total = weights[0] * series
     for weight in weights[1:]:
         series = chebyshev.derivative(series)
         total[: len(series)] += weight * series
-    return PolynomialLaw(total, a0=weights[0] * law.a0)
+    return PolynomialLaw(total, a0=weights[0] * moves.a0)
 
 
 def _zeros(A: Array, column: Array, row: Array) -> str:

@@ -6,7 +6,7 @@ from typing import Any
 
 import pytest
 
-from optlaws import Follower, MotionLaw, polydyne, savin, smoothstep
+from optlaws import Follower, MotionLaw, machine_follower, polydyne, savin, smoothstep
 from optlaws.cli import app
 from optlaws.laws.catalogue.catalogue import catalogue
 
@@ -125,3 +125,37 @@ def test_a_file_that_is_no_law_is_refused(capsys: Capture, tmp_path: Path) -> No
         code, _, err = called(capsys, file, "--nu", 20)
         assert code == 2
         assert says in err
+
+
+MACHINE = ("--frequency", "16.7 Hz", "--speed", "105 rpm", "--rise", "120 deg")
+
+
+def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
+    code, out, _ = called(capsys, "modified sine", *MACHINE, "--stroke", "35mm", "--json")
+    assert code == 0
+    found = json.loads(out)
+    answer = machine_follower(frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm").response(
+        catalogue["modified sine"].law
+    )
+    assert found["machine"] == answer.to_dict()
+    code, out, _ = called(
+        capsys, "modified sine", "--speed-rpm", 105, "--rise-angle", 120, "--natural-period", 0.06, "--stroke", "35mm"
+    )
+    assert code == 0
+    assert "residual displacement, m" in out
+    assert printed(capsys, "modified sine", *MACHINE)["nu"] == found["nu"]
+
+
+@pytest.mark.parametrize(
+    ("options", "why"),
+    [
+        ((*MACHINE, "--nu", 20), "give no --nu"),
+        (("--nu", 20, "--stroke", "35mm"), "--stroke needs the time"),
+        (("--frequency", "16.7 Hz"), "give time"),
+        (("--frequency", 16.7, "--time", "0.1 s"), "without a unit"),
+    ],
+)
+def test_what_is_wrong_with_quantities_is_said(capsys: Capture, options: tuple[object, ...], why: str) -> None:
+    code, _, err = called(capsys, "modified sine", *options)
+    assert code == 2
+    assert why in err

@@ -77,3 +77,10 @@ def test_dwell_says_why_a_type_cannot_be_built(capsys: pytest.CaptureFixture[str
     shown = " ".join(capsys.readouterr().out.split())
     assert "cannot be built" in shown
     assert "add up to 270 degrees" in shown
+
+
+def test_more_than_one_turn_is_refused_and_less_is_said_first(capsys: pytest.CaptureFixture[str]) -> None:
+    assert exit_code(["dwell", "K", *DWELL.split(), "--lower-dwell", "150"]) == 2
+    assert "add up to 420 degrees, more than one turn" in capsys.readouterr().err
+    assert exit_code(["dwell", "K", *DWELL.split(), "--lower-dwell", "0"]) == 0
+    assert capsys.readouterr().out.startswith("mind: rise, return and dwells add up to 270 degrees")

@@ -42,7 +42,8 @@ def test_every_example_of_an_error_is_of_its_dimension() -> None:
     ("given", "said"),
     [
         ("35 mm", "speed must be an angular velocity such as '200 rpm', but '35 mm' is a length"),
-        ("3 Hz", r"speed must be an angular velocity such as '200 rpm', but '3 Hz' is of dimension 1 / \[time\]"),
+        ("3 Hz", "speed must be an angular velocity such as '200 rpm', but '3 Hz' is a frequency"),
+        ("3 Hz^2", r"speed must be an angular velocity such as '200 rpm', but '3 Hz\^2' is of dimension 1 / \[time\]"),
         (200, "speed must be an angular velocity such as '200 rpm', got 200 without a unit"),
         ("200", "got '200' without a unit"),
         ("200 rmp", "the unit of '200 rmp' is not known"),

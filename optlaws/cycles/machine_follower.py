@@ -1,0 +1,202 @@
+"""An elastic follower as a machine has it: frequency, speed and stroke with their units, answers in machine units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import tau
+from typing import Any
+
+from optlaws.cycles.asked.conversion import factor
+from optlaws.cycles.asked.quantities import either, quantity
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw
+from optlaws.mechanisms.checks import motion_law
+from optlaws.mechanisms.follower.follower import Follower
+from optlaws.mechanisms.follower.response import Response
+from optlaws.numbers import positive
+
+_UNITS = {"length": "m", "angle": "rad"}
+_WAYS = "give frequency, such as '16.7 Hz', or period, such as '60 ms', and not both"
+_DURATIONS = "give time, such as '0.1 s', or speed and rise, such as '105 rpm' and '120 deg'"
+
+
+@dataclass(frozen=True)
+class MachineFollower:
+    """An elastic follower with the stroke and the duration of its rise, made by `machine_follower`.
+
+    Attributes
+    ----------
+    follower
+        The follower, dimensionless.
+    stroke
+        Stroke of the cam, in m or rad.
+    time
+        Duration of the rise, s.
+    unit
+        That of the stroke, "m" or "rad".
+
+    Examples
+    --------
+    >>> from optlaws import catalogue
+    >>> press = machine_follower(frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm", damping=0.05)
+    >>> press.follower
+    Follower(nu=19.986513, damping=0.05)
+    >>> answer = press.response(catalogue["modified sine"])
+    >>> round(answer.peak_acceleration, 3), round(1e3 * answer.residual_displacement, 3)  # m/s², mm
+    (9.07, 0.51)
+    """
+
+    follower: Follower
+    stroke: float
+    time: float
+    unit: str = "m"
+
+    def response(self, law: MotionLaw) -> MachineAnswer:
+        """What the mass does when the cam moves by a law and rests afterwards, in machine units.
+
+        Raises
+        ------
+        InputError
+            If `law` is no motion law.
+        """
+        return MachineAnswer(self, self.follower.response(motion_law(law)))
+
+
+@dataclass(frozen=True, repr=False)
+class MachineAnswer:
+    """What a machine's follower does, in units of metres (or radians) and seconds.
+
+    Attributes
+    ----------
+    machine
+        The follower with its stroke and time.
+    response
+        The same, dimensionless: curves over k, and everything else.
+    """
+
+    machine: MachineFollower
+    response: Response
+
+    @property
+    def dynamic_factor(self) -> float:
+        """Greatest acceleration of the mass over that of the cam."""
+        return self.response.dynamic_factor()
+
+    @property
+    def peak_velocity(self) -> float:
+        """Greatest speed of the mass in the rise."""
+        return self._sized(self.response.peak(1).value, 1)
+
+    @property
+    def peak_acceleration(self) -> float:
+        """Greatest acceleration of the mass in the rise."""
+        return self._sized(self.response.peak(2).value, 2)
+
+    @property
+    def dwell_acceleration(self) -> float:
+        """Greatest acceleration of the mass in the dwell."""
+        return self._sized(self.response.dwell_peak(2).value, 2)
+
+    @property
+    def residual_displacement(self) -> float:
+        """Amplitude of the vibration that is left in the dwell."""
+        return self._sized(self.response.residual_displacement, 0)
+
+    @property
+    def residual_acceleration(self) -> float:
+        """Amplitude of its acceleration."""
+        return self._sized(self.response.residual_acceleration, 2)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict, the units in the names.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> machine = machine_follower(period="60 ms", time="0.2 s", stroke="35 mm")
+        >>> list(machine.response(smoothstep(4)).to_dict())[:3]
+        ['stroke, m', 'time, s', 'dynamic factor']
+        """
+        unit = self.machine.unit
+        return {
+            f"stroke, {unit}": self.machine.stroke,
+            "time, s": self.machine.time,
+            "dynamic factor": self.dynamic_factor,
+            f"peak velocity, {unit}/s": self.peak_velocity,
+            f"peak acceleration, {unit}/s²": self.peak_acceleration,
+            f"acceleration in the dwell, {unit}/s²": self.dwell_acceleration,
+            f"residual displacement, {unit}": self.residual_displacement,
+            f"residual acceleration, {unit}/s²": self.residual_acceleration,
+        }
+
+    def __repr__(self) -> str:
+        unit = self.machine.unit
+        return (
+            f"MachineAnswer(nu={self.response.nu:g}, dynamic factor={self.dynamic_factor:g}, "
+            f"peak acceleration={self.peak_acceleration:g} {unit}/s², "
+            f"residual displacement={self.residual_displacement:g} {unit})"
+        )
+
+    def _sized(self, value: float, nu: int) -> float:
+        return value * factor(self.machine.stroke, self.machine.time, nu)
+
+
+def machine_follower(
+    *,
+    stroke: str,
+    frequency: str | None = None,
+    period: str | None = None,
+    time: str | None = None,
+    speed: str | None = None,
+    rise: str | None = None,
+    damping: float = 0.0,
+) -> MachineFollower:
+    """The elastic follower of a machine, from quantities with their units.
+
+    Parameters
+    ----------
+    stroke
+        Stroke of the cam, such as "35 mm" or "20 deg".
+    frequency, period
+        Of the undamped free vibration of the mass on its cam: "16.7 Hz", or "60 ms"; one of them.
+    time
+        Duration of the rise, such as "0.1 s".
+    speed, rise
+        In place of it: speed of the cam, such as "105 rpm", and its angle during the rise, such as "120 deg".
+    damping
+        Ratio zeta of the damping to the critical one (dimensionless).
+
+    Raises
+    ------
+    InputError
+        If a quantity is missing, given twice, out of range, or of another dimension.
+
+    Examples
+    --------
+    >>> machine_follower(frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm").time
+    0.190476
+    >>> machine_follower(frequency="16.7", time="0.1 s", stroke="35 mm")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: frequency must be a frequency such as '16.7 Hz', got '16.7' without a unit
+    """
+    kind, height = either(stroke, tuple(_UNITS), "stroke")
+    duration = _duration(time, speed, rise)
+    nu = tau * duration * _frequency(frequency, period)
+    return MachineFollower(Follower(nu, damping), positive(height, "stroke"), duration, _UNITS[kind])
+
+
+def _frequency(frequency: str | None, period: str | None) -> float:
+    if (frequency is None) == (period is None):
+        raise InputError(_WAYS)
+    if frequency is not None:
+        return positive(quantity(frequency, "frequency", "frequency"), "frequency")
+    return 1.0 / positive(quantity(period, "time", "period"), "period")
+
+
+def _duration(time: str | None, speed: str | None, rise: str | None) -> float:
+    if time is not None and speed is None and rise is None:
+        return positive(quantity(time, "time", "time"), "time")
+    if time is not None or speed is None or rise is None:
+        raise InputError(_DURATIONS)
+    turning = positive(quantity(speed, "angular velocity", "speed"), "speed")
+    return positive(quantity(rise, "angle", "rise"), "rise") / turning
