@@ -13,12 +13,7 @@ from optlaws.errors import InputError
 from optlaws.exports.law_pieces import polynomials_of_law
 from optlaws.exports.polynomials import PiecewiseMotion
 from optlaws.series import bernstein
-
-
-def random_motion(number: int, pieces: int = 5, degree: int = 7) -> PiecewiseMotion:
-    rng = np.random.default_rng(number)
-    breaks = np.cumsum(rng.uniform(0.1, 2.0, pieces + 1)) - 3.0
-    return PiecewiseMotion(breaks, rng.normal(size=(pieces, degree + 1)) * 10.0 ** rng.integers(-3, 3))
+from tests.exports.motions import random_motion
 
 
 def as_ppoly(motion: PiecewiseMotion) -> PPoly:
