@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass, field, replace
-from math import inf
+from dataclasses import dataclass, field
 from types import MappingProxyType
 from typing import TYPE_CHECKING, Any
 
@@ -13,22 +12,12 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
-from optlaws.laws import MotionLaw
-from optlaws.synthesis.arrays import constants
-from optlaws.synthesis.arrays.found import NO_CONTACT, Found
+from optlaws.synthesis.arrays.parts import Part, constant_of, stored_laws
 from optlaws.synthesis.arrays.problems import ProblemArray
-from optlaws.synthesis.arrays.stored_laws import stored_laws
 from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.problem.fields import CONSTANTS
-from optlaws.synthesis.program.writer import Model
-from optlaws.synthesis.proof.certificate import OBJECTIVE
 from optlaws.synthesis.proof.data import as_json
-from optlaws.synthesis.proof.make import certificate
-from optlaws.synthesis.search import status_of
-from optlaws.synthesis.solution import NOTHING, Solution, Status, partly_known
-from optlaws.synthesis.spaces.bases import PolynomialBasis
-from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
-from optlaws.synthesis.spaces.splines import PiecewiseBasis
+from optlaws.synthesis.solution import NOTHING, Solution, Status
+from optlaws.synthesis.solution_tables import NUMBERS, as_pandas, as_xarray
 from optlaws.synthesis.stored_solutions import (
     FAILED,
     INFEASIBLE,
@@ -45,18 +34,6 @@ if TYPE_CHECKING:
     import xarray as xr
 
 Array = NDArray[np.float64]
-
-NUMBERS = ("objective", "lower_bound", "gap", "B", "C", "D", "J", "rms_c")
-_PEAKS = {"B": 1, "C": 2, "J": 3}
-
-
-@dataclass(frozen=True, eq=False)
-class Part:
-    """Problems of one kind that were solved together: which, their program but for numbers, and their optima."""
-
-    places: NDArray[np.intp]
-    model: Model
-    found: Found
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -136,7 +113,7 @@ class SolutionArray:
         if place in self.others:
             return self.others[place]
         part, row = int(self._part_of[place]), int(self._row_of[place])
-        return _solution(self.problems, self.parts[part], row, self.seconds / max(self.size, 1))
+        return self.parts[part].solution(row, self.problems.problem(place), self.seconds / max(self.size, 1))
 
     @kept_property
     def objective(self) -> Array:
@@ -159,6 +136,8 @@ class SolutionArray:
         """As of a solution, "optimal", "local" or "inaccurate"; "infeasible", "failed" or "invalid" without a law."""
         known = [one.value for one in Status] + [INFEASIBLE, FAILED, INVALID]
         found = np.full(self.size, Status.OPTIMAL.value, dtype=f"U{max(map(len, known))}")
+        for part in self.parts:
+            found[part.places] = part.statuses
         for place, one in self.others.items():
             found[place] = one.status.value if isinstance(one, Solution) else status_of_error(one)
         return _frozen(found.reshape(self.shape))
@@ -181,7 +160,7 @@ class SolutionArray:
         """Each law as its `to_dict` gives it, in the order of the flattened array; None where there is none."""
         found: list[dict[str, Any] | None] = [None] * self.size
         for part in self.parts:
-            for place, law in zip(part.places.tolist(), stored_laws(part.model.space, _coordinates(part)), strict=True):
+            for place, law in zip(part.places.tolist(), stored_laws(part.model.space, part.coordinates), strict=True):
                 found[place] = law
         for place, one in self.others.items():
             found[place] = one.law.to_dict() if isinstance(one, Solution) else None
@@ -190,12 +169,12 @@ class SolutionArray:
     @kept_property
     def z_series(self) -> Array:
         """Chebyshev coefficients of Z in 2k - 1, along the last axis; NaN beyond the end of shorter ones."""
-        return self._rows(_z_series, lambda one: np.array(one.z_series))
+        return self._rows(lambda part: part.z_series, lambda one: np.array(one.z_series))
 
     @kept_property
     def z(self) -> Array:
         """Coefficients of Z in each problem's basis, along the last axis; NaN beyond the end of shorter ones."""
-        return self._rows(_z, lambda one: np.array(one.z or ()))
+        return self._rows(lambda part: part.z, lambda one: np.array(one.z or ()))
 
     @property
     def coefficients(self) -> Array:
@@ -234,7 +213,7 @@ class SolutionArray:
         Laws with fewer contacts than others have "" and NaN beyond their end.
         """
         columns: dict[str, list[tuple[NDArray[np.intp], NDArray[Any]]]] = {}
-        for places, rows in [*map(_contacts, self.parts), *self._contacts_alone()]:
+        for places, rows in [*((part.places, part.contacts) for part in self.parts), *self._contacts_alone()]:
             for name, values in rows.items():
                 columns.setdefault(name, []).append((places, values))
         most = max((values.shape[1] for _, values in columns.get("k", [])), default=0)
@@ -258,12 +237,7 @@ class SolutionArray:
 
     def to_pandas(self) -> pd.DataFrame:
         """A table with a row for each problem: what varies, the numbers and the status; needs pandas."""
-        import pandas as pd
-
-        varied = {name: arrays[0].reshape(-1) for name, arrays in self.problems.varied.items() if len(arrays) == 1}
-        named = {_asked(name): values for name, values in varied.items()}
-        numbers = {name: getattr(self, name).reshape(-1) for name in NUMBERS}
-        return pd.DataFrame({**named, **numbers, "status": self.status.reshape(-1)})
+        return as_pandas(self.problems, self._columns)
 
     def to_xarray(self) -> xr.Dataset:
         """A dataset over the axes of the problems: numbers, statuses, coefficients and contacts; needs xarray.
@@ -271,15 +245,13 @@ class SolutionArray:
         An axis along which one entry of numbers varies has its name and its values, such as "B asked"; others are
         "axis 0", "axis 1", ....
         """
-        import xarray as xr
+        longer = {"z_series": ("coefficient", self.z_series)}
+        longer |= {f"contact {name}": ("contact", values) for name, values in self.contacts.items()}
+        return as_xarray(self.problems, self._columns, longer)
 
-        dims, coords = _axes(self.problems)
-        variables: dict[str, Any] = {name: (dims, getattr(self, name)) for name in NUMBERS}
-        variables["status"] = (dims, self.status)
-        variables["z_series"] = ([*dims, "coefficient"], self.z_series)
-        for name, values in self.contacts.items():
-            variables[f"contact {name}"] = ([*dims, "contact"], values)
-        return xr.Dataset(variables, coords)
+    @property
+    def _columns(self) -> dict[str, NDArray[Any]]:
+        return {**{name: getattr(self, name) for name in NUMBERS}, "status": self.status}
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: each solution or error in the order of the flattened array, and the arrays themselves.
@@ -368,7 +340,7 @@ class SolutionArray:
     def _constant(self, name: str) -> Array:
         alone = self.problems.one_objective
         return self._gathered(
-            lambda part: _constants(part, name, one_objective=alone), lambda one: _constant_of(one, name)
+            lambda part: part.constant(name, one_objective=alone), lambda one: constant_of(one.law, name)
         )
 
     def _taken(self, places: NDArray[np.intp]) -> SolutionArray:
@@ -381,104 +353,6 @@ class SolutionArray:
         others = {i: self.others[place] for i, place in enumerate(flat.tolist()) if place in self.others}
         share = self.seconds * len(flat) / max(self.size, 1)
         return SolutionArray(self.problems.taken(places), tuple(parts), others, share)
-
-
-def _solution(problems: ProblemArray, part: Part, row: int, seconds: float) -> Solution:
-    """The solution of a row, of which only what the array holds is there before it is asked for."""
-    model, bound = part.model, float(part.found.bound[row])
-
-    def lower_bound(one: Solution) -> float:
-        return max(bound, -inf if one.limit is None else one.limit)
-
-    known = {
-        "problem": problems.problem(int(part.places[row])),
-        "objective": float(part.found.objective[row]),
-        "iterations": 0,
-        "seconds": seconds,
-        "active_set": part.found.active_set(row),
-    }
-    later: dict[str, Callable[[Solution], Any]] = {
-        "law": lambda one: model.law(one.active_set.x),
-        "z_series": lambda one: tuple(model.space.z_series(model.coordinates(one.active_set.x)).tolist()),
-        "certificate": lambda one: certificate(replace(model, problem=one.problem), one.active_set, OBJECTIVE),
-        "limit": lambda one: known_limit(one.problem),
-        "lower_bound": lower_bound,
-        "status": lambda one: status_of(one.objective, one.lower_bound, proven=True),
-    }
-    return partly_known(known, later)
-
-
-def _coordinates(part: Part) -> Array:
-    return part.found.x[:, : part.model.space.terms]
-
-
-def _z_series(part: Part) -> Array:
-    space = part.model.space
-    base = space.z_series(np.zeros(space.terms))
-    columns = np.array([space.z_series(one) for one in np.eye(space.terms)]).reshape(space.terms, -1)
-    return np.asarray(_coordinates(part) @ (columns - base) + base)
-
-
-def _z(part: Part) -> Array:
-    basis = part.model.problem.basis
-    if not isinstance(basis, PolynomialBasis | PiecewiseBasis):
-        return np.empty((len(part.places), 0))
-    return np.array([basis.coefficients(series) for series in _z_series(part)])
-
-
-def _constants(part: Part, name: str, *, one_objective: bool) -> Array:
-    """A constant of each law of a part."""
-    if one_objective and repr(part.model.problem.objective) == name:
-        return part.found.objective
-    space = part.model.space
-    if not isinstance(space, PolynomialSpace):
-        return np.array([_of_law(space.law(one), name) for one in _coordinates(part)])
-    laws = [space.series(nu) for nu in (1, 2, 3)]
-    b, c, j = (_coordinates(part) @ series[:, :-1].T + series[:, -1] for series in laws)
-    if name in _PEAKS:
-        return constants.peaks((b, c, j)[_PEAKS[name] - 1])
-    return constants.power_peaks(b, c) if name == "D" else constants.root_mean_squares(c)
-
-
-def _constant_of(solution: Solution, name: str) -> float:
-    return _of_law(solution.law, name)
-
-
-def _of_law(law: MotionLaw, name: str) -> float:
-    value = getattr(law.constants, name)
-    return float(value.value if name in CONSTANTS else value)
-
-
-def _contacts(part: Part) -> tuple[NDArray[np.intp], dict[str, NDArray[Any]]]:
-    found = part.found
-    names = np.array([*(family.name for family in part.model.program.families), ""], dtype=object)
-    none = found.family == NO_CONTACT
-    k = np.full(found.u.shape, np.nan)
-    for i, family in enumerate(part.model.program.families):
-        mine = found.family == i
-        k[mine] = np.clip(family.k(found.u[mine]), 0.0, 1.0)
-    rows: dict[str, NDArray[Any]] = {"constraint": names[found.family], "k": k}
-    rows["sign"] = np.where(none, np.nan, found.sign)
-    rows["multiplier"] = np.where(none, np.nan, found.multiplier)
-    return part.places, rows
-
-
-def _axes(problems: ProblemArray) -> tuple[list[str], dict[str, Any]]:
-    """Names of the problems' axes, and the values along those that have one entry of numbers alone."""
-    dims = [f"axis {i}" for i in range(len(problems.shape))]
-    coords = {}
-    for name, arrays in problems.varied.items():
-        strides = [i for i, step in enumerate(arrays[0].strides) if step and problems.shape[i] > 1]
-        alone = len(arrays) == 1 and len(strides) == 1 and arrays[0].dtype.kind in "fiu"
-        if alone and dims[strides[0]].startswith("axis "):
-            dims[strides[0]] = _asked(name)
-            coords[_asked(name)] = np.moveaxis(arrays[0], strides[0], 0).reshape(problems.shape[strides[0]], -1)[:, 0]
-    return dims, coords
-
-
-def _asked(name: str) -> str:
-    """What a column of an entry's values is called beside the numbers of the laws."""
-    return f"{name} asked" if name in NUMBERS else name
 
 
 def _frozen(values: NDArray[Any]) -> NDArray[Any]:

@@ -8,6 +8,7 @@ one of any problems that are there, of one kind or of several) and raises nothin
 from __future__ import annotations
 
 from collections.abc import Iterator
+from math import inf
 from time import perf_counter
 
 import numpy as np
@@ -18,16 +19,18 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.numbers import whole
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.arrays.along import laws_along
-from optlaws.synthesis.arrays.lines import Line, along_velocities, lines_of
+from optlaws.synthesis.arrays.found import Found
+from optlaws.synthesis.arrays.lines import Line, along_velocities, least_count, lines_of
+from optlaws.synthesis.arrays.parts import Part
+from optlaws.synthesis.arrays.powers import unrivalled, with_quick_bounds
 from optlaws.synthesis.arrays.problems import ProblemArray
+from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
-from optlaws.synthesis.solution_array import Part, SolutionArray
-from optlaws.synthesis.solve import BOUNDS, synthesize
+from optlaws.synthesis.solution_array import SolutionArray
+from optlaws.synthesis.solve import BOUNDS, TIGHT, synthesize
 
 _CHUNK = 10_000
-#: with fewer problems on a line the walk along it takes longer than each alone
-_LEAST = 128
 
 
 def synthesize_array(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
@@ -98,8 +101,8 @@ def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
     began = perf_counter()
     parts: list[Part] = []
     others: dict[int, Solution | OptlawsError] = {}
-    for line in _lines(problems) if problems.size >= _LEAST else ():
-        found = laws_along(line.path, line.t)
+    for line in _lines(problems):
+        found = _along(problems, line, bound)
         rows = np.flatnonzero(found.solved)
         if len(rows):
             parts.append(Part(line.places[rows], line.path.model, found.taken(rows).frozen()))
@@ -108,6 +111,18 @@ def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
     known = np.concatenate([np.array(list(others), dtype=np.intp), *(part.places for part in parts)])
     others.update(_others(problems, np.setdiff1d(np.arange(problems.size), known), bound))
     return SolutionArray(problems, tuple(parts), others, perf_counter() - began)
+
+
+def _along(problems: ProblemArray, line: Line, bound: str) -> Found:
+    """The laws of a line, as far as they are proven; of least power, those that no other branch is better than."""
+    if line.path.model.problem.convex:
+        return laws_along(line.path, line.t)
+    if bound == TIGHT:
+        return Found.none(len(line.t), 0, 0, 0)
+    found = laws_along(line.path, line.t)
+    found = found.only(unrivalled(found, line.places, lambda place: _alone(problems, place, None, bound)))
+    limits = [known_limit(problems.problem(place)) for place in line.places.tolist()]
+    return with_quick_bounds(line.path, line.t, found, np.array([-inf if one is None else one for one in limits]))
 
 
 def _beyond(
@@ -141,18 +156,20 @@ def _lines(problems: ProblemArray) -> Iterator[Line]:
     velocities = problems.velocities
     if velocities is not None:
         places = np.flatnonzero(~np.isnan(velocities))
-        if len(places) >= _LEAST:
+        if len(places) > 1:
             known = velocities[places]
             try:
                 ends = [problems.problem(int(places[at])) for at in (known.argmin(), known.argmax())]
             except InputError:
                 return  # the other entries make no problem
+            if len(places) < least_count(ends[0]):
+                return
             line = along_velocities(ends[0], ends[1], known, places)
             if line is not None:
                 yield line
         return
     valid = [(place, problem) for place in range(problems.size) if (problem := _valid(problems, place)) is not None]
-    yield from lines_of([problem for _, problem in valid], np.array([place for place, _ in valid], np.intp), _LEAST)
+    yield from lines_of([problem for _, problem in valid], np.array([place for place, _ in valid], np.intp))
 
 
 def _valid(problems: ProblemArray, place: int) -> Problem | None:

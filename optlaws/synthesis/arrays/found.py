@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from dataclasses import dataclass, fields, replace
 from typing import Any, Self
 
 import numpy as np
@@ -81,6 +81,10 @@ class Found:
     def taken(self, places: NDArray[np.intp]) -> Found:
         """Some of the rows."""
         return Found(**{one.name: getattr(self, one.name)[places] for one in fields(self)})
+
+    def only(self, kept: NDArray[np.bool_]) -> Self:
+        """The same without the objectives of the others, so that they count as not solved."""
+        return replace(self, objective=np.where(kept, self.objective, np.nan))
 
     def frozen(self) -> Self:
         """The same, whose arrays nobody can write to."""

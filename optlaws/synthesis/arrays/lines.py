@@ -9,6 +9,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.arrays.powers import least_power
 from optlaws.synthesis.arrays.programs import Path, between, numbers_of
 from optlaws.synthesis.problem.expression import Maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -21,6 +22,7 @@ Array = NDArray[np.float64]
 
 #: of the size of a program's numbers: by so much they may be off a line
 _OFF = 1e-12
+_LEAST, _LEAST_OF_POWER = 128, 24
 
 
 @dataclass(frozen=True, eq=False)
@@ -52,14 +54,20 @@ def along_velocities(template: Problem, last: Problem, velocities: Array, places
     return Line(places[order], (velocities[order] - least) / (greatest - least), path)
 
 
-def lines_of(problems: Sequence[Problem], places: NDArray[np.intp], least: int) -> Iterator[Line]:
-    """Lines through at least so many of the problems, whose places are beside them; each is on one line at most."""
+def least_count(problem: Problem) -> int:
+    """With fewer problems on a line the walk along it takes longer than each alone."""
+    return _LEAST if problem.convex else _LEAST_OF_POWER
+
+
+def lines_of(problems: Sequence[Problem], places: NDArray[np.intp]) -> Iterator[Line]:
+    """Lines through enough of the problems, whose places are beside them; each is on one line at most."""
     kinds: dict[Hashable, list[int]] = {}
     forms = [form_of(problem) for problem in problems]
     for i, form in enumerate(forms):
         if form.key is not None:
             kinds.setdefault(form.key, []).append(i)
     for own in kinds.values():
+        least = least_count(problems[own[0]])
         if len(own) < least:
             continue
         numbers = np.array([forms[i].numbers for i in own])
@@ -99,7 +107,7 @@ def _on(path: Path, t: float, problem: Problem) -> bool:
 
 
 def form_of(problem: Problem) -> Form:
-    """A problem's form and its numbers; no form where it is not convex, or a constant is bounded from below.
+    """A problem's form and its numbers; no form where it is not known here, or a constant is bounded from below.
 
     Examples
     --------
@@ -110,7 +118,7 @@ def form_of(problem: Problem) -> Form:
     bounded = problem.bounded
     velocity = problem.B
     held_up = any(limits.low > 0.0 for _, limits in bounded) or (isinstance(velocity, Range) and velocity.low > 0.0)
-    if held_up or not problem.convex or not isinstance(problem.basis, PolynomialBasis):
+    if held_up or not (problem.convex or least_power(problem)) or not isinstance(problem.basis, PolynomialBasis):
         return Form(None, ())
     terms = problem.objective.terms
     nested = any(isinstance(term, Maximum) for _, term in terms)

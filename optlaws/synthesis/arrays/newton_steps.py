@@ -54,24 +54,15 @@ class States:
 def step(structure: Structure, numbers: Numbers, states: States) -> tuple[States, Array]:
     """The states one step of Newton's method further, and the size of each step; infinite where there is none."""
     program, free = structure.model.program, structure.free
-    value, slope, bend = structure.jets(states.x, states.u)
-    value[:, :, :-1] -= structure.slack
-    rows, slopes = value[:, :, :-1], slope[:, free, :-1]
-    off = _at(value, states.x) - numbers.bounds[:, structure.family]
-    turned = _at(slope[:, free], states.x)
-    bent = bend[:, free]
-    bent = np.where(bent == 0.0, np.inf, bent)
-    shift = turned / bent
+    jets = _Jets.of(structure, states)
+    off = _at(jets.value, states.x) - numbers.bounds[:, structure.family]
+    turned = _at(jets.slope[:, free], states.x)
+    shift, pull = turned / jets.bend, states.weights[:, free] / jets.bend
+    rows, slopes = jets.value[:, :, :-1], jets.slope[:, free, :-1]
     size, count, equations = program.size, structure.count, len(program.equalities)
     last = size + count
-    system = np.zeros((len(states), last + equations, last + equations))
-    pull = states.weights[:, free] / bent
-    system[:, :size, :size] = -np.matmul((slopes * pull[:, :, None]).transpose(0, 2, 1), slopes)
-    system[:, :size, size:last] = rows.transpose(0, 2, 1)
-    system[:, :size, last:] = program.equalities.T
-    system[:, size:last, :size] = rows
+    system = _system(structure, states, jets)
     system[:, size + np.flatnonzero(free), :size] -= slopes * shift[:, :, None]
-    system[:, last:, :size] = program.equalities
     defect = np.empty((len(states), last + equations, 1))
     balance = numbers.cost + np.einsum("mpi,mp->mi", rows, states.weights) + states.equations @ program.equalities
     defect[:, :size, 0] = balance - np.einsum("mpi,mp->mi", slopes, pull * turned)
@@ -81,11 +72,58 @@ def step(structure: Structure, numbers: Numbers, states: States) -> tuple[States
     moved = -_solved(system, defect)[:, :, 0]
     dx = moved[:, :size]
     u = states.u.copy()
-    u[:, free] -= shift + np.einsum("mpi,mi->mp", slopes, dx) / bent
+    u[:, free] -= shift + np.einsum("mpi,mi->mp", slopes, dx) / jets.bend
     further = States(states.x + dx, u, states.weights + moved[:, size:last], states.equations + moved[:, last:])
     sizes = np.abs(moved).max(axis=1) / np.maximum(1.0, np.abs(states.packed).max(axis=1))
     wild = ~np.isfinite(sizes) | (np.abs(u).max(axis=1, initial=0.0) > _FAR)
     return further, np.where(wild, np.inf, sizes)
+
+
+@dataclass(frozen=True, eq=False)
+class _Jets:
+    """Planes of the contacts' rows, less the right sides' variables, and of their slopes; how the free ones bend."""
+
+    value: Array
+    slope: Array
+    bend: Array
+
+    @classmethod
+    def of(cls, structure: Structure, states: States) -> _Jets:
+        value, slope, bend = structure.jets(states.x, states.u)
+        value[:, :, :-1] -= structure.slack
+        bent = bend[:, structure.free]
+        return cls(value, slope, np.where(bent == 0.0, np.inf, bent))
+
+
+def _system(structure: Structure, states: States, jets: _Jets) -> Array:
+    """Derivatives of the optimality conditions by variables and multipliers, with the places eliminated."""
+    program, free = structure.model.program, structure.free
+    rows, slopes = jets.value[:, :, :-1], jets.slope[:, free, :-1]
+    size, last = program.size, program.size + structure.count
+    whole = last + len(program.equalities)
+    system = np.zeros((len(states), whole, whole))
+    pull = states.weights[:, free] / jets.bend
+    system[:, :size, :size] = -np.matmul((slopes * pull[:, :, None]).transpose(0, 2, 1), slopes)
+    system[:, :size, :size] += structure.hessian(states.x, states.u, states.weights)
+    system[:, :size, size:last] = rows.transpose(0, 2, 1)
+    system[:, :size, last:] = program.equalities.T
+    system[:, size:last, :size] = rows
+    system[:, last:, :size] = program.equalities
+    return system
+
+
+def best_nearby(structure: Structure, states: States) -> NDArray[np.bool_]:
+    """Where no law beside a state that meets the optimality conditions is better, of second order.
+
+    Along what the rows leave free the objective bends upward if and only if the conditions' matrix has as many
+    negative eigenvalues as there are rows.
+    """
+    system = _system(structure, states, _Jets.of(structure, states))
+    known = np.isfinite(system).all(axis=(1, 2))
+    found = np.zeros(len(states), dtype=np.bool_)
+    rows = system.shape[1] - structure.model.program.size
+    found[known] = (np.linalg.eigvalsh(system[known]) < 0.0).sum(axis=1) == rows
+    return found
 
 
 def converged(structure: Structure, numbers: Numbers, states: States) -> tuple[States, NDArray[np.bool_]]:

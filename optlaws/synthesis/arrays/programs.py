@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass, field, replace
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.families.family import LinearFamily, Program
+from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily, Program
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 
@@ -88,9 +89,17 @@ def numbers_of(program: Program) -> Numbers:
     return Numbers(program.right[None, :], bounds.reshape(1, -1), program.objective[None, :])
 
 
-def between(first: Problem, last: Problem) -> Path | None:
-    """The path from one problem at t = 0 to another at t = 1; None where their programs differ in more than numbers."""
-    begin, end = model_of(first), model_of(last)
+def between(first: Problem, last: Problem, model: Callable[[Problem], Model] = model_of) -> Path | None:
+    """The path from one problem at t = 0 to another at t = 1; None where their programs differ in more than numbers.
+
+    Parameters
+    ----------
+    first, last
+        The problems.
+    model
+        What makes their programs.
+    """
+    begin, end = model(first), model(last)
     one, other = begin.program, end.program
     families = len(one.families) == len(other.families) and all(map(_alike, one.families, other.families))
     equal = one.equalities.shape == other.equalities.shape and np.array_equal(one.equalities, other.equalities)
@@ -102,8 +111,19 @@ def between(first: Problem, last: Problem) -> Path | None:
 
 
 def _alike(one: object, other: object) -> bool:
-    if not isinstance(one, LinearFamily) or type(one) is not type(other) or not isinstance(other, LinearFamily):
+    if type(one) is not type(other) or not isinstance(one, LinearFamily | ProductFamily | NormFamily):
+        return False
+    if not isinstance(other, LinearFamily | ProductFamily | NormFamily):
         return False
     plain = (one.name, one.signs, one.domain, one.held) == (other.name, other.signs, other.domain, other.held)
-    same = one.series is other.series or np.array_equal(one.series, other.series)
-    return plain and same and np.array_equal(one.slack, other.slack)
+    return plain and np.array_equal(one.slack, other.slack) and _same_rows(one, other)
+
+
+def _same_rows(one: Family, other: Family) -> bool:
+    if isinstance(one, ProductFamily) and isinstance(other, ProductFamily):
+        return _same_rows(one.first, other.first) and _same_rows(one.second, other.second)
+    if isinstance(one, NormFamily) and isinstance(other, NormFamily):
+        return np.array_equal(one.matrix, other.matrix)
+    if isinstance(one, LinearFamily) and isinstance(other, LinearFamily):
+        return one.series is other.series or np.array_equal(one.series, other.series)
+    return False

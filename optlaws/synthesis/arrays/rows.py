@@ -6,66 +6,15 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.synthesis.arrays.columns import Columns, CurvedTangents, tangents_of
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import Family, LinearFamily, RatioFamily
+from optlaws.synthesis.families.family import Family, LinearFamily
 from optlaws.synthesis.program.writer import Model
 
 Array = NDArray[np.float64]
-
-#: of a row: what rounding may hide of it, as a share of the sum of its series' sizes
-_ROUNDING = 4 * 2.0**-53
-
-
-@dataclass(frozen=True, eq=False)
-class Columns:
-    """The columns of one affine family at many places: Chebyshev polynomials times its series, row by row."""
-
-    family: LinearFamily
-
-    @kept_property
-    def _parts(self) -> tuple[tuple[NDArray[np.intp], Array], ...]:
-        """For f and its first two derivatives: which polynomials they are made of, and with what coefficients."""
-        found = []
-        series = self.family.series
-        for _ in range(3):
-            kept = np.flatnonzero(series.any(axis=1))
-            found.append((kept, np.ascontiguousarray(series[kept])))
-            series = np.asarray(chebyshev.chebder(series), dtype=np.float64)
-        return tuple(found)
-
-    @kept_property
-    def rounding(self) -> Array:
-        """What rounding may hide of each entry of a row."""
-        return np.asarray(_ROUNDING * np.abs(self.family.series).sum(axis=0))
-
-    def at(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
-        """Rows of f and of its derivative, shape (laws, places, variables + 1), and its second derivative there.
-
-        The places of a law are a row of `u`, its variables and 1 a row of `point`.
-        """
-        if isinstance(self.family, RatioFamily):
-            columns = self.family.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
-            return columns[0], columns[1], np.einsum("mpi,mi->mp", columns[2], point)
-        polynomials = _polynomials(u.reshape(-1), len(self.family.series))
-        value, slope = ((polynomials[kept].T @ series).reshape(*u.shape, -1) for kept, series in self._parts[:2])
-        kept, series = self._parts[2]
-        bend = np.einsum("nmp,mn->mp", polynomials[kept].reshape(len(kept), *u.shape), point @ series.T)
-        return value, slope, bend
-
-
-def _polynomials(u: Array, count: int) -> Array:
-    """Chebyshev polynomials at many places, shape (count, places)."""
-    found = np.empty((max(count, 2), len(u)))
-    found[0], found[1] = 1.0, np.clip(u, -1.0, 1.0)
-    twice = 2.0 * found[1]
-    for n in range(2, count):
-        np.multiply(twice, found[n - 1], out=found[n])
-        found[n] -= found[n - 2]
-    return found[:count]
 
 
 @dataclass(frozen=True, eq=False)
@@ -99,7 +48,9 @@ class Structure:
     def affine(self) -> bool:
         """Whether the contacts' places and multipliers are the same for all right sides: rows alone determine them."""
         program = self.model.program
-        return bool(2 * self.free.sum() + (~self.free).sum() + len(program.equalities) == program.size)
+        return not program.curved and bool(
+            2 * self.free.sum() + (~self.free).sum() + len(program.equalities) == program.size
+        )
 
     @kept_property
     def slack(self) -> Array:
@@ -113,22 +64,42 @@ class Structure:
         columns = columns_of(self.model)
         return np.array([columns[i].rounding for i in self.family]).reshape(self.count, -1)
 
+    @kept_property
+    def _own(self) -> list[tuple[int, slice]]:
+        """The families that have contacts, each with which these are."""
+        found = []
+        for i in np.unique(self.family).tolist():
+            mine = np.flatnonzero(self.family == i)
+            found.append((i, slice(int(mine[0]), int(mine[-1]) + 1)))
+        return found
+
     def jets(self, x: Array, u: Array) -> tuple[Array, Array, Array]:
-        """Rows s f and their derivatives by the place, (laws, contacts, variables + 1), and second derivatives."""
+        """Planes of s f and of their derivatives by the place, (laws, contacts, variables + 1), and second derivatives.
+
+        Of families that are affine in the law they are the rows themselves.
+        """
         laws, width = len(u), x.shape[1] + 1
         value, slope = np.empty((2, laws, self.count, width))
         bend = np.empty((laws, self.count))
-        point = np.concatenate([x, np.ones((laws, 1))], axis=1)
+        point = with_one(x)
         columns = columns_of(self.model)
-        for i in np.unique(self.family).tolist():
-            mine = np.flatnonzero(self.family == i)
-            own = slice(int(mine[0]), int(mine[-1]) + 1)
+        for i, own in self._own:
             f0, f1, f2 = columns[i].at(u[:, own], point)
             sign = self.sign[own]
             np.multiply(f0, sign[:, None], out=value[:, own])
             np.multiply(f1, sign[:, None], out=slope[:, own])
             np.multiply(f2, sign, out=bend[:, own])
         return value, slope, bend
+
+    def hessian(self, x: Array, u: Array, weights: Array) -> Array | float:
+        """Second derivatives by the variables of the sum of weights times s f; 0 where all is affine."""
+        found: Array | float = 0.0
+        if self.model.program.curved:
+            point, columns = with_one(x), columns_of(self.model)
+            for i, own in self._own:
+                bent = columns[i].hessian(u[:, own], point, self.sign[own] * weights[:, own])
+                found = found if bent is None else found + bent
+        return found
 
 
 def structure_of(model: Model, optimum: ActiveSet) -> tuple[Structure, NDArray[np.intp]]:
@@ -138,18 +109,36 @@ def structure_of(model: Model, optimum: ActiveSet) -> tuple[Structure, NDArray[n
     return found, order
 
 
-def columns_of(model: Model) -> Sequence[Columns]:
-    """The columns of each family, kept with the model's space."""
+def with_one(x: Array) -> Array:
+    """The variables of many laws and 1."""
+    return np.concatenate([x, np.ones((len(x), 1))], axis=1)
+
+
+def columns_of(model: Model) -> Sequence[Columns | CurvedTangents]:
+    """The columns of each family, kept with the model's space.
+
+    Raises
+    ------
+    TypeError
+        If a family is of a kind that is not solved in arrays.
+    """
     families = model.program.families
-    key = ("columns", *(id(_series(family)) for family in families))
+    key = tuple((type(family), id(_series(family))) for family in families)
     if key not in _KEPT:
         if len(_KEPT) >= _MOST:
             _KEPT.clear()
-        _KEPT[key] = [Columns(family) for family in families if isinstance(family, LinearFamily)]
+        _KEPT[key] = [_known(family) for family in families]
     return _KEPT[key]
 
 
-_KEPT: dict[tuple[object, ...], list[Columns]] = {}
+def _known(family: Family) -> Columns | CurvedTangents:
+    found = tangents_of(family)
+    if found is None:
+        raise TypeError(f"rows of {type(family).__name__} are not solved in arrays")
+    return found
+
+
+_KEPT: dict[tuple[object, ...], list[Columns | CurvedTangents]] = {}
 _MOST = 64
 
 

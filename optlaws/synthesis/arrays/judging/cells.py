@@ -16,8 +16,8 @@ from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.synthesis.arrays.columns import Columns
 from optlaws.synthesis.arrays.programs import Numbers
-from optlaws.synthesis.arrays.rows import Columns
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]

@@ -1,0 +1,176 @@
+"""Rows of one family in many laws at once: each with the plane that touches it there, as variables and 1 weigh it."""
+
+from __future__ import annotations
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.polynomial import chebyshev
+from numpy.typing import NDArray
+
+from optlaws.kept import kept_property
+from optlaws.synthesis.arrays.constants import peaks, product
+from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily, RatioFamily, RootFamily
+
+Array = NDArray[np.float64]
+
+#: of a row: what rounding may hide of it, as a share of the sum of its parts' sizes
+_ROUNDING = 4 * 2.0**-53
+_NO_NORM = 1e-300
+
+
+class Tangents(ABC):
+    """What the optimality conditions of many laws need of one family."""
+
+    #: whether no law is beyond the planes, so that multipliers prove bounds
+    proving = True
+
+    @abstractmethod
+    def at(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
+        """Planes of f and of its derivative by the place, (laws, places, variables + 1), and its second derivative.
+
+        The places of a law are a row of `u`, its variables and 1 a row of `point`.
+        """
+
+    @property
+    @abstractmethod
+    def rounding(self) -> Array:
+        """What rounding may hide of each entry of a plane."""
+
+    def hessian(self, u: Array, point: Array, weights: Array) -> Array | None:  # noqa: ARG002 - of what is affine
+        """Second derivatives by the variables of the sum of weights times f; None where f is affine."""
+        return None
+
+
+class CurvedTangents(Tangents):
+    """Of a family that is not affine in the law."""
+
+    @abstractmethod
+    def greatest(self, point: Array) -> Array:
+        """The greatest magnitude of f in each law, recomputed over the whole interval."""
+
+
+@dataclass(frozen=True, eq=False)
+class Columns(Tangents):
+    """Rows that are affine in the law: Chebyshev polynomials times a family's series, row by row."""
+
+    family: LinearFamily
+
+    @kept_property
+    def _parts(self) -> tuple[tuple[NDArray[np.intp], Array], ...]:
+        """For f and its first two derivatives: which polynomials they are made of, and with what coefficients."""
+        found = []
+        series = self.family.series
+        for _ in range(3):
+            kept = np.flatnonzero(series.any(axis=1))
+            found.append((kept, np.ascontiguousarray(series[kept])))
+            series = np.asarray(chebyshev.chebder(series), dtype=np.float64)
+        return tuple(found)
+
+    @kept_property
+    def rounding(self) -> Array:
+        """What rounding may hide of each entry of a row."""
+        return np.asarray(_ROUNDING * np.abs(self.family.series).sum(axis=0))
+
+    def at(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
+        """The rows themselves, whatever the law."""
+        if isinstance(self.family, RatioFamily | RootFamily):
+            columns = self.family.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
+            return columns[0], columns[1], np.einsum("mpi,mi->mp", columns[2], point)
+        polynomials = _polynomials(u.reshape(-1), len(self.family.series))
+        value, slope = ((polynomials[kept].T @ series).reshape(*u.shape, -1) for kept, series in self._parts[:2])
+        kept, series = self._parts[2]
+        bend = np.einsum("nmp,mn->mp", polynomials[kept].reshape(len(kept), *u.shape), point @ series.T)
+        return value, slope, bend
+
+
+@dataclass(frozen=True, eq=False)
+class Products(CurvedTangents):
+    """The power b c: a product of two affine families, which is not convex."""
+
+    proving = False
+    family: ProductFamily
+
+    @kept_property
+    def _factors(self) -> tuple[Columns, Columns]:
+        return Columns(self.family.first), Columns(self.family.second)
+
+    @kept_property
+    def rounding(self) -> Array:
+        """Of planes that prove nothing: that of their rows."""
+        return self._factors[0].rounding + self._factors[1].rounding
+
+    def at(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
+        """Planes by the product rule."""
+        (g, g_slope, g2), (h, h_slope, h2) = (factor.at(u, point) for factor in self._factors)
+        g0, g1, h0, h1 = (np.einsum("mpi,mi->mp", one, point)[:, :, None] for one in (g, g_slope, h, h_slope))
+        value = h0 * g + g0 * h
+        value[:, :, -1] -= (g0 * h0)[:, :, 0]
+        slope = h0 * g_slope + h1 * g + g0 * h_slope + g1 * h
+        slope[:, :, -1] -= (g1 * h0 + g0 * h1)[:, :, 0]
+        return value, slope, g2 * h0[:, :, 0] + 2.0 * (g1 * h1)[:, :, 0] + g0[:, :, 0] * h2
+
+    def hessian(self, u: Array, point: Array, weights: Array) -> Array:
+        """Rows of one factor times those of the other."""
+        g, h = (factor.at(u, point)[0][:, :, :-1] for factor in self._factors)
+        half = np.matmul((g * weights[:, :, None]).transpose(0, 2, 1), h)
+        return np.asarray(half + half.transpose(0, 2, 1))
+
+    def greatest(self, point: Array) -> Array:
+        """The greatest magnitude of f in each law over the whole interval."""
+        first, second = (point @ one.series.T for one in (self.family.first, self.family.second))
+        return peaks(product(first, second))
+
+
+@dataclass(frozen=True, eq=False)
+class Norms(CurvedTangents):
+    """A root mean square: the norm of what a matrix makes of the variables and 1. It has no place."""
+
+    family: NormFamily
+
+    @kept_property
+    def rounding(self) -> Array:
+        """What rounding may hide of each entry of a unit vector times the matrix."""
+        return np.asarray(len(self.family.matrix) * _ROUNDING * np.abs(self.family.matrix).sum(axis=0))
+
+    def at(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
+        """What the direction of each law shows of the norm; no law's norm is less."""
+        value = np.repeat(self._shown(point)[1][:, None, :], u.shape[1], axis=1)
+        return value, np.zeros_like(value), np.zeros(u.shape)
+
+    def _shown(self, point: Array) -> tuple[Array, Array]:
+        image = point @ self.family.matrix.T
+        size = np.maximum(np.sqrt((image * image).sum(axis=1)), _NO_NORM)
+        return size, (image / size[:, None]) @ self.family.matrix
+
+    def hessian(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
+        """Of the norm."""
+        size, shown = self._shown(point)
+        rows, matrix = shown[:, :-1], self.family.matrix[:, :-1]
+        bent = matrix.T @ matrix - rows[:, :, None] * rows[:, None, :]
+        return np.asarray(bent * (weights.sum(axis=1) / size)[:, None, None])
+
+    def greatest(self, point: Array) -> Array:
+        """The norm of each law."""
+        return self._shown(point)[0]
+
+
+def tangents_of(family: Family) -> Columns | CurvedTangents | None:
+    """The tangents of a family's rows; None of a kind that is not known here."""
+    if isinstance(family, LinearFamily):
+        return Columns(family)
+    if isinstance(family, ProductFamily):
+        return Products(family)
+    return Norms(family) if isinstance(family, NormFamily) else None
+
+
+def _polynomials(u: Array, count: int) -> Array:
+    """Chebyshev polynomials at many places, shape (count, places)."""
+    found = np.empty((max(count, 2), len(u)))
+    found[0], found[1] = 1.0, np.clip(u, -1.0, 1.0)
+    twice = 2.0 * found[1]
+    for n in range(2, count):
+        np.multiply(twice, found[n - 1], out=found[n])
+        found[n] -= found[n - 2]
+    return found[:count]

@@ -1,0 +1,145 @@
+"""Laws of least power along a path: locally best each, as they are alone, with the quick bound of each.
+
+That a law is the best nearby, its state shows; that no other branch of laws is better, laws that are sought from all
+starts do, here and there on the path. Between two that are as good as those of the path, the path's are kept.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import OptlawsError
+from optlaws.synthesis.arrays.along import laws_along
+from optlaws.synthesis.arrays.constants import power_peaks
+from optlaws.synthesis.arrays.found import Found
+from optlaws.synthesis.arrays.programs import Path, between
+from optlaws.synthesis.arrays.rows import with_one
+from optlaws.synthesis.problem.constants import D
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import relaxed
+from optlaws.synthesis.solution import Solution
+
+Array = NDArray[np.float64]
+
+#: laws sought from all starts: so many on a path, and one on each of its structures
+_LEAST, _MOST, _EACH = 4, 12, 12
+#: of an objective: two laws that differ by less are one
+_SAME = 1e-9
+#: of a bound: what its certificate may lose, whose tangent is settled to a millionth
+_SETTLED = 1e-11
+_PLACES = 256
+
+
+def least_power(problem: Problem) -> bool:
+    """Whether a problem asks for the least D alone, among laws that are a convex set.
+
+    Examples
+    --------
+    >>> least_power(Problem(B=1.7, order=4, minimise="D")), least_power(Problem(B=1.7, order=4, D=(0.0, 6.0)))
+    (True, False)
+    """
+    asked = problem.range("D")
+    return (
+        [term for _, term in problem.objective.terms] == [D]
+        and all(constant.convex or constant == D for constant in problem.constants)
+        and asked is None
+    )
+
+
+def unrivalled(
+    found: Found, places: NDArray[np.intp], alone: Callable[[int], Solution | OptlawsError]
+) -> NDArray[np.bool_]:
+    """Which laws of a path lie between two than which a search from all starts found none better or other.
+
+    Parameters
+    ----------
+    found, places
+        The laws by ascending t, and what `alone` calls them.
+    alone
+        Seeks the law of one problem from all starts.
+    """
+    known = np.flatnonzero(found.solved)
+    kept = np.zeros(len(places), dtype=np.bool_)
+    before: int | None = None
+    for row in _looked_at(found, known).tolist():
+        best = alone(int(places[row]))
+        same = isinstance(best, Solution) and abs(best.objective / found.objective[row] - 1.0) <= _SAME
+        if same:
+            kept[row if before is None else before : row + 1] = True
+        before = row if same else None
+    return kept & found.solved
+
+
+def _looked_at(found: Found, known: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Rows at which laws are compared: both ends, some between, and one of each structure."""
+    if not len(known):
+        return known
+    count = int(np.clip(len(known) // _EACH, _LEAST, _MOST))
+    even = known[np.round(np.linspace(0, len(known) - 1, count)).astype(np.intp)]
+    kinds = np.concatenate([found.family, found.free], axis=1)[known]
+    edges = np.flatnonzero(np.any(np.diff(kinds, axis=0) != 0, axis=1)) + 1
+    middles = known[(np.append(0, edges) + np.append(edges, len(known))) // 2]
+    return np.unique(np.concatenate([even, middles]))
+
+
+def with_quick_bounds(path: Path, t: Array, found: Found, limits: Array) -> Found:
+    """The laws with what is proven of each: the limit, or the least D of the relaxed program where that may be more.
+
+    Parameters
+    ----------
+    path, t, found
+        The laws and where they are on their path.
+    limits
+        What no law of each problem is below; minus infinity where nothing is known.
+    """
+    weight = path.model.problem.objective.terms[0][0]
+    objective = weight * _powers(path, found)
+    bound = limits.copy()
+    low = np.flatnonzero(found.solved & ~(weight * _needed_roots(path, found) ** 2 < limits))
+    if len(low):
+        roots = _least_roots(path, t[low])
+        proven = weight * roots**2 * (1.0 - _SETTLED)
+        bound[low] = np.maximum(bound[low], proven)
+        # where the relaxed program has no proof
+        bound[low[np.isnan(roots)]] = np.nan
+    sound = found.solved & np.isfinite(bound)
+    return replace(found, objective=np.where(sound, objective, np.nan), bound=np.where(sound, bound, np.nan))
+
+
+def _powers(path: Path, found: Found) -> Array:
+    """The peak power of each law, recomputed over the whole interval."""
+    point = with_one(found.x[:, : path.model.space.terms])
+    b, c = (point @ path.model.space.series(nu).T for nu in (1, 2))
+    powers = np.full(len(found.x), np.nan)
+    powers[found.solved] = power_peaks(b[found.solved], c[found.solved])
+    return powers
+
+
+def _needed_roots(path: Path, found: Found) -> Array:
+    """The least r with |b| <= r sqrt(2k) and r sqrt(2(1-k)) everywhere, nearly, of each law."""
+    k = np.arange(1, _PLACES) / _PLACES
+    columns = path.model.space.columns(1, 1.0 - 2.0 * k)
+    speeds = np.abs(with_one(found.x[:, : path.model.space.terms]) @ columns.T)
+    return np.asarray((speeds / np.sqrt(2.0 * np.minimum(k, 1.0 - k))).max(axis=1))
+
+
+def _least_roots(path: Path, t: Array) -> Array:
+    """What the root of D of no law on the path is below, at ascending t, by the relaxed program; NaN where unproven.
+
+    With D >= 2 s r - s² for any s the program's bound says the same of r, whatever the s.
+    """
+    first, last = path.problems
+    tangent = max(1.0, *(one.B for one in path.problems if isinstance(one.B, float)))
+    loose = _between_relaxed(first, last, tangent)
+    if loose is None:
+        return np.full(len(t), np.nan)
+    bounds = laws_along(loose, t).bound / first.objective.terms[0][0]
+    return np.asarray((bounds + tangent**2) / (2.0 * tangent))
+
+
+def _between_relaxed(first: Problem, last: Problem, tangent: float) -> Path | None:
+    return between(first, last, lambda problem: relaxed(problem, tangent))
