@@ -60,7 +60,7 @@ nitpick_ignore = [
     ("py:class", "optlaws.synthesis.problem.constants.Asked"),
     ("py:class", "optlaws.synthesis.proven.front.Lazily"),
     ("py:class", "optlaws.synthesis.proven.running.RunningNumber"),
-    ("py:class", "optlaws.synthesis.solution_array.Part"),
+    ("py:class", "optlaws.synthesis.solved_parts.Part"),
     ("py:class", "optlaws.synthesis.spaces.space.LawSpace"),
 ]
 # B, C and D are attributes of several classes: which one a text means is said beside it

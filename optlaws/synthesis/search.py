@@ -108,6 +108,11 @@ class Search:
             best = self._placed(plain, moved) if self.tight else moved
         return self.certified(plain, best)
 
+    def least(self) -> float | None:
+        """The best objective that the starts lead to, of which nothing is proven; None where they lead to no law."""
+        self._try_starts()
+        return self.sound[0].objective if self.sound else None
+
     def error(self) -> InfeasibleProblem | SolverFailure:
         """Why there is no law."""
         return failure(self.problem, self.attempts[0].outcome)

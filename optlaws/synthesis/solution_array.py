@@ -12,12 +12,12 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
-from optlaws.synthesis.arrays.parts import Part, constant_of, stored_laws
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.proof.data import as_json
 from optlaws.synthesis.solution import NOTHING, Solution, Status
 from optlaws.synthesis.solution_tables import NUMBERS, as_pandas, as_xarray
+from optlaws.synthesis.solved_parts import Part, constant_of, stored_laws
 from optlaws.synthesis.stored_solutions import (
     FAILED,
     INFEASIBLE,

@@ -21,14 +21,16 @@ from optlaws.suggest import unknown_key
 from optlaws.synthesis.arrays.along import laws_along
 from optlaws.synthesis.arrays.found import Found
 from optlaws.synthesis.arrays.lines import Line, along_velocities, least_count, lines_of
-from optlaws.synthesis.arrays.parts import Part
 from optlaws.synthesis.arrays.powers import unrivalled, with_quick_bounds
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import model_of
+from optlaws.synthesis.search import Search
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.synthesis.solve import BOUNDS, TIGHT, synthesize
+from optlaws.synthesis.solved_parts import Part
 
 _CHUNK = 10_000
 
@@ -120,7 +122,8 @@ def _along(problems: ProblemArray, line: Line, bound: str) -> Found:
     if bound == TIGHT:
         return Found.none(len(line.t), 0, 0, 0)
     found = laws_along(line.path, line.t)
-    found = found.only(unrivalled(found, line.places, lambda place: _alone(problems, place, None, bound)))
+    sought = unrivalled(found, line.places, lambda place: Search(model_of(problems.problem(place))).least())
+    found = found.only(sought)
     limits = [known_limit(problems.problem(place)) for place in line.places.tolist()]
     return with_quick_bounds(line.path, line.t, found, np.array([-inf if one is None else one for one in limits]))
 
@@ -174,9 +177,11 @@ def _lines(problems: ProblemArray) -> Iterator[Line]:
 
 def _valid(problems: ProblemArray, place: int) -> Problem | None:
     try:
-        return problems.problem(place)
+        given: object = problems.problem(place)
     except InputError:
         return None
+    # what was given need be none, which is for `synthesize` to say
+    return given if isinstance(given, Problem) else None
 
 
 def _others(problems: ProblemArray, places: NDArray[np.intp], bound: str) -> dict[int, Solution | OptlawsError]:

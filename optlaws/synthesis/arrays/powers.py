@@ -12,7 +12,6 @@ from dataclasses import replace
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.errors import OptlawsError
 from optlaws.synthesis.arrays.along import laws_along
 from optlaws.synthesis.arrays.constants import power_peaks
 from optlaws.synthesis.arrays.found import Found
@@ -21,12 +20,12 @@ from optlaws.synthesis.arrays.rows import with_one
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import relaxed
-from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 
 Array = NDArray[np.float64]
 
-#: laws sought from all starts: so many on a path, and one on each of its structures
-_LEAST, _MOST, _EACH = 4, 12, 12
+#: laws sought from all starts: at least and at most on a path, and of how many one
+_LEAST, _MOST, _EACH = 5, 13, 12
 #: of an objective: two laws that differ by less are one
 _SAME = 1e-9
 #: of a bound: what its certificate may lose, whose tangent is settled to a millionth
@@ -50,40 +49,34 @@ def least_power(problem: Problem) -> bool:
     )
 
 
-def unrivalled(
-    found: Found, places: NDArray[np.intp], alone: Callable[[int], Solution | OptlawsError]
-) -> NDArray[np.bool_]:
-    """Which laws of a path lie between two than which a search from all starts found none better or other.
+def unrivalled(found: Found, places: NDArray[np.intp], sought: Callable[[int], float | None]) -> NDArray[np.bool_]:
+    """Which laws of a path lie between two for which a search from all starts found no other.
 
     Parameters
     ----------
     found, places
-        The laws by ascending t, and what `alone` calls them.
-    alone
-        Seeks the law of one problem from all starts.
+        The laws by ascending t, and what `sought` calls them.
+    sought
+        The objective that a search for one law from all starts ends with; None where it ends with no law.
     """
     known = np.flatnonzero(found.solved)
     kept = np.zeros(len(places), dtype=np.bool_)
     before: int | None = None
-    for row in _looked_at(found, known).tolist():
-        best = alone(int(places[row]))
-        same = isinstance(best, Solution) and abs(best.objective / found.objective[row] - 1.0) <= _SAME
+    for row in _looked_at(known).tolist():
+        best = sought(int(places[row]))
+        same = best is not None and abs(best / found.objective[row] - 1.0) <= _SAME
         if same:
             kept[row if before is None else before : row + 1] = True
         before = row if same else None
     return kept & found.solved
 
 
-def _looked_at(found: Found, known: NDArray[np.intp]) -> NDArray[np.intp]:
-    """Rows at which laws are compared: both ends, some between, and one of each structure."""
+def _looked_at(known: NDArray[np.intp]) -> NDArray[np.intp]:
+    """Rows at which laws are compared: both ends and some between."""
     if not len(known):
         return known
     count = int(np.clip(len(known) // _EACH, _LEAST, _MOST))
-    even = known[np.round(np.linspace(0, len(known) - 1, count)).astype(np.intp)]
-    kinds = np.concatenate([found.family, found.free], axis=1)[known]
-    edges = np.flatnonzero(np.any(np.diff(kinds, axis=0) != 0, axis=1)) + 1
-    middles = known[(np.append(0, edges) + np.append(edges, len(known))) // 2]
-    return np.unique(np.concatenate([even, middles]))
+    return np.unique(known[np.round(np.linspace(0, len(known) - 1, count)).astype(np.intp)])
 
 
 def with_quick_bounds(path: Path, t: Array, found: Found, limits: Array) -> Found:
@@ -96,13 +89,13 @@ def with_quick_bounds(path: Path, t: Array, found: Found, limits: Array) -> Foun
     limits
         What no law of each problem is below; minus infinity where nothing is known.
     """
-    weight = path.model.problem.objective.terms[0][0]
+    weight = _weights(path, t)
     objective = weight * _powers(path, found)
     bound = limits.copy()
     low = np.flatnonzero(found.solved & ~(weight * _needed_roots(path, found) ** 2 < limits))
     if len(low):
         roots = _least_roots(path, t[low])
-        proven = weight * roots**2 * (1.0 - _SETTLED)
+        proven = weight[low] * roots**2 * (1.0 - _SETTLED)
         bound[low] = np.maximum(bound[low], proven)
         # where the relaxed program has no proof
         bound[low[np.isnan(roots)]] = np.nan
@@ -110,10 +103,18 @@ def with_quick_bounds(path: Path, t: Array, found: Found, limits: Array) -> Foun
     return replace(found, objective=np.where(sound, objective, np.nan), bound=np.where(sound, bound, np.nan))
 
 
+def _weights(path: Path, t: Array) -> Array:
+    """What D weighs in the objective."""
+    return np.asarray(path.model.unit * path.numbers(t).cost[:, path.model.places[D.name]])
+
+
 def _powers(path: Path, found: Found) -> Array:
     """The peak power of each law, recomputed over the whole interval."""
-    point = with_one(found.x[:, : path.model.space.terms])
-    b, c = (point @ path.model.space.series(nu).T for nu in (1, 2))
+    space = path.model.space
+    if not isinstance(space, PolynomialSpace):
+        raise TypeError(f"laws of {type(space).__name__} are not solved in arrays")
+    point = with_one(found.x[:, : space.terms])
+    b, c = (point @ space.series(nu).T for nu in (1, 2))
     powers = np.full(len(found.x), np.nan)
     powers[found.solved] = power_peaks(b[found.solved], c[found.solved])
     return powers
@@ -134,12 +135,8 @@ def _least_roots(path: Path, t: Array) -> Array:
     """
     first, last = path.problems
     tangent = max(1.0, *(one.B for one in path.problems if isinstance(one.B, float)))
-    loose = _between_relaxed(first, last, tangent)
+    loose = between(first, last, lambda problem: relaxed(problem, tangent))
     if loose is None:
         return np.full(len(t), np.nan)
-    bounds = laws_along(loose, t).bound / first.objective.terms[0][0]
+    bounds = laws_along(loose, t).bound / _weights(loose, t)
     return np.asarray((bounds + tangent**2) / (2.0 * tangent))
-
-
-def _between_relaxed(first: Problem, last: Problem, tangent: float) -> Path | None:
-    return between(first, last, lambda problem: relaxed(problem, tangent))

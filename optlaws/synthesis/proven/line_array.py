@@ -7,11 +7,11 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.arrays.parts import Part
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.below_claim import greatest_values, least_values, moments
 from optlaws.synthesis.proven.running import RunningNumber
+from optlaws.synthesis.solved_parts import Part
 
 Array = NDArray[np.float64]
 

@@ -89,6 +89,12 @@ KINDS: dict[str, dict[str, Any]] = {
     },
     "most C": {"B": 1.7, "minimise": "J", "C": (None, np.linspace(4.9, 6.0, COUNT))},
     "most B": {"B": (None, np.linspace(1.6, 2.2, COUNT)), "minimise": "jounce", "order": 3},
+    "root mean square": {"B": np.linspace(1.45, 2.5, COUNT), "minimise": "rms_c"},
+    "weights of a root mean square": {
+        "B": 1.7,
+        "minimise": each("{:.17g}*rms_c/3.4 + C/4".format, np.linspace(0.5, 4.0, COUNT)),
+    },
+    "most root mean square": {"B": 1.7, "bounds": {"rms_c": (None, np.linspace(3.8, 4.2, COUNT))}},
     "end velocity": {
         "minimise": "C",
         "symmetric": False,

@@ -88,9 +88,10 @@ class Search:
     def __post_init__(self) -> None:
         root = self.rows.root()
         self._steps: list[Step | Cut] = []
-        self._root_width = root.high - root.low
-        self._variables = [i for i in range(self.rows.terms) if self._root_width[i] > _FLAT]
-        self._variables += self.rows.branched
+        self._root_width = np.maximum(root.high - root.low, _TINY)
+        wide = [i for i in range(self.rows.terms) if self._root_width[i] > _FLAT]
+        # where the rows leave one law alone, one coordinate shows that it is not better
+        self._variables = [*wide, *self.rows.branched] or [0]
 
     def run(self) -> None:
         """Empty one box after the other."""

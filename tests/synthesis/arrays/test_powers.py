@@ -1,0 +1,132 @@
+"""Laws of least power solved together: locally best as each is alone, with the same bound, and unrivalled."""
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws import Chebyshev, Problem, ProblemArray, Solution, each, synthesize, synthesize_array
+from optlaws.synthesis import solve_array
+from optlaws.synthesis.arrays.along import laws_along
+from optlaws.synthesis.arrays.found import Found
+from optlaws.synthesis.arrays.newton_steps import States, best_nearby
+from optlaws.synthesis.arrays.powers import unrivalled
+from optlaws.synthesis.arrays.programs import Path, between
+from optlaws.synthesis.arrays.walk import Walk
+from optlaws.synthesis.search import Search
+from optlaws.synthesis.solution_array import SolutionArray
+from optlaws.verification import verify
+
+ENDS = (1.42, 2.6)
+COUNT = 60
+
+
+def check(laws: SolutionArray, places: list[int]) -> None:
+    """What was solved together is what each is alone."""
+    for place in places:
+        alone, one = synthesize(laws.problems.problem(place)), laws.result(place)
+        assert isinstance(one, Solution)
+        assert place not in laws.others
+        assert one.objective == pytest.approx(alone.objective, rel=1e-9)
+        assert one.status is alone.status
+        np.testing.assert_allclose(one.z_series, alone.z_series, rtol=1e-8, atol=1e-8)
+        assert one.lower_bound == pytest.approx(alone.lower_bound, rel=1e-9)
+        assert one.lower_bound == laws.lower_bound.reshape(-1)[place]
+        assert one.certificate.bound <= one.objective
+        assert one.constants.D.value == pytest.approx(laws.D.reshape(-1)[place], rel=1e-12)
+
+
+KINDS: dict[str, dict[str, Any]] = {
+    "B": {},
+    "B of order 2, degree 5": {"order": 2, "basis": Chebyshev(5)},
+    "B, no return": {"B": np.linspace(1.5, 2.5, COUNT), "monotone": True, "basis": Chebyshev(7)},
+    "B, unsymmetric": {"B": np.linspace(1.6, 2.2, COUNT), "symmetric": False, "order": 3, "basis": Chebyshev(5)},
+    "most C": {"B": 1.7, "C": (None, np.linspace(5.0, 5.9, COUNT))},
+    "weights": {"B": 1.7, "minimise": each("{:.17g}*D".format, np.linspace(0.5, 2.0, COUNT))},
+}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.filterwarnings("ignore::optlaws.NotNormalised")
+def test_laws_of_least_power_are_those_solved_alone(kind: str) -> None:
+    entries = {"B": np.linspace(*ENDS, COUNT), "order": 4, "basis": Chebyshev(9), "minimise": "D"} | KINDS[kind]
+    laws = synthesize_array(ProblemArray(**entries))
+    assert (laws.status == "local").all()
+    assert not laws.others
+    check(laws, [2, 31, 58])
+
+
+def path_of(degree: int) -> Path:
+    problem = Problem(order=4, basis=Chebyshev(degree), B=ENDS[0], minimise="D")
+    path = between(problem, replace(problem, B=ENDS[1]))
+    assert path is not None
+    return path
+
+
+def test_laws_of_least_power_where_their_structure_changes() -> None:
+    path = path_of(9)
+    edges = np.array([segment.end for segment in Walk(path, 0.0, 1.0).whole(np.array([0.5]))[:-1]])
+    assert len(edges) == 4
+    beside = np.concatenate([edges + away for away in (-1e-6, 0.0, 1e-6)])
+    t = np.sort(np.concatenate([np.linspace(0.0, 1.0, 40), beside]))
+    found = laws_along(path, t)
+    assert found.solved.all()
+    for row in np.flatnonzero(np.isin(t, edges)):
+        alone = synthesize(Problem(order=4, basis=Chebyshev(9), B=float(1.42 + 1.18 * t[row]), minimise="D"))
+        assert found.objective[row] == pytest.approx(alone.objective, rel=1e-9)
+
+
+def test_where_another_branch_is_better_laws_are_sought_alone(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Rival(Search):
+        def least(self) -> float | None:
+            own = super().least()
+            return own if own is None or ENDS[0] != self.problem.B else 0.99 * own
+
+    monkeypatch.setattr(solve_array, "Search", Rival)
+    laws = synthesize_array(ProblemArray(B=np.linspace(*ENDS, 24), order=3, basis=Chebyshev(3), minimise="D"))
+    assert sorted(laws.others) == list(range(6))
+    assert (laws.status == "local").all()
+
+
+def test_laws_between_two_that_agree_are_kept_and_no_others() -> None:
+    found = replace(Found.none(25, 0, 0, 0), objective=np.ones(25))
+    for answers, kept in (
+        ({}, range(25)),
+        ({12: 0.9}, [*range(7), *range(18, 25)]),
+        ({0: None}, range(6, 25)),
+        ({0: 0.9, 24: 1.1}, range(6, 19)),
+    ):
+        sought = unrivalled(found, np.arange(25), lambda place, answers=answers: answers.get(place, 1.0))  # type: ignore[misc]
+        assert np.flatnonzero(sought).tolist() == list(kept)
+
+
+def test_a_law_that_is_no_minimum_is_seen() -> None:
+    path = path_of(5)
+    segments = Walk(path, 0.0, 1.0).whole(np.array([0.5]))
+    assert {len(path.model.program.right) + one.structure.count for one in segments} == {3, 4}
+    for segment in segments:
+        states = States.unpacked(segment.rows, segment.structure)
+        assert best_nearby(segment.structure, states).all()
+        # with as many rows as variables nothing is left free
+        vertex = segment.structure.count == 3
+        turned = replace(states, weights=-states.weights)
+        assert best_nearby(segment.structure, turned).tolist() == [vertex] * len(states)
+
+
+def test_without_laws_and_with_tight_bounds_each_is_solved_alone() -> None:
+    laws = synthesize_array(ProblemArray(B=np.linspace(1.05, 1.8, 60), order=4, basis=Chebyshev(3), minimise="D"))
+    assert set(laws.status.tolist()) == {"infeasible", "local"}
+    assert (np.diff((laws.status == "local").astype(int)) >= 0).all()
+    tight = synthesize_array(
+        ProblemArray(B=np.linspace(1.7, 1.8, 24), order=2, basis=Chebyshev(1), minimise="D"), bound="tight"
+    )
+    assert len(tight.others) == 24
+
+
+def test_a_law_of_least_power_is_verified() -> None:
+    laws = synthesize_array(ProblemArray(B=np.linspace(*ENDS, 24), order=4, basis=Chebyshev(5), minimise="D"))
+    again = SolutionArray.from_dict(laws.to_dict())
+    for place in (1, 20):
+        assert again.result(place) == laws.result(place)
+        assert verify(laws[place].to_dict()).proven
