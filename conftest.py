@@ -14,7 +14,7 @@ from xdist.scheduler import LoadScopeScheduling
 from tests.documents import documents
 
 _PACKAGE = Path(__file__).parent / "optlaws"
-_SHARING = ("tests/jobs/", "tests/studies/test_kills.py")
+_SHARING = ("tests/explorer/test_page.py", "tests/jobs/", "tests/studies/test_kills.py")
 _collect_document = documents.pytest()
 
 
@@ -31,7 +31,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 
 class SharingScheduling(LoadScopeScheduling):  # type: ignore[misc]  # xdist is untyped
-    """Keeps in one process the blocks of a document, which use each other's names, and what shares a whole run."""
+    """Keeps in one process the blocks of a document, which use each other's names, and what shares a whole run or a browser."""
 
     def _split_scope(self, nodeid: str) -> str:
         path = nodeid.partition("::")[0]

@@ -37,7 +37,8 @@ MAY_IMPORT = {
     "law_pictures": CORE | {"drawing"},
     "studies": CORE | {"drawing"},
     "jobs": CORE | {"drawing", "exports", "law_pictures", "studies"},
-    "cli": CORE | {"drawing", "exports", "law_pictures", "studies", "jobs", "optlaws"},
+    "explorer": CORE | {"drawing", "exports", "law_pictures", "studies", "jobs", "optlaws"},
+    "cli": CORE | {"drawing", "exports", "law_pictures", "studies", "jobs", "explorer", "optlaws"},
     "__main__": {"cli"},
 }
 

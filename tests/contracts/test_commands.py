@@ -25,6 +25,7 @@ CALLS = {
     "constants": "--order 1 --z 0.5",
     "cycle": "cycle.toml",
     "dwell": "K --dwell 90 --rise 90 --swing 20 --clutch-angle 15 --radius-ratio 1 --inertia-ratio 0.1 --most-torque 1",
+    "explore": "cycloidal --no-browser --port 0",
     "follower": "0050 --nu 20",
     "front": "--order 2 --degree 3 --points 2",
     "law": "0050 --at 0.5",

@@ -238,13 +238,28 @@ def _named(problem: Problem, constraint: str) -> str:
     return f"{text} = {value!r} everywhere" if value is not None else f"{text} everywhere"
 
 
+def possible_velocities(problem: Problem) -> tuple[float | None, float | None]:
+    """The least and the greatest B that the problem can have in place of its own, to six digits, inward.
+
+    None where there is no such end, or where no B has a law; of a problem that D bounds, for the rest of it.
+
+    Examples
+    --------
+    >>> possible_velocities(Problem(B=1.2, order=6))
+    (1.221697, None)
+    """
+    low, high = (_extreme(problem, greatest=greatest) for greatest in (False, True))
+    least = ceil(low * 1e6) / 1e6 if low is not None else None
+    return least, floor(high * 1e6) / 1e6 if high is not None else None
+
+
 def _possible(problem: Problem) -> str:
-    """Which B this order and degree can have, to six digits, inward."""
+    """Which B this order and degree can have."""
     if not isinstance(problem.B, float):
         return ""
-    low, high = (_extreme(problem, greatest=greatest) for greatest in (False, True))
-    least = f"from {ceil(low * 1e6) / 1e6:.7g}" if low is not None else ""
-    greatest = f"up to {floor(high * 1e6) / 1e6:.7g}" if high is not None else ""
+    low, high = possible_velocities(problem)
+    least = f"from {low:.7g}" if low is not None else ""
+    greatest = f"up to {high:.7g}" if high is not None else ""
     return f"; so does a B {' '.join(p for p in (least, greatest) if p)}" if least or greatest else ""
 
 

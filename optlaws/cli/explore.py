@@ -1,0 +1,23 @@
+"""The command `optlaws explore`: laws, fronts and cycles in the browser."""
+
+from __future__ import annotations
+
+from optlaws.cli.options import Whole
+
+
+def explore(file: str | None = None, /, *, port: Whole | None = None, no_browser: bool = False) -> None:
+    """Explore laws, fronts and cycles in the browser, from this machine alone: drag a point and the law follows.
+
+    Parameters
+    ----------
+    file
+        What to show first: a law's name, or the file of a law, a solution, a problem or a cycle.
+    port
+        Port on this machine, 0 for any free one; 8337 unless given, or a free one where that is taken.
+    no_browser
+        Print the address and open no browser.
+    """
+    from optlaws.explorer.server import explore as serve
+    from optlaws.explorer.start import start
+
+    serve(start(file), port, browser=not no_browser)

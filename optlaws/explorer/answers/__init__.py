@@ -1,0 +1,1 @@
+"""What the explorer's page asks, and what it is answered: every number and every digit comes from here."""

@@ -1,0 +1,143 @@
+"""Fronts as the page draws them: optimal laws along one constant, made as arrays, with the limit and known laws."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from functools import lru_cache
+from typing import Annotated, Any
+
+import msgspec
+import numpy as np
+
+from optlaws import Problem, ProblemArray, Range, Solution, SolutionArray, Status, each, limit, synthesize_array
+from optlaws.errors import InputError
+from optlaws.explorer.answers import known_laws
+from optlaws.explorer.answers.law_view import wanted
+from optlaws.explorer.asked import AskedLaw, problem_of, solved, without
+from optlaws.synthesis.limits.of_problem import known_limit
+from optlaws.synthesis.proof.infeasible import possible_velocities
+
+#: least and greatest of each axis that is drawn
+RANGES = {"B": (1.1, 2.5), "C": (3.5, 10.0), "D": (2.0, 11.0), "J": (20.0, 140.0), "rms_c": (3.2, 7.0)}
+_POINTS, _LIMITS = 57, 61
+#: problems with D in them are solved one by one
+_POINTS_ALONE = 21
+_ROOM = 1e-6
+#: laws of lower order may have jumps of c at their ends, beside which no limit of J is known
+_JERK_ORDER = 2
+
+Place = list[float]
+
+
+class AskedFront(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The front of a problem over two constants."""
+
+    law: AskedLaw
+    over: Annotated[list[str], msgspec.Meta(min_length=2, max_length=2)]
+
+
+#: pairs that may be exchanged: the first is swept, the second is told
+PAIRS = (("B", "C"), ("B", "D"), ("B", "J"), ("C", "D"), ("J", "C"))
+
+
+def answer(asked: AskedFront) -> dict[str, Any]:
+    """The front of a problem: where B is swept, of its own objective; else of the least second constant.
+
+    Raises
+    ------
+    InputError
+        If the constants are no pair that may be exchanged, or the problem is none.
+    """
+    x, y = asked.over
+    if (x, y) not in PAIRS:
+        raise InputError(f"over must be one of {', '.join('-'.join(pair) for pair in PAIRS)}, got {x}-{y}")
+    given = known_laws.points(x, y), known_laws.families(x, y)
+    beside = {"x": x, "y": y, "ranges": [RANGES[x], RANGES[y]], "known": given[0], "families": given[1]}
+    if asked.law.problem is None:
+        return beside | {"line": [], "words": "", "limit": [], "swept": False}
+    return beside | {"swept": True} | front(swept_problem(problem_of(asked.law), x, y), x, y)
+
+
+def swept_problem(problem: Problem, x: str, y: str) -> Problem:
+    """The problem whose first constant is to run: where that is not B, the second is minimised.
+
+    Examples
+    --------
+    >>> swept_problem(Problem(B=1.7, order=4), "C", "D")
+    Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='D')
+    """
+    return without(problem, x) if x == "B" else without(problem, x, minimise=y)
+
+
+@lru_cache(maxsize=64)
+def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
+    """The line of optimal laws over x, what is proven of it, and the limit that no law of any degree passes.
+
+    Examples
+    --------
+    >>> found = front(Problem(order=4), "B", "C")
+    >>> found["words"], len(found["line"]) > 30
+    ('least C at each B: proven at every point', True)
+    """
+    span = _span(problem, x)
+    if span is None:
+        return {"line": [], "words": f"no {x} has a law of this problem", "limit": _limits(problem, x, y)}
+    alone = not problem.convex
+    laws = along(problem, x, np.linspace(*span, _POINTS_ALONE if alone else _POINTS))
+    return {"line": _places(laws, x, y), "words": _words(problem, x, laws), "limit": _limits(problem, x, y)}
+
+
+def _span(problem: Problem, x: str) -> tuple[float, float] | None:
+    """The least and the greatest value in the picture that have a law, but for constraints that are not convex."""
+    low, high = RANGES[x]
+    if x == "B":
+        least, greatest = possible_velocities(problem)
+        if least is None:
+            return None
+        ends = max(low, least), high if greatest is None else min(high, greatest)
+    else:
+        found = solved(replace(problem, minimise=x))
+        if not isinstance(found, Solution):
+            return None
+        ends = max(low, found.objective * (1.0 + _ROOM)), high
+    return ends if ends[0] < ends[1] else None
+
+
+def along(problem: Problem, x: str, values: Any) -> SolutionArray:  # noqa: ANN401 - an array
+    """The laws of a problem whose constant x takes many values: B as it is, the others as their greatest."""
+    entries = {name: getattr(problem, name) for name in problem.__dataclass_fields__}
+    entries[x] = values if x == "B" else each(_at_most, values)
+    return synthesize_array(ProblemArray(**entries))
+
+
+def _at_most(value: float) -> Range:
+    return Range(0.0, float(value))
+
+
+def _places(laws: SolutionArray, x: str, y: str) -> list[Place]:
+    """Constants of the laws themselves; a law whose bound of x does not bind stands where its own x is."""
+    found = np.column_stack([getattr(laws, x), getattr(laws, y)])
+    return [[round(one, 7) for one in row] for row in found[~np.isnan(laws.objective)].tolist()]
+
+
+def _words(problem: Problem, x: str, laws: SolutionArray) -> str:
+    statuses = set(laws.status[~np.isnan(laws.objective)].tolist())
+    proven = "proven at every point" if statuses == {Status.OPTIMAL.value} else "local optima, not proven least"
+    at = "at each B" if x == "B" else f"for each bound of {x}"
+    return f"least {wanted(problem)} {at}: {proven}"
+
+
+def _limits(problem: Problem, x: str, y: str) -> list[Place]:
+    """What no law of any degree can beat, where y alone is minimised over B."""
+    if x != "B" or str(problem.minimise) != y:
+        return []
+    values = [B for B in np.linspace(*RANGES[x], _LIMITS).tolist() if _jerk_allows(problem, B)]
+    found = [(B, known_limit(replace(problem, B=B))) for B in values]
+    return [[round(B, 6), round(least, 6)] for B, least in found if least is not None]
+
+
+def _jerk_allows(problem: Problem, B: float) -> bool:
+    asked = problem.range("J")
+    if asked is None or problem.order < _JERK_ORDER:
+        return True
+    return limit("J", B, order=problem.order, monotone=problem.monotone) <= asked.high

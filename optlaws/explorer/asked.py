@@ -1,0 +1,193 @@
+"""What the page asks, read from JSON with its limits: laws, fronts, followers."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from functools import lru_cache
+from typing import Annotated, Any, TypeVar
+
+import msgspec
+
+from optlaws import FUNCTIONALS, MotionLaw, Problem, Solution, synthesize
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.laws.catalogue import reading
+from optlaws.numbers import whole
+from optlaws.suggest import unknown_key
+
+#: beyond this nobody drags, and an answer takes longer than a page should wait
+MOST_ORDER, MOST_DEGREE, MOST_LAWS = 12, 41, 4
+#: what weights are of, each beside its least value over all laws from rest to rest (with zero end accelerations)
+UNITS = {"C": 4.0, "D": 2.25, "J": 32.0, "rms_c": 12.0**0.5}
+_FIGURES = 12
+
+Struct = TypeVar("Struct", bound=msgspec.Struct)
+Weight = Annotated[float, msgspec.Meta(ge=0.0, le=100.0)]
+
+
+class AskedLaw(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, frozen=True):
+    """One law: a problem with weights for its objective, the name of a standard law, or a stored law."""
+
+    problem: dict[str, Any] | None = None
+    weights: dict[str, Weight] = {}
+    name: Annotated[str, msgspec.Meta(max_length=100)] | None = None
+    law: dict[str, Any] | None = None
+    title: Annotated[str, msgspec.Meta(max_length=200)] | None = None
+
+
+class AskedLaws(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """Laws side by side."""
+
+    laws: Annotated[list[AskedLaw], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
+
+
+def read(text: bytes, kind: type[Struct]) -> Struct:
+    """A question of the page.
+
+    Raises
+    ------
+    InputError
+        If it is no JSON, or has an entry that is unknown or wrong.
+
+    Examples
+    --------
+    >>> read(b'{"laws": [{"name": "cycloidal"}]}', AskedLaws).laws[0].name
+    'cycloidal'
+    """
+    try:
+        return msgspec.json.decode(text, type=kind)
+    except (msgspec.DecodeError, RecursionError) as error:
+        raise InputError(f"the question cannot be read: {error}") from None
+
+
+def objective(weights: Mapping[str, float]) -> str:
+    """The objective of weights: a constant alone, or the sum of those above 0, each by its least value over all laws.
+
+    Raises
+    ------
+    InputError
+        If no weight is above 0, or one is of another constant.
+
+    Examples
+    --------
+    >>> objective({"C": 1.0, "D": 0.0}), objective({"C": 0.5, "J": 1.0})
+    ('C', '0.5*C/4 + 1*J/32')
+    """
+    for name in weights:
+        if name not in UNITS:
+            raise InputError(f"weights: {unknown_key(name, UNITS, 'constant')}")
+    heavy = {name: weight for name, weight in weights.items() if weight > 0.0}
+    if not heavy:
+        raise InputError("every weight of the objective is 0: raise one, such as that of C")
+    if len(heavy) == 1:
+        return next(iter(heavy))
+    return " + ".join(f"{weight:.{_FIGURES}g}*{name}/{UNITS[name]:.{_FIGURES}g}" for name, weight in heavy.items())
+
+
+def problem_of(asked: AskedLaw) -> Problem:
+    """The problem that is asked.
+
+    Raises
+    ------
+    InputError
+        If it is none, or larger than the explorer takes.
+
+    Examples
+    --------
+    >>> problem_of(AskedLaw(problem={"order": 4, "B": 1.7}, weights={"J": 1.0}))
+    Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='J')
+    """
+    entries = dict(asked.problem or {})
+    if entries.get("order") is not None:
+        whole(entries["order"], "order", least=1, most=MOST_ORDER)
+    if entries.get("degree") is not None:
+        whole(entries["degree"], "degree", most=MOST_DEGREE)
+    if asked.weights:
+        entries["minimise"] = objective(asked.weights)
+    return Problem.from_dict(entries)
+
+
+@lru_cache(maxsize=512)
+def solved(problem: Problem) -> Solution | InfeasibleProblem | SolverFailure:
+    """The solution of a problem, or why there is none.
+
+    Examples
+    --------
+    >>> solved(Problem(B=1.7, order=4)).status.value
+    'optimal'
+    """
+    try:
+        return synthesize(problem)
+    except (InfeasibleProblem, SolverFailure) as error:
+        return error
+
+
+def without(problem: Problem, constant: str, **asked: Any) -> Problem:  # noqa: ANN401 - entries of a problem
+    """The problem that asks nothing of a constant, and else what is given here.
+
+    Examples
+    --------
+    >>> without(Problem(B=1.7, order=4, bounds={"rms_c": [0, 4]}), "rms_c", minimise="rms_c")
+    Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='rms_c')
+    """
+    if hasattr(problem, constant):
+        free: dict[str, Any] = {constant: None}
+        return replace(problem, **free, **asked)
+    others = {one: bound for one, bound in problem.bounds.items() if one.name != constant}
+    return replace(problem, bounds=others, **asked)
+
+
+def given_law(asked: AskedLaw) -> MotionLaw:
+    """The law of a name or of stored data; no file is read.
+
+    Raises
+    ------
+    InputError
+        If there is no such law.
+
+    Examples
+    --------
+    >>> given_law(AskedLaw(name="III(7.2)")).constants.B.value
+    1.859375
+    """
+    if asked.law is not None:
+        return MotionLaw.from_dict(asked.law)
+    name = asked.name or ""
+    if reading.is_file(name):
+        raise InputError(f"{name} names a file, and the page reads none: start `optlaws explore` with it")
+    return reading.read_law(name)
+
+
+def law_of(asked: AskedLaw) -> MotionLaw:
+    """The law that is asked, whichever way.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read.
+    InfeasibleProblem, SolverFailure
+        If its problem has no law, or none was found.
+
+    Examples
+    --------
+    >>> round(law_of(AskedLaw(problem={"order": 4, "B": 1.7})).constants.C.value, 6)
+    4.819774
+    """
+    if asked.problem is None:
+        return given_law(asked)
+    answer = solved(problem_of(asked))
+    if isinstance(answer, Solution):
+        return answer.law
+    raise answer
+
+
+def value(law: MotionLaw, constant: str) -> float:
+    """A constant of a law by its name.
+
+    Examples
+    --------
+    >>> value(given_law(AskedLaw(name="cubic")), "C")
+    6.0
+    """
+    found: float = FUNCTIONALS[constant].value(law)
+    return found

@@ -1,0 +1,46 @@
+// Scales from values to pixels, round ticks, and the frame of a picture.
+
+import { svg } from "./svg.js";
+
+export function scale([low, high], [start, stop]) {
+  const factor = (stop - start) / (high - low || 1);
+  const to = (value) => start + (value - low) * factor;
+  to.back = (pixel) => low + (pixel - start) / factor;
+  return to;
+}
+
+/** About `count` round values between low and high. */
+export function ticks(low, high, count) {
+  const rough = (high - low) / count;
+  const power = 10 ** Math.floor(Math.log10(rough));
+  const step = [1, 2, 5, 10].map((factor) => factor * power).find((size) => size >= rough * 0.999);
+  const first = Math.ceil(low / step - 1e-9);
+  const found = [];
+  for (let i = first; i * step <= high + 1e-9 * step; i += 1) found.push(Number((i * step).toPrecision(10)));
+  return found;
+}
+
+export function label(value) {
+  return String(Number(value.toPrecision(6))).replace("-", "−");
+}
+
+/** Grid, ticks and names of both axes; `box` is {left, right, top, bottom} in pixels. */
+export function frame(box, x, y, { xs, ys, xname, yname, xlabels = true }) {
+  const group = svg("g", { class: "frame", "aria-hidden": "true" });
+  for (const value of xs) {
+    const at = x(value).toFixed(1);
+    group.append(svg("line", { class: "grid", x1: at, x2: at, y1: box.top, y2: box.bottom }));
+    if (xlabels) group.append(svg("text", { class: "tick", x: at, y: box.bottom + 15, "text-anchor": "middle", text: label(value) }));
+  }
+  for (const value of ys) {
+    const at = y(value);
+    group.append(svg("line", { class: value === 0 ? "grid zero" : "grid", x1: box.left, x2: box.right, y1: at.toFixed(1), y2: at.toFixed(1) }));
+    group.append(svg("text", { class: "tick", x: box.left - 6, y: (at + 4).toFixed(1), "text-anchor": "end", text: label(value) }));
+  }
+  if (xname) group.append(svg("text", { class: "name", x: (box.left + box.right) / 2, y: box.bottom + 33, "text-anchor": "middle", text: xname }));
+  if (yname) {
+    const middle = (box.top + box.bottom) / 2;
+    group.append(svg("text", { class: "name", x: 0, y: 0, transform: `translate(${box.left - 40} ${middle}) rotate(-90)`, "text-anchor": "middle", text: yname }));
+  }
+  return group;
+}

@@ -1,0 +1,157 @@
+// The view of laws: what is asked on the left, the plane of the constants in the middle, the curves on the right.
+
+import { askedOf, move } from "./asked.js";
+import { Controls } from "./controls.js";
+import { Curves } from "./curves.js";
+import { slider, tabs } from "./fields.js";
+import { Latest } from "./latest.js";
+import { Plane } from "./plane.js";
+import { Residual } from "./residual.js";
+import { showTable } from "./table.js";
+import { Tray } from "./tray.js";
+import { showTrust } from "./trust.js";
+import { html } from "./svg.js";
+
+const PICTURES = { "B-C": "C over B", "B-D": "D over B", "B-J": "J over B", "C-D": "D over C", "J-C": "C over J", residual: "residual" };
+
+const element = (id) => document.getElementById(id);
+const told = (value) => JSON.stringify(value);
+
+export class Laws {
+  #study;
+  #state = null;
+  #views = [];
+  #asked = [];
+  #ways = null;
+  #front = null;
+  #words = "";
+  #controls;
+  #tray;
+  #plane;
+  #residual;
+  #curves = new Curves(element("curves"));
+  #chooses;
+  #follower;
+  #laws;
+  #fronts;
+  #nearest;
+  #residuals;
+  #drawn;
+
+  constructor(study, names, failed, drawn) {
+    this.#study = study;
+    this.#drawn = drawn;
+    this.#controls = new Controls(element("ask"), study, (name) => this.#value(name));
+    this.#tray = new Tray(element("tray"), study, names);
+    const [plane, residual] = [html("div", { class: "fill" }), html("div", { class: "fill" })];
+    element("plane").append(plane, residual);
+    this.#plane = new Plane(plane, (x) => askedOf(study.state.laws[study.state.active], x), (value, x, y) => this.#move(value, x, y), (name) => this.#tray.add(name));
+    this.#residual = new Residual(residual);
+    this.#chooses = tabs(element("pictures"), PICTURES, (key) => study.change("picture", (state) => (state.picture = key)));
+    this.#follower = this.#followerFields();
+    this.#laws = new Latest("api/laws", (answer, question) => this.#answered(answer, question), failed);
+    this.#fronts = new Latest("api/front", (front) => this.#showFront(front), failed);
+    this.#nearest = new Latest("api/nearest", (answer, question) => this.#near(answer, question), failed);
+    this.#residuals = new Latest("api/residual", (answer) => this.#residual.show(answer, this.#state.active), failed);
+  }
+
+  show(state) {
+    this.#state = state;
+    const isResidual = state.picture === "residual";
+    const [plane, residual] = element("plane").children;
+    plane.hidden = isResidual;
+    residual.hidden = element("follower").hidden = !isResidual;
+    this.#chooses(state.picture);
+    this.#controls.show(state.laws[state.active]);
+    this.#follower(state);
+    this.#askLaws(state);
+    if (isResidual) this.#residuals.ask({ laws: state.laws, nu: state.nu, damping: state.damping });
+    else this.#askFront(state);
+  }
+
+  #askLaws(state) {
+    if (told(state.laws) === told(this.#asked) && !this.#laws.behind) this.#render();
+    this.#laws.ask({ laws: state.laws });
+  }
+
+  #askFront(state) {
+    const over = (PICTURES[state.picture] ? state.picture : "B-C").split("-");
+    const law = structuredClone(state.laws[state.active]);
+    delete law.title;
+    // what runs along the front does not change it
+    if (law.problem) delete law.problem[over[0]];
+    const question = { law, over };
+    if (told(question) === told(this.#front)) return;
+    this.#front = question;
+    this.#words = "computing the front …";
+    this.#fronts.ask(question);
+  }
+
+  #showFront(front) {
+    this.#words = front.words;
+    this.#plane.showFront(front);
+    this.#render();
+  }
+
+  #answered({ laws }, question) {
+    this.#views = laws;
+    this.#asked = question.laws;
+    this.#ways = null;
+    const active = this.#state.active;
+    if (laws[active]?.refused && question.laws[active]?.problem) this.#nearest.ask(question.laws[active]);
+    else this.#ways = [];
+    this.#render();
+    this.#drawn();
+  }
+
+  #near({ ways }, question) {
+    if (told(question) !== told(this.#asked[this.#state.active])) return;
+    this.#ways = ways;
+    this.#render();
+  }
+
+  #render() {
+    const { laws, active, picture } = this.#state;
+    const x = picture.split("-")[0];
+    const views = laws.map((_, i) => this.#views[i]);
+    this.#tray.show(laws, views, active);
+    this.#curves.show(views, active);
+    this.#plane.showLaws(laws.map((law, i) => ({ view: views[i], asked: askedOf(law, x), movable: Boolean(law.problem) })), active);
+    showTrust(element("trust"), views[active], this.#ways, (way) => this.#back(way));
+    showTable(element("table"), views, active);
+    element("words").textContent = picture === "residual" ? "" : this.#words;
+  }
+
+  #value(name) {
+    return this.#views[this.#state.active]?.constants?.find((one) => one.name === name)?.value ?? null;
+  }
+
+  #move(value, x, y) {
+    if (value === null) return this.#study.rest();
+    return this.#study.change(`drag ${x}`, (state) => move(state.laws[state.active], x, y, value));
+  }
+
+  #back({ entry, value }) {
+    this.#study.change(`back ${entry}`, (state) => {
+      const { problem } = state.laws[state.active];
+      if (entry === "B" || entry === "degree") problem[entry] = value;
+      else if (entry === "rms_c") problem.bounds = { ...problem.bounds, rms_c: [0, value] };
+      else problem[entry] = [0, value];
+    });
+  }
+
+  #followerFields() {
+    const field = (name, title, key, high, step) => slider({
+      name, title, low: key === "nu" ? 2 : 0, high, step,
+      changed: (value) => this.#study.change(key, (state) => (state[key] = value)),
+      rested: () => this.#study.rest(),
+    });
+    const nu = field("frequency ν", "Frequency nu of the follower", "nu", 80, 0.5);
+    const damping = field("damping ζ", "Damping ratio of the follower", "damping", 0.3, 0.005);
+    element("follower").append(nu.element, damping.element);
+    return (state) => {
+      nu.set(state.nu);
+      damping.set(state.damping);
+    };
+  }
+}

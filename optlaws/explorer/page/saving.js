@@ -1,0 +1,73 @@
+// Files that the reader saves: the browser downloads them, the server writes none.
+
+const LAWS = [
+  { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
+  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws run" },
+  { kind: "law", text: "Law (JSON)", about: "For optlaws law, compare and cycle; a solution with its proof for optlaws verify" },
+  { kind: "table", text: "Table of values (CSV)", about: "k, a, b, c, j and d" },
+];
+const CYCLE = [
+  { kind: "python", text: "Python", about: "Lines that reproduce what is seen" },
+  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cycle" },
+  { kind: "table", text: "Table of values (CSV)", about: "Angle, time, position, velocity, acceleration and jerk" },
+];
+const PICTURE = { kind: "picture", text: "Picture (SVG)", about: "The curves as they are seen" };
+const DRAWN = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "opacity", "font-family", "font-size", "font-weight"];
+
+export function savings(state) {
+  return [...(state.view === "cycle" ? CYCLE : LAWS), PICTURE];
+}
+
+export async function save(kind, state) {
+  if (kind === "picture") return download("optlaws.svg", "image/svg+xml", picture(state));
+  const { view, laws, active, cycle } = state;
+  const response = await fetch("api/save", {
+    method: "POST",
+    headers: { "Content-Type": "application/json" },
+    body: JSON.stringify({ kind, view, laws, active, cycle: cycle ?? null }),
+  });
+  const answer = await response.json();
+  if (!response.ok) throw new Error(answer.error);
+  return download(answer.name, answer.type, answer.text);
+}
+
+function download(name, type, text) {
+  const address = URL.createObjectURL(new Blob([text], { type }));
+  const link = document.createElement("a");
+  link.href = address;
+  link.download = name;
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(address), 10_000);
+}
+
+/** The drawings of the view, one below the other, with what the style sheet says of them written into them. */
+function picture(state) {
+  const drawings = [...document.querySelectorAll(state.view === "cycle" ? "#motion svg" : "#curves svg")];
+  const whole = document.createElementNS("http://www.w3.org/2000/svg", "svg");
+  let height = 0;
+  for (const drawing of drawings) {
+    const copy = drawing.cloneNode(true);
+    const [from, to] = [drawing.querySelectorAll("*"), copy.querySelectorAll("*")];
+    from.forEach((one, i) => written(one, to[i]));
+    copy.setAttribute("y", height);
+    height += Number(drawing.getAttribute("height"));
+    whole.append(copy);
+  }
+  const width = Math.max(0, ...drawings.map((drawing) => Number(drawing.getAttribute("width"))));
+  whole.setAttribute("xmlns", "http://www.w3.org/2000/svg");
+  whole.setAttribute("viewBox", `0 0 ${width} ${height}`);
+  whole.setAttribute("width", width);
+  whole.setAttribute("height", height);
+  const ground = document.createElementNS("http://www.w3.org/2000/svg", "rect");
+  ground.setAttribute("width", "100%");
+  ground.setAttribute("height", "100%");
+  ground.setAttribute("fill", getComputedStyle(document.querySelector(".panel")).backgroundColor);
+  whole.prepend(ground);
+  return new XMLSerializer().serializeToString(whole);
+}
+
+function written(drawn, copy) {
+  const style = getComputedStyle(drawn);
+  for (const name of DRAWN) copy.setAttribute(name, style.getPropertyValue(name));
+  copy.removeAttribute("class");
+}

@@ -1,0 +1,116 @@
+// The study: all that the page shows follows from it, the address holds it, and every step can be undone.
+
+const MERGED = 800; // ms within which changes of one thing are one step
+const MOST = 200;
+
+export const FIRST = {
+  view: "laws",
+  laws: [{ problem: { order: 4, degree: 9, B: 1.7 }, weights: { C: 1 } }],
+  active: 0,
+  picture: "B-C",
+  nu: 20,
+  damping: 0,
+};
+
+const same = (one, other) => JSON.stringify(one) === JSON.stringify(other);
+
+/** What differs from the first state, as an address's fragment. */
+export function written(state) {
+  const parts = new URLSearchParams();
+  for (const [name, value] of Object.entries(state)) {
+    if (name !== "laws" && !same(value, FIRST[name])) parts.set(name, JSON.stringify(value));
+  }
+  for (const law of state.laws) parts.append("law", JSON.stringify(law));
+  return `#${parts}`;
+}
+
+/** The state of a fragment; what is not there is as at first, what cannot be read is left out. */
+export function read(fragment) {
+  const parts = new URLSearchParams(fragment.replace(/^#/, ""));
+  const state = structuredClone(FIRST);
+  const parsed = (text) => {
+    try {
+      return JSON.parse(text);
+    } catch {
+      return undefined;
+    }
+  };
+  const laws = parts.getAll("law").map(parsed).filter((law) => law && typeof law === "object").slice(0, 4);
+  if (laws.length) state.laws = laws;
+  for (const [name, text] of parts) {
+    const value = parsed(text);
+    if (name !== "law" && value !== undefined && value !== null) state[name] = value;
+  }
+  if (!Number.isInteger(state.active) || state.active < 0 || state.active >= state.laws.length) state.active = 0;
+  for (const name of ["nu", "damping"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
+  for (const name of ["view", "picture"]) if (typeof state[name] !== "string") state[name] = FIRST[name];
+  return state;
+}
+
+export class Study {
+  #past = [];
+  #future = [];
+  #last = { what: null, at: 0 };
+  #changed;
+
+  constructor(state, changed) {
+    this.state = state;
+    this.#changed = changed;
+  }
+
+  get canUndo() {
+    return this.#past.length > 0;
+  }
+
+  get canRedo() {
+    return this.#future.length > 0;
+  }
+
+  /** Change a copy of the state; changes of the same thing in a row are one step. */
+  change(what, alter) {
+    const before = this.state;
+    const next = structuredClone(before);
+    alter(next);
+    if (same(before, next)) return;
+    const now = performance.now();
+    const merged = what === this.#last.what && now - this.#last.at < MERGED && this.#past.length > 0;
+    if (!merged) this.#past = [...this.#past, before].slice(-MOST);
+    this.#last = { what, at: now };
+    this.#future = [];
+    this.#show(next);
+  }
+
+  undo() {
+    if (!this.canUndo) return;
+    this.#future.push(this.state);
+    this.#last = { what: null, at: 0 };
+    this.#show(this.#past.pop());
+  }
+
+  redo() {
+    if (!this.canRedo) return;
+    this.#past.push(this.state);
+    this.#last = { what: null, at: 0 };
+    this.#show(this.#future.pop());
+  }
+
+  /** The next change is a step of its own. */
+  rest() {
+    this.#last = { what: null, at: 0 };
+  }
+
+  /** Another study, of a link. */
+  replace(state) {
+    if (same(state, this.state)) return;
+    this.#past.push(this.state);
+    this.#future = [];
+    this.rest();
+    this.#show(state);
+  }
+
+  #show(state) {
+    this.state = state;
+    history.replaceState(null, "", written(state));
+    this.#changed(state);
+  }
+}

@@ -1,0 +1,28 @@
+// How far the active law can be trusted, in words; or why there is none, and how far one must go back.
+
+import { html } from "./svg.js";
+
+export function showTrust(root, view, ways, go) {
+  root.classList.toggle("none", Boolean(view?.refused));
+  if (!view) root.replaceChildren();
+  else if (view.refused) root.replaceChildren(...refusal(view.refused, ways, go));
+  else if (view.trust) root.replaceChildren(...trust(view.trust));
+  else root.replaceChildren(html("p", {}, html("strong", { class: "word given", text: "given" }), " A law as it stands: nothing was optimised."));
+}
+
+function trust({ status, word, advice, gap, facts }) {
+  return [
+    html("p", {}, html("strong", { class: `word ${status}`, text: word }), ` ${advice} `, html("span", { class: "quiet", text: gap })),
+    html("p", { class: "facts", text: facts.join(" · ") }),
+  ];
+}
+
+function refusal({ word, reason, tried }, ways, go) {
+  const found = [html("p", { class: "reason", title: tried }, html("strong", { class: "word refused", text: word }), ` ${reason}`)];
+  if (ways === null) found.push(html("p", { class: "quiet", text: "looking for the nearest problem that has a law …" }));
+  else if (ways.length) {
+    const buttons = ways.map((way) => html("button", { type: "button", "data-entry": way.entry, "data-value": way.value, text: way.text, onclick: () => go(way) }));
+    found.push(html("p", { class: "ways" }, "Go back: ", ...buttons));
+  }
+  return found;
+}

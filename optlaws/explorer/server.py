@@ -1,0 +1,92 @@
+"""The explorer's server: on this machine alone, until it is interrupted."""
+
+from __future__ import annotations
+
+import socket
+import webbrowser
+from threading import Thread
+from typing import TYPE_CHECKING, Any
+
+from optlaws.errors import InputError
+
+if TYPE_CHECKING:
+    import uvicorn
+
+ADDRESS = "127.0.0.1"
+#: where the explorer is unless asked, so that a link leads to it another day too
+PORT = 8337
+_MOST_PORT = 65535
+
+
+def opened(port: int | None) -> socket.socket:
+    """A socket that listens on this machine alone; any free port where the usual one is taken.
+
+    Raises
+    ------
+    InputError
+        If the port that is asked cannot be had.
+
+    Examples
+    --------
+    >>> with opened(0) as listening:
+    ...     listening.getsockname()[0]
+    '127.0.0.1'
+    """
+    if port is not None and not 0 <= port <= _MOST_PORT:
+        raise InputError(f"--port is a number from 0 (any free one) to {_MOST_PORT}, got {port}")
+    try:
+        return socket.create_server((ADDRESS, PORT if port is None else port))
+    except OSError as error:
+        if port is not None:
+            raise InputError(f"--port {port}: {error.strerror}; take another, or 0 for any free one") from None
+        return socket.create_server((ADDRESS, 0))
+
+
+def server(start: dict[str, Any]) -> uvicorn.Server:
+    """The server, ready to run on a socket.
+
+    Raises
+    ------
+    InputError
+        If what it needs is not installed.
+    """
+    try:
+        import uvicorn
+
+        from optlaws.explorer.application import application
+    except ModuleNotFoundError as error:
+        raise InputError(
+            f"the explorer needs {error.name}, which is not installed: pip install 'optlaws[explore]'"
+        ) from None
+    quiet: Any = {"log_level": "warning", "access_log": False, "ws": "none", "lifespan": "off", "http": "h11"}
+    return uvicorn.Server(uvicorn.Config(application(start), loop="asyncio", **quiet))
+
+
+def explore(start: dict[str, Any], port: int | None = None, *, browser: bool = True) -> None:
+    """Serve the page until interrupted, and show it in the user's browser.
+
+    Raises
+    ------
+    InputError
+        If what it needs is not installed, or the port cannot be had.
+    """
+    serving = server(start)
+    with opened(port) as listening:
+        address = f"http://{ADDRESS}:{listening.getsockname()[1]}/"
+        print(f"optlaws explorer: {address}  (Ctrl-C ends it)", flush=True)  # noqa: T201
+        Thread(target=_warm_up, daemon=True).start()
+        if browser:
+            # the socket listens already, so that the browser may come before the server does
+            Thread(target=webbrowser.open, args=(address,), daemon=True).start()
+        try:
+            serving.run(sockets=[listening])
+        except KeyboardInterrupt:
+            print()  # noqa: T201 - Ctrl-C is how it ends
+
+
+def _warm_up() -> None:
+    """Load what solves, while the browser loads the page."""
+    from optlaws import Problem
+    from optlaws.explorer.asked import solved
+
+    solved(Problem(B=1.7, order=4))

@@ -1,0 +1,82 @@
+"""What the explorer shows first: what the command was given, as the page keeps its state."""
+
+from __future__ import annotations
+
+from pathlib import Path
+from typing import Any
+
+from optlaws import Problem
+from optlaws.errors import InputError
+from optlaws.explorer.asked import MOST_LAWS, AskedLaw, problem_of
+from optlaws.files import reading
+from optlaws.laws.catalogue.reading import is_file, read_law
+
+_FIRST = {"order": 4, "degree": 9, "B": 1.7}
+_PROBLEM, _FILE = ".toml", ".json"
+
+
+def start(given: str | None) -> dict[str, Any]:
+    """The page's first state for a law's name or file, a problem file or a solution; an optimal law unless given.
+
+    Raises
+    ------
+    InputError
+        If it is none of them.
+
+    Examples
+    --------
+    >>> start("cycloidal")
+    {'view': 'laws', 'laws': [{'name': 'cycloidal'}]}
+    """
+    if given is None:
+        return _laws({"problem": dict(_FIRST), "weights": {"C": 1.0}})
+    if given.lower().endswith(_PROBLEM):
+        return _of_problem_file(Path(given))
+    if is_file(given):
+        return _of_law_file(Path(given))
+    read_law(given)
+    return _laws({"name": given})
+
+
+def _laws(*laws: dict[str, Any]) -> dict[str, Any]:
+    return {"view": "laws", "laws": list(laws)[:MOST_LAWS]}
+
+
+def _of_law_file(file: Path) -> dict[str, Any]:
+    """The problem of a solution, so that it can be changed; else the law."""
+    data = reading.json_file(file)
+    if isinstance(data, dict) and isinstance(data.get("problem"), dict):
+        return _laws(_problem(data["problem"], file))
+    return _laws({"law": read_law(str(file)).to_dict(), "title": file.stem[:60]})
+
+
+def _of_problem_file(file: Path) -> dict[str, Any]:
+    data = reading.toml(file)
+    if data.get("job") == "cycle":
+        return {"view": "cycle", "cycle": data}
+    entries = data.get("problem")
+    if not isinstance(entries, dict):
+        raise InputError(
+            f"{file} has neither a [problem] nor job = 'cycle': the explorer shows problems, cycles and laws"
+        )
+    swept: Any = data.get("sweep")
+    first = {name: values[0] for one in swept for name, values in one.items()} if _is_sweep(swept) else {}
+    return _laws(_problem({name: one for name, one in (entries | first).items() if one != "free"}, file))
+
+
+def _is_sweep(swept: Any) -> bool:  # noqa: ANN401 - of a file
+    return isinstance(swept, list) and all(
+        isinstance(one, dict) and all(isinstance(values, list) and values for values in one.values()) for one in swept
+    )
+
+
+def _problem(entries: dict[str, Any], file: Path) -> dict[str, Any]:
+    """A problem as the page keeps it: with weights where one constant is minimised."""
+    try:
+        problem: Problem = problem_of(AskedLaw(problem=entries))
+    except InputError as error:
+        raise InputError(f"{file}: {error}") from None
+    plain = problem.to_dict()
+    if plain.get("minimise") in {"C", "D", "J", "rms_c"}:
+        return {"weights": {plain.pop("minimise"): 1.0}, "problem": plain}
+    return {"problem": plain}

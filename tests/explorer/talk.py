@@ -1,0 +1,46 @@
+"""Questions to a running explorer, as a program asks them."""
+
+import json
+from collections.abc import Sequence
+from dataclasses import dataclass
+from http.client import HTTPConnection, HTTPResponse
+from typing import Any
+from urllib.parse import urlencode
+
+OPTIMAL = {"problem": {"order": 4, "degree": 9, "B": 1.7}, "weights": {"C": 1.0}}
+
+
+@dataclass(frozen=True)
+class Server:
+    """Where an explorer is."""
+
+    name: str
+    port: int
+
+    @property
+    def host(self) -> str:
+        return f"{self.name}:{self.port}"
+
+    def link(self, laws: Sequence[object] = (), **state: object) -> str:
+        """The address of a study."""
+        shown = [("law", json.dumps(law)) for law in laws]
+        parts = [(name, json.dumps(value)) for name, value in state.items()]
+        return f"http://{self.host}/#{urlencode(shown + parts)}"
+
+    def send(self, method: str, path: str, body: bytes | None = None, **headers: str) -> tuple[HTTPResponse, bytes]:
+        """An answer with its body; headers by their names with _ for -."""
+        connection = HTTPConnection(self.name, self.port, timeout=30)
+        try:
+            named = {name.replace("_", "-"): value for name, value in headers.items()}
+            connection.request(method, path, body=body, headers=named)
+            response = connection.getresponse()
+            return response, response.read()
+        finally:
+            connection.close()
+
+    def ask(self, name: str, question: object, code: int = 200) -> Any:  # noqa: ANN401 - JSON
+        """The answer to a question of the page."""
+        body = question if isinstance(question, bytes) else json.dumps(question).encode()
+        response, said = self.send("POST", f"/api/{name}", body, Content_Type="application/json")
+        assert response.status == code, said
+        return json.loads(said)

@@ -1,0 +1,190 @@
+"""The page in a real browser: what is dragged, typed and linked, and what it shows."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import pytest
+
+from tests.explorer.conftest import Watch
+from tests.explorer.talk import OPTIMAL, Server
+
+if TYPE_CHECKING:
+    from playwright.sync_api import Page
+
+CONSTANTS = ("B", "C", "D", "J", "rms_c")
+NONE = {"problem": {"order": 4, "degree": 9, "B": 1.7, "J": [0, 20]}, "weights": {"C": 1.0}}
+
+
+def settle(page: Page) -> None:
+    """Wait until every question is answered."""
+    page.locator("body[data-work=settled]").wait_for(timeout=15_000)
+
+
+def go(page: Page, address: str) -> None:
+    page.goto(address)
+    settle(page)
+
+
+def texts(page: Page, row: int = 0) -> list[str]:
+    """The constants of a law as the page prints them."""
+    return [page.locator(f"#table tbody tr >> nth={row} >> [data-constant={name}]").inner_text() for name in CONSTANTS]
+
+
+def told(served: Server, law: dict[str, Any]) -> list[str]:
+    """The constants of a law as the server prints them."""
+    (view,) = served.ask("laws", {"laws": [law]})["laws"]
+    return [one["text"] for one in view["constants"]]
+
+
+def at_velocity(B: float) -> dict[str, Any]:
+    return {"problem": OPTIMAL["problem"] | {"B": B}, "weights": {"C": 1}}
+
+
+def velocity(page: Page) -> float:
+    return float(page.get_by_label("Peak velocity B, number").input_value())
+
+
+def test_the_first_page_shows_an_optimal_law_with_the_digits_of_the_server(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    assert texts(page) == told(served, OPTIMAL)
+    assert "proven optimal" in page.locator("#trust").inner_text()
+    assert page.locator("#curves svg").count() == 5
+    assert page.locator("#words").inner_text().endswith("proven at every point")
+
+
+def test_fifty_drags_end_on_the_last_value(page: Page, served: Server, watch: Watch) -> None:
+    go(page, f"http://{served.host}/")
+    box = page.locator(".handle").bounding_box()
+    assert box is not None
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    asked = watch.paths.count("/api/laws")
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for step in range(1, 51):
+        page.mouse.move(x + 2 * step, y)
+    page.mouse.up()
+    settle(page)
+    last = velocity(page)
+    assert last > 1.9
+    assert texts(page) == told(served, at_velocity(last))
+    # one question in flight: those between were never asked
+    assert watch.paths.count("/api/laws") - asked < 50
+    page.get_by_role("button", name="Undo").click()
+    settle(page)
+    assert velocity(page) == 1.7
+
+
+def test_keys_move_the_law_and_undo_takes_it_back(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    page.locator(".handle").focus()
+    page.keyboard.press("ArrowRight")
+    page.keyboard.press("Shift+ArrowRight")
+    settle(page)
+    assert velocity(page) == 1.81
+    assert texts(page) == told(served, at_velocity(1.81))
+    page.keyboard.press("Control+z")
+    settle(page)
+    assert velocity(page) == 1.7
+    page.keyboard.press("Control+Shift+z")
+    settle(page)
+    assert velocity(page) == 1.81
+
+
+def test_a_problem_without_a_law_says_why_and_how_far_to_go_back(page: Page, served: Server) -> None:
+    go(page, served.link(laws=[NONE], picture="residual"))
+    assert "no such law" in page.locator("#trust").inner_text()
+    assert "|j| <= J" in page.locator("#trust .reason").inner_text()
+    assert texts(page) == ["—"] * 5
+    assert page.locator("#curves .line").count() == 0
+    page.get_by_role("button", name="raise the bound of J from 20 to").click()
+    settle(page)
+    assert "proven optimal" in page.locator("#trust").inner_text()
+    assert page.locator("#curves .line").count() == 5
+
+
+def test_a_link_is_a_study(page: Page, served: Server) -> None:
+    laws = [at_velocity(1.859), {"name": "modified sine"}, {"name": "III(7.2)"}]
+    go(page, served.link(laws=laws, active=1, picture="residual", nu=15.5, damping=0.02))
+    assert page.locator("#table tbody tr").count() == 3
+    assert texts(page, 1) == told(served, laws[1])
+    assert page.get_by_label("Frequency nu of the follower, number").input_value() == "15.5"
+    address = page.url
+    page.goto("about:blank")
+    go(page, address)
+    assert page.url == address
+    assert [texts(page, row) for row in range(3)] == [told(served, law) for law in laws]
+
+
+@pytest.mark.parametrize(
+    "fragment",
+    [
+        "#law=%7B",
+        "#law=3&active=9&picture=7",
+        "#view=%22nothing%22&nu=%22x%22",
+        "#%%%",
+        "#law=%7B%22name%22%3A%22nobody%22%7D",
+    ],
+)
+def test_a_broken_link_shows_what_can_be_read(page: Page, served: Server, fragment: str) -> None:
+    go(page, f"http://{served.host}/{fragment}")
+    assert page.locator("#table tbody tr").count() == 1
+
+
+def test_a_standard_law_of_the_picture_is_compared(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    point = page.get_by_role("button", name="modified sine: B")
+    point.focus()
+    assert "C = 5.52796" in (page.locator(".tip").text_content() or "")
+    page.keyboard.press("Enter")
+    settle(page)
+    assert texts(page, 1) == told(served, {"name": "modified sine"})
+    assert page.locator("#curves svg").first.locator(".line").count() == 2
+    page.get_by_role("button", name="least C at its peak velocity").click()
+    settle(page)
+    assert "proven optimal" in page.locator("#trust").inner_text()
+    page.get_by_label("Take least C, B").first.click()
+    settle(page)
+    assert page.locator("#table tbody tr").count() == 1
+
+
+def test_bounds_and_weights_are_asked(page: Page, served: Server) -> None:
+    go(page, served.link(picture="residual"))
+    page.get_by_label("Greatest peak jerk: bounded").check()
+    settle(page)
+    page.get_by_label("Greatest peak jerk, number").fill("80")
+    page.get_by_label("Weight of peak power in the objective, number").fill("0.5")
+    settle(page)
+    law = {"problem": OPTIMAL["problem"] | {"J": [0, 80]}, "weights": {"C": 1, "D": 0.5}}
+    assert texts(page) == told(served, law)
+    assert page.locator("#trust .word").inner_text() == "local"
+
+
+def test_dragging_over_another_constant_bounds_it(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    page.get_by_role("tab", name="C over J").click()
+    settle(page)
+    page.locator(".handle").focus()
+    page.keyboard.press("PageDown")
+    settle(page)
+    bound = float(page.get_by_label("Greatest peak jerk, number").input_value())
+    assert texts(page) == told(served, {"problem": OPTIMAL["problem"] | {"J": [0, bound]}, "weights": {"C": 1}})
+
+
+def test_nothing_overflows(page: Page, served: Server) -> None:
+    for width, height in ((1280, 800), (900, 800)):
+        page.set_viewport_size({"width": width, "height": height})
+        go(page, served.link(laws=[at_velocity(1.859), {"name": "modified sine"}, {"name": "III(7.2)"}]))
+        assert page.evaluate("() => document.documentElement.scrollWidth") <= width
+        if width == 1280:
+            assert page.evaluate("() => document.documentElement.scrollHeight") <= height
+        cells = "[...document.querySelectorAll('#table td')]"
+        assert page.evaluate(f"() => {cells}.every((one) => one.scrollWidth <= one.clientWidth)")
+
+
+def test_dark_and_light_are_the_readers_choice(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    ground = "() => getComputedStyle(document.body).color"
+    light = page.evaluate(ground)
+    page.get_by_role("button", name="◐").click()
+    assert page.evaluate(ground) != light
