@@ -31,7 +31,7 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 
 class SharingScheduling(LoadScopeScheduling):  # type: ignore[misc]  # xdist is untyped
-    """Keeps in one process the blocks of a document, which use each other's names, and what shares a whole run or a browser."""
+    """Keeps in one process the blocks of a document, which use each other's names, and what shares work."""
 
     def _split_scope(self, nodeid: str) -> str:
         path = nodeid.partition("::")[0]

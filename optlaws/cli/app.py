@@ -15,12 +15,12 @@ NOT_PROVEN, BAD_INPUT, INFEASIBLE, SOLVER_FAILURE, INTERRUPTED = 1, 2, 3, 4, 130
 
 #: commands by their files, which are imported when one is asked for; what each does, as its docstring says it
 COMMANDS = {
-    "explore": (
-        "Explore laws, fronts and cycles in the browser, from this machine alone: drag a point and the law follows."
-    ),
     "laws.catalogue": "List the standard laws, or those that a text may mean, the likeliest first.",
     "laws.compare": "Compare laws: their constants, their peaks in a machine, the vibration they leave behind.",
     "laws.constants": "Peak constants of the rest-to-rest law with a given Z(k).",
+    "laws.explore": (
+        "Explore laws, fronts and cycles in the browser, from this machine alone: drag a point and the law follows."
+    ),
     "laws.law": (
         "Show a law of the catalogue, a coded law, a member of Savin's families or a stored law, with its constants."
     ),

@@ -19,7 +19,7 @@ from optlaws import catalogue
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, OptlawsError
 from optlaws.explorer.answers import front_view, law_view, nearest, residual_view
-from optlaws.explorer.asked import AskedLaw, AskedLaws, read
+from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, read
 from optlaws.explorer.guard import Guard
 
 #: no question of the page is longer

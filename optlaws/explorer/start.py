@@ -7,7 +7,7 @@ from typing import Any
 
 from optlaws import Problem
 from optlaws.errors import InputError
-from optlaws.explorer.asked import MOST_LAWS, AskedLaw, problem_of
+from optlaws.explorer.answers.asked import MOST_LAWS, AskedLaw, problem_of
 from optlaws.files import reading
 from optlaws.laws.catalogue.reading import is_file, read_law
 

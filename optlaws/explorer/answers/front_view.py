@@ -12,8 +12,8 @@ import numpy as np
 from optlaws import Problem, ProblemArray, Range, Solution, SolutionArray, Status, each, limit, synthesize_array
 from optlaws.errors import InputError
 from optlaws.explorer.answers import known_laws
+from optlaws.explorer.answers.asked import AskedLaw, problem_of, solved, without
 from optlaws.explorer.answers.law_view import wanted
-from optlaws.explorer.asked import AskedLaw, problem_of, solved, without
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.proof.infeasible import possible_velocities
 

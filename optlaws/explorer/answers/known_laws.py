@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from optlaws import MotionLaw, SavinFamily, catalogue
+from optlaws.explorer.answers.asked import value
 from optlaws.explorer.answers.law_view import digits, drawn
-from optlaws.explorer.asked import value
 from optlaws.laws.savin.family import FAMILIES
 from optlaws.numbers import bounded
 

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from optlaws import MotionLaw, Peak, Problem, Solution, Status
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
-from optlaws.explorer.asked import AskedLaw, AskedLaws, given_law, problem_of, solved
+from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, given_law, problem_of, solved
 from optlaws.numbers import bounded
 
 LETTERS = ("a", "b", "c", "d", "j")

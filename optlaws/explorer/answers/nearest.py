@@ -8,8 +8,8 @@ from math import ceil, floor, log10
 from typing import Any
 
 from optlaws import Chebyshev, Problem, Solution
+from optlaws.explorer.answers.asked import MOST_DEGREE, AskedLaw, problem_of, solved, without
 from optlaws.explorer.answers.law_view import digits
-from optlaws.explorer.asked import MOST_DEGREE, AskedLaw, problem_of, solved, without
 from optlaws.synthesis.proof.infeasible import possible_velocities
 
 #: a bound is put so much above the least value that a law can have, for at the least one the solver has no room
@@ -69,7 +69,7 @@ def _degree(problem: Problem, degree: int) -> Iterator[dict[str, Any]]:
 
 
 def _has_law(problem: Problem) -> bool:
-    """Whether there is one; which B are possible is asked first, in a tenth of the time of a proof that there is none."""
+    """Whether there is one; which B are possible is asked first, ten times as fast as a proof that there is none."""
     if isinstance(problem.B, float):
         least, greatest = possible_velocities(problem)
         if least is None or least > problem.B or (greatest is not None and greatest < problem.B):

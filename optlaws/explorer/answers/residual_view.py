@@ -9,8 +9,8 @@ import numpy as np
 
 from optlaws import residual, response_spectrum
 from optlaws.errors import OptlawsError
+from optlaws.explorer.answers.asked import MOST_LAWS, AskedLaw, law_of
 from optlaws.explorer.answers.law_view import digits, drawn
-from optlaws.explorer.asked import MOST_LAWS, AskedLaw, law_of
 
 _COUNT = 241
 _LOW = 2.0
