@@ -21,7 +21,7 @@ from optlaws.synthesis.proof.infeasible import possible_velocities
 RANGES = {"B": (1.1, 2.5), "C": (3.5, 10.0), "D": (2.0, 11.0), "J": (20.0, 140.0), "rms_c": (3.2, 7.0)}
 _POINTS, _LIMITS = 57, 61
 #: problems with D in them are solved one by one
-_POINTS_ALONE = 21
+_POINTS_ALONE = 25
 _ROOM = 1e-6
 #: laws of lower order may have jumps of c at their ends, beside which no limit of J is known
 _JERK_ORDER = 2
