@@ -26,16 +26,17 @@ _DEVICES = {"con", "prn", "aux", "nul", "conin$", "conout$"} | {
 _BLANK = 32
 _PNG = b"\x89PNG"
 _SEALED = MARK.encode() + rb"(?: ([0-9a-f]{16}))?"
-_IN_TEXT = re.compile(_SEALED + rb"(?=\r?$|\"|<| -->)", re.MULTILINE)
+_IN_TEXT = re.compile(_SEALED + rb"(?=\r?$|\"|<|\)| -->)", re.MULTILINE)
 _IN_PNG = re.compile(rb"(?<=tEXtSoftware\0)" + _SEALED)
 
 
-def write(file: Path, content: str | bytes, *, digits: int | None = None) -> Path:
+def write(file: Path, content: str | bytes, *, digits: int | None = None, exact: bool = False) -> Path:
     """Replace a file at once, unless it says the same already.
 
     A file that is there and was not made by optlaws, or was changed since, is kept as `name.orig`; one that says the
-    same but for rounding (see `comparison`; `digits` is how many mean something) is left as it is. A new file has the
-    rights that the umask leaves, a replaced one those it had.
+    same but for rounding (see `comparison`; `digits` is how many mean something) is left as it is, unless every digit
+    counts (`exact`), as in files that a machine follows. A new file has the rights that the umask leaves, a replaced
+    one those it had.
 
     Every content passed must hold the mark "made by optlaws", at the end of a line, a text or an entry; the seal is
     put behind it.
@@ -49,7 +50,7 @@ def write(file: Path, content: str | bytes, *, digits: int | None = None) -> Pat
     """
     check_name(file)
     try:
-        return _written(file, content, digits)
+        return _written(file, content, digits, exact=exact)
     except OSError as error:
         # the user knows the name of his file, not that of our copy beside it
         if error.errno is not None:
@@ -57,9 +58,9 @@ def write(file: Path, content: str | bytes, *, digits: int | None = None) -> Pat
         raise
 
 
-def _written(file: Path, content: str | bytes, digits: int | None) -> Path:
+def _written(file: Path, content: str | bytes, digits: int | None, *, exact: bool) -> Path:
     data = content.encode() if isinstance(content, str) else content
-    if is_current(file, data, digits=digits):
+    if is_own(file) and _unsealed(file.read_bytes())[0] == data if exact else is_current(file, data, digits=digits):
         return file
     file.parent.mkdir(parents=True, exist_ok=True)
     if file.exists() and not is_own(file):

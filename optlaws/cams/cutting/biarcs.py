@@ -1,0 +1,160 @@
+"""Arcs in place of a curve: pairs of arcs that touch the curve and each other, within a tolerance that is proven."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.cutting.chords import FEWEST, GROWTH
+from optlaws.cams.cutting.outline import Outline, curvature, divided, speed
+from optlaws.series.enclosed import bounds
+
+Array = NDArray[np.float64]
+
+STRAIGHT = 1e3  # radius in metres from which an arc is a line
+_HALVINGS = 60
+_ROUNDING = 1e-12  # metres; what arcs of a circle are off by themselves
+
+
+@dataclass(frozen=True, eq=False)
+class Arcs:
+    """A closed chain of arcs, each touching the next.
+
+    Attributes
+    ----------
+    points
+        Where the arcs begin, m, shape (n, 2); the last leads back to the first.
+    bulges
+        Of each arc the tangent of a quarter of its angle, positive where it turns left; 0 for a line; shape (n,).
+    deviation
+        Proven: no place of the outline is farther from its arc, m.
+    """
+
+    points: Array
+    bulges: Array
+    deviation: float
+
+    @property
+    def ends(self) -> Array:
+        """Where the arcs end, m, shape (n, 2)."""
+        return np.roll(self.points, -1, axis=0)
+
+    @property
+    def radii(self) -> Array:
+        """Radii, m; inf for lines."""
+        chords = np.linalg.norm(self.ends - self.points, axis=1)
+        with np.errstate(divide="ignore"):
+            return chords * (1.0 + self.bulges**2) / (4.0 * np.abs(self.bulges))
+
+    @property
+    def centres(self) -> Array:
+        """Centres, m, shape (n, 2); not finite for lines."""
+        return _centres(self.points, self.ends, self.bulges)
+
+
+def arcs(outline: Outline, tolerance: float) -> Arcs:
+    """Tangent arcs from which no place of an outline is farther than a tolerance in metres.
+
+    Between two places of the outline with its directions there stands a pair of arcs that touch each other, so that
+    the chain has no corner; the curvature leaps from arc to arc.
+    """
+
+    def density(angles: Array) -> Array:
+        # how far a pair of arcs is off grows with the change of the curvature along it, and with its length cubed
+        step = 1e-4
+        turned = curvature(outline, angles + 0.5 * step) - curvature(outline, angles - 0.5 * step)
+        along = speed(outline, angles)
+        return along * np.cbrt(np.abs(turned) / (step * along) / (_CUBED * tolerance))
+
+    factor = 1.0
+    while True:
+        angles = divided(outline, density, factor)
+        if len(angles) > FEWEST:
+            made = _chain(outline, angles)
+            if made.deviation <= tolerance + _ROUNDING:
+                return made
+        factor *= GROWTH
+
+
+_CUBED = 192.0
+
+
+def _chain(outline: Outline, angles: Array) -> Arcs:
+    points, tangents = outline(angles), _directions(outline, angles)
+    joints = _joints(points[:-1], points[1:], tangents[:-1], tangents[1:])
+    corners = np.stack([points[:-1], joints], axis=1).reshape(-1, 2)
+    ends = np.roll(corners, -1, axis=0)
+    bulges = np.empty(len(corners))
+    bulges[0::2] = _bulges(points[:-1], joints, tangents[:-1])
+    bulges[1::2] = -_bulges(points[1:], joints, -tangents[1:])
+    places = np.append(np.stack([angles[:-1], _beside(outline, angles, joints)], axis=1).ravel(), angles[-1])
+    return Arcs(corners, bulges, float(_deviations(outline, places, corners, ends, bulges).max()))
+
+
+def _directions(outline: Outline, angles: Array) -> Array:
+    first = outline(angles, 1)
+    return first / np.linalg.norm(first, axis=-1, keepdims=True)
+
+
+def _joints(starts: Array, ends: Array, first: Array, last: Array) -> Array:
+    """Where the two arcs of each pair meet, both reaching equally far along their tangents."""
+    across = ends - starts
+    both = first + last
+    square = np.einsum("ij,ij->i", across, across)
+    along = np.einsum("ij,ij->i", across, both)
+    turned = 2.0 * (1.0 - np.einsum("ij,ij->i", first, last))
+    # turned reach² + 2 along reach = square, written so that it keeps its digits where nothing turns
+    reach = square / (along + np.sqrt(along**2 + turned * square))
+    return 0.5 * (starts + ends + reach[:, None] * (first - last))
+
+
+def _bulges(starts: Array, ends: Array, tangents: Array) -> Array:
+    """The tangent of a quarter of the angle of arcs that leave along tangents."""
+    chords = ends - starts
+    turn = tangents[:, 0] * chords[:, 1] - tangents[:, 1] * chords[:, 0]
+    along = np.einsum("ij,ij->i", tangents, chords)
+    half = np.arctan2(turn, along)
+    bulges = np.tan(0.5 * half)
+    lengths = np.linalg.norm(chords, axis=1)
+    return np.where(np.abs(bulges) * 4.0 * STRAIGHT < lengths, 0.0, bulges)
+
+
+def _beside(outline: Outline, angles: Array, joints: Array) -> Array:
+    """Angles at which the outline passes the joints: where they are straight beside it."""
+    low, high = angles[:-1].copy(), angles[1:].copy()
+    for _ in range(_HALVINGS):
+        middle = 0.5 * (low + high)
+        behind = np.einsum("ij,ij->i", joints - outline(middle), outline(middle, 1)) > 0.0
+        low, high = np.where(behind, middle, low), np.where(behind, high, middle)
+    return 0.5 * (low + high)
+
+
+def _centres(starts: Array, ends: Array, bulges: Array) -> Array:
+    chords = ends - starts
+    left = np.stack([-chords[:, 1], chords[:, 0]], axis=1)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        return 0.5 * (starts + ends) + ((1.0 - bulges**2) / (4.0 * bulges))[:, None] * left
+
+
+def _deviations(outline: Outline, places: Array, starts: Array, ends: Array, bulges: Array) -> Array:
+    """Of each arc, the greatest distance of its part of the outline from it, as it is proven."""
+    chords = ends - starts
+    lengths = np.linalg.norm(chords, axis=1)
+    along = chords / lengths[:, None]
+    across = np.stack([-along[:, 1], along[:, 0]], axis=1)
+    bends = 4.0 * bulges / ((1.0 + bulges**2) * lengths)
+    height = 0.5 * lengths * bulges  # of the arc over the middle of its chord, to the right
+
+    def off(at: Array) -> Array:
+        # distance from the circle, up to second order in it: exact at 0, and finite for lines
+        out = outline(at) - starts[:, None, :]
+        x = np.einsum("nij,nj->ni", out, along) - 0.5 * lengths[:, None]
+        y = np.einsum("nij,nj->ni", out, across) + height[:, None]
+        return y - 0.5 * bends[:, None] * (x * x + y * y)
+
+    low, high = bounds(off, places[:-1], places[1:])
+    # e = d + bend d²/2 for the distance d to the right: |d| <= |e| / (1 - |bend e|) where bend e is small
+    most = np.maximum(np.abs(low), np.abs(high))
+    return most / np.maximum(1.0 - np.abs(bends) * most, 0.1)

@@ -1,0 +1,110 @@
+"""DXF files: an outline as a SPLINE, as an LWPOLYLINE or as ARCs, in millimetres, written by ezdxf."""
+
+from __future__ import annotations
+
+import io
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+from math import atan2, degrees
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.cutting.biarcs import arcs
+from optlaws.cams.cutting.chords import polygon
+from optlaws.cams.cutting.options import Cutting
+from optlaws.cams.cutting.outline import Outline
+from optlaws.cams.cutting.spline import spline
+from optlaws.errors import InputError
+from optlaws.files.writing import MARK
+from optlaws.locks import process_lock
+
+if TYPE_CHECKING:
+    from ezdxf.layouts import Modelspace
+
+Array = NDArray[np.float64]
+
+LAYER, CENTRE = "PROFILE", "CENTRE"
+_MILLIMETRES = 4
+_OLD = "R12"  # knows no units
+_lock = process_lock()
+
+
+def as_spline(outline: Outline, asked: Cutting) -> str:
+    """One clamped SPLINE of degree 3 or 5 whose parameter is the cam's angle in radians."""
+    made = spline(outline, asked.metres, asked.degree)
+
+    def draw(space: Modelspace) -> None:
+        from ezdxf.math import BSpline
+
+        points = [(1e3 * x, 1e3 * y, 0.0) for x, y in made.controls.tolist()]
+        curve = BSpline(points, order=made.degree + 1, knots=made.knots.tolist())
+        space.add_spline(dxfattribs={"layer": LAYER}).apply_construction_tool(curve)
+
+    return _document("R2000", asked, draw)
+
+
+def as_polyline(outline: Outline, asked: Cutting) -> str:
+    """One closed LWPOLYLINE with its corners on the curve."""
+    corners = np.round(1e3 * polygon(outline, asked.metres).corners, asked.decimals)
+
+    def draw(space: Modelspace) -> None:
+        space.add_lwpolyline(corners.tolist(), format="xy", close=True, dxfattribs={"layer": LAYER})
+
+    return _document("R2000", asked, draw)
+
+
+def as_arcs(outline: Outline, asked: Cutting) -> str:
+    """ARCs that touch each other, and LINEs where it is straight, in a file of release 12, which all cutters read."""
+    made = arcs(outline, asked.metres)
+    rows = zip(1e3 * made.points, 1e3 * made.ends, 1e3 * made.centres, 1e3 * made.radii, made.bulges, strict=True)
+
+    def draw(space: Modelspace) -> None:
+        for start, stop, centre, radius, bulge in rows:
+            attributes = {"layer": LAYER}
+            if bulge == 0.0:
+                space.add_line(start.tolist(), stop.tolist(), dxfattribs=attributes)
+                continue
+            first, last = (degrees(atan2(*(one - centre)[::-1])) for one in (start, stop))
+            # an ARC always runs counterclockwise
+            first, last = (first, last) if bulge > 0.0 else (last, first)
+            space.add_arc(centre.tolist(), float(radius), first, last, dxfattribs=attributes)
+
+    return _document(_OLD, asked, draw)
+
+
+def _document(release: str, asked: Cutting, draw: Callable[[Modelspace], None]) -> str:
+    """The text of a file with a drawing and the cam's centre, the same whenever it is written."""
+    ezdxf = _ezdxf()
+    stream = io.StringIO()
+    with _without_date(ezdxf):
+        document = ezdxf.new(release)
+        if release != _OLD:
+            document.header["$INSUNITS"] = _MILLIMETRES
+        document.header["$MEASUREMENT"] = 1
+        for name in (LAYER, CENTRE):
+            document.layers.add(name)
+        draw(document.modelspace())
+        document.modelspace().add_point((0.0, 0.0), dxfattribs={"layer": CENTRE})
+        document.write(stream)
+    return f"999\n{asked.line}; {MARK}\n{stream.getvalue()}"
+
+
+def _ezdxf() -> Any:  # noqa: ANN401 - a module
+    try:
+        import ezdxf
+    except ImportError:
+        raise InputError("DXF files are written by ezdxf: pip install 'optlaws[cad]'") from None
+    return ezdxf
+
+
+@contextmanager
+def _without_date(ezdxf: Any) -> Iterator[None]:  # noqa: ANN401 - a module
+    with _lock:
+        kept = ezdxf.options.write_fixed_meta_data_for_testing
+        ezdxf.options.write_fixed_meta_data_for_testing = True
+        try:
+            yield
+        finally:
+            ezdxf.options.write_fixed_meta_data_for_testing = kept

@@ -1,0 +1,108 @@
+"""The formats of files that cut a cam, by name and by the ending of the file, and the one door to them."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from pathlib import Path
+from typing import Any
+
+from optlaws.cams.cutting.dxf import as_arcs, as_polyline, as_spline
+from optlaws.cams.cutting.moves import as_arc_moves, as_line_moves
+from optlaws.cams.cutting.options import Cutting
+from optlaws.cams.cutting.outline import Outline
+from optlaws.cams.cutting.point_tables import as_points, as_polar
+from optlaws.cams.cutting.step import as_step
+from optlaws.cams.cutting.svg import as_svg
+from optlaws.errors import InputError
+from optlaws.files import writing
+from optlaws.suggest import unknown_key
+
+Format = Callable[[Outline, Cutting], str]
+
+#: formats by their names; one is added by an entry
+FORMATS: dict[str, Format] = {
+    "dxf spline": as_spline,
+    "dxf polyline": as_polyline,
+    "dxf arcs": as_arcs,
+    "svg": as_svg,
+    "csv": as_points,
+    "csv polar": as_polar,
+    "g-code": as_line_moves,
+    "g-code arcs": as_arc_moves,
+    "step": as_step,
+}
+#: which of them a file is written in unless it is said
+ENDINGS = {
+    ".dxf": "dxf spline",
+    ".svg": "svg",
+    ".csv": "csv",
+    ".nc": "g-code",
+    ".ngc": "g-code",
+    ".gcode": "g-code",
+    ".tap": "g-code",
+    ".step": "step",
+    ".stp": "step",
+}
+
+
+def format_of(file: Path, name: str | None = None) -> str:
+    """The format that a file is written in.
+
+    Raises
+    ------
+    InputError
+        If the name is none of a format, or the file's ending says none.
+
+    Examples
+    --------
+    >>> format_of(Path("profile.dxf")), format_of(Path("profile.dxf"), "dxf arcs")
+    ('dxf spline', 'dxf arcs')
+    >>> format_of(Path("profile.igs"))
+    Traceback (most recent call last):
+    optlaws.errors.InputError: the ending of 'profile.igs' says no format: end it with .csv, .dxf, ... or name one of ...
+    """
+    if name is not None:
+        if name not in FORMATS:
+            raise InputError(unknown_key(name, FORMATS, "format"))
+        return name
+    found = ENDINGS.get(file.suffix.lower())
+    if found is None:
+        raise InputError(
+            f"the ending of {file.name!r} says no format: end it with {', '.join(sorted(ENDINGS))}, or name one of "
+            f"{', '.join(FORMATS)}"
+        )
+    return found
+
+
+def text(outline: Outline, name: str, asked: Cutting) -> str:
+    """What a file of a format holds."""
+    return FORMATS[name](outline, asked)
+
+
+def export(outline: Outline, file: str | Path, as_: str | None = None, **asked: Any) -> Path:  # noqa: ANN401
+    """Write a closed curve to a file, whole or not at all, and return its path.
+
+    Parameters
+    ----------
+    outline
+        The curve: a cam's profile, its pitch curve, the path of a cutter.
+    file
+        Where; its ending says the format unless `as_` does.
+    as_
+        One of `FORMATS`.
+    asked
+        Entries of `Cutting`: tolerance, decimals, points, degree, feed, about.
+
+    Raises
+    ------
+    InputError
+        If the format or an entry is unknown, a value is out of its range, or the file cannot be written.
+    """
+    place = Path(file)
+    name = format_of(place, as_)
+    for key in asked:
+        if key not in Cutting.__dataclass_fields__:
+            raise InputError(unknown_key(key, Cutting.__dataclass_fields__, "entry"))
+    cutting = Cutting(**asked)
+    writing.check_place(place)
+    return writing.write(place, text(outline, name, cutting), exact=True)

@@ -1,0 +1,90 @@
+"""What a file for cutting is asked: tolerance, decimals, points, degree, feed; quantities with their units."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Any
+
+from optlaws.cycles.quantities import quantity
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.numbers import whole
+
+MOST_POINTS = 100_000
+MOST_DECIMALS = 12
+DEGREES = (3, 5)
+
+
+@dataclass(frozen=True)
+class Cutting:
+    """What a file for cutting is asked.
+
+    Parameters
+    ----------
+    tolerance
+        How far polygon, arcs or spline may be from the curve, such as "1 um".
+    decimals
+        Of a millimetre, in the file.
+    points
+        Of a table, over the whole turn; the last is the first again.
+    degree
+        Of splines, 3 or 5.
+    feed
+        Of the cutter, such as "300 mm/min"; without one no feed is said.
+    about
+        What the file says of itself.
+
+    Raises
+    ------
+    InputError
+        If one is out of its range; the error names it.
+
+    Examples
+    --------
+    >>> asked = Cutting(tolerance="5 um", decimals=3)
+    >>> asked.metres, asked.rounded(1.23456)
+    (5e-06, '1.235')
+    >>> Cutting(tolerance=5)
+    Traceback (most recent call last):
+    optlaws.errors.InputError: tolerance must be a length such as '35 mm', got 5 without a unit
+    """
+
+    tolerance: Any = "1 um"
+    decimals: int = 6
+    points: int = 721
+    degree: int = 3
+    feed: Any = None
+    about: str = "cam"
+
+    def __post_init__(self) -> None:
+        if self.metres <= 0.0:
+            raise InputError(f"tolerance must be above 0, got {shortened(self.tolerance)}")
+        whole(self.decimals, "decimals", most=MOST_DECIMALS)
+        whole(self.points, "points", least=13, most=MOST_POINTS)
+        if self.degree not in DEGREES:
+            raise InputError(f"degree must be 3 or 5, got {shortened(self.degree)}")
+        if not isinstance(self.about, str):
+            raise InputError(f"about must be text, got {shortened(self.about)}")
+        if self.feed is not None and self.feed_rate <= 0.0:
+            raise InputError(f"feed must be above 0, got {shortened(self.feed)}")
+
+    @property
+    def metres(self) -> float:
+        """The tolerance in metres."""
+        return quantity(self.tolerance, "length", "tolerance")
+
+    @property
+    def feed_rate(self) -> float:
+        """The feed in mm a minute; 0 where none is given."""
+        return 0.0 if self.feed is None else 60e3 * quantity(self.feed, "velocity", "feed")
+
+    @property
+    def line(self) -> str:
+        """What the file says of itself, on one line of plain characters."""
+        kept = "".join(one if " " <= one <= "~" and one not in "()<>&" else " " for one in self.about)
+        return " ".join(kept.split())[:200] or "cam"
+
+    def rounded(self, value: float) -> str:
+        """A number of millimetres with the decimals asked for; 0 has no sign."""
+        text = f"{value:.{self.decimals}f}"
+        return text.removeprefix("-") if not text.strip("-0.") else text

@@ -1,0 +1,129 @@
+"""Splines in place of a curve: B-splines of degree 3 or 5, clamped, within a tolerance that is proven."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import tau
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.cutting.outline import MOST_PARTS, Outline, stretches
+from optlaws.errors import InputError
+from optlaws.series.enclosed import bounds
+
+Array = NDArray[np.float64]
+
+DEGREES = (3, 5)
+_FIRST = 48
+_GROWTH = 1.25
+_BEFORE = 1e-9  # of a piece: at a break an outline has the derivatives of what follows
+
+
+@dataclass(frozen=True, eq=False)
+class Spline:
+    """A closed B-spline whose first and last knots are as many times there as it has coefficients to a piece.
+
+    Attributes
+    ----------
+    degree
+        3 or 5.
+    knots
+        Radians, shape (n + degree + 1,): the cam's angle is its parameter.
+    controls
+        Control points, m, shape (n, 2).
+    deviation
+        Proven: at no angle is it farther from the outline, m.
+    """
+
+    degree: int
+    knots: Array
+    controls: Array
+    deviation: float
+
+    def __call__(self, angles: Array, nu: int = 0) -> Array:
+        """Points, or derivatives by the angle, shape (..., 2)."""
+        from scipy.interpolate import BSpline
+
+        return np.asarray(BSpline(self.knots, self.controls, self.degree)(angles, nu))
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Its knots, each once: the spline is an outline itself."""
+        return tuple(np.unique(self.knots).tolist())
+
+
+def spline(outline: Outline, tolerance: float, degree: int = 3) -> Spline:
+    """The spline through places of an outline that is nowhere farther from it than a tolerance in metres.
+
+    One of degree 3 has a continuous curvature everywhere, at the seam as well. One of degree 5 ends at each break of
+    the outline and begins again with its direction and curvature.
+
+    Raises
+    ------
+    InputError
+        If the degree is neither 3 nor 5, or the tolerance asks for more than 200,000 pieces.
+    """
+    if degree not in DEGREES:
+        raise InputError(f"degree of a spline must be 3 or 5, got {degree}")
+    parts = _FIRST
+    while parts <= MOST_PARTS:
+        made = through(outline, even(outline, parts), degree)
+        if made.deviation <= tolerance:
+            return made
+        # the error of an interpolating spline falls with the power degree + 1 of the distance of its knots
+        parts = int(parts * max(_GROWTH, 1.02 * (made.deviation / tolerance) ** (1.0 / (degree + 1)))) + 1
+    raise InputError(f"tolerance asks for more than {MOST_PARTS} pieces of degree {degree}: give a wider one")
+
+
+def even(outline: Outline, parts: int) -> Array:
+    """Angles from 0 to a whole turn, breaks among them, nowhere farther apart than a share of the turn."""
+    made = [np.zeros(1)]
+    for start, stop in stretches(outline):
+        count = max(1, round(parts * (stop - start) / tau))
+        made.append(np.linspace(start, stop, count + 1)[1:])
+    return np.concatenate(made)
+
+
+def through(outline: Outline, angles: Array, degree: int) -> Spline:
+    """The spline through the places of an outline at angles from 0 to a whole turn, its breaks among them."""
+    runs = [(0.0, float(angles[-1]))] if degree == 3 else stretches(outline)
+    knots, controls = [np.zeros(1)], [outline(np.zeros(1))]
+    for start, stop in runs:
+        inside = angles[(angles >= start - 1e-12) & (angles <= stop + 1e-12)]
+        own_knots, own_controls = _clamped(outline, inside, degree)
+        knots.append(own_knots[1 : -degree - 1] if len(knots) == 1 else own_knots[degree + 1 : -degree - 1])
+        knots.append(np.full(degree, stop))
+        controls.append(own_controls[1:])
+    whole = np.append(np.concatenate(knots), angles[-1])
+    made = Spline(degree, whole, np.concatenate(controls), 0.0)
+    return Spline(degree, made.knots, made.controls, _deviation(outline, made))
+
+
+def _clamped(outline: Outline, angles: Array, degree: int) -> tuple[Array, Array]:
+    """Knots and control points through places, with derivatives given at both ends."""
+    from scipy.interpolate import make_interp_spline
+
+    points = outline(angles)
+    if degree == 3:
+        points[-1] = points[0]
+        # given its direction at the seam, a clamped spline is the closed one, whose curvature does not leap there
+        seam = make_interp_spline(angles, points, k=3, bc_type="periodic")(angles[:1], 1)[0]
+        ends = ([(1, seam)], [(1, seam)])
+    else:
+        ends = (_derivatives(outline, angles[0]), _derivatives(outline, angles[-1] - _BEFORE * (angles[-1] - angles[-2])))
+    found = make_interp_spline(angles, points, k=degree, bc_type=ends)
+    return np.asarray(found.t), np.asarray(found.c)
+
+
+def _derivatives(outline: Outline, angle: float) -> list[tuple[int, Array]]:
+    return [(nu, outline(np.array([angle]), nu)[0]) for nu in (1, 2)]
+
+
+def _deviation(outline: Outline, made: Spline) -> float:
+    def off(angles: Array) -> Array:
+        return made(angles) - outline(angles)
+
+    places = np.array(made.breaks)
+    low, high = bounds(off, places[:-1], places[1:])
+    return float(np.linalg.norm(np.maximum(np.abs(low), np.abs(high)), axis=1).max())

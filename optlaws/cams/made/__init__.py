@@ -1,0 +1,1 @@
+"""Cams as they are made: their points rounded, splined and run against the follower."""

@@ -1,0 +1,248 @@
+"""Peaks of a cam as it is made: what its follower does when the file's digits, or an error of the profile, count."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import asdict, dataclass
+from math import inf, pi, tau
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.cutting.biarcs import Arcs, arcs
+from optlaws.cams.cutting.options import Cutting
+from optlaws.cams.cutting.outline import Outline
+from optlaws.cams.cutting.point_tables import polar
+from optlaws.cams.cutting.spline import spline
+from optlaws.cams.disc import DiscCam
+from optlaws.cams.made.curves import Chain, PolarSplined, Splined, Wavy
+from optlaws.cams.made.following import Following
+from optlaws.cycles.quantities import quantity
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.numbers import bounded, whole
+from optlaws.series.enclosed import enclosed
+from optlaws.suggest import unknown_key
+
+Array = NDArray[np.float64]
+
+CURVES = ("profile", "pitch")
+_SHARE, _NEAR = 1e-3, 1e-6  # how near deviations and peaks are enclosed
+_LEAP = 1e-6
+_SHIFTS = (0.0, 0.5 * pi, pi, 1.5 * pi)
+_MOST_WAVES = 100_000
+
+
+@dataclass(frozen=True)
+class AsMade:
+    """What a follower does on a cam as it is made, over the whole turn.
+
+    Attributes
+    ----------
+    deviation
+        Greatest difference of its displacement from the one that was meant, m or rad.
+    acceleration, jerk
+        Greatest second and third derivative of the displacement by the cam's angle, m or rad; at w rad/s they are
+        multiplied by w² and w³.
+        The jerk is infinite where the acceleration leaps.
+    leap
+        Greatest leap of the second derivative, m or rad; 0 where it is continuous.
+    acceleration_ratio, jerk_ratio
+        Those of the second and third derivative over those of the motion that was meant.
+    """
+
+    deviation: float
+    acceleration: float
+    jerk: float
+    leap: float
+    acceleration_ratio: float
+    jerk_ratio: float
+
+    def to_dict(self) -> dict[str, float | None]:
+        """Plain JSON-able dict; what is infinite is None."""
+        return {name: bounded(value) for name, value in asdict(self).items()}
+
+
+def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0) -> AsMade:
+    """What a cam's follower does on a curve in place of its profile.
+
+    Parameters
+    ----------
+    cam
+        The cam that was meant.
+    curve
+        A closed curve, as it was made; any parameter.
+    outside
+        How far outside of the profile the curve is, m: the radius of the cutter whose path it is.
+
+    Raises
+    ------
+    InputError
+        If the cam's motion is not a whole turn.
+    """
+    if not cam.displacement.closed:
+        raise InputError("a cam as made is run over a whole turn: make it of a Cycle, with dwells and the way back")
+    following = Following(cam.contact, curve, quantity(cam.phase, "angle", "phase"), outside)
+    edges = np.array(curve.breaks)
+
+    def off(places: Array) -> Array:
+        angle, displacement = following.at(places, 0)
+        return displacement - cam.displacement(angle)
+
+    _check_hollows(following, edges)
+    deviation = enclosed(off, edges, share=_SHARE).peak
+    acceleration = _peak(following, edges, 2)
+    leap = _leap(following, edges, acceleration)
+    jerk = inf if leap else _peak(following, edges, 3)
+    return AsMade(deviation, acceleration, jerk, leap, acceleration / _meant(cam, 2), jerk / _meant(cam, 3))
+
+
+def _check_hollows(following: Following, edges: Array) -> None:
+    """Refuse a curve along which the follower would turn back, as a roller does in hollows narrower than itself."""
+    places = edges[:-1, None] + np.multiply.outer(np.diff(edges), np.linspace(0.1, 0.9, 5))
+    rates = np.asarray(following.jets(places, 1)[0].terms[1])
+    if rates.min() * rates.max() <= 0.0:
+        raise InputError(
+            "the follower does not reach all of the cam as made: it has corners or hollows narrower than the roller; "
+            "ask for more decimals, fewer points or waves, or a lesser error"
+        )
+
+
+def _peak(following: Following, edges: Array, nu: int) -> float:
+    return enclosed(lambda places: following.at(places, nu)[1], edges, share=_NEAR).peak
+
+
+def _leap(following: Following, edges: Array, size: float) -> float:
+    """The greatest leap of the second derivative where parts meet."""
+    beside = 1e-9 * np.diff(edges)
+    before, after = (following.at(places, 2)[1] for places in (edges[1:] - beside, edges[:-1] + beside))
+    leap = float(np.abs(np.roll(after, -1) - before).max())
+    return leap if leap > _LEAP * size else 0.0
+
+
+def _meant(cam: DiscCam, nu: int) -> float:
+    return max(abs(value) for one in cam.displacement.stretches for value in one.extremes(nu))
+
+
+def as_made(cam: DiscCam, form: str = "csv", *, curve: str = "profile", **asked: Any) -> AsMade:  # noqa: ANN401
+    """What a cam's follower does if the cam is made from a file with the digits and the tolerance of its entries.
+
+    Points of a table are joined by the cubic spline with continuous curvature that drawing programs draw, radii of a
+    polar table by such a spline over the angle. A spline is cut as it is in the file, and so are arcs, under which the
+    acceleration leaps from arc to arc.
+
+    Parameters
+    ----------
+    cam
+        The cam.
+    form
+        The format: "csv", "csv polar", "dxf spline", "svg", "dxf arcs" or "g-code arcs".
+    curve
+        "profile", or "pitch", whose points a machine is given that offsets them itself.
+    asked
+        Entries of the file: decimals of a millimetre, points, tolerance, degree.
+
+    Raises
+    ------
+    InputError
+        If the format is unknown or makes corners, where a follower's velocity leaps.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Dwell, Return, Rise
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
+    >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> for decimals in (3, 4, 6):
+    ...     print(round(as_made(cam, points=361, decimals=decimals).acceleration_ratio, 4))
+    1.2
+    """
+    if curve not in CURVES:
+        raise InputError(unknown_key(curve, CURVES, "curve"))
+    if form not in _MADE:
+        raise InputError(
+            f"{unknown_key(form, _MADE, 'format')}; polygons have corners, where the follower's velocity leaps"
+        )
+    outline = cam.profile if curve == "profile" else cam.pitch_curve
+    outside = 0.0 if curve == "profile" else cam.contact.roller
+    return run_against(cam, _MADE[form](outline, Cutting(**asked)), outside)
+
+
+def with_error(cam: DiscCam, error: Any, waves: Any) -> AsMade:  # noqa: ANN401 - a quantity and a number
+    """What a cam's follower does if the profile is off by waves of an amplitude along its normals.
+
+    Of four phases of the wave, the greatest values. A wave with n periods in a turn adds about n² times its amplitude
+    to the second derivative by the cam's angle, and n³ times to the third.
+
+    Parameters
+    ----------
+    cam
+        The cam.
+    error
+        The amplitude, such as "0.1 mm" where the profile is within ±0.1 mm.
+    waves
+        Periods over the turn.
+
+    Raises
+    ------
+    InputError
+        If the error is no length above 0.
+    """
+    amplitude, count = quantity(error, "length", "error"), whole(waves, "waves", least=1, most=_MOST_WAVES)
+    if amplitude <= 0.0:
+        raise InputError(f"error must be above 0, got {shortened(error)}")
+    made = [run_against(cam, Wavy(cam.profile, amplitude, count, shift)) for shift in _SHIFTS]
+    return AsMade(*(max(getattr(one, name) for one in made) for name in AsMade.__dataclass_fields__))
+
+
+def rounding_bound(resolution: float, step: float) -> float:
+    """By how much the second derivative of a cubic spline errs at most if its values are rounded: 6 eps/dk².
+
+    Parameters
+    ----------
+    resolution
+        Of the values: each is off by half of it at most.
+    step
+        Between the places.
+
+    Examples
+    --------
+    >>> round(rounding_bound(1e-6, np.radians(1.0)), 6)
+    0.019697
+    """
+    return 6.0 * resolution / step**2
+
+
+def _points(outline: Outline, asked: Cutting) -> Outline:
+    return Splined(_rounded(outline(np.linspace(0.0, tau, asked.points)), asked, closed=True))
+
+
+def _radii(outline: Outline, asked: Cutting) -> Outline:
+    return PolarSplined(_rounded(polar(outline, asked.points), asked, closed=True))
+
+
+def _splined(outline: Outline, asked: Cutting) -> Outline:
+    return spline(outline, asked.metres, asked.degree)
+
+
+def _chain(outline: Outline, asked: Cutting) -> Outline:
+    made = arcs(outline, asked.metres)
+    return Chain(Arcs(made.points, made.bulges, made.deviation))
+
+
+def _rounded(values: Array, asked: Cutting, *, closed: bool) -> Array:
+    found = 1e-3 * np.round(1e3 * values, asked.decimals)
+    if closed:
+        found[-1] = found[0]
+    return found
+
+
+_MADE: dict[str, Callable[[Outline, Cutting], Outline]] = {
+    "csv": _points,
+    "csv polar": _radii,
+    "dxf spline": _splined,
+    "svg": _splined,
+    "dxf arcs": _chain,
+    "g-code arcs": _chain,
+}

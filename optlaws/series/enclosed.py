@@ -1,0 +1,160 @@
+"""Between which values smooth functions stay on intervals: Bernstein coefficients enclose a polynomial."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from functools import lru_cache
+from math import comb
+from typing import NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.series import chebyshev
+
+Array = NDArray[np.float64]
+Function = Callable[[Array], Array]
+
+TERMS = 13
+_PARTS = 4
+_DEEPEST = 40
+_ROUNDING = 2.0**-44
+
+
+class Enclosure(NamedTuple):
+    """Least and greatest value of a function: what it reaches, and what it is proven not to pass.
+
+    Attributes
+    ----------
+    least, most
+        Values that it has at the places `least_at` and `most_at`.
+    low, high
+        It is nowhere below `low` and nowhere above `high`.
+    """
+
+    least: float
+    least_at: float
+    low: float
+    most: float
+    most_at: float
+    high: float
+
+    @property
+    def peak(self) -> float:
+        """The greatest magnitude that it reaches."""
+        return max(abs(self.least), abs(self.most))
+
+    @property
+    def bound(self) -> float:
+        """A magnitude that it is proven not to pass."""
+        return max(abs(self.low), abs(self.high))
+
+
+def bounds(function: Function, starts: Array, stops: Array) -> tuple[Array, Array]:
+    """What a function stays between on each of many intervals on which it is smooth.
+
+    On each it is interpolated by a polynomial of degree 12, whose Bernstein coefficients on quarters of the interval
+    enclose it; its last two Chebyshev coefficients are added on both sides for what the polynomial is off by.
+
+    Parameters
+    ----------
+    function
+        Of places of shape (n, 13); any further axes of its values are kept.
+    starts, stops
+        Ends of the intervals, shape (n,).
+
+    Returns
+    -------
+    Lower and upper bounds, of shape (n, ...).
+
+    Examples
+    --------
+    >>> low, high = bounds(lambda x: x * x, np.array([0.0, 1.0]), np.array([1.0, 3.0]))
+    >>> low.round(9) + 0.0, high.round(9)
+    (array([0., 1.]), array([1., 9.]))
+    """
+    places = starts[:, None] + np.multiply.outer(stops - starts, 0.5 + 0.5 * chebyshev.nodes(TERMS))
+    values = np.moveaxis(function(places), 1, 0)
+    middle = values[TERMS // 2]
+    off = (values - middle).reshape(TERMS, -1)
+    series = chebyshev.from_values(off)
+    missed = 2.0 * np.abs(series[-2:]).sum(axis=0) + _ROUNDING * np.abs(off).max(axis=0)
+    coefficients = _to_bernstein() @ off
+    low = (coefficients.min(axis=0) - missed).reshape(middle.shape)
+    high = (coefficients.max(axis=0) + missed).reshape(middle.shape)
+    return middle + low, middle + high
+
+
+@lru_cache(maxsize=1)
+def _to_bernstein() -> Array:
+    """From values at the nodes to Bernstein coefficients on each part of the interval."""
+    u = 0.5 + 0.5 * chebyshev.nodes(TERMS)
+    matrices = [np.linalg.inv(_bernstein((u - part / _PARTS) * _PARTS)) for part in range(_PARTS)]
+    return np.concatenate(matrices)
+
+
+def _bernstein(u: Array) -> Array:
+    degree = TERMS - 1
+    return np.array([comb(degree, i) * u**i * (1.0 - u) ** (degree - i) for i in range(TERMS)]).T
+
+
+def enclosed(function: Function, edges: Array, *, share: float = 1e-9) -> Enclosure:
+    """Least and greatest value of a function that is smooth between edges, over the whole from the first to the last.
+
+    Intervals are halved until the bounds are within a share of the function's greatest magnitude of values that it
+    has; those that cannot hold an extreme are left.
+
+    Parameters
+    ----------
+    function
+        Of an array of places of any shape, finite. At an inner edge it may leap: it is never asked there.
+    edges
+        Increasing, shape (n + 1,).
+    share
+        How near the bounds come.
+
+    Raises
+    ------
+    InputError
+        If the function is not finite, or so rough that forty halvings leave it unresolved.
+
+    Examples
+    --------
+    >>> found = enclosed(np.sin, np.array([0.0, 2.0, 7.0]))
+    >>> round(found.most, 9), round(found.most_at, 4), 0.0 <= found.high - found.most < 1e-8
+    (1.0, 1.5708, True)
+    """
+    low, low_at, least = _lowest(function, edges, share)
+    high, high_at, most = _lowest(lambda x: -function(x), edges, share)
+    return Enclosure(least, low_at, low, -most, high_at, -high)
+
+
+def _lowest(function: Function, edges: Array, share: float) -> tuple[float, float, float]:
+    """A lower bound, where the least known value is, and that value."""
+    starts, stops = np.asarray(edges[:-1], dtype=np.float64), np.asarray(edges[1:], dtype=np.float64)
+    least, place, size, proven = np.inf, float(edges[0]), 0.0, np.inf
+    for _ in range(_DEEPEST):
+        values, places = _tried(function, starts, stops)
+        size = max(size, float(np.abs(values).max()))
+        best = int(values.argmin())
+        if values.flat[best] < least:
+            least, place = float(values.flat[best]), float(places.flat[best])
+        low, _ = bounds(function, starts, stops)
+        open_ones = low < least - share * size
+        proven = min(proven, float(low[~open_ones].min(initial=np.inf)))
+        if not open_ones.any():
+            return min(proven, least), place, least
+        middles = 0.5 * (starts + stops)[open_ones]
+        starts, stops = np.append(starts[open_ones], middles), np.append(middles, stops[open_ones])
+    raise InputError("what is to be enclosed is not smooth between the places where it may leap")
+
+
+def _tried(function: Function, starts: Array, stops: Array) -> tuple[Array, Array]:
+    """Values next to both ends of each interval and inside it."""
+    shares = np.array([1e-12, 0.25, 0.5, 0.75, 1.0 - 1e-12])
+    places = starts[:, None] + np.multiply.outer(stops - starts, shares)
+    values = np.asarray(function(places), dtype=np.float64)
+    if not np.isfinite(values).all():
+        raise InputError("what is to be enclosed must be finite everywhere")
+    return values, places
