@@ -125,29 +125,38 @@ def enclosed(function: Function, edges: Array, *, share: float = 1e-9) -> Enclos
     >>> round(found.most, 9), round(found.most_at, 4), 0.0 <= found.high - found.most < 1e-8
     (1.0, 1.5708, True)
     """
-    low, low_at, least = _lowest(function, edges, share)
-    high, high_at, most = _lowest(lambda x: -function(x), edges, share)
-    return Enclosure(least, low_at, low, -most, high_at, -high)
-
-
-def _lowest(function: Function, edges: Array, share: float) -> tuple[float, float, float]:
-    """A lower bound, where the least known value is, and that value."""
     starts, stops = np.asarray(edges[:-1], dtype=np.float64), np.asarray(edges[1:], dtype=np.float64)
-    least, place, size, proven = np.inf, float(edges[0]), 0.0, np.inf
+    known = Enclosure(np.inf, 0.0, np.inf, -np.inf, 0.0, -np.inf)
     for _ in range(_DEEPEST):
         values, places = _tried(function, starts, stops)
-        size = max(size, float(np.abs(values).max()))
-        best = int(values.argmin())
-        if values.flat[best] < least:
-            least, place = float(values.flat[best]), float(places.flat[best])
-        low, _ = bounds(function, starts, stops)
-        open_ones = low < least - share * size
-        proven = min(proven, float(low[~open_ones].min(initial=np.inf)))
+        known = _with(known, values, places)
+        low, high = bounds(function, starts, stops)
+        slack = share * known.peak
+        open_ones = (low < known.least - slack) | (high > known.most + slack)
+        known = _within(known, low[~open_ones], high[~open_ones])
         if not open_ones.any():
-            return min(proven, least), place, least
+            return known
         middles = 0.5 * (starts + stops)[open_ones]
         starts, stops = np.append(starts[open_ones], middles), np.append(middles, stops[open_ones])
     raise InputError("what is to be enclosed is not smooth between the places where it may leap")
+
+
+def _with(known: Enclosure, values: Array, places: Array) -> Enclosure:
+    """With values that the function has."""
+    first, last = int(values.argmin()), int(values.argmax())
+    if values.flat[first] < known.least:
+        known = known._replace(least=float(values.flat[first]), least_at=float(places.flat[first]))
+    if values.flat[last] > known.most:
+        known = known._replace(most=float(values.flat[last]), most_at=float(places.flat[last]))
+    return known
+
+
+def _within(known: Enclosure, low: Array, high: Array) -> Enclosure:
+    """With bounds of further intervals, which hold what the function has there."""
+    return known._replace(
+        low=min(known.low, known.least, float(low.min(initial=np.inf))),
+        high=max(known.high, known.most, float(high.max(initial=-np.inf))),
+    )
 
 
 def _tried(function: Function, starts: Array, stops: Array) -> tuple[Array, Array]:

@@ -58,7 +58,7 @@ def _deviations(outline: Outline, angles: Array) -> Array:
     normals = np.stack([-chords[:, 1], chords[:, 0]], axis=1) / np.linalg.norm(chords, axis=1)[:, None]
 
     def off(places: Array) -> Array:
-        return np.einsum("nij,nj->ni", outline(places) - ends[:-1, None, :], normals)
+        return np.asarray(np.einsum("nij,nj->ni", outline(places) - ends[:-1, None, :], normals))
 
     low, high = bounds(off, angles[:-1], angles[1:])
     return np.maximum(np.abs(low), np.abs(high))

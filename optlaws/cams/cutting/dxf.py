@@ -13,15 +13,15 @@ from numpy.typing import NDArray
 
 from optlaws.cams.cutting.biarcs import arcs
 from optlaws.cams.cutting.chords import polygon
-from optlaws.cams.cutting.options import Cutting
 from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.spline import spline
+from optlaws.cams.cutting.wanted import Cutting
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
 from optlaws.locks import process_lock
 
 if TYPE_CHECKING:
-    from ezdxf.layouts import Modelspace
+    from ezdxf.layouts.layout import Modelspace
 
 Array = NDArray[np.float64]
 

@@ -8,11 +8,10 @@ from typing import Any
 
 from optlaws.cams.cutting.dxf import as_arcs, as_polyline, as_spline
 from optlaws.cams.cutting.moves import as_arc_moves, as_line_moves
-from optlaws.cams.cutting.options import Cutting
 from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.point_tables import as_points, as_polar
-from optlaws.cams.cutting.step import as_step
 from optlaws.cams.cutting.svg import as_svg
+from optlaws.cams.cutting.wanted import Cutting
 from optlaws.errors import InputError
 from optlaws.files import writing
 from optlaws.suggest import unknown_key
@@ -29,7 +28,6 @@ FORMATS: dict[str, Format] = {
     "csv polar": as_polar,
     "g-code": as_line_moves,
     "g-code arcs": as_arc_moves,
-    "step": as_step,
 }
 #: which of them a file is written in unless it is said
 ENDINGS = {
@@ -40,8 +38,6 @@ ENDINGS = {
     ".ngc": "g-code",
     ".gcode": "g-code",
     ".tap": "g-code",
-    ".step": "step",
-    ".stp": "step",
 }
 
 
@@ -57,9 +53,9 @@ def format_of(file: Path, name: str | None = None) -> str:
     --------
     >>> format_of(Path("profile.dxf")), format_of(Path("profile.dxf"), "dxf arcs")
     ('dxf spline', 'dxf arcs')
-    >>> format_of(Path("profile.igs"))
+    >>> format_of(Path("cam.igs"))
     Traceback (most recent call last):
-    optlaws.errors.InputError: the ending of 'profile.igs' says no format: end it with .csv, .dxf, ... or name one of ...
+    optlaws.errors.InputError: the ending of 'cam.igs' says no format: end it with .csv, .dxf, ... or name one of ...
     """
     if name is not None:
         if name not in FORMATS:

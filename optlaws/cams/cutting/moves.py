@@ -6,8 +6,8 @@ import numpy as np
 
 from optlaws.cams.cutting.biarcs import arcs
 from optlaws.cams.cutting.chords import polygon
-from optlaws.cams.cutting.options import Cutting
 from optlaws.cams.cutting.outline import Outline
+from optlaws.cams.cutting.wanted import Cutting
 from optlaws.files.writing import MARK
 
 

@@ -32,7 +32,7 @@ class Outline(Protocol):
     def breaks(self) -> tuple[float, ...]:
         """Angles between which it is smooth, from 0 to 2 pi."""
 
-    def __call__(self, angle: Array, nu: int = 0) -> Array:
+    def __call__(self, angle: Array, /, nu: int = 0) -> Array:
         """Points, or derivatives by the angle."""
 
 

@@ -7,8 +7,8 @@ from math import tau
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.cutting.options import Cutting
 from optlaws.cams.cutting.outline import Outline
+from optlaws.cams.cutting.wanted import Cutting
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
 

@@ -111,8 +111,11 @@ def _clamped(outline: Outline, angles: Array, degree: int) -> tuple[Array, Array
         seam = make_interp_spline(angles, points, k=3, bc_type="periodic")(angles[:1], 1)[0]
         ends = ([(1, seam)], [(1, seam)])
     else:
-        ends = (_derivatives(outline, angles[0]), _derivatives(outline, angles[-1] - _BEFORE * (angles[-1] - angles[-2])))
-    found = make_interp_spline(angles, points, k=degree, bc_type=ends)
+        ends = (
+            _derivatives(outline, angles[0]),
+            _derivatives(outline, angles[-1] - _BEFORE * (angles[-1] - angles[-2])),
+        )
+    found = make_interp_spline(angles, points, k=degree, bc_type=ends)  # type: ignore[arg-type] # stubs know no pairs
     return np.asarray(found.t), np.asarray(found.c)
 
 

@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.cutting.options import Cutting
 from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.spline import Spline, spline
+from optlaws.cams.cutting.wanted import Cutting
 from optlaws.files.writing import MARK
 
 Array = NDArray[np.float64]

@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.cams.curves.jets import Jet, Pair, variable
+from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.cutting.biarcs import Arcs
-from optlaws.cams.jets import Jet, Pair, variable
-from optlaws.cams.plane_curve import PlaneCurve
 
 Array = NDArray[np.float64]
 
@@ -31,7 +31,7 @@ class Splined:
     --------
     >>> corners = np.array([[1.0, 0.0], [0.0, 1.0], [-1.0, 0.0], [0.0, -1.0], [1.0, 0.0]])
     >>> round(float(np.linalg.norm(Splined(corners)(np.array(0.7)))), 3)
-    1.004
+    0.972
     """
 
     points: Array
@@ -98,7 +98,7 @@ def _on_circles(arcs: Arcs, which: Array, share: Array, nu: int) -> Array:
     angle = turn * share + 0.5 * pi * nu
     x, y = out[..., 0], out[..., 1]
     turned = np.stack([x * np.cos(angle) - y * np.sin(angle), x * np.sin(angle) + y * np.cos(angle)], axis=-1)
-    return turned * (turn**nu)[..., None] + (centres if nu == 0 else 0.0)
+    return np.asarray(turned * (turn**nu)[..., None] + (centres if nu == 0 else 0.0))
 
 
 @dataclass(frozen=True)

@@ -10,14 +10,14 @@ from typing import NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.cams.curves.jets import Jet, Pair
+from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.followers.contact import Contact, FaceContact
 from optlaws.cams.followers.oscillating_flat import SwingingFace
 from optlaws.cams.followers.oscillating_roller import SwingingRoller
 from optlaws.cams.followers.translating_flat import SlidingFace
 from optlaws.cams.followers.translating_roller import SlidingRoller
-from optlaws.cams.jets import Jet, Pair
-from optlaws.cams.plane_curve import PlaneCurve
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 
@@ -55,7 +55,7 @@ class Following:
     --------
     >>> from optlaws.cams.disc import DiscCam
     >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
-    >>> from optlaws.cams.motion_by_angle import CamMotion
+    >>> from optlaws.cams.curves.motion_by_angle import CamMotion
     >>> motion = CamMotion.of_law("cycloidal", "40 mm", "360 deg")
     >>> cam = DiscCam(motion, base_radius="80 mm", follower=TranslatingRoller("12 mm"))
     >>> found = Following(cam.contact, cam.profile)
@@ -124,7 +124,7 @@ def bearing(x: Jet, y: Jet) -> Jet:
 
 
 @singledispatch
-def read(contact: Contact, point: Pair, normal: Pair) -> Touched:
+def read(contact: Contact, point: Pair, normal: Pair) -> Touched:  # noqa: ARG001 - for those that are known
     """Where a follower is that touches a profile at a point with a normal away from it."""
     raise InputError(f"what a {type(contact).__name__} does on a curve is not known")
 

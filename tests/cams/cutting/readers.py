@@ -5,8 +5,10 @@ from dataclasses import dataclass
 from math import cos, radians, sin, tau
 from pathlib import Path
 
-import ezdxf
 import numpy as np
+from ezdxf.entities.lwpolyline import LWPolyline
+from ezdxf.entities.spline import Spline as SplineEntity
+from ezdxf.filemanagement import readfile
 from numpy.typing import NDArray
 from scipy.interpolate import BSpline
 
@@ -21,7 +23,7 @@ class Line:
     def distances(self, points: Array) -> Array:
         way = self.stop - self.start
         share = np.clip((points - self.start) @ way / (way @ way), 0.0, 1.0)
-        return np.linalg.norm(points - self.start - share[:, None] * way, axis=1)
+        return np.asarray(np.linalg.norm(points - self.start - share[:, None] * way, axis=1))
 
 
 @dataclass(frozen=True)
@@ -44,7 +46,7 @@ class Arc:
         within = np.mod(sign * (at - first), tau) <= whole
         radial = np.abs(np.linalg.norm(points - self.centre, axis=1) - self.radius)
         ends = np.minimum(*(np.linalg.norm(points - end, axis=1) for end in (self.start, self.stop)))
-        return np.where(within, radial, ends)
+        return np.asarray(np.where(within, radial, ends))
 
     def leaves(self) -> Array:
         return self._tangent(self.start)
@@ -61,12 +63,14 @@ class Arc:
 
 
 def dxf_spline(file: Path) -> BSpline:
-    (one,) = ezdxf.readfile(file).modelspace().query("SPLINE")
+    (one,) = readfile(file).modelspace().query("SPLINE")
+    assert isinstance(one, SplineEntity)
     return BSpline(np.array(one.knots), np.array([tuple(point)[:2] for point in one.control_points]), one.dxf.degree)
 
 
 def dxf_corners(file: Path) -> Array:
-    (one,) = ezdxf.readfile(file).modelspace().query("LWPOLYLINE")
+    (one,) = readfile(file).modelspace().query("LWPOLYLINE")
+    assert isinstance(one, LWPolyline)
     assert one.closed
     return np.array([point[:2] for point in one.get_points()])
 
@@ -74,7 +78,7 @@ def dxf_corners(file: Path) -> Array:
 def dxf_arcs(file: Path) -> list[Arc | Line]:
     """Arcs in the order of the file, each from its first angle to its last, counterclockwise."""
     found: list[Arc | Line] = []
-    for one in ezdxf.readfile(file).modelspace():
+    for one in readfile(file).modelspace():
         if one.dxftype() == "LINE":
             found.append(Line(np.array(tuple(one.dxf.start)[:2]), np.array(tuple(one.dxf.end)[:2])))
         elif one.dxftype() == "ARC":
@@ -112,7 +116,7 @@ def moves(file: Path) -> list[Arc | Line]:
         if words["G"] == "1":
             found.append(Line(at, to))
         elif words["G"] in "23":
-            centre = at + [float(words["I"]), float(words["J"])]
+            centre = at + np.array([float(words["I"]), float(words["J"])])
             found.append(Arc(at, to, centre, left=words["G"] == "3"))
         at = to
     return found

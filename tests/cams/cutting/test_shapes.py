@@ -1,5 +1,6 @@
 import numpy as np
 import pytest
+
 from optlaws.cams.cutting.biarcs import arcs
 from optlaws.cams.cutting.chords import polygon
 from optlaws.cams.cutting.spline import even, spline, through
