@@ -111,6 +111,20 @@ declare(
         "optlaws.law_pictures": "comparison curve solution",
     },
 )
+declare(
+    "exporting",
+    {"optlaws.exports.export": "cycle law motion", "optlaws.exports.motion_pieces": "pieces_of_cycle pieces_of_law"},
+)
+declare(
+    "export format",
+    {
+        "optlaws.exports.tables.codesys": "codesys-xy codesys-xyva",
+        "optlaws.exports.tables.plain": "csv isg kas lenze sew technosoft",
+        "optlaws.exports.tables.rockwell": "rockwell-cam rockwell-cam-extended rockwell-cam-profile",
+        "optlaws.exports.tables.ros": "ros2",
+        "optlaws.exports.tables.twincat": "twincat-table",
+    },
+)
 declare("plain constant", {"optlaws.mechanisms.loader.constants": "B_loader C_loader D_loader"})
 declare(
     "constant",

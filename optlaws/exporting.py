@@ -31,6 +31,6 @@ def exports(name: str) -> Callable[[Hand], Hand]:
     return registered
 
 
-def exported(name: str, value: Any, *given: Any, **said: Any) -> Any:  # noqa: ANN401 - made a layer above
+def exported(way: str, value: Any, /, *given: Any, **said: Any) -> Any:  # noqa: ANN401 - made a layer above
     """What is made of a value; what makes it is imported now."""
-    return _WAYS[name](value, *given, **said)
+    return _WAYS[way](value, *given, **said)

@@ -22,6 +22,7 @@ from optlaws.cycles.durations import durations
 from optlaws.cycles.effort import Effort, effort
 from optlaws.cycles.optimal import OBJECTIVES, Wanted, limits_of_stretch, read_limits, solve
 from optlaws.errors import InputError
+from optlaws.exporting import exported
 from optlaws.kept import kept_property
 from optlaws.mechanisms.cam.polydyne import polydyne
 from optlaws.numbers import MOST_DEGREE, derivative, real_times, whole
@@ -291,6 +292,74 @@ class Cycle:
 
     def _shown(self, displacement: float) -> str:
         return f"{displacement!r} {'m' if self.axis == 'length' else 'rad'}"
+
+    def export(
+        self,
+        to: str,
+        *,
+        master: Any = "360 deg",  # noqa: ANN401 - a quantity
+        unit: str | None = None,
+        points: int | str | None = None,
+        counts: int | None = None,
+        digits: int | None = None,
+        decimal: str | None = None,
+        interpolation: str | None = None,
+        name: str | None = None,
+    ) -> Any:  # noqa: ANN401 - made a layer above
+        """The cycle in the format of a controller, with what the controller will run.
+
+        Parameters
+        ----------
+        to
+            The format: `optlaws export --list` names them.
+        master
+            How far the master goes in a cycle; None for a master that is time in seconds.
+        unit
+            Of positions; "mm" for lengths and "deg" for angles unless given.
+        points, counts, digits, decimal, interpolation, name
+            As in `MotionLaw.export`.
+
+        Returns
+        -------
+        An `Export`: its `text`, its `report`, its `run`; `write(file)` writes it.
+
+        Raises
+        ------
+        InputError
+            If there is no such format, it takes no such option, or it cannot hold the motion.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.asked.segments import Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
+        >>> made = cycle.export("rockwell-cam", points=61)
+        >>> made.points, round(made.report.ratio(2), 3)
+        (61, 1.008)
+        """
+        said = {"master": master, "unit": unit}
+        asked = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
+        return exported("cycle", self, to, said, **asked, interpolation=interpolation, name=name)
+
+    def polynomials(self, *, master: Any = None, unit: str | None = None, tolerance: float = 1e-9) -> Any:  # noqa: ANN401
+        """Times and polynomial coefficients of the cycle, as a `PiecewiseMotion`: `breaks` and `coefficients`.
+
+        Over time in seconds unless a master is given; exact where laws are made of polynomials, else within
+        `tolerance`, a share of the greatest stroke, certified by the eighth derivative.
+
+        Raises
+        ------
+        InputError
+            If a quantity is wrong, or a law's derivatives grow without limit.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.asked.segments import Return, Rise
+        >>> cycle = Cycle([Rise("1 m", "1 s", law="cubic"), Return(law="cubic")], period="3 s")
+        >>> pieces = cycle.polynomials(unit="m")
+        >>> pieces.breaks, [[round(one, 9) for one in row] for row in pieces.coefficients]
+        ((0.0, 1.0, 3.0), [[0.0, 0.0, 3.0, -2.0], [1.0, 0.0, -0.75, 0.25]])
+        """
+        return exported("pieces_of_cycle", self, tolerance, master=master, unit=unit)
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
         """Draw position, velocity, acceleration and jerk over time, with segments and limits, by matplotlib.

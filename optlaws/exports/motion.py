@@ -146,14 +146,14 @@ class Motion:
 
     def peak(self, nu: int) -> float:
         """The greatest magnitude of the derivative of order nu; inf where a lower one leaps, joints included."""
-        leaps = max((self.leap(lower) for lower in range(1, nu)), default=0.0)
-        return inf if leaps else max(abs(value) for value, _ in self.extrema(nu))
+        leaps = max((self.leap(lower)[0] for lower in range(1, nu)), default=0.0)
+        return inf if leaps else self._size(nu)
 
-    def leap(self, nu: int) -> float:
-        """The greatest leap of the derivative of order nu inside; what is rounding beside its peak is 0."""
-        size = max(abs(value) for value, _ in self.extrema(nu))
-        worst = max((abs(after - before) for _, before, after in self.sides(nu)), default=0.0)
-        return worst if worst > LEAP * size else 0.0
+    def leap(self, nu: int) -> Place:
+        """The greatest leap of the derivative of order nu inside, and its x; what is rounding beside its peak is 0."""
+        leaps = ((abs(after - before), x) for x, before, after in self.sides(nu))
+        worst = max(leaps, default=(0.0, self.start), key=_value)
+        return worst if worst[0] > LEAP * self._size(nu) else (0.0, self.start)
 
     def rms(self, nu: int) -> float:
         """Root mean square of the derivative of order nu over the motion."""
@@ -173,6 +173,9 @@ class Motion:
         if self.units.master == "s":
             return self
         return self._scaled(1.0 / self.units.rate, Units("s", self.units.slave, 1.0))
+
+    def _size(self, nu: int) -> float:
+        return max(abs(value) for value, _ in self.extrema(nu))
 
     def _scaled(self, share: float, units: Units) -> Motion:
         pieces = [replace(one, start=share * one.start, duration=share * one.duration) for one in self.pieces]

@@ -27,6 +27,7 @@ _RESOLVED, _SHARE = 2.0**-46, 1e-10
 _CUTS = 30
 _REACH = 1e-3
 _STEPS = 3
+_SAME = 1e-12
 
 
 class Extreme(NamedTuple):
@@ -245,9 +246,7 @@ class PiecewiseMotion:
         order = derivative(nu)
         if isinstance(motion, PiecewiseMotion):
             return self.minus(motion).peak(order)
-        inner = [x for x in breaks if self.start < x < self.stop]
-        places = np.unique(np.concatenate([self.breaks, inner]))
-        return _greatest(self, motion, order, places)
+        return _greatest(self, motion, order, self._with(breaks))
 
     def minus(self, other: PiecewiseMotion) -> PiecewiseMotion:
         """The difference, between the breaks of both.
@@ -309,6 +308,13 @@ class PiecewiseMotion:
         which = np.searchsorted(self.breaks[1:-1], places, side="right")
         return np.asarray(_horner(self.powers(nu)[which], places - np.array(self.breaks)[which]))
 
+    def _with(self, breaks: Sequence[float]) -> Array:
+        """The breaks with others between them; what lies as near as rounding is the same break."""
+        own, others = np.array(self.breaks), np.array([x for x in breaks if self.start < x < self.stop])
+        after = np.searchsorted(own, others)
+        apart = np.minimum(own[after] - others, others - own[after - 1])
+        return np.unique(np.concatenate([own, others[apart > _SAME * (self.stop - self.start)]]))
+
     def _cut(self, breaks: Array) -> Array:
         """Powers on finer pieces."""
         table = self.powers()
@@ -358,10 +364,12 @@ def _greatest(run: PiecewiseMotion, motion: Motion, nu: int, places: Array) -> E
     """The greatest |run - motion|: series of the difference on parts that are halved until they resolve it."""
     low, high = places[:-1], places[1:]
     control, lows, highs = [], [], []
+    size, greatest = 0.0, 0.0  # of all that has been met: what is rounding beside them is resolved
     for _ in range(_CUTS):
-        values, size = _differences(run, motion, nu, low, high)
+        values, met = _differences(run, motion, nu, low, high)
+        size, greatest = max(size, met), max(greatest, float(np.abs(values).max()))
         tail = np.abs(chebyshev.from_values(values.T)[-2:]).max(axis=0)
-        done = tail <= np.maximum(_RESOLVED * size, _SHARE * np.abs(values).max())
+        done = tail <= max(_RESOLVED * size, _SHARE * greatest)
         control.append(bernstein.from_values(values[done]))
         lows.append(low[done])
         highs.append(high[done])
@@ -379,12 +387,13 @@ def _greatest(run: PiecewiseMotion, motion: Motion, nu: int, places: Array) -> E
     return Extreme(found.value, float(start[row] + (stop[row] - start[row]) * found.u))
 
 
-def _differences(run: PiecewiseMotion, motion: Motion, nu: int, low: Array, high: Array) -> tuple[Array, Array]:
+def _differences(run: PiecewiseMotion, motion: Motion, nu: int, low: Array, high: Array) -> tuple[Array, float]:
+    """The difference at the nodes of parts, a row each, and the size of what the run is compared with."""
     x = low[:, None] + (high - low)[:, None] * (chebyshev.nodes(_NODES) + 1.0) / 2.0
     theirs = np.asarray(motion(x.ravel(), nu), dtype=np.float64).reshape(x.shape)
     if not np.isfinite(theirs).all():
         raise InputError("the motion to compare with must have finite values on the whole interval")
-    return run._values(x, nu) - theirs, np.abs(theirs).max(axis=1)  # noqa: SLF001 - places are inside
+    return run._values(x, nu) - theirs, float(np.abs(theirs).max())  # noqa: SLF001 - places are inside
 
 
 def _horner(table: Array, x: Any) -> Any:  # noqa: ANN401 - numbers or arrays

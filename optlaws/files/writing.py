@@ -58,6 +58,37 @@ def write(file: Path, content: str | bytes, *, digits: int | None = None, exact:
         raise
 
 
+def write_any(file: Path, content: str) -> Path:
+    """Replace a file at once by a text that may have no mark, as formats of controllers have no place for one.
+
+    A file that says something else is kept as `name.orig`, unless its seal tells that optlaws made all of it.
+
+    Raises
+    ------
+    InputError
+        If the name is none for a file: see `check_name`.
+    """
+    if MARK in content:
+        return write(file, content, exact=True)
+    check_name(file)
+    try:
+        return _written_bare(file, content.encode())
+    except OSError as error:
+        if error.errno is not None:
+            error.filename = str(file)
+        raise
+
+
+def _written_bare(file: Path, data: bytes) -> Path:
+    if file.is_file() and file.read_bytes() == data:
+        return file
+    file.parent.mkdir(parents=True, exist_ok=True)
+    if file.exists() and not is_own(file):
+        file.replace(_free_name(file))
+    _replace(file, data)
+    return file
+
+
 def _written(file: Path, content: str | bytes, digits: int | None, *, exact: bool) -> Path:
     data = content.encode() if isinstance(content, str) else content
     if is_own(file) and _unsealed(file.read_bytes())[0] == data if exact else is_current(file, data, digits=digits):

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.exporting import exported
 from optlaws.kept import kept_property
 from optlaws.laws.constants import Constants
 from optlaws.laws.curve import Curve, Sides
@@ -129,6 +130,94 @@ class MotionLaw(Curve, Stored):
             J=self.peak(3),
             rms_c=self.rms(2),
         )
+
+    def export(
+        self,
+        to: str,
+        *,
+        stroke: Any = None,  # noqa: ANN401 - a quantity
+        time: Any = None,  # noqa: ANN401
+        master: Any = None,  # noqa: ANN401
+        start: Any = None,  # noqa: ANN401
+        points: int | str | None = None,
+        counts: int | None = None,
+        digits: int | None = None,
+        decimal: str | None = None,
+        interpolation: str | None = None,
+        name: str | None = None,
+    ) -> Any:  # noqa: ANN401 - made two layers above
+        """The law in the format of a controller, with what the controller will run.
+
+        Parameters
+        ----------
+        to
+            The format: `optlaws export --list` names them.
+        stroke
+            How far the slave moves, "35 mm" or "-20 deg": positions are in its unit.
+        time, master
+            How long it takes, "0.1 s", and how far the master goes meanwhile, "120 deg"; one of them or both. Without
+            a master it is time in seconds.
+        start
+            Position at the start; 0 unless given.
+        points
+            How many points, or "best", as it is unless given: the fewest whose run is as good as that of any number.
+        counts
+            Steps of the slave's encoder over the stroke, to which positions are rounded.
+        digits, decimal
+            Digits behind the decimal sign, and the sign, "." or ",", of tables as text.
+        interpolation
+            How the controller is told to interpolate, where it can be told.
+        name
+            Of the variable, the table or the joint; "Cam" unless given.
+
+        Returns
+        -------
+        An `Export`: its `text`, its `report`, its `run`; `write(file)` writes it.
+
+        Raises
+        ------
+        InputError
+            If there is no such format, it takes no such option, or it cannot hold the motion.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> made = smoothstep(4).export("csv", stroke="40 mm", master="120 deg", counts=65536, points=361)
+        >>> round(made.report.ratio(2), 1), round(made.report.bound / made.report.law.peak(2), 1)
+        (1.9, 1.6)
+        """
+        said = {"stroke": stroke, "time": time, "master": master, "start": start}
+        asked = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
+        return exported("law", self, to, said, **asked, interpolation=interpolation, name=name)
+
+    def pieces(
+        self,
+        stroke: Any = None,  # noqa: ANN401 - a quantity
+        time: Any = None,  # noqa: ANN401
+        *,
+        master: Any = None,  # noqa: ANN401
+        start: Any = None,  # noqa: ANN401
+        tolerance: float = 1e-9,
+    ) -> Any:  # noqa: ANN401 - made two layers above
+        """Times and polynomial coefficients in machine units, as a `PiecewiseMotion`: `breaks`, `coefficients`.
+
+        Exact, each coefficient rounded once, where the law is made of polynomials; else within `tolerance`, a share of
+        the stroke, certified by the eighth derivative. `stroke`, `time`, `master` and `start` are those of `export`.
+
+        Raises
+        ------
+        InputError
+            If a quantity is wrong, or the law's derivatives grow without limit.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> pieces = smoothstep(2).pieces("0.5 m", "2 s")
+        >>> pieces.breaks, pieces.coefficients
+        ((0.0, 2.0), ((0.0, 0.0, 0.375, -0.125),))
+        """
+        said = {"stroke": stroke, "time": time, "master": master, "start": start}
+        return exported("pieces_of_law", self, tolerance, **said)
 
     def __repr__(self) -> str:
         one = self.constants

@@ -1,0 +1,164 @@
+"""What a format of exports is, and the one door to them: who takes it, its fields, its limits, and what writes it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass, field, fields
+from typing import Any
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.exports.motion import Motion
+from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.lazy import Registry
+from optlaws.numbers import whole
+from optlaws.suggest import unknown_key
+
+MOST_POINTS = 65_536
+BEST = "best"
+
+
+@dataclass(frozen=True)
+class Request:
+    """What is asked of an export beside the motion; each format takes some of it.
+
+    Parameters
+    ----------
+    name
+        Of the variable or table.
+    points
+        How many points or segments, "best" for the number whose run has the least peak of the acceleration; None for
+        what the format would take.
+    counts
+        Steps of the slave's encoder over the stroke, to which positions are rounded.
+    digits
+        Digits behind the decimal sign.
+    decimal
+        The decimal sign, "." or ",".
+    interpolation
+        How the controller is told to interpolate, where it can be told.
+    """
+
+    name: str = "Cam"
+    points: int | str | None = None
+    counts: int | None = None
+    digits: int | None = None
+    decimal: str = "."
+    interpolation: str | None = None
+
+    def __post_init__(self) -> None:
+        if self.points is not None and self.points != BEST:
+            object.__setattr__(self, "points", whole(self.points, "points", least=2, most=MOST_POINTS))
+        if self.counts is not None:
+            object.__setattr__(self, "counts", whole(self.counts, "counts", least=2, most=2**53))
+        if self.digits is not None:
+            object.__setattr__(self, "digits", whole(self.digits, "digits", most=17))
+        if self.decimal not in {".", ","}:
+            raise InputError(f"decimal must be '.' or ',', got {shortened(self.decimal)}")
+
+
+@dataclass(frozen=True)
+class Written:
+    """An export as it was written.
+
+    Parameters
+    ----------
+    text
+        The file.
+    run
+        What the controller makes of it, over the motion's whole master.
+    model
+        How it interpolates, in words.
+    points
+        How many points (or segments, where `counted` says so).
+    counted
+        "points" or "segments".
+    resolution
+        Step to which positions are rounded, in units of the slave; 0 for the rounding of double precision.
+    bound
+        What roundings may add to the peak of the acceleration, in units of the slave by the master's squared.
+    notes
+        What else there is to say.
+    """
+
+    text: str
+    run: PiecewiseMotion
+    model: str
+    points: int
+    counted: str = "points"
+    resolution: float = 0.0
+    bound: float = 0.0
+    notes: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True)
+class Format:
+    """A format: its name, who takes it, its fields, its limits, the ending of its files, and what writes it.
+
+    Parameters
+    ----------
+    name
+        As `--to` takes it.
+    target
+        Controller and variable or file that takes it.
+    held
+        Fields of a row.
+    model
+        How the target interpolates.
+    limits
+        What it cannot hold, in words.
+    extension
+        Of its files.
+    write
+        Makes the file of a motion and a request.
+    takes
+        The entries of `Request` that mean something to it, beside the name.
+    """
+
+    name: str
+    target: str
+    held: str
+    model: str
+    limits: str
+    extension: str
+    write: Callable[[Motion, Request], Written] = field(repr=False)
+    takes: tuple[str, ...] = ("points",)
+
+    def request(self, **asked: Any) -> Request:  # noqa: ANN401 - options of several kinds
+        """What is asked, checked against what the format takes; None asks for nothing.
+
+        Raises
+        ------
+        InputError
+            If it is unknown, or means nothing to this format.
+        """
+        known = {one.name for one in fields(Request)}
+        given = {name: value for name, value in asked.items() if value is not None}
+        for name in given:
+            if name not in known:
+                raise InputError(f"export: {unknown_key(name, sorted(known), 'option')}")
+            if name not in {"name", *self.takes}:
+                raise InputError(f"{self.name} takes no {name}; it takes {', '.join(('name', *self.takes))}")
+        return Request(**given)
+
+
+FORMATS: Registry[Format] = Registry("export format")
+
+
+def format_of(name: Any) -> Format:  # noqa: ANN401 - it is checked here
+    """The format of a name.
+
+    Raises
+    ------
+    InputError
+        If there is none; the error says which is near.
+    """
+    if not isinstance(name, str) or name not in FORMATS:
+        raise InputError(f"to: {unknown_key(name, sorted(FORMATS), 'format')}")
+    return FORMATS[name]
+
+
+def declared(made: Format) -> Format:
+    """Enter a format under its name."""
+    FORMATS[made.name] = made
+    return made

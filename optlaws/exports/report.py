@@ -1,0 +1,218 @@
+"""What a controller will run, beside the law: peaks, leaps and deviation, by TwinCAT's names of cam characteristics."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import inf, isfinite, nan
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.exports.motion import Motion
+from optlaws.exports.polynomials import Extreme, PiecewiseMotion
+from optlaws.exports.travel import travel_of_law, travel_of_run
+
+Array = NDArray[np.float64]
+
+QUANTITIES = ("Position", "Velocity", "Acceleration", "Jerk")
+ORDERS = range(4)
+ROUNDING = 1e-9, 2.0**-46  # leaps below these shares, of the peak and of what positions leave, are rounding
+
+
+@dataclass(frozen=True)
+class Characteristics:
+    """Characteristics of a cam, those that TwinCAT computes (CamCharacteristics) and its leaps beside them.
+
+    Slave values are by the second where it is known how fast the master goes, else by the master's unit.
+
+    Parameters
+    ----------
+    start, end
+        Position, velocity, acceleration and jerk at both ends, inside the motion.
+    least, greatest
+        Of each of the four, with the master's position; no impulses: `leaps` tells where there are any.
+    mean_absolute_velocity, effective_acceleration
+        Mean magnitude of the velocity; root mean square of the acceleration.
+    leaps, leaps_at_ends
+        The greatest leaps of velocity, acceleration and jerk: inside; and where the motion begins again or, if it does
+        not, where rest comes before and after it.
+    """
+
+    start: tuple[float, ...]
+    end: tuple[float, ...]
+    least: tuple[Extreme, ...]
+    greatest: tuple[Extreme, ...]
+    mean_absolute_velocity: float
+    effective_acceleration: float
+    leaps: tuple[Extreme, ...]
+    leaps_at_ends: tuple[float, ...]
+
+    def peak(self, nu: int) -> float:
+        """The greatest magnitude of the derivative of order nu; inf where a lower one leaps inside."""
+        if any(one.value for one in self.leaps[: max(nu - 1, 0)]):
+            return inf
+        return max(abs(self.least[nu].value), abs(self.greatest[nu].value))
+
+    def to_dict(self) -> dict[str, Any]:
+        """The characteristics by TwinCAT's names, as plain data; what is infinite is null."""
+        told: dict[str, Any] = {"StartPoint": _point(None, self.start), "EndPoint": _point(None, self.end)}
+        for side, extremes in (("Min", self.least), ("Max", self.greatest)):
+            for name, one in zip(QUANTITIES, extremes, strict=True):
+                told[f"PointAt{side}Slave{name}"] = {"MasterPosition": one.x, f"Slave{name}": _known(one.value)}
+        told["SlaveMeanAbsoluteVelocity"] = self.mean_absolute_velocity
+        told["SlaveEffectiveAcceleration"] = _known(self.effective_acceleration)
+        for name, one, end in zip(QUANTITIES[1:], self.leaps, self.leaps_at_ends, strict=True):
+            told[f"Leap{name}"] = {"MasterPosition": one.x, f"Slave{name}": _known(one.value)}
+            told[f"LeapAtEnds{name}"] = _known(end)
+        return told
+
+
+@dataclass(frozen=True)
+class Report:
+    """What the controller runs and the law, both in machine units.
+
+    Parameters
+    ----------
+    run, law
+        Their characteristics.
+    deviation
+        The greatest difference of position, velocity and acceleration, each with the master's position; inf for a
+        derivative that one of the two does not have everywhere.
+    rate
+        Units of the master that pass in a second; 1 where it is not known, and slave values are by the master.
+    bound
+        What the rounding of positions may add to the peak of the acceleration.
+
+    Examples
+    --------
+    >>> from optlaws.exports.interpolation import cubic_spline
+    >>> from optlaws.exports.motion import motion_of_law
+    >>> from optlaws.laws import smoothstep
+    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", time="0.1 s")
+    >>> x = np.linspace(0.0, 0.1, 13)
+    >>> report = as_run(cubic_spline(x, motion(x)), motion)
+    >>> round(report.ratio(2), 4), round(report.deviation[0].value, 6), round(report.run.leaps_at_ends[1], 3)
+    (0.9923, 0.00154, 701.101)
+    """
+
+    run: Characteristics
+    law: Characteristics
+    deviation: tuple[Extreme, ...]
+    rate: float
+    bound: float
+
+    def ratio(self, nu: int) -> float:
+        """Peak of the run over the law's; inf where a lower derivative of the run leaps, nan where the law has none."""
+        whole = self.law.peak(nu)
+        return self.run.peak(nu) / whole if whole > 0.0 and isfinite(whole) else nan
+
+    def to_dict(self) -> dict[str, Any]:
+        """The report as plain data; what is infinite or unknown is null."""
+        return {
+            "NominalMasterVelocity": self.rate,
+            "run": self.run.to_dict(),
+            "law": self.law.to_dict(),
+            "ratio": {name: _known(self.ratio(nu)) for nu, name in enumerate(QUANTITIES) if nu},
+            "deviation": {
+                name: {"MasterPosition": one.x, f"Slave{name}": _known(one.value)}
+                for name, one in zip(QUANTITIES, self.deviation, strict=False)
+            },
+            "rounding_bound_acceleration": self.bound,
+        }
+
+
+def as_run(run: PiecewiseMotion, motion: Motion, bound: float = 0.0) -> Report:
+    """The report of a run: every number is an extreme over the whole motion, none is one of a grid.
+
+    Parameters
+    ----------
+    run
+        What the controller makes of an export, by the master.
+    motion
+        What was exported.
+    bound
+        What roundings may add to the acceleration, by the master.
+    """
+    rate = motion.units.rate or 1.0
+    law = _of_law(motion, rate)
+    deviation = tuple(_deviation(run, motion, nu, rate, has=isfinite(law.peak(nu))) for nu in ORDERS[:3])
+    return Report(_of_run(run, motion, rate), law, deviation, rate, bound * rate**2)
+
+
+def _of_run(run: PiecewiseMotion, motion: Motion, rate: float) -> Characteristics:
+    extremes = [tuple(_sized(one, rate**nu) for one in run.extremes(nu)) for nu in ORDERS]
+    ends = [run.ends(nu) for nu in ORDERS]
+    start = tuple(float(first[0]) * rate**nu for nu, (first, _) in enumerate(ends))
+    end = tuple(float(last[-1]) * rate**nu for nu, (_, last) in enumerate(ends))
+    height, step = run.peak(0).value, float(run.lengths.min())
+    small = tuple(
+        max(ROUNDING[0] * max(abs(low.value), abs(high.value)), ROUNDING[1] * height * (rate / step) ** nu)
+        for nu, (low, high) in enumerate(extremes)
+    )
+    return Characteristics(
+        start,
+        end,
+        tuple(low for low, _ in extremes),
+        tuple(high for _, high in extremes),
+        rate * travel_of_run(run) / (run.stop - run.start),
+        rate**2 * run.rms(2) if _leap(run, 1, rate, small[1]).value == 0.0 else inf,
+        tuple(_leap(run, nu, rate, small[nu]) for nu in ORDERS[1:]),
+        _at_ends(start, end, motion, small),
+    )
+
+
+def _of_law(motion: Motion, rate: float) -> Characteristics:
+    extremes = [tuple(_sized(Extreme(*one), rate**nu) for one in motion.extrema(nu)) for nu in ORDERS]
+    start, end = (tuple(rate**nu * motion.ends(nu)[side] for nu in ORDERS) for side in (0, 1))
+    small = tuple(ROUNDING[0] * max(abs(low.value), abs(high.value)) for low, high in extremes)
+    leaps = tuple(_sized(Extreme(*motion.leap(nu)), rate**nu) for nu in ORDERS[1:])
+    return Characteristics(
+        start,
+        end,
+        tuple(low for low, _ in extremes),
+        tuple(high for _, high in extremes),
+        rate * travel_of_law(motion) / motion.length,
+        inf if leaps[0].value else rate**2 * motion.rms(2),
+        leaps,
+        _at_ends(start, end, motion, small),
+    )
+
+
+def _leap(run: PiecewiseMotion, nu: int, rate: float, small: float) -> Extreme:
+    leaps = np.abs(run.jumps(nu)) * rate**nu
+    if not leaps.size or leaps.max() <= small:
+        return Extreme(0.0, run.start)
+    return Extreme(float(leaps.max()), run.breaks[1 + int(leaps.argmax())])
+
+
+def _at_ends(
+    start: tuple[float, ...], end: tuple[float, ...], motion: Motion, small: tuple[float, ...]
+) -> tuple[float, ...]:
+    pairs = zip(start[1:], end[1:], small[1:], strict=True)
+    leaps = ((abs(b - a) if motion.repeats else max(abs(a), abs(b)), least) for a, b, least in pairs)
+    return tuple(leap if leap > least else 0.0 for leap, least in leaps)
+
+
+def _deviation(run: PiecewiseMotion, motion: Motion, nu: int, rate: float, *, has: bool) -> Extreme:
+    """The greatest difference; beyond the motion, where roundings of the master may lead, it goes on as it ends."""
+
+    def law(x: Array, order: int) -> Array:
+        return np.asarray(motion(np.clip(x, motion.start, motion.stop), order))
+
+    if not has:
+        return Extreme(inf, motion.start)
+    return _sized(run.deviation(law, nu, motion.breaks), rate**nu)
+
+
+def _sized(one: Extreme, factor: float) -> Extreme:
+    return Extreme(one.value * factor, one.x)
+
+
+def _known(value: float) -> float | None:
+    return value if isfinite(value) else None
+
+
+def _point(x: float | None, values: tuple[float, ...]) -> dict[str, Any]:
+    place = {} if x is None else {"MasterPosition": x}
+    return place | {f"Slave{name}": _known(value) for name, value in zip(QUANTITIES, values, strict=True)}

@@ -1,0 +1,197 @@
+"""Where tables have their points, and how many: the fewest whose run is as good as that of any number tried."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from itertools import pairwise
+from math import inf, isfinite
+from typing import Protocol, TypeVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.exports.format import BEST, Request
+from optlaws.exports.motion import Motion
+from optlaws.series import bernstein
+
+Array = NDArray[np.float64]
+
+MOST_TRIED = 1001
+_RATIO = 1.12
+_NEAR = 12
+_AS_GOOD = 1.001
+
+
+class Tabled(Protocol):
+    """Polynomials that a controller lays between points."""
+
+    @property
+    def x(self) -> Array:
+        """The points."""
+
+    @property
+    def powers(self) -> Array:
+        """Ascending powers, a row for each piece."""
+
+
+Made = TypeVar("Made", bound=Tabled)
+
+
+def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
+    """So many points with equal steps between the breaks of a motion, which are points themselves.
+
+    Parameters
+    ----------
+    motion
+        The motion.
+    count
+        How many points.
+    straight
+        Whether dwells and uniform motions need no point inside, as where the controller is told V and A.
+
+    Raises
+    ------
+    InputError
+        If there are more breaks than points.
+
+    Examples
+    --------
+    >>> from optlaws.exports.motion import motion_of_law
+    >>> from optlaws.laws import smoothstep
+    >>> places(motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg"), 5).tolist()
+    [0.0, 30.0, 60.0, 90.0, 120.0]
+    """
+    breaks = np.array(motion.breaks)
+    shares = _shares(np.diff(breaks), count - 1, _needs(motion) if straight else np.ones(len(breaks) - 1))
+    parts = [np.linspace(low, high, n + 1)[:-1] for (low, high), n in zip(pairwise(breaks), shares, strict=True)]
+    return np.concatenate([*parts, breaks[-1:]])
+
+
+def least_points(motion: Motion, least: int = 2) -> int:
+    """How many points a table has at least: one at every break."""
+    return max(least, len(motion.breaks))
+
+
+def chosen(motion: Motion, request: Request, make: Callable[[int], Made], least: int, most: int) -> Made:
+    """What is made with the points that were asked for, or with the number whose run is best.
+
+    Parameters
+    ----------
+    motion
+        The motion.
+    request
+        Its `points` may be a number, "best" or None for the best.
+    make
+        Makes something of a number of points.
+    least, most
+        What the target can hold.
+
+    Raises
+    ------
+    InputError
+        If the target cannot hold so many or so few.
+    """
+    fewest = least_points(motion, least)
+    if fewest > most:
+        raise InputError(f"the motion has {fewest} breaks, and the target holds {most} points: export its parts")
+    if request.points not in {None, BEST}:
+        count = int(request.points or 0)
+        if not fewest <= count <= most:
+            raise InputError(f"points must be from {fewest} (one at every break of the motion) to {most}, got {count}")
+        return make(count)
+    return best(motion, make, fewest, min(most, max(MOST_TRIED, fewest)))
+
+
+def best(motion: Motion, make: Callable[[int], Made], least: int, most: int) -> Made:
+    """What is made with the number of points whose run is best, tried over the whole range and then around the best.
+
+    The run's peak of the acceleration, where it is above the law's, and what the acceleration leaps further than the
+    law's does, at points and at the ends, are least together; where the velocity leaps (straight lines), its leaps.
+    Of numbers as good as the best to a thousandth the least is taken.
+    """
+    judge, tried = Judge.of(motion), dict[int, tuple[float, Made]]()
+
+    def attempt(counts: set[int]) -> None:
+        for count in sorted(counts - tried.keys()):
+            made = make(count)
+            tried[count] = (judge.excess(made.x, made.powers), made)
+
+    rough = least * _RATIO ** np.arange(1 + int(np.log(most / least) / np.log(_RATIO)))
+    attempt({*(int(one) for one in rough), most})
+    top = min(tried, key=lambda count: tried[count][0])
+    near = np.linspace(max(least, top / _RATIO), min(most, top * _RATIO), 2 * _NEAR + 1)
+    attempt({int(one) for one in near})
+    lowest = min(value for value, _ in tried.values())
+    return tried[min(count for count, (value, _) in tried.items() if value <= _AS_GOOD * lowest)][1]
+
+
+@dataclass(frozen=True)
+class Judge:
+    """What runs are held against: the law's peaks of velocity and acceleration, and its leaps of the latter."""
+
+    velocity: float
+    acceleration: float
+    leap: float
+    leap_at_ends: float
+    repeats: bool
+
+    @classmethod
+    def of(cls, motion: Motion) -> Judge:
+        """The judge of runs of a motion."""
+        first, last = motion.ends(2)
+        ends = abs(last - first) if motion.repeats else max(abs(first), abs(last))
+        return cls(motion.peak(1), motion.peak(2), motion.leap(2)[0], ends, motion.repeats)
+
+    def excess(self, x: Array, powers: Array) -> float:
+        """How much worse than the law polynomials are: see `best`; 1 where they are as good."""
+        steps = np.diff(x)
+        if self.acceleration in {0.0, inf} or powers.shape[1] == 2:
+            first, last = _ends(powers, steps, 1)
+            edges = np.array([first[0] - last[-1]] if self.repeats else [first[0], last[-1]])
+            leaps = np.abs(np.concatenate([first[1:] - last[:-1], edges]))
+            return 1.0 + float(leaps.max()) / self.velocity
+        first, last = _ends(powers, steps, 2)
+        ends = abs(last[-1] - first[0]) if self.repeats else max(abs(first[0]), abs(last[-1]))
+        leap = float(np.abs(first[1:] - last[:-1]).max(initial=0.0))
+        beyond = max(leap - self.leap, 0.0) + max(float(ends) - self.leap_at_ends, 0.0)
+        return max(_peak(powers, steps, first, last) / self.acceleration, 1.0) + beyond / self.acceleration
+
+
+def _ends(powers: Array, steps: Array, nu: int) -> tuple[Array, Array]:
+    """The derivative of order nu just after the start and just before the end of each piece."""
+    table = np.asarray(np.polynomial.polynomial.polyder(powers, nu, axis=1), dtype=np.float64)
+    return table[:, 0], (table * steps[:, None] ** np.arange(table.shape[1])).sum(axis=1)
+
+
+def _peak(powers: Array, steps: Array, first: Array, last: Array) -> float:
+    """The greatest magnitude of the acceleration: at points where it is straight between them."""
+    if powers.shape[1] <= 4:
+        return float(max(np.abs(first).max(), np.abs(last).max()))
+    table = np.polynomial.polynomial.polyder(powers, 2, axis=1)
+    control = bernstein.from_powers(table * steps[:, None] ** np.arange(table.shape[1]))
+    return bernstein.top(np.concatenate([control, -control])).value
+
+
+def _needs(motion: Motion) -> Array:
+    """1 for stretches between breaks that are curved, 0 for straight ones."""
+    middles = [0.5 * (low + high) for low, high in pairwise(motion.breaks)]
+    which = np.searchsorted(motion.joints[1:-1], middles, side="right")
+    curved = [motion.pieces[i].stroke != 0.0 and motion.pieces[i].law.peak(2).value > 0.0 for i in which]
+    return np.array(curved, dtype=np.float64)
+
+
+def _shares(lengths: Array, steps: int, weights: Array) -> list[int]:
+    """How many of the steps each stretch gets: one at least, and what is left by its length."""
+    if steps < len(lengths):
+        raise InputError(f"{steps + 1} points are too few: the motion has {len(lengths) + 1} breaks")
+    sized = lengths * weights
+    total = float(sized.sum())
+    if total == 0.0 or not isfinite(total):
+        sized, total = lengths, float(lengths.sum())
+    # each step is given where it is longest so far, so that steps are as equal as they can be
+    shares = np.maximum(1, np.floor(sized / total * (steps - len(lengths)))).astype(int)
+    for _ in range(steps - int(shares.sum())):
+        shares[int(np.argmax(sized / shares))] += 1
+    return [int(one) for one in shares]

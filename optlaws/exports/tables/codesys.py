@@ -1,0 +1,107 @@
+"""CODESYS SoftMotion: cams of points with velocity and acceleration (XYVA), and of positions alone (XY)."""
+
+from __future__ import annotations
+
+from optlaws.errors import InputError
+from optlaws.exports.code.literals import real
+from optlaws.exports.format import Format, Request, Written, declared
+from optlaws.exports.identifiers import iec_name
+from optlaws.exports.motion import Motion
+from optlaws.exports.spacing import chosen
+from optlaws.exports.tables.table import Held, Table, by_interpolation, osculated
+from optlaws.exports.tables.text_lines import heading, iec_comment
+
+MOST = 32_767  # nElements is an INT
+STANDARD = (128, 256)
+INTERPOLATIONS = {"linear": 1, "cubic": 3}
+
+
+def _xyva(motion: Motion, request: Request) -> Written:
+    name = iec_name(request.name, "CODESYS")
+    table = chosen(motion, request, lambda count: osculated(motion, count, Held(), 3), least=2, most=MOST)
+    rows = [
+        f"        (dX := {real(x)}, dY := {real(y)}, dV := {real(v)}, dA := {real(a)})"
+        for x, (y, v, a) in zip(table.x.tolist(), table.values.T.tolist(), strict=True)
+    ]
+    count = len(rows)
+    text = "\n".join(
+        [
+            iec_comment(heading(motion, "CODESYS SoftMotion, SMC_CAMXYVA")) + "VAR_GLOBAL",
+            f"    {name}_points : ARRAY[0..{count - 1}] OF SMC_CAMXYVA := [",
+            ",\n".join(rows) + "];",
+            _reference(name, motion, "SMC_CAM_TYPE.XYVA", count),
+            "END_VAR",
+            f"(* in the program, once before MC_CamTableSelect: {name}.pce := ADR({name}_points); *)",
+            "",
+        ]
+    )
+    return Written(text, table.run, "quintic Hermite from y, V and A of the points", count)
+
+
+def _xy(motion: Motion, request: Request) -> Written:
+    name = iec_name(request.name, "CODESYS")
+    chosen_interpolation = request.interpolation or "cubic"
+    if chosen_interpolation not in INTERPOLATIONS:
+        raise InputError(f"interpolation must be one of {', '.join(INTERPOLATIONS)}, got {chosen_interpolation!r}")
+
+    def make(count: int) -> Table:
+        return by_interpolation(motion, count, Held(request.counts), chosen_interpolation)
+
+    table = chosen(motion, request, make, least=2, most=STANDARD[-1])
+    count = len(table.x)
+    size = next(one for one in STANDARD if one >= count)
+    rows = [f"[{real(x)}, {real(y)}]" for x, y in zip(table.x.tolist(), table.values[0].tolist(), strict=True)]
+    last = [rows[-1]] * (size - count)
+    extent = [table.x[0], table.x[-1], table.values[0].min(), table.values[0].max()]
+    scaling = ", ".join(
+        f"f{side}{name_of} := {real(float(value))}"
+        for side in ("Editor", "Table")
+        for name_of, value in zip(("MasterMin", "MasterMax", "SlaveMin", "SlaveMax"), extent, strict=True)
+    )
+    quality = f", byVarType := 6, byInterpolationQuality := {INTERPOLATIONS[chosen_interpolation]}"
+    text = "\n".join(
+        [
+            iec_comment(heading(motion, f"CODESYS SoftMotion, SMC_CAMTable_LREAL_{size}_2")) + "VAR_GLOBAL",
+            f"    {name}_table : SMC_CAMTable_LREAL_{size}_2 := (Table := [",
+            ",\n".join(f"        {row}" for row in [*rows, *last]) + "],",
+            f"        {scaling});",
+            _reference(name, motion, "SMC_CAM_TYPE.XY", count, quality),
+            "END_VAR",
+            f"(* in the program, once before MC_CamTableSelect: {name}.pce := ADR({name}_table); *)",
+            "",
+        ]
+    )
+    model = {"linear": "straight lines", "cubic": "clamped C2 cubic spline"}[chosen_interpolation]
+    return Written(text, table.run, model, count, resolution=table.resolution, bound=table.bound)
+
+
+def _reference(name: str, motion: Motion, kind: str, count: int, more: str = "") -> str:
+    return (
+        f"    {name} : MC_CAM_REF := (byType := {kind}, nElements := {count}, xStart := {real(motion.start)}, "
+        f"xEnd := {real(motion.stop)}{more});"
+    )
+
+
+XYVA = declared(
+    Format(
+        name="codesys-xyva",
+        target="CODESYS SoftMotion, SMC_CAMXYVA in MC_CAM_REF",
+        held="dX, dY, dV, dA (LREAL)",
+        model="quintic Hermite",
+        limits=f"at most {MOST} points (nElements is an INT)",
+        extension=".st",
+        write=_xyva,
+    )
+)
+XY = declared(
+    Format(
+        name="codesys-xy",
+        target="CODESYS SoftMotion, SMC_CAMTable_LREAL_128_2 or _256_2 in MC_CAM_REF",
+        held="x, y (LREAL)",
+        model="clamped C2 cubic spline, or straight lines",
+        limits=f"at most {STANDARD[-1]} points, the larger of the library's tables",
+        extension=".st",
+        write=_xy,
+        takes=("points", "counts", "interpolation"),
+    )
+)

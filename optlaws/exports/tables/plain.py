@@ -1,0 +1,226 @@
+"""Tables as text without a language: SEW, Lenze, KAS, ISG and TwinCAT CNC, Technosoft, and CSV for all others."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+
+from optlaws.cycles.asked.quantities import quantity
+from optlaws.errors import InputError
+from optlaws.exports.format import MOST_POINTS, Format, Request, Written, declared
+from optlaws.exports.interpolation import linear_powers
+from optlaws.exports.motion import Motion
+from optlaws.exports.spacing import chosen
+from optlaws.exports.tables.table import Held, Table, by_interpolation, osculated, positions, splined, straight
+from optlaws.exports.tables.text_lines import heading, plain
+from optlaws.files.writing import MARK
+
+MODELS = {
+    "linear": "straight lines",
+    "cubic": "C2 cubic spline clamped to the law's velocities at the ends",
+    "c1": "cubic Hermite with the law's velocities at the points",
+    "quintic": "quintic Hermite",
+    "septic": "Hermite of degree 7",
+}
+ORDERS = {"c1": 2, "quintic": 3, "septic": 4}
+ISG_STEP, ISG_LINES, ISG_LEAST = 1e-4, 360, 0.1
+TECHNOSOFT_POINTS, TECHNOSOFT_STEPS = 8192, 128
+
+
+def _interpolation(request: Request, known: Sequence[str]) -> str:
+    interpolation = request.interpolation or known[0]
+    if interpolation not in known:
+        raise InputError(f"interpolation must be one of {', '.join(known)}, got {interpolation!r}")
+    return interpolation
+
+
+def _csv(motion: Motion, request: Request) -> Written:
+    interpolation = _interpolation(request, ("cubic", "linear", "c1", "quintic", "septic"))
+    held = Held(request.counts, request.digits)
+
+    def make(count: int) -> Table:
+        return by_interpolation(motion, count, held, interpolation)
+
+    table = chosen(motion, request, make, least=2, most=MOST_POINTS)
+    separator = ";" if request.decimal == "," else ","
+    units = motion.units
+    derivatives = [f"{units.slave}/{units.master}{power}" for power in ("", "^2", "^3")]
+    columns = [f"x {units.master}", f"y {units.slave}"]
+    columns += [f"{letter} {unit}" for letter, unit in zip("VAJ", derivatives, strict=True)]
+    rows = [table.x, *table.values]
+    lines = [f"# {heading(motion, 'table')[0]}; {MARK}", separator.join(columns[: len(rows)])]
+    lines += [separator.join(_cells(row, request)) for row in np.array(rows).T.tolist()]
+    return _written(lines, table, MODELS[interpolation])
+
+
+def _sew(motion: Motion, request: Request) -> Written:
+    interpolation = _interpolation(request, ("c1", "linear"))
+    held = Held(request.counts, request.digits)
+
+    def make(count: int) -> Table:
+        return straight(motion, count, held) if interpolation == "linear" else osculated(motion, count, held, 2)
+
+    table = chosen(motion, request, make, least=2, most=MOST_POINTS)
+    lines = [str(len(table.x)), *(";".join(_cells(pair, request)) for pair in _pairs(table))]
+    model = {"linear": "straight lines", "c1": "cubics whose acceleration leaps at every point, here with the law's V"}
+    return _written(lines, table, model[interpolation])
+
+
+def _lenze(motion: Motion, request: Request) -> Written:
+    held = Held(request.counts, request.digits)
+    table = chosen(motion, request, lambda count: splined(motion, count, held), least=2, most=MOST_POINTS)
+    first, *others = (" ".join(_cells(pair, request)) for pair in _pairs(table))
+    return _written([f"{first} // {heading(motion, 'cam')[0]}; {MARK}", *others], table, MODELS["cubic"])
+
+
+def _kas(motion: Motion, request: Request) -> Written:
+    held = Held(request.counts, request.digits)
+    table = chosen(motion, request, lambda count: splined(motion, count, held), least=5, most=MOST_POINTS)
+    lines = ["CYCLIC;YES;" if motion.repeats else "CYCLIC;NO;", "TABLE_BEGIN;;"]
+    lines += [";".join([*_cells(pair, request), "SPLINE"]) for pair in _pairs(table)]
+    top = [plain(float(np.abs(values).max())) for values in (table.x, table.values[0])]
+    notes = (f"KAS divides X and Y by their greatest values: set the scales to {top[0]} and {top[1]} in the dialog",)
+    return _written([*lines, "TABLE_END;;"], table, MODELS["cubic"], notes)
+
+
+def _isg(motion: Motion, request: Request) -> Written:
+    x_size = _unit_size(motion.units.master, "deg", "master")
+    y_size = _unit_size(motion.units.slave, "deg" if motion.units.slave in {"deg", "rad", "°"} else "mm", "slave")
+    most = min(ISG_LINES, 1 + int(np.floor(motion.length * x_size / ISG_LEAST * (1 + 1e-12))))
+
+    def make(count: int) -> Table:
+        return _integers(motion, count, ISG_STEP / x_size, ISG_STEP / y_size)
+
+    table = chosen(motion, request, make, least=2, most=most)
+    name = "".join(letter if letter.isalnum() else "_" for letter in request.name)
+    rows = _whole(table, ISG_STEP / x_size, ISG_STEP / y_size)
+    if min(after[0] - before[0] for before, after in pairwise(rows)) < round(ISG_LEAST / ISG_STEP):
+        raise InputError(f"ISG wants points at least {ISG_LEAST} deg apart: take fewer points")
+    head = [
+        f"Tablename = {name} # {heading(motion, 'cam')[0]}; {MARK}",
+        "Table-ID = 1",
+        "Tabletype = 7 # pairs of integers, 1e-4 deg or 1e-4 mm",
+        "Function type = 1 # linear",
+        f"Lines = {len(rows)}",
+    ]
+    return _written([*head, "Begintable", *(f"{x} {y}" for x, y in rows), "EndTable"], table, "straight lines")
+
+
+def _technosoft(motion: Motion, request: Request) -> Written:
+    counts = request.counts or 65_536
+    step = motion.stroke / counts
+
+    def make(count: int) -> Table:
+        return _integers(motion, count, motion.length / (count - 1), step, even=True)
+
+    table = chosen(motion, request, make, least=2, most=TECHNOSOFT_POINTS)
+    spacing = TECHNOSOFT_STEPS
+    rows = [(i * spacing, round(y / step)) for i, y in enumerate(table.values[0].tolist())]
+    if max(abs(y) for _, y in rows) >= 2**31:
+        raise InputError("counts: a position is beyond 32 bits; take fewer counts")
+    notes = (f"one count of the master is {motion.length / ((len(rows) - 1) * spacing):.12g} {motion.units.master}",)
+    return _written([f"{x} {y}" for x, y in rows], table, "straight lines", notes)
+
+
+def _integers(motion: Motion, count: int, x_step: float, y_step: float, *, even: bool = False) -> Table:
+    """Points whose coordinates are whole multiples of steps, in machine units."""
+    exact, _ = positions(motion, count, Held(), even=even)
+    x = np.rint(exact / x_step) * x_step
+    if (np.diff(x) <= 0.0).any():
+        raise InputError(f"{count} points of the master are closer than the target's step {x_step:g}: take fewer")
+    y = np.rint(np.asarray(motion(exact)) / y_step) * y_step
+    return Table(x, y[None], linear_powers(x, y), y_step, 0.0)
+
+
+def _whole(table: Table, x_step: float, y_step: float) -> list[tuple[int, int]]:
+    return [(round(x / x_step), round(y / y_step)) for x, y in _pairs(table)]
+
+
+def _unit_size(unit: str, wanted: str, side: str) -> float:
+    """How many of the wanted unit one of a unit is."""
+    dimension = "angle" if wanted == "deg" else "length"
+    try:
+        return quantity(f"1 {unit}", dimension, side) / quantity(f"1 {wanted}", dimension, side)
+    except InputError:
+        raise InputError(f"the {side} must be in {wanted}, which the target counts, got {unit}") from None
+
+
+def _pairs(table: Table) -> list[list[float]]:
+    return [list(pair) for pair in zip(table.x.tolist(), table.values[0].tolist(), strict=True)]
+
+
+def _cells(values: Sequence[float], request: Request) -> list[str]:
+    return [plain(value, request.digits, request.decimal) for value in values]
+
+
+def _written(lines: Sequence[str], table: Table, model: str, notes: tuple[str, ...] = ()) -> Written:
+    text = "\n".join([*lines, ""])
+    return Written(text, table.run, model, len(table.x), resolution=table.resolution, bound=table.bound, notes=notes)
+
+
+_TEXT = ("points", "counts", "digits", "decimal")
+_plain_format = partial(Format, takes=_TEXT, held="x, y as text", limits="no number of points is stated")
+
+CSV = declared(
+    _plain_format(
+        name="csv",
+        target="any, comma-separated values with units in the heading",
+        held="x, y and as many of V, A, J as the interpolation takes",
+        model="; ".join(MODELS.values()),
+        extension=".csv",
+        write=_csv,
+        takes=(*_TEXT, "interpolation"),
+    )
+)
+SEW = declared(
+    _plain_format(
+        name="sew",
+        target="SEW MOVI-C, list of points",
+        model="cubics whose acceleration leaps at every point, or straight lines",
+        extension=".csv",
+        write=_sew,
+        takes=(*_TEXT, "interpolation"),
+    )
+)
+LENZE = declared(
+    _plain_format(
+        name="lenze", target="Lenze Cam Loader", model="C2 cubic spline (assumed)", extension=".txt", write=_lenze
+    )
+)
+KAS = declared(
+    _plain_format(
+        name="kas",
+        target="Kollmorgen KAS, cam profile as CSV",
+        model="C2 cubic spline",
+        limits="at least 4 segments; scaled by the greatest X and Y when it is imported",
+        extension=".csv",
+        write=_kas,
+    )
+)
+ISG = declared(
+    _plain_format(
+        name="isg",
+        target="ISG kernel and TwinCAT CNC, cam table",
+        held="master, slave as integers of 1e-4 deg or 1e-4 mm",
+        model="straight lines",
+        limits=f"at most {ISG_LINES} points, at least {ISG_LEAST} deg apart; the master is an angle",
+        extension=".txt",
+        write=_isg,
+        takes=("points",),
+    )
+)
+TECHNOSOFT = declared(
+    _plain_format(
+        name="technosoft",
+        target="Technosoft, cam table",
+        held="x, y as integers",
+        model="straight lines",
+        limits=f"at most {TECHNOSOFT_POINTS} points with equal steps of a power of two, 32 bits",
+        extension=".txt",
+        write=_technosoft,
+        takes=("points", "counts"),
+    )
+)

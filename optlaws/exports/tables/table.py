@@ -1,0 +1,169 @@
+"""Points as a target holds them, rounded as it rounds, and what it makes of them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.exports.interpolation import Ends, hermite_powers, linear_powers, spline_powers
+from optlaws.exports.motion import Motion
+from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.exports.spacing import places
+from optlaws.kept import kept_property
+
+Array = NDArray[np.float64]
+
+DEGREES = {1: "linear", 2: "cubic Hermite", 3: "quintic Hermite", 4: "Hermite of degree 7"}
+
+
+@dataclass(frozen=True)
+class Held:
+    """How a target holds numbers.
+
+    Parameters
+    ----------
+    counts
+        Steps over the stroke to which positions are rounded; None where they are not.
+    digits
+        Digits behind the decimal sign; None for all that a double has.
+    single
+        Whether they are REAL32.
+    """
+
+    counts: int | None = None
+    digits: int | None = None
+    single: bool = False
+
+    def resolution(self, motion: Motion) -> float:
+        """Step of positions in units of the slave; 0 for doubles."""
+        top = max(abs(value) for value, _ in motion.extrema(0))
+        return max(
+            motion.stroke / self.counts if self.counts else 0.0,
+            0.0 if self.digits is None else 10.0**-self.digits,
+            float(np.spacing(np.float32(top))) if self.single else 0.0,
+        )
+
+    def positions(self, y: Array, motion: Motion) -> Array:
+        """Positions as they are held."""
+        step = motion.stroke / self.counts if self.counts else 0.0
+        return self.numbers(np.rint(y / step) * step if step else y)
+
+    def numbers(self, values: Array) -> Array:
+        """Numbers as they are held."""
+        rounded = values if self.digits is None else np.round(values, self.digits)
+        return (rounded.astype(np.float32).astype(np.float64) if self.single else rounded) + 0.0
+
+
+@dataclass(frozen=True, eq=False)
+class Table:
+    """Points as they are held, and what becomes of them.
+
+    Parameters
+    ----------
+    x
+        Of the master, shape (n,).
+    values
+        y, V, A, ... of the slave, shape (m, n).
+    powers
+        Of the polynomials that the controller lays between them, ascending, a row for each.
+    resolution
+        Step of positions; 0 for doubles.
+    bound
+        What roundings may add to the peak of the acceleration.
+    """
+
+    x: Array
+    values: Array
+    powers: Array
+    resolution: float
+    bound: float
+
+    @kept_property
+    def run(self) -> PiecewiseMotion:
+        """What the controller makes of them."""
+        return PiecewiseMotion(self.x, self.powers)
+
+
+def positions(motion: Motion, count: int, held: Held, *, even: bool = False) -> tuple[Array, Array]:
+    """x and y of so many points as they are held.
+
+    Raises
+    ------
+    InputError
+        If points are the same as they are held.
+    """
+    exact = np.linspace(motion.start, motion.stop, count) if even else places(motion, count)
+    x = held.numbers(exact)
+    if (np.diff(x) <= 0.0).any():
+        raise InputError(
+            f"{count} points of the master are closer than they can be held: take fewer points, more digits, "
+            "or a unit that is smaller"
+        )
+    return x, held.positions(np.asarray(motion(exact)), motion)
+
+
+def splined(motion: Motion, count: int, held: Held, *, ends: Ends = "clamped", even: bool = False) -> Table:
+    """Positions through which the controller lays the cubic spline; clamped to the velocities of the motion's ends."""
+    x, y = positions(motion, count, held, even=even)
+    slopes = held.numbers(np.array(motion.ends(1)))
+    powers = spline_powers(x, y, ends, (float(slopes[0]), float(slopes[1])))
+    return Table(x, y[None], powers, held.resolution(motion), rounding_bound(motion, x, y, slopes))
+
+
+def straight(motion: Motion, count: int, held: Held, *, even: bool = False) -> Table:
+    """Positions between which the controller goes straight."""
+    x, y = positions(motion, count, held, even=even)
+    return Table(x, y[None], linear_powers(x, y), held.resolution(motion), 0.0)
+
+
+def osculated(motion: Motion, count: int, held: Held, orders: int) -> Table:
+    """Positions with derivatives, so many in all, from which the controller makes Hermite's polynomials.
+
+    Raises
+    ------
+    InputError
+        If a derivative is infinite at a point.
+    """
+    exact = places(motion, count, straight=orders > 2)
+    values = np.array([motion(exact, nu) for nu in range(orders)])
+    if not np.isfinite(values).all():
+        raise InputError(
+            "the law's acceleration or jerk is infinite at a point: export positions alone, or another law"
+        )
+    x = held.numbers(exact)
+    held_values = np.array([held.positions(values[0], motion), *(held.numbers(row) for row in values[1:])])
+    return Table(x, held_values, hermite_powers(x, held_values), held.resolution(motion), 0.0)
+
+
+def by_interpolation(motion: Motion, count: int, held: Held, interpolation: str) -> Table:
+    """A table for an interpolation by its name: linear, cubic, c1, quintic, septic."""
+    orders = {"c1": 2, "quintic": 3, "septic": 4}
+    if interpolation in orders:
+        return osculated(motion, count, held, orders[interpolation])
+    return straight(motion, count, held) if interpolation == "linear" else splined(motion, count, held)
+
+
+def rounding_bound(motion: Motion, x: Array, y: Array, slopes: Array) -> float:
+    """What roundings may add to the acceleration of a clamped cubic spline: 6 eps/dx², for positions wrong by eps/2.
+
+    The spline's accelerations at its points solve a system whose diagonal is twice the sum of what is beside it, with
+    six times the second divided differences of the positions on the right; these are wrong by eps/(h_i h_i+1) at most.
+
+    Examples
+    --------
+    >>> from optlaws.exports.motion import motion_of_law
+    >>> from optlaws.laws import smoothstep
+    >>> motion = motion_of_law(smoothstep(3), stroke="1 m", time="1 s")
+    >>> x = np.linspace(0.0, 1.0, 11)
+    >>> round(rounding_bound(motion, x, motion(x) + 0.001 * (-1.0) ** np.arange(11), np.zeros(2)), 9)
+    1.2
+    """
+    exact = np.asarray(motion(np.clip(x, motion.start, motion.stop)))
+    eps = 2.0 * float(np.abs(y - exact).max())
+    steps = np.diff(x)
+    ends = np.abs(slopes - np.array(motion.ends(1))) * 6.0 / steps[[0, -1]]
+    inner = float((6.0 * eps / (steps[1:] * steps[:-1])).max(initial=0.0))
+    return max(inner, float((6.0 * eps / steps[[0, -1]] ** 2 + ends).max()))

@@ -1,0 +1,36 @@
+"""Laws and motions that the tests of exports share."""
+
+from functools import cache
+from typing import Any
+
+from optlaws import Chebyshev, Cycle, Dwell, MotionLaw, Problem, Return, Rise, synthesize
+from optlaws.exports.motion import Motion, motion_of_cycle, motion_of_law
+
+SAID: dict[str, Any] = {"stroke": "35 mm", "master": "120 deg", "time": "0.1 s"}
+
+
+@cache
+def optimal() -> MotionLaw:
+    """The law of least C with B = 1.859 of order 4 and degree 9."""
+    return synthesize(Problem(B=1.859, order=4, basis=Chebyshev(9))).law
+
+
+@cache
+def one_shot() -> Motion:
+    """It with a stroke, over an angle and at a speed."""
+    return motion_of_law(optimal(), **SAID)
+
+
+@cache
+def press(law: str = "modified sine") -> Cycle:
+    """A rise, a dwell, a return and a dwell."""
+    return Cycle(
+        [Rise("35 mm", "120 deg", law=law), Dwell("90 deg"), Return(duration="100 deg", law=law), Dwell()],
+        speed="200 rpm",
+    )
+
+
+@cache
+def repeating() -> Motion:
+    """The cycle as a motion."""
+    return motion_of_cycle(press())

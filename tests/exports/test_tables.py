@@ -1,0 +1,247 @@
+"""Every table is read back by a reader of its own and is the motion that the export says the controller runs."""
+
+import json
+import re
+from dataclasses import replace
+from math import isinf
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+
+from optlaws import InputError, PolynomialLaw, catalogue, reversed_law, smoothstep
+from optlaws.cycles.asked.conversion import Piece
+from optlaws.exports.export import Export, export_motion
+from optlaws.exports.format import FORMATS
+from optlaws.exports.interpolation import cubic_spline
+from optlaws.exports.motion import Motion, Units, motion_of_cycle, motion_of_law
+from optlaws.exports.tables.rockwell import profile_motion, profile_rows
+from tests.exports import readers
+from tests.exports.samples import SAID, one_shot, optimal, press, repeating
+
+Array = NDArray[np.float64]
+
+CLAMPED = ((1, 0.0), (1, 0.0))
+GOLDEN = [
+    [2, 0, 0, 0, 0, 1, 0, 0, 1072693248, 0, -1080956027, 515396076, 1059086925, -755914243],
+    [
+        2,
+        1078198272,
+        0,
+        1077149696,
+        0,
+        1,
+        0,
+        0,
+        1070176665,
+        -1717986918,
+        -1083933983,
+        1202590845,
+        1055091462,
+        -418679770,
+    ],
+    [2, 1079574528, 0, 1077477376, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0],
+]
+
+
+READ = {
+    "codesys-xyva": readers.codesys_xyva,
+    "codesys-xy": readers.codesys_xy,
+    "rockwell-cam": readers.rockwell_cam,
+    "rockwell-cam-extended": readers.rockwell_cam,
+    "rockwell-cam-profile": readers.rockwell_profile,
+    "twincat-table": readers.twincat_table,
+}
+SPLINED = {"csv": lambda text: readers.separated(text)[1][:2], "lenze": readers.lenze, "kas": readers.kas}
+
+
+def derivatives(made: Export, table: Array, orders: int) -> Array:
+    """A table's positions with velocities and more where it holds none: those of the law."""
+    return np.array([*table[1:], *(made.motion(table[0], nu) for nu in range(len(table) - 1, orders))])
+
+
+def curve(made: Export) -> tuple[Array, readers.Curve]:
+    """The points and the curve that the file of an export says."""
+    name, text = made.format.name, made.text
+    return READ[name](text) if name in READ else _table(made)
+
+
+def _table(made: Export) -> tuple[Array, readers.Curve]:
+    name, text = made.format.name, made.text
+    if name == "ros2":
+        _, seconds, values = readers.ros2(text)
+        rate = made.motion.units.rate or 1.0
+        scaled = np.array([1e3 * row / rate**nu for nu, row in enumerate(values)])
+        return seconds * rate, readers.osculating(seconds * rate, scaled)
+    if name == "sew":
+        table = readers.sew(text)
+        return table[0], readers.osculating(table[0], derivatives(made, table, 2))
+    if name in {"isg", "technosoft"}:
+        x, y = readers.isg(text) if name == "isg" else readers.technosoft(text, made.motion.stop, made.motion.stroke)
+        return x, readers.broken(x, y)
+    x, y = SPLINED[name](text)
+    return x, readers.spline(x, y, CLAMPED)
+
+
+TABLES = sorted(name for name in FORMATS if FORMATS[name].write.__module__.startswith("optlaws.exports.tables"))
+
+
+@pytest.mark.parametrize("motion", [one_shot, repeating], ids=["law", "cycle"])
+@pytest.mark.parametrize("name", TABLES)
+def test_a_table_read_back_is_what_is_run(name: str, motion: object) -> None:
+    made = export_motion(motion(), name, points=61)  # type: ignore[operator]
+    x, read = curve(made)
+    assert len(x) == made.points == 61
+    inside = np.linspace(x[0], x[-1], 800)[1:-1]
+    for nu in range(3):
+        mine = made.run(inside, nu)
+        size = np.abs(mine).max()
+        tolerance = 1e-12 if nu == 0 else 1e-11 * (120.0 / np.diff(x).min()) ** nu / 100.0
+        np.testing.assert_allclose(read(inside, nu), mine, rtol=0.0, atol=max(tolerance, 1e-12) * size)
+    dense = np.linspace(x[0], x[-1], 6001)
+    for nu in (0, 1, 2):
+        rate = made.report.rate**nu
+        top = max(abs(made.report.run.least[nu].value), abs(made.report.run.greatest[nu].value))
+        assert np.abs(read(dense, nu)).max() * rate == pytest.approx(top, rel=2e-3)
+    apart = np.abs(read(dense, 0) - made.motion(np.clip(dense, made.motion.start, made.motion.stop))).max()
+    assert apart <= made.report.deviation[0].value * (1 + 1e-9) + 1e-12
+    assert apart >= 0.95 * made.report.deviation[0].value - 1e-12
+
+
+@pytest.mark.parametrize("name", TABLES)
+def test_the_best_number_of_points_is_chosen(name: str) -> None:
+    made = export_motion(one_shot(), name)
+    assert made.points >= 5
+    ratio = made.report.ratio(2)
+    assert isinf(ratio) or ratio == pytest.approx(1.0, abs=3e-3)
+    assert json.loads(json.dumps(made.to_dict(), allow_nan=False))["points"] == made.points
+    assert "made by optlaws" in made.text or name in {"sew", "kas", "technosoft"}
+
+
+def test_the_golden_rows_of_rockwell() -> None:
+    """A captured CAM_PROFILE: points (0, 0), (40, 20), (100, 25) with the slopes 1 and 0."""
+    spline = cubic_spline(np.array([0.0, 40.0, 100.0]), np.array([0.0, 20.0, 25.0]), slopes=(1.0, 0.0))
+    read = profile_motion(GOLDEN)
+    assert read.breaks == spline.breaks
+    np.testing.assert_allclose(read.coefficients, spline.coefficients, rtol=1e-14, atol=0.0)
+    assert profile_rows(read) == GOLDEN
+    with pytest.raises(InputError, match="14 DINT, got 13"):
+        profile_motion([GOLDEN[0][1:]])
+
+
+def test_the_default_cam_of_codesys() -> None:
+    """Three polynomials of degree 5 through (0, 0, 0, 0), (120, 120, 1, 0), (240, 240, 1, 0), (360, 360, 0, 0)."""
+    points = "dX := 0.0, dY := 0.0, dV := 0.0, dA := 0.0|dX := 120.0, dY := 120.0, dV := 1.0, dA := 0.0|"
+    points += "dX := 240.0, dY := 240.0, dV := 1.0, dA := 0.0|dX := 360.0, dY := 360.0, dV := 0.0, dA := 0.0"
+    head = "ARRAY[0..3] OF SMC_CAMXYVA nElements := 4 xStart := 0.0 xEnd := 360.0 "
+    _, read = readers.codesys_xyva(head + points)
+    x = np.linspace(0.0, 360.0, 100)
+    u = x[x < 120.0] / 120.0
+    expected = 120.0 * (6.0 * u**3 - 8.0 * u**4 + 3.0 * u**5)
+    np.testing.assert_allclose(read(x, 0)[: len(u)], expected, atol=1e-11)
+    rise = PolynomialLaw.from_powers([0, 0, 0, 6, -8, 3])
+    laws = (rise, smoothstep(1), reversed_law(rise))
+    pieces = tuple(Piece(120.0 * i, 120.0, 120.0 * i, 120.0, law) for i, law in enumerate(laws))
+    made = export_motion(Motion(pieces, Units("deg", "deg", None), repeats=True), "codesys-xyva", points=4)
+    assert re.findall("dX := .*(?=\\))", made.text) == points.split("|")
+    assert made.report.deviation[0].value < 1e-12
+    np.testing.assert_allclose(made.run(x), read(x, 0), atol=1e-11)
+
+
+def test_counts_make_many_points_worse() -> None:
+    """A quarter of a thousandth of a stroke of 65,536 counts: 361 points run with 2.76 times the peak."""
+    many = export_motion(one_shot(), "csv", points=361, counts=65536)
+    assert many.report.ratio(2) == pytest.approx(2.761, abs=1e-3)
+    assert many.written.resolution == pytest.approx(35.0 / 65536)
+    assert many.report.bound / many.report.law.peak(2) == pytest.approx(6 * 360**2 / 65536 / 4.647776, rel=2e-2)
+    best = export_motion(one_shot(), "csv", points="best", counts=65536)
+    assert best.points < 60
+    assert best.report.ratio(2) < 1.04
+
+
+def test_a_leap_at_the_dwell_is_told() -> None:
+    few = export_motion(one_shot(), "csv", points=13).report
+    assert few.law.leaps_at_ends[1] == 0.0
+    assert few.run.leaps_at_ends[1] == pytest.approx(max(abs(few.run.start[2]), abs(few.run.end[2])))
+    assert few.run.leaps_at_ends[1] > 0.01 * few.law.peak(2)
+    cubic = export_motion(one_shot(), "sew", points=25).report
+    assert cubic.run.leaps[1].value / cubic.law.peak(2) == pytest.approx(0.0493, abs=1e-3)
+
+
+def test_a_law_whose_acceleration_leaps_keeps_its_leaps() -> None:
+    made = motion_of_law(catalogue["parabolic"].law, **SAID)
+    report = export_motion(made, "csv", points=241).report
+    assert report.law.leaps[1].value == pytest.approx(2.0 * report.law.peak(2))
+    assert report.law.leaps_at_ends[1] == pytest.approx(report.law.peak(2))
+    assert report.to_dict()["law"]["PointAtMaxSlaveJerk"]["SlaveJerk"] == 0.0
+    assert export_motion(made, "csv", points=241).rows()[2][2] is None
+
+
+@pytest.mark.parametrize(
+    ("to", "asked", "words"),
+    [
+        ("codesys", {}, ["to:", "did you mean"]),
+        (5, {}, ["to:", "known are"]),
+        ("codesys-xyva", {"counts": 5}, ["codesys-xyva takes no counts", "points"]),
+        ("codesys-xyva", {"pionts": 5}, ["pionts", "did you mean 'points'"]),
+        ("codesys-xyva", {"points": 40_000}, ["2", "32767", "40000"]),
+        ("codesys-xyva", {"points": 2.5}, ["points"]),
+        ("codesys-xy", {"points": 361}, ["256", "361"]),
+        ("codesys-xy", {"name": "press 1"}, ["press 1", "press_1"]),
+        ("codesys-xy", {"interpolation": "quintic"}, ["linear, cubic", "quintic"]),
+        ("rockwell-cam", {"interpolation": "akima"}, ["linear, cubic", "akima"]),
+        ("rockwell-cam", {"points": 65536, "counts": 1}, ["counts"]),
+        ("twincat-table", {"interpolation": "4POINT"}, ["linear, spline"]),
+        ("csv", {"decimal": ":"}, ["decimal", "'.' or ','"]),
+        ("csv", {"digits": -1}, ["digits"]),
+        ("csv", {"digits": 0, "points": 361}, ["361 points", "more digits"]),
+        ("isg", {"points": 361}, ["360", "361"]),
+        ("technosoft", {"points": 8193}, ["8192"]),
+        ("kas", {"points": 4}, ["5"]),
+        ("ros2", {"name": 'joint"1'}, ["ROS", "letters"]),
+    ],
+)
+def test_what_a_target_cannot_hold_is_said_with_a_remedy(
+    to: object, asked: dict[str, object], words: list[str]
+) -> None:
+    with pytest.raises(InputError) as caught:
+        export_motion(one_shot(), to, **asked)
+    assert all(word in str(caught.value) for word in words)
+
+
+def test_a_motion_that_does_not_fit_is_refused() -> None:
+    over_time = motion_of_law(smoothstep(3), stroke="35 mm", time="0.1 s")
+    with pytest.raises(InputError, match="master must be in deg"):
+        export_motion(over_time, "isg")
+    with pytest.raises(InputError, match="how fast the master goes"):
+        export_motion(motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg"), "ros2")
+    with pytest.raises(InputError, match="points must be from 5 "):
+        export_motion(motion_of_cycle(press("cycloidal")), "csv", points=4)
+    infinite = motion_of_law(catalogue["0050"].law, **SAID)
+    sized = replace(infinite, pieces=tuple(infinite.pieces))
+    assert export_motion(sized, "csv", points=20).points == 20
+
+
+def test_the_report_says_it_all() -> None:
+    said = str(optimal().export("rockwell-cam", points=20, counts=65536, **SAID))
+    for word in (
+        "20 points",
+        "clamped",
+        "StartSlope",
+        "peak of acceleration, mm/s²",
+        "from and to rest",
+        "roundings may add",
+    ):
+        assert word in said
+    over_angle = str(smoothstep(3).export("csv", stroke="1 mm", master="90 deg", points=19))
+    assert "peak of jerk, mm/deg³" in over_angle
+
+
+def test_decimal_commas() -> None:
+    made = export_motion(one_shot(), "csv", points=31, decimal=",", digits=6)
+    heading, columns = readers.separated(made.text, ";", ",")
+    assert heading == ["x deg", "y mm"]
+    np.testing.assert_array_equal(columns[1], made.run(columns[0]).round(6))
+    for name, reader in (("sew", readers.sew), ("lenze", readers.lenze), ("kas", readers.kas)):
+        _, y = reader(export_motion(one_shot(), name, points=31, decimal=",", digits=6).text, ",")
+        np.testing.assert_allclose(y, columns[1], atol=1.1e-6)
