@@ -29,16 +29,18 @@ def atlas(
     Parameters
     ----------
     file
-        The atlas.
+        The atlas; where it is not there the one that comes with optlaws.
     as_json
         Print one JSON object on stdout and nothing else.
     """
+    from optlaws.files.packaged import or_packaged
     from optlaws.jobs.laws.atlas_lookup import best_law, look_up
 
     asked: dict[str, Any] = {name: entries[name] for name in ("minimise", "order")}
     asked |= {"B": entries.get("B"), "most": _greatest(entries)}
-    point = look_up(file, **asked)
-    solution = best_law(file, **asked)
+    table_of_laws = or_packaged(file)
+    point = look_up(table_of_laws, **asked)
+    solution = best_law(table_of_laws, **asked)
     exact = {name: getattr(solution.constants, name).value for name in ("B", "C", "D", "J")}
     exact["rms_c"] = solution.constants.rms_c
     if as_json:

@@ -37,16 +37,18 @@ def ledger(
     id
         One item.
     file
-        The problem file of the ledger.
+        The problem file of the ledger; where it is not there the one that comes with optlaws.
     as_json
         Print a list of the items on stdout and nothing else.
     """
+    from optlaws.files.packaged import or_packaged
     from optlaws.jobs.ledger.ledger import chosen, entries
     from optlaws.jobs.ledger.verdicts import judge
 
-    asked = chosen(entries(file), paper=paper, kind=kind, verdict=verdict, name=id)
+    source = or_packaged(file)
+    asked = chosen(entries(source), paper=paper, kind=kind, verdict=verdict, name=id)
     with busy(f"{len(asked)} items"):
-        judged = [judge(item, name, file.parent) for name, item in asked]
+        judged = [judge(item, name, source.parent) for name, item in asked]
     if as_json:
         print_json([one.to_dict() for one in judged])
     else:

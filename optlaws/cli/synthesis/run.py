@@ -14,19 +14,21 @@ def run(*files: Path, out: Path | None = None) -> None:
     Parameters
     ----------
     files
-        Problem files (TOML).
+        Problem files (TOML), or names of those that come with optlaws, such as optimal_table.
     out
-        Folder for the results of a single file; otherwise results/NAME beside the folder of the problem file.
+        Folder for the results of a single file; otherwise results/NAME beside the folder of the problem file, and of a
+        name results/NAME where you are.
     """
+    from optlaws.files.packaged import problem_file, problem_names
     from optlaws.jobs import job
 
     if not files:
-        raise InputError("name at least one problem file, for example problems/optimal_table.toml")
+        raise InputError(f"name at least one problem file, or one of those packaged: {', '.join(problem_names())}")
     if out is not None and len(files) > 1:
         raise InputError("--out takes the results of one problem file; several were named")
-    for file in files:
+    for file, own in [problem_file(file) for file in files]:
         with busy(f"{file}"):
-            written = job.run(file, out)
+            written = job.run(file, out or own)
         for text in (w for w in written if w.suffix == ".md"):
             show(*_lines(text))
         for result in written:
@@ -39,6 +41,6 @@ def _lines(text: Path) -> list[str]:
 
 def _near(file: Path) -> Path:
     try:
-        return file.relative_to(Path.cwd())
+        return file.resolve().relative_to(Path.cwd())
     except ValueError:
         return file

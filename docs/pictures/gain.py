@@ -1,0 +1,44 @@
+"""The picture on the first page: what modified sine's peak velocity and jerk allow."""
+
+from pathlib import Path
+from typing import Any
+
+from optlaws import Chebyshev, Comparison, Problem, at_most, catalogue, drawing, synthesize
+
+PANELS = ((0, "displacement a", None), (1, "velocity b", "B"), (2, "acceleration c", "C"), (3, "jerk j", "J"))
+
+
+def compared() -> Comparison:
+    """Modified sine, and the laws of least C at its B and J with Z of degree 9 and 41."""
+    sine = catalogue["modified sine"].law
+    B, J = sine.constants.B.value, sine.constants.J.value
+    laws = {
+        f"least C, Z of degree {degree}": synthesize(Problem(B=B, J=at_most(J), order=3, basis=Chebyshev(degree))).law
+        for degree in (9, 41)
+    }
+    return Comparison({"modified sine": sine, **laws})
+
+
+def draw(folder: Path) -> list[Path]:
+    """Write gain.svg and gain.png into a folder."""
+    found = compared()
+    with drawing.style():
+        figure = drawing.figure(9.2, 5.6)
+        axes = figure.subplots(2, 2, sharex=True)
+        artists: list[Any] = found.plot(list(axes.flat))
+        for one, (_, label, peak) in zip(axes.flat, PANELS, strict=True):
+            one.set_ylabel(f"{label} (dimensionless)")
+            if peak is not None:
+                values = [getattr(law.constants, peak).value for law in found.laws.values()]
+                same = max(values) - min(values) < 1e-6 * max(values)
+                shown = values[:1] if same else values
+                one.set_title(f"{peak} = {', '.join(f'{value:.4g}' for value in shown)}{' for all' if same else ''}")
+        for one in axes[1]:
+            one.set_xlabel("k (dimensionless time)")
+        lines = [artist for artist in artists if artist in axes[0, 0].lines and len(artist.get_xdata()) > 1]
+        figure.legend(lines, list(found.laws), loc="outside lower center", ncols=3)
+        return drawing.save_picture(figure, folder / "gain")
+
+
+if __name__ == "__main__":
+    draw(Path(__file__).parent)

@@ -1,0 +1,84 @@
+"""Data that come with optlaws: problem files by their names, and the atlas."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from optlaws.errors import InputError
+from optlaws.suggest import unknown_key
+
+_PACKAGE = Path(__file__).resolve().parents[1]
+#: an installed package carries its data; in a checkout they lie beside the package
+_ROOTS = (_PACKAGE / "packaged", _PACKAGE.parent)
+
+
+def packaged(place: str) -> Path:
+    """A file or folder that comes with optlaws, by its place in the repository.
+
+    Raises
+    ------
+    InputError
+        If it is not there.
+
+    Examples
+    --------
+    >>> packaged("problems/optimal_table.toml").name
+    'optimal_table.toml'
+    """
+    for root in _ROOTS:
+        if (root / place).exists():
+            return root / place
+    raise InputError(f"{place} did not come with this optlaws; name the file")
+
+
+def problem_names() -> list[str]:
+    """Names of the problem files that come with optlaws.
+
+    Examples
+    --------
+    >>> "optimal_table" in problem_names()
+    True
+    """
+    return sorted(file.stem for file in packaged("problems").glob("*.toml"))
+
+
+def problem_file(given: Path) -> tuple[Path, Path | None]:
+    """A problem file: the one given or, where that is a name alone and no file, the one of this name.
+
+    Returns
+    -------
+    The file, and the folder for its results where that is not the file's own: `results/NAME` where the user is.
+
+    Raises
+    ------
+    InputError
+        If a name is not known.
+
+    Examples
+    --------
+    >>> file, out = problem_file(Path("optimal_table"))
+    >>> file.name, out.as_posix()
+    ('optimal_table.toml', 'results/optimal_table')
+    """
+    if given.suffix or len(given.parts) != 1 or given.exists():
+        return given, None
+    names = problem_names()
+    if given.name not in names:
+        raise InputError(
+            f"{given} is no file, and {unknown_key(given.name, names, 'packaged problem')} (optlaws has "
+            f"{', '.join(names)})"
+        )
+    return packaged(f"problems/{given.name}.toml"), Path("results") / given.name
+
+
+def or_packaged(given: Path) -> Path:
+    """A file of the user; where there is none, and one of this place comes with optlaws, that.
+
+    Examples
+    --------
+    >>> or_packaged(Path("mine.csv")).name, or_packaged(Path("results/atlas/atlas.csv")).is_file()
+    ('mine.csv', True)
+    """
+    if given.is_absolute() or given.exists() or ".." in given.parts:
+        return given
+    return next((root / given for root in _ROOTS if (root / given).is_file()), given)
