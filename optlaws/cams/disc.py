@@ -12,6 +12,7 @@ from numpy.typing import NDArray
 from optlaws.cams.curves.jets import Pair, turned, variable
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.curves.plane_curve import PlaneCurve
+from optlaws.cams.extremes.of_cam import CamExtremes, cam_extremes
 from optlaws.cams.followers.contact import Contact, FaceContact, RollerContact
 from optlaws.cams.followers.follower import Follower, Place, positive
 from optlaws.cycles.asked.quantities import quantity
@@ -81,7 +82,7 @@ class DiscCam:
     def displacement(self) -> CamMotion:
         """What the follower does, by the cam's angle."""
         motion = as_motion(self.motion, self.follower.axis)
-        _check_velocities(motion)
+        _check_smooth(motion)
         return motion
 
     @kept_property
@@ -89,6 +90,11 @@ class DiscCam:
         """How the follower touches the cam, in numbers."""
         radius, motion = positive(self.base_radius, "base_radius"), self.displacement
         return self.follower.contact(Place(radius, *motion.range, motion.slopes, TURNINGS[self.turning]))
+
+    @kept_property
+    def extremes(self) -> CamExtremes:
+        """Enclosed extremes over the whole turn: pressure angles, radii of curvature, undercut."""
+        return cam_extremes(self.displacement, self.contact)
 
     @kept_property
     def pitch_curve(self) -> PlaneCurve:
@@ -175,8 +181,14 @@ class FollowerCurve(PlaneCurve):
         return turned(pair, variable(self.motion.within(angle), order) * -self.turning + self.phase)
 
 
-def _check_velocities(motion: CamMotion) -> None:
-    """Refuse a motion whose velocity leaps, under which a cam would have a corner."""
+def _check_smooth(motion: CamMotion) -> None:
+    """Refuse a motion whose velocity leaps or whose acceleration has no bound: a cam would have a corner."""
+    for one in motion.stretches:
+        if not np.isfinite(one.extremes(2)).all():
+            raise InputError(
+                f"motion: the acceleration of its law between {degrees(one.start):.6g} and {degrees(one.stop):.6g} deg"
+                " of the cam has no bound, and the cam would have a corner: take a law whose C is finite"
+            )
     inner = np.array(motion.breaks[1:-1] if not motion.closed else motion.breaks)
     if not len(inner):
         return

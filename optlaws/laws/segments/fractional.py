@@ -61,7 +61,7 @@ class FractionalSegment(Segment, kind="fractional"):
     def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
         v = self._v(u)
         if nu > 0:
-            return real_powers.value(self._powers(length, nu), v)
+            return real_powers.value(self.powers(length, nu), v)
         rate = (self.last - self.first) / length
         raised = {e + 1.0: q / ((e + 1.0) * rate) for e, q in self._swing(length).items()}
         start = real_powers.value(raised, np.array(self.first))
@@ -72,13 +72,13 @@ class FractionalSegment(Segment, kind="fractional"):
         return real_powers.value(self._power(length), self._v(u))
 
     def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
-        return self._u(self._powers(length, nu + 1))
+        return self._u(self.powers(length, nu + 1))
 
     def power_candidates(self, length: float) -> Array:  # noqa: D102
         return self._u(real_powers.derivative(self._power(length)))
 
     def square(self, length: float, nu: int) -> float:  # noqa: D102
-        powers = self._powers(length, nu)
+        powers = self.powers(length, nu)
         lowest = min(powers, default=0.0)
         if 2.0 * lowest <= -1.0 and min(self.first, self.last) == 0.0:
             return inf
@@ -101,7 +101,7 @@ class FractionalSegment(Segment, kind="fractional"):
         return replace(self, coefficients=tuple(changed.coef.tolist()))
 
     def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:  # noqa: D102
-        c, j, s = (self._powers(length, nu) for nu in (2, 3, 4))
+        c, j, s = (self.powers(length, nu) for nu in (2, 3, 4))
         terms = ((e, factor * q) for powers, factor in ((c, 1.0), (j, once), (s, twice)) for e, q in powers.items())
         total = real_powers.gathered(terms)
         lowest, highest = min(total, default=0.0), max(total, default=0.0)
@@ -135,7 +135,7 @@ class FractionalSegment(Segment, kind="fractional"):
         terms = ((self.exponent + i + 1.0, q) for i, q in enumerate(self.coefficients))
         return real_powers.gathered((e, q / (e * rate)) for e, q in terms)
 
-    def _powers(self, length: float, nu: int) -> dict[float, float]:
+    def powers(self, length: float, nu: int) -> dict[float, float]:
         """The derivative of order nu, at least 1, in powers of v."""
         if nu == 1:
             return real_powers.gathered([(0.0, self.steady), *self._swing(length).items()])
@@ -146,4 +146,4 @@ class FractionalSegment(Segment, kind="fractional"):
         return found
 
     def _power(self, length: float) -> dict[float, float]:
-        return real_powers.product(self._powers(length, 1), self._powers(length, 2))
+        return real_powers.product(self.powers(length, 1), self.powers(length, 2))
