@@ -69,12 +69,13 @@ def test_a_row_has_its_share_of_the_time() -> None:
     assert 0.3 * took < sum(seconds) <= took
 
 
-def test_convex_studies_have_great_chunks_and_others_small_ones() -> None:
+def test_studies_that_are_solved_as_arrays_have_great_chunks_and_others_small_ones() -> None:
     steps = {"from": 1.5, "to": 1.8, "steps": 100_000}
     for problem, vary, chunk in (
         ({"order": 4}, {"B": steps}, 4096),
         ({"order": 4}, {"minimise": ["C", "{w}*C/4 + J/40"], "w": [0.5, 1.0], "B": steps}, 4096),
-        ({"order": 4}, {"minimise": ["C", "D"], "B": steps}, 64),
+        ({"order": 4}, {"minimise": ["C", "D"], "B": steps}, 4096),
+        ({"order": 4}, {"minimise": ["C", "0.5*C + 0.5*D"], "B": steps}, 64),
         ({"order": 4}, {"D": ["free", 6.0], "B": steps}, 64),
         ({"order": 4, "bounds": {"D": 6.0}}, {"B": steps}, 64),
     ):
@@ -107,14 +108,50 @@ def test_an_error_of_all_spoils_no_more_than_its_own_row(monkeypatch: pytest.Mon
     assert [msgspec.json.decode(row)["status"] for row in rows(one)] == ["optimal", "optimal"]
 
 
-def test_text_with_a_place_for_B_is_solved_in_turn() -> None:
+def test_text_with_a_place_for_B_is_no_line_along_it() -> None:
     run = [(0, {"B": 1.5}), (1, {"B": 1.6})]
-    assert together.convex_array({"order": 4, "minimise": "{B}*C + J"}, run) is None
-    assert together.convex_array({"order": 4, "minimise": "D"}, run) is None
-    assert together.convex_array({"order": 4, "minimise": "Q"}, run) is None
-    array = together.convex_array({"order": 4, "minimise": "J"}, run)
+    assert not together.along_B({"order": 4, "minimise": "{B}*C + J"}, run)
+    assert together.along_B({"order": 4, "minimise": "J"}, run)
+    for minimise in ("D", "Q"):
+        assert together.array_along_B({"order": 4, "minimise": minimise}, run, "quick") is None
+    array = together.array_along_B({"order": 4, "minimise": "J"}, run, "quick")
     assert array is not None
     assert array[1] == Problem(order=4, minimise="J", B=1.6)
+
+
+def test_any_number_may_run_and_the_rows_are_those_of_each_alone() -> None:
+    asked = {
+        "problem": {"order": 4, "degree": 5},
+        "vary": {
+            "minimise": ["C", "{w}*C/4 + J/32"],
+            "w": [0.5, 1.0],
+            "J": [[0.0, J] for J in np.linspace(57.0, 90.0, 130).tolist()],
+        },
+        "chunk": 520,
+    }
+    asked["problem"] |= {"B": 1.7}  # type: ignore[operator]
+    (one,) = tasks(asked)
+    assert [len(block) for block in blocks(one)] == [260, 260]
+    many = [msgspec.json.decode(row) for row in rows(one)]
+    (alone,) = tasks(asked, alone=True)
+    picked = [0, 129, 260, 300, 519]
+    turned = msgspec.structs.replace(alone, points=[alone.points[i] for i in picked])
+    for i, row in zip(picked, map(msgspec.json.decode, rows(turned)), strict=True):
+        assert all(many[i][name] == row[name] for name in ("index", "key", "inputs", "status"))
+        assert (many[i]["error"] is None) == (row["error"] is None)
+        for name in ("objective", "lower_bound", "limit", "B", "C", "J") if row["law"] else ():
+            assert many[i][name] == pytest.approx(row[name], rel=1e-9)
+
+
+def test_lines_are_whole_in_chunks_of_many() -> None:
+    for vary, chunk in (
+        ({"minimise": ["C", "D"], "order": [3, 4], "B": {"from": 1.5, "to": 2.0, "steps": 57}}, 15),
+        ({"J": [[0, J] for J in range(60, 100)], "B": {"from": 1.5, "to": 2.0, "steps": 57}}, 171),
+        ({"minimise": ["C", "D"], "order": [3, 4], "B": {"from": 1.5, "to": 2.0, "steps": 5}}, 2),
+        ({"degree": [5, 9], "order": list(range(2, 22)), "B": {"from": 1.5, "to": 2.0, "steps": 50}}, 150),
+    ):
+        points = Points.of(read_study({"problem": {"degree": 5, "order": 4, "minimise": "C"}, "vary": vary}))
+        assert points.chunk == chunk
 
 
 def test_stored_laws_are_those_of_the_solutions() -> None:

@@ -18,6 +18,8 @@ from optlaws.numbers import MOST_POINTS, whole
 from optlaws.studies.points.axes import Axis, axes
 from optlaws.studies.points.study_file import StudyFile, entries
 from optlaws.synthesis import FUNCTIONALS, Problem
+from optlaws.synthesis.arrays.lines import least_count
+from optlaws.synthesis.arrays.powers import least_power
 
 # a cold start costs some warm ones; proofs of tight bounds cost more than any start
 _CHUNK, _TIGHT_CHUNK, _CHUNKS = 64, 4, 16
@@ -65,18 +67,23 @@ class Points:
         if self.given is not None:
             return self.given
         most = _TIGHT_CHUNK if self.study.bound == "tight" else _TOGETHER if self._together else _CHUNK
-        return self.study.chunk or min(most, ceil(len(self) / _CHUNKS))
+        if self.study.chunk:
+            return self.study.chunk
+        wanted = min(most, ceil(len(self) / _CHUNKS))
+        # neighbours along the last axis are on one line, which had better be whole
+        line = self.shape[-1]
+        return min(ceil(wanted / line) * line, most) if most == _TOGETHER and line <= wanted else wanted
 
     @property
     def _together(self) -> bool:
-        """Whether every point is of a convex problem, so that many are solved as arrays."""
+        """Whether every point is of a problem of which many are solved as arrays."""
         if not all(map(_only_numbers, self.study.names())):
             return False
         base, first = self.study.problem.given(), self.inputs(0)
         objectives = [value for axis in self.axes for value in axis.values("minimise")] or [base.get("minimise", "C")]
         try:
             asked = (Problem.from_dict(entries(base, {**first, "minimise": one})) for one in objectives)
-            return all(problem.convex for problem in asked)
+            return all(one.convex or (least_power(one) and self.shape[-1] >= least_count(one)) for one in asked)
         except InputError:
             return False
 

@@ -55,8 +55,8 @@ def rows(task: Task, begin: int = 0) -> Iterator[bytes]:
 def blocks(task: Task, begin: int = 0) -> Iterator[list[bytes]]:
     """The rows of a chunk from one of its points on, those that came together in one list.
 
-    Convex problems that differ in B are solved together, unless the task wants each alone; others in turn. A chunk
-    begins cold, and so does a point after one without a law: its rows depend on nothing solved before it.
+    Problems that differ in numbers are solved together where they can be, unless the task wants each alone; others in
+    turn. A chunk begins cold, and so does a point after one without a law: its rows depend on nothing solved before it.
     """
     encode = msgspec.json.Encoder().encode
     for module in task.imports:
@@ -71,17 +71,20 @@ def blocks(task: Task, begin: int = 0) -> Iterator[list[bytes]]:
 
 def _together(task: Task, run: Run) -> Iterator[Row] | None:
     """The rows of points that are solved as arrays; None where they cannot be."""
-    problems = None if task.alone or len(run) == 1 else together.convex_array(task.problem, run)
+    if task.alone or len(run) == 1:
+        return None
+    along = together.along_B(task.problem, run)
+    problems = (together.array_along_B if along else together.array_of)(task.problem, run, task.bound)
     if problems is None:
         return None
     try:
         found, seconds = together.solved_rows(problems, task.bound)
     except Exception:  # noqa: BLE001 - whichever point it is of, alone it spoils its own row only
         return None
-    blanks = _blanks(task, run)
+    blanks = _blanks(task, run) if along else (blank(task, index, inputs) for index, inputs in run)
     return (
-        {**blank, **(_of_error(row, seconds) if isinstance(row, OptlawsError) else {**row, "seconds": seconds})}
-        for blank, row in zip(blanks, found, strict=True)
+        {**one, **(_of_error(row, seconds) if isinstance(row, OptlawsError) else {**row, "seconds": seconds})}
+        for one, row in zip(blanks, found, strict=True)
     )
 
 

@@ -1,4 +1,4 @@
-"""Points of a study that are solved together, as arrays, where they are convex."""
+"""Points of a study that are solved together, as arrays."""
 
 from __future__ import annotations
 
@@ -14,6 +14,8 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError, OptlawsError
 from optlaws.studies.points.study_file import entries
 from optlaws.synthesis import Problem, ProblemArray, SolutionArray
+from optlaws.synthesis.arrays.lines import least_count, lines_of
+from optlaws.synthesis.arrays.powers import least_power
 from optlaws.synthesis.problem.fields import from_entries
 from optlaws.synthesis.problem.mixtures import meant
 from optlaws.synthesis.solve_array import solved
@@ -25,8 +27,12 @@ Row = dict[str, Any]
 _NUMBERS = ("objective", "lower_bound", "gap", "limit", "B", "C", "D", "J", "rms_c")
 
 
+#: of the points of a run: so many must be on lines, else each is solved from the one before it
+_MOSTLY = 0.75
+
+
 def runs(points: Sequence[tuple[int, Inputs]]) -> Iterator[list[tuple[int, Inputs]]]:
-    """Points in their order, cut where anything but the number B changes.
+    """Points in their order, cut where anything but numbers changes.
 
     Examples
     --------
@@ -36,32 +42,74 @@ def runs(points: Sequence[tuple[int, Inputs]]) -> Iterator[list[tuple[int, Input
     """
 
     def shared(point: tuple[int, Inputs]) -> tuple[object, ...]:
-        inputs = point[1]
-        is_number = isinstance(inputs.get("B"), float)
-        return (is_number, *((name, repr(value)) for name, value in inputs.items() if name != "B" or not is_number))
+        return tuple((name, None if _numbers(value) else repr(value)) for name, value in point[1].items())
 
     return (list(run) for _, run in groupby(points, shared))
 
 
-def convex_array(base: Mapping[str, Any], run: Sequence[tuple[int, Inputs]]) -> ProblemArray | None:
-    """The problems of a run as one array; None where they are none, are not convex, or text has places for B.
+def _numbers(value: object) -> bool:
+    """Whether a value is a number, or a pair of bounds."""
+    pair = value if isinstance(value, list | tuple) else (value,)
+    return all(isinstance(one, float) or (isinstance(one, int) and pair is value) for one in pair)
+
+
+def along_B(base: Mapping[str, Any], run: Sequence[tuple[int, Inputs]]) -> bool:
+    """Whether the points of a run differ in the number B alone, and no text has places for it.
 
     Examples
     --------
-    >>> convex_array({"order": 4}, [(0, {"B": 1.5}), (1, {"B": 1.6})]).shape
-    (2,)
+    >>> along_B({"order": 4}, [(0, {"B": 1.5}), (1, {"B": 1.6})])
+    True
+    >>> along_B({"order": 4, "minimise": "{B}*C + J"}, [(0, {"B": 1.5}), (1, {"B": 1.6})])
+    False
     """
     first = run[0][1]
     texts = [value for value in (*base.values(), *base.get("bounds", {}), *first.values()) if isinstance(value, str)]
     if not isinstance(first.get("B"), float) or any("{B}" in text or "{1-B}" in text for text in texts):
-        return None
+        return False
+    others = {name: value for name, value in first.items() if name != "B"}
+    return all({name: value for name, value in inputs.items() if name != "B"} == others for _, inputs in run)
+
+
+def array_along_B(base: Mapping[str, Any], run: Sequence[tuple[int, Inputs]], bound: str) -> ProblemArray | None:
+    """The problems of a run along B as one array; None where they are none or are better solved in turn.
+
+    Examples
+    --------
+    >>> array_along_B({"order": 4}, [(0, {"B": 1.5}), (1, {"B": 1.6})], "quick").shape
+    (2,)
+    """
     try:
-        fields = from_entries(entries(base, {**first, "B": 2.0}))
-        if not Problem(**fields).convex:
+        fields = from_entries(entries(base, {**run[0][1], "B": 2.0}))
+        if not _worth_an_array(Problem(**fields), len(run), bound):
             return None
     except InputError:
         return None
     return ProblemArray(**{**fields, "B": np.array([inputs["B"] for _, inputs in run])})
+
+
+def _worth_an_array(problem: Problem, count: int, bound: str) -> bool:
+    return problem.convex or (bound == "quick" and least_power(problem) and count >= least_count(problem))
+
+
+def array_of(base: Mapping[str, Any], run: Sequence[tuple[int, Inputs]], bound: str) -> ProblemArray | None:
+    """The problems of a run in which several numbers vary; None unless all are problems, most of them on lines.
+
+    Examples
+    --------
+    >>> points = [(i, {"B": 1.7, "J": [0.0, 60.0 + i]}) for i in range(150)]
+    >>> array_of({"order": 4}, points, "quick").shape, array_of({"order": 4}, points[:9], "quick")
+    ((150,), None)
+    """
+    try:
+        problems = [Problem.from_dict(entries(base, inputs)) for _, inputs in run]
+    except InputError:
+        return None
+    if not all(problem.convex or (bound == "quick" and least_power(problem)) for problem in problems[:1]):
+        return None
+    lines = lines_of(problems, np.arange(len(problems)))
+    on_lines = sum(len(line.places) for line in lines)
+    return ProblemArray.of(problems) if on_lines >= _MOSTLY * len(problems) else None
 
 
 def solved_rows(problems: ProblemArray, bound: str) -> tuple[list[Row | OptlawsError], float]:
