@@ -29,7 +29,9 @@ _DEEPEST = 12
 _FEW = 20
 #: of the size of what is interpolated: one step of Newton's method makes the square of it
 _TAIL = 1e-8
-_CHUNK = 1024
+#: laws at a time, and bytes of their matrices
+_CHUNKS = (128, 1024)
+_AT_HAND = 2**21
 _STARTS = np.array([0.5, 0.25, 0.75, 0.0, 1.0])
 #: of the objective
 _GAP = 1e-10
@@ -71,10 +73,18 @@ def _fill(found: Found, path: Path, segment: Segment, places: NDArray[np.intp], 
         _affine(found, path, segment, places, t)
         return
     for own, guess in _guesses(path, segment, t, (segment.begin, segment.end)):
-        for i in range(0, len(own), _CHUNK):
-            chunk = own[i : i + _CHUNK]
+        size = _chunk(structure)
+        for i in range(0, len(own), size):
+            chunk = own[i : i + size]
             laws = _Laws(found, path, structure, places[chunk], path.numbers(t[chunk]))
-            laws.solve(guess.taken(slice(i, i + _CHUNK)))
+            laws.solve(guess.taken(slice(i, i + size)))
+
+
+def _chunk(structure: Structure) -> int:
+    """How many laws at a time: the conditions' matrices of more would not stay where they are at hand."""
+    program = structure.model.program
+    system = program.size + structure.count + len(program.equalities)
+    return int(np.clip(_AT_HAND // (8 * system**2), *_CHUNKS))
 
 
 @dataclass(frozen=True, eq=False)

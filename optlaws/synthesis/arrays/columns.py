@@ -18,6 +18,8 @@ Array = NDArray[np.float64]
 #: of a row: what rounding may hide of it, as a share of the sum of its parts' sizes
 _ROUNDING = 4 * 2.0**-53
 _NO_NORM = 1e-300
+#: of fewer polynomials' values cosines are quicker than the recurrence
+_SMALL = 4096
 
 
 class Tangents(ABC):
@@ -167,6 +169,8 @@ def tangents_of(family: Family) -> Columns | CurvedTangents | None:
 
 def _polynomials(u: Array, count: int) -> Array:
     """Chebyshev polynomials at many places, shape (count, places)."""
+    if u.size * count < _SMALL:
+        return np.asarray(np.cos(np.arange(count)[:, None] * np.arccos(np.minimum(np.maximum(u, -1.0), 1.0))))
     found = np.empty((max(count, 2), len(u)))
     found[0], found[1] = 1.0, np.clip(u, -1.0, 1.0)
     twice = 2.0 * found[1]

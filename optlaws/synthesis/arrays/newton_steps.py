@@ -144,8 +144,8 @@ def converged(structure: Structure, numbers: Numbers, states: States) -> tuple[S
 
 def clipped(structure: Structure, states: States) -> States:
     """The states with the places that rounding took out of their domain put on its end."""
-    domains = np.array([structure.model.program.families[i].domain for i in structure.family]).reshape(-1, 2)
-    return replace(states, u=np.clip(states.u, domains[:, 0], domains[:, 1]))
+    low, high = structure.domains.T
+    return replace(states, u=np.minimum(np.maximum(states.u, low), high))
 
 
 def _at(rows: Array, x: Array) -> Array:

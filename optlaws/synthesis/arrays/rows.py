@@ -59,6 +59,17 @@ class Structure:
         return np.array([families[i].slack for i in self.family]).reshape(self.count, -1)
 
     @kept_property
+    def domains(self) -> Array:
+        """The least and the greatest place of each contact's row."""
+        families = self.model.program.families
+        return np.array([families[i].domain for i in self.family]).reshape(-1, 2)
+
+    @kept_property
+    def held(self) -> NDArray[np.bool_]:
+        """Which contacts are held at an end off which they could move."""
+        return ~self.free & (self.domains[:, 0] != self.domains[:, 1])
+
+    @kept_property
     def rounding(self) -> Array:
         """What rounding may hide of each entry of each contact's row."""
         columns = columns_of(self.model)

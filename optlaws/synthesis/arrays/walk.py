@@ -26,7 +26,9 @@ Array = NDArray[np.float64]
 #: of the path: the first stride
 _FIRST = 0.02
 _STRIDES = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0])
-_CLOSER = np.array([1e-1, 1e-2, 1e-4])
+_CLOSER = np.array([1e-1, 1e-2, 1e-4, 1e-6])
+#: so near to an event no more than this can be broken: where more is, Newton's method went astray
+_ASTRAY = 1e-3
 #: of the path: an event is known to lie in no wider a stretch
 _SHARP = 1e-9
 _ROUNDS = 24
@@ -216,8 +218,20 @@ class Walk:
                 broken = sorted([*broken, *known], key=lambda one: abs(one[0] - good))[:2]
                 bad = broken[0][0]
             if min(abs(bad - good), stride) <= _SHARP * self.reach:
-                break
+                if not broken or broken[0][1] <= _ASTRAY or not self._met(segment, bad):
+                    break
+                good, bad, broken = bad, goal, []
+                stride = _FIRST * self.reach
+                if good == goal:
+                    return None
         return bad if abs(bad - good) <= _SHARP * self.reach else good + way * _SHARP * self.reach
+
+    def _met(self, segment: Segment, t: float) -> bool:
+        """Whether a law of the segment is found at a t to which it has come near; it is then known."""
+        rows, sound, _ = self._solved(segment.structure, np.array([t]), segment.guessed(np.array([t])))
+        if sound[0]:
+            segment.joined(np.array([t]), rows)
+        return bool(sound[0])
 
     def _solved(self, structure: Structure, t: Array, guess: States) -> tuple[Array, NDArray[np.bool_], Array]:
         """States at some t, which of them are proven optimal, and what is most broken where Newton's method ends."""
@@ -239,7 +253,7 @@ _OUTSIDE = 1e-12
 
 def _on_ends(structure: Structure, u: Array) -> Array:
     """The places with those that may not move on the ends of their domains, off which rounding may have put them."""
-    ends = np.array([structure.model.program.families[i].domain for i in structure.family]).reshape(-1, 2)
+    ends = structure.domains
     nearest = np.where(np.abs(u - ends[:, 0]) < np.abs(u - ends[:, 1]), ends[:, 0], ends[:, 1])
     return np.where(~structure.free & (np.abs(u - nearest) < _AT_END), nearest, u)
 
@@ -274,6 +288,8 @@ def _probes(good: float, bad: float, stride: float, broken: list[tuple[float, fl
         if more > less > 0.0:
             event = near - less * (far - near) / (more - less)
             found = np.concatenate([found[:2], event + (near - event) * _CLOSER, event + (good - event) * _CLOSER])
+    elif len(broken) == 1:
+        found = np.concatenate([found, bad + (good - bad) * _CLOSER])
     low, high = min(good, bad), max(good, bad)
     kept = found[(low < found) & (found < high)]
     if not broken:

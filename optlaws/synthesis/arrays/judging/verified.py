@@ -73,11 +73,9 @@ def judged(path: Path, structure: Structure, numbers: Numbers, states: States) -
     value[:, :, :-1] -= structure.slack
     residual = _at(value, states.x) - numbers.bounds[:, structure.family]
     turned = _at(slope, states.x)
-    domains = np.array([program.families[i].domain for i in structure.family]).reshape(-1, 2)
     # toward the inside of the domain
-    inward = np.where(states.u >= domains[:, 1], -turned, turned)
-    single = domains[:, 0] == domains[:, 1]
-    held = ~structure.free & ~single
+    inward = np.where(states.u >= structure.domains[:, 1], -turned, turned)
+    held = structure.held
     tangent = np.where(structure.free, np.abs(turned), np.where(held, np.maximum(inward, 0.0), 0.0))
     reach = np.array([_reach(columns) for columns in columns_of(path.model)])[structure.family]
     room = np.maximum(1.0, np.abs(states.x @ structure.slack.T + numbers.bounds[:, structure.family]))
