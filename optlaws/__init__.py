@@ -73,6 +73,7 @@ _load, __dir__, __all__ = face(
         "optlaws.synthesis.solve_many": "sweep synthesize_many",
         "optlaws.synthesis.spaces.bases": "Basis Bernstein Chebyshev Pieces Powers",
         "optlaws.synthesis.spaces.end_conditions": "BoundaryConditions construct",
+        "optlaws.synthesis.spaces.pieces.periodic": "PeriodicPieces",
         "optlaws.synthesis.spaces.splines": "BSplines",
     },
 )
@@ -100,6 +101,7 @@ declare(
     "basis",
     {
         "optlaws.synthesis.spaces.bases": "bernstein chebyshev pieces powers",
+        "optlaws.synthesis.spaces.pieces.periodic": "periodic",
         "optlaws.synthesis.spaces.splines": "bsplines",
     },
 )

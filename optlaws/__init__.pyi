@@ -122,6 +122,7 @@ from optlaws.synthesis.spaces.bases import Pieces as Pieces
 from optlaws.synthesis.spaces.bases import Powers as Powers
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions as BoundaryConditions
 from optlaws.synthesis.spaces.end_conditions import construct as construct
+from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces as PeriodicPieces
 from optlaws.synthesis.spaces.splines import BSplines as BSplines
 
 __version__: str
@@ -169,6 +170,7 @@ __all__ = [
     "OptlawsError",
     "Peak",
     "PeakCertificate",
+    "PeriodicPieces",
     "Pieces",
     "PiecewiseLaw",
     "PolynomialLaw",

@@ -172,7 +172,7 @@ def _is_given(value: object) -> bool:
 
 
 def _check_ends(entries: dict[str, Any]) -> None:
-    """Ask for the order where nothing tells it; laws with other ends than rest, or an inflexion, are unsymmetric."""
+    """Ask for the order where nothing tells it; laws that repeat, do not rest or have an inflexion are unsymmetric."""
     ends = [entries[name] for name in ("start", "end") if name in entries]
     if len(ends) == 1:
         raise InputError("--start and --end go together")
@@ -180,7 +180,8 @@ def _check_ends(entries: dict[str, Any]) -> None:
         boundary = BoundaryConditions(*map(tuple, ends))
     elif "order" not in entries:
         raise InputError("give --order, the number of conditions at each end, or the conditions by --start and --end")
-    if "inflexion" in entries or (ends and boundary != BoundaryConditions.rest(boundary.order)):
+    repeats = entries.get("basis") == "periodic"
+    if repeats or "inflexion" in entries or (ends and boundary != BoundaryConditions.rest(boundary.order)):
         entries["symmetric"] = False
 
 
@@ -189,4 +190,8 @@ def _check_breaks(entries: Mapping[str, Any]) -> None:
         return
     piecewise = "breaks" in inspect.signature(Basis.kinds[entries["basis"]]).parameters
     if piecewise != ("breaks" in entries) or ("continuity" in entries and not piecewise):
-        raise InputError("--basis bsplines and pieces need --breaks, the others take neither --breaks nor --continuity")
+        raise InputError(
+            "--basis bsplines, pieces and periodic need --breaks, the others take neither --breaks nor --continuity"
+        )
+    if "straight" in entries and entries["basis"] != "periodic":
+        raise InputError("--straight is for --basis periodic alone")

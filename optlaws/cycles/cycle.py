@@ -189,13 +189,19 @@ class Cycle:
     @property
     def joints(self) -> tuple[dict[str, Any], ...]:
         """Every joint: its time, and by how much velocity, acceleration and jerk leap there; 0 where they do not."""
-        pieces = self.pieces
         found = []
-        for i, piece in enumerate(pieces):
-            leaps = [piece.end(nu, 0) - pieces[i - 1].end(nu, 1) for nu in (1, 2, 3)]
+        for start in self._layout.starts[:-1]:
+            leaps = [self._leap(start, nu) for nu in (1, 2, 3)]
             kept = [0.0 if abs(leap) <= JOINED * self.peak(nu) else leap for nu, leap in enumerate(leaps, start=1)]
-            found.append({"time": piece.start, "velocity": kept[0], "acceleration": kept[1], "jerk": kept[2]})
+            found.append({"time": start, "velocity": kept[0], "acceleration": kept[1], "jerk": kept[2]})
         return tuple(found)
+
+    def _leap(self, start: float, nu: int) -> float:
+        """By how much a derivative leaps where a segment starts: between pieces, or inside one of several segments."""
+        for i, piece in enumerate(self.pieces):
+            if piece.start == start:
+                return piece.end(nu, 0) - self.pieces[i - 1].end(nu, 1)
+        return next(piece.leap(start, nu) for piece in self.pieces if piece.start < start < piece.stop)
 
     @kept_property
     def effort(self) -> Effort:

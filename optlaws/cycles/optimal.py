@@ -6,22 +6,26 @@ peaks is the least of the greatest ones, and the least sum of squares is the sum
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import groupby
+from math import inf
+from operator import itemgetter
 from typing import Any
 
 from optlaws.cycles.asked.conversion import Piece, factor
 from optlaws.cycles.asked.joints import Span, State
-from optlaws.cycles.asked.programme import AXES, Stretch, in_small_units
+from optlaws.cycles.asked.programme import AXES, Stretch, in_small_units, is_optimal
 from optlaws.cycles.asked.quantities import quantity
 from optlaws.cycles.asked.segments import Free, Move
 from optlaws.cycles.drive import Drive
+from optlaws.cycles.joined import joined_basis, joint_windows, place
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.makers import peak, rms
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
-from optlaws.synthesis.problem.windows import Window, via
+from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.spaces.bases import Chebyshev
@@ -125,7 +129,8 @@ def scale(span: Span) -> float:
     if span.displacement:
         return span.displacement
     ways = [abs(position - span.offset) for _, position in span.via]
-    ways += [abs(state.velocity) * span.duration for state in (span.first, span.last)]
+    known = (one for one in (span.first, span.last, *span.states) if one is not None)
+    ways += [abs(state.velocity) * span.duration for state in known]
     return max(ways, default=0.0)
 
 
@@ -139,12 +144,10 @@ def span_problem(span: Span, wanted: Wanted, axis: str, stroke: float) -> Proble
     """
     if stroke == 0.0:
         raise InputError(f"{span.where} has nothing to move: take a Dwell")
-    ends = [_end(state, span.duration, stroke, wanted.order) for state in (span.first, span.last)]
-    plain = not span.via and not any(any(one) for one in ends)
-    windows = tuple(
-        via("a", (position - span.offset) / stroke, at=(time - span.start) / span.duration)
-        for time, position in span.via
-    )
+    if span.turns or len(span.stretches) > 1 or span.via:
+        return _problem_of_several(span, wanted, axis, stroke)
+    ends = _ends(span, stroke, wanted.order)
+    plain = not any(any(one[1:]) for one in (ends.start, ends.end))
     bounds, parts = _limits(span, wanted, axis, stroke)
     forced = OBJECTIVES[wanted.minimise][0] < 0
     return Problem(
@@ -153,10 +156,31 @@ def span_problem(span: Span, wanted: Wanted, axis: str, stroke: float) -> Proble
         minimise=_objective(span, wanted, stroke),
         monotone=forced and wanted.drive is not None and wanted.drive.dry > 0.0,
         symmetric=plain and not forced and not parts,
-        boundary=BoundaryConditions((0.0, *ends[0]), (span.displacement / stroke, *ends[1])),
-        windows=windows + parts,
+        boundary=ends,
+        windows=parts,
         bounds=bounds,
     )
+
+
+def _problem_of_several(span: Span, wanted: Wanted, axis: str, stroke: float) -> Problem:
+    """One law for several stretches, or through points on the way."""
+    bounds, parts = _limits(span, wanted, axis, stroke)
+    minimised = max(OBJECTIVES[wanted.minimise][0], 3 if 3 in wanted.limits else 0)
+    plain = BoundaryConditions((0.0,), (span.displacement / stroke,))
+    return Problem(
+        order=1 if span.turns else wanted.order,
+        basis=joined_basis(span, wanted.order, wanted.degree, minimised),
+        minimise=_objective(span, wanted, stroke),
+        symmetric=False,
+        boundary=plain if span.turns else _ends(span, stroke, wanted.order),
+        windows=(*joint_windows(span, wanted.order, stroke), *parts),
+        bounds=bounds,
+    )
+
+
+def _ends(span: Span, stroke: float, order: int) -> BoundaryConditions:
+    first, last = (_end(state, span.duration, stroke, order) for state in (span.first, span.last))
+    return BoundaryConditions((0.0, *first), (span.displacement / stroke, *last))
 
 
 def _end(state: State, duration: float, stroke: float, order: int) -> tuple[float, ...]:
@@ -167,23 +191,38 @@ def _end(state: State, duration: float, stroke: float, order: int) -> tuple[floa
 def _limits(span: Span, wanted: Wanted, axis: str, stroke: float) -> tuple[dict[str, Range], tuple[Window, ...]]:
     """Limits of the whole span as bounds of its constants, those of parts of it as windows."""
     _check_mean(span, wanted, axis)
-    of_each = [limits_of_stretch(one, wanted, axis) for one in span.stretches]
-    if all(one == of_each[0] for one in of_each):
-        return {_PEAKS[nu]: Range(0.0, _law_limit(span, stroke, nu, most)) for nu, most in of_each[0].items()}, ()
-    stops = (*span.starts[1:], span.stop)
+    of_each = [limits_of_stretch(one, wanted, axis) if is_optimal(one.given) else None for one in span.stretches]
+    sought = [one for one in of_each if one is not None]
+    if all(one == sought[0] for one in sought) and _straight_within(span, sought[0].get(1, inf)):
+        return {_PEAKS[nu]: Range(0.0, _law_limit(span, stroke, nu, most)) for nu, most in sought[0].items()}, ()
     windows = []
-    for own, start, stop in zip(of_each, span.starts, stops, strict=True):
-        first, last = ((time - span.start) / span.duration for time in (start, stop))
+    for own, start, stop in _alike(of_each, (*span.starts, span.stop)):
         for nu, most in own.items():
             high = _law_limit(span, stroke, nu, most)
-            windows.append(Window("abcj"[nu], -high, high, first, last))
+            windows.append(Window("abcj"[nu], -high, high, place(span, start), place(span, stop)))
     return {}, tuple(windows)
+
+
+def _straight_within(span: Span, most: float) -> bool:
+    """Whether uniform motions keep a limit of the velocity."""
+    times = zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True)
+    return all(is_optimal(one.given) or abs(one.displacement) <= most * (stop - start) for one, start, stop in times)
+
+
+def _alike(
+    of_each: Sequence[dict[int, float] | None], times: Sequence[float]
+) -> Iterator[tuple[dict[int, float], float, float]]:
+    """Limits of stretches from where to where they are the same."""
+    for limits, several in groupby(zip(of_each, times, times[1:], strict=False), key=itemgetter(0)):
+        parts = list(several)
+        if limits is not None:
+            yield limits, parts[0][1], parts[-1][2]
 
 
 def _check_mean(span: Span, wanted: Wanted, axis: str) -> None:
     """Refuse a limit of the velocity that is no more than the mean velocity: such a law cannot even start from rest."""
     for one, start, stop in zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True):
-        most = limits_of_stretch(one, wanted, axis).get(1)
+        most = limits_of_stretch(one, wanted, axis).get(1) if is_optimal(one.given) else None
         mean = abs(one.displacement) / (stop - start)
         if most is not None and mean >= most:
             raise InfeasibleProblem(

@@ -16,6 +16,7 @@ from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces
 from optlaws.verification.enclosing.balls import ball, rational, upper
 from optlaws.verification.enclosing.pieces import Extremes, PolynomialPiece, between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw
@@ -49,6 +50,7 @@ def excesses(problem: Problem, law: ExactLaw) -> list[Excess]:
         return [
             *_shape(problem, law),
             *_ends(problem, law),
+            *_repeated(problem, law),
             *_velocity(problem, law),
             *(excess for constant, wanted in problem.bounded for excess in _constant(law, constant, wanted)),
             *_windows(problem, law),
@@ -70,6 +72,18 @@ def _ends(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
         a = law.polynomials
         low, high = least_and_greatest([extreme for pair in _facing(a) for extreme in _uneven(*pair)])
         yield _of("a(k) + a(1-k) = 1", law.magnitude((low, high)), _size(law, 0), _ROUNDING)
+
+
+def _repeated(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
+    """That a law which repeats ends as it begins, and has no acceleration where it is to be straight."""
+    basis, pieces = problem.basis, law.polynomials
+    if not isinstance(basis, PeriodicPieces) or len(pieces) != len(basis.breaks) - 1:
+        return
+    for nu in range(1, basis.continuity + 1):
+        jump = abs(pieces[-1].exact(nu, pieces[-1].stop) - pieces[0].exact(nu, pieces[0].start))
+        yield _of(f"derivative {nu} at the end as at the start", arb(jump), _size(law, nu), _ROUNDING)
+    for i in basis.straight:
+        yield _of(f"acceleration on piece {i}", ball(sum(map(abs, pieces[i].stored))), _size(law, 2), _ROUNDING)
 
 
 def _shape(problem: Problem, law: ExactLaw) -> Iterator[Excess]:

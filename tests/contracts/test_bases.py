@@ -16,7 +16,18 @@ from numpy.typing import NDArray
 from scipy.interpolate import BPoly
 
 import optlaws
-from optlaws import Basis, Bernstein, BoundaryConditions, BSplines, Chebyshev, InputError, Pieces, Powers, construct
+from optlaws import (
+    Basis,
+    Bernstein,
+    BoundaryConditions,
+    BSplines,
+    Chebyshev,
+    InputError,
+    PeriodicPieces,
+    Pieces,
+    Powers,
+    construct,
+)
 from optlaws.synthesis import PiecewiseBasis, PolynomialBasis
 from optlaws.synthesis.spaces.bases import basis as basis_called
 from optlaws.synthesis.spaces.of_basis import space_of
@@ -43,16 +54,20 @@ EXAMPLES: tuple[Basis, ...] = (
     Pieces(4, 5, 3),
     Pieces((0.0, 0.2, 0.5, 0.8, 1.0), 6, 4),
     Pieces(UNEVEN, 7, 3),
+    PeriodicPieces(UNEVEN, 5, 3),
+    PeriodicPieces(5, 4, 2, straight=(1, 4)),
 )
 #: by name: one that leaves symmetric laws no freedom, or cannot be symmetric
 REFUSED = {"powers": Powers(0), "chebyshev": Chebyshev(0), "bernstein": Bernstein(0), "bsplines": BSplines(UNEVEN)}
-REFUSED |= {"pieces": Pieces(3)}
+REFUSED |= {"pieces": Pieces(3), "periodic": PeriodicPieces(3)}
 ENDS = (
     BoundaryConditions.rest(2),
     BoundaryConditions.rest(3),
     BoundaryConditions((0.0, 0.5), (1.0, 0.25)),
     BoundaryConditions((0.25, 0.5, -1.0), (1.0, -0.25, 3.0)),
 )
+#: laws that repeat have no others
+TURNS = (BoundaryConditions((0.0,), (0.0,)), BoundaryConditions((0.25,), (1.0,)))
 K = np.linspace(0.0, 1.0, 61)
 #: Z by others' hands, of the polynomial bases
 FUNCTIONS: dict[str, Callable[[Array], Array]] = {
@@ -71,7 +86,8 @@ def entries(basis: Basis) -> dict[str, Any]:
 
 def spaces(basis: Basis) -> list[LawSpace]:
     """Unsymmetric laws with every end conditions, symmetric ones from rest to rest where there are any."""
-    found = [space_of(basis, ends, symmetric=False) for ends in ENDS]
+    ends = TURNS if isinstance(basis, PeriodicPieces) else ENDS
+    found = [space_of(basis, one, symmetric=False) for one in ends]
     if basis.mirrored and basis != REFUSED[basis.name]:
         found += [space_of(basis, BoundaryConditions.rest(order), symmetric=True) for order in (2, 3)]
     return found
@@ -159,7 +175,8 @@ def test_rows_are_the_law(basis: Basis) -> None:
 
 @every_basis
 def test_the_mirror_image_of_a_law_is_in_the_space_if_it_says_so(basis: Basis) -> None:
-    space = space_of(basis, BoundaryConditions.rest(3), symmetric=False)
+    ends = TURNS[1] if isinstance(basis, PeriodicPieces) else BoundaryConditions.rest(3)
+    space = space_of(basis, ends, symmetric=False)
     nothing = coordinates(space, np.zeros(space.terms))
     laws = [space.law(nothing).b(K), *(space.law(point(space, seed)).b(K) for seed in range(space.terms + 1))]
     free = np.array([one - laws[0] for one in laws[1:]]).T

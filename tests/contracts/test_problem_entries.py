@@ -21,6 +21,8 @@ from optlaws.synthesis.solve import _neighbours
 
 SPLINES = {"basis": "bsplines", "breaks": 4, "degree": 3}
 ENDS = {"start": [0, 0.5], "end": [1, 0.25], "symmetric": False, "order": 2}
+TURNS = {"basis": "periodic", "breaks": 6, "degree": 5, "symmetric": False, "order": 1}
+TURNS |= {"start": [0], "end": [1]}
 #: by entry: what else is asked, a right value, a wrong one, and the options that give the right one
 EXAMPLES: dict[str, tuple[dict[str, Any], Any, Any, list[str]]] = {
     "minimise": ({}, "D", 3, ["--minimise", "D"]),
@@ -35,6 +37,7 @@ EXAMPLES: dict[str, tuple[dict[str, Any], Any, Any, list[str]]] = {
     "degree": ({}, 7, 3.5, ["--degree", "7"]),
     "breaks": (SPLINES, 8, "many", ["--breaks", "8"]),
     "continuity": (SPLINES, 1, -1, ["--continuity", "1"]),
+    "straight": (TURNS, [0, 2], [7], ["--straight", "0, 2"]),
     "monotone": ({}, True, "yes", ["--monotone"]),
     "symmetric": ({}, False, "no", ["--unsymmetric"]),
     "start": (ENDS, [0, -0.25], "x", ["--start", "0,-0.25"]),

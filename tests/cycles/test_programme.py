@@ -77,7 +77,11 @@ LEVEL = [Rise("35 mm", "180 deg"), Return("30 mm", "180 deg")]
             "ends with 0 mm/s and .*starts with 1000 mm/s: .* law='optimal'",
         ),
         ([ConstantVelocity("1 m/s", "90 deg"), Dwell(), Return(duration="9 deg")], {}, "put a motion between them"),
-        ([Free("1 mm", "90 deg"), Free("-1 mm")], {}, "begin it after a Dwell"),
+        (
+            [Free("1 mm", "90 deg"), Move("1 mm", "90 deg", law=SINE), Free("-2 mm")],
+            {},
+            r"segment 2 \(Move\): give it law='optimal': .* begin it where velocity and acceleration are known",
+        ),
         (
             [Dwell("9 deg"), Free("1 mm", via=[("200 deg", "3 mm"), ("5 mm", "3 mm")])],
             {"advance": "1 mm"},

@@ -24,6 +24,8 @@ from optlaws.laws import MotionLaw
 
 Array = NDArray[np.float64]
 
+SAME = 1e-12  # share of a time within which it is another
+
 
 def factor(stroke: float, duration: float, nu: int) -> float:
     """What turns the derivative of order nu of a law into machine units: h/T^nu.
@@ -72,6 +74,11 @@ class Piece:
     def end(self, nu: int, side: int) -> float:
         """The derivative of order nu at its start (side 0) or its end (side 1)."""
         return float(self.values(np.array([(self.start, self.stop)[side]]), nu)[0])
+
+    def leap(self, time: float, nu: int) -> float:
+        """By how much the derivative of order nu leaps at a time inside."""
+        near = (jump for k, jump in self.law.jumps(nu) if abs(self.start + k * self.duration - time) <= SAME * time)
+        return factor(self.stroke, self.duration, nu) * sum(near)
 
     def extremes(self, nu: int, first: float, last: float) -> tuple[tuple[float, float], tuple[float, float]]:
         """Least and greatest value with their times, over the whole of the stretch from `first` to `last`."""

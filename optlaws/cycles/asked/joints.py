@@ -41,6 +41,8 @@ class Span:
         Velocity and acceleration at both ends.
     via
         Pairs of time and position on the way.
+    states
+        What is known where each stretch begins, of a whole cycle in one; None where nothing is.
     """
 
     stretches: tuple[Stretch, ...]
@@ -51,6 +53,12 @@ class Span:
     first: State
     last: State
     via: tuple[tuple[float, float], ...]
+    states: tuple[State | None, ...] = ()
+
+    @property
+    def turns(self) -> bool:
+        """Whether it is a whole cycle, which ends as it begins."""
+        return bool(self.states)
 
     @property
     def start(self) -> float:
@@ -77,13 +85,15 @@ class Layout:
     spans: tuple[Span, ...]
 
 
-def layout(asked: Programme, durations: Sequence[float]) -> Layout:
+def layout(asked: Programme, durations: Sequence[float], *, whole: bool = False) -> Layout:
     """Which laws are known and which are looked for.
+
+    Where nothing is known at the start of the cycle, or `whole` asks for it, its motions are one law that repeats.
 
     Raises
     ------
     InputError
-        If velocities do not meet at a joint.
+        If velocities do not meet at a joint, or a law is given in a cycle that is one.
     """
     starts = tuple(accumulate(durations, initial=0.0))
     offsets = tuple(accumulate((one.displacement for one in asked.stretches), initial=asked.start))
@@ -93,6 +103,8 @@ def layout(asked: Programme, durations: Sequence[float]) -> Layout:
         if not is_optimal(one.given)
     }
     joints = [_joint(asked, pieces, i) for i in range(len(asked.stretches))]
+    if whole or joints[0] is None:
+        return Layout(starts, (), (_whole(asked, starts, offsets, joints),))
     return Layout(starts, tuple(pieces.values()), _spans(asked, starts, offsets, joints))
 
 
@@ -146,14 +158,31 @@ def _shown(velocity: float, axis: str) -> str:
     return f"{velocity * (1e3 if axis == 'length' else 57.29577951308232):.9g}"
 
 
+def _whole(asked: Programme, starts: Sequence[float], offsets: Sequence[float], joints: Sequence[State | None]) -> Span:
+    """The cycle as one span; of its stretches those whose law is not looked for must be straight."""
+    for one in asked.stretches:
+        if isinstance(one.given, Move) and not is_optimal(one.given):
+            raise InputError(
+                f"{one.where}: give it law='optimal': the cycle is sought as one law; or begin it where velocity and "
+                "acceleration are known, after a Dwell, a ConstantVelocity or a Move"
+            )
+    last = len(asked.stretches) - 1
+    passed = [
+        (starts[j], offsets[j])
+        for j in range(1, last + 1)
+        # what is straight brings its position on, and the last stretch ends where the cycle does
+        if is_optimal(asked.stretches[j - 1].given) and (j < last or is_optimal(asked.stretches[j].given))
+    ]
+    own = [point for j in range(last + 1) for point in _via(asked, j, starts[j], starts[j + 1])]
+    rest = State(0.0, 0.0)
+    via = tuple(sorted(passed + own))
+    return Span(asked.stretches, tuple(starts[:-1]), starts[-1], offsets[0], offsets[-1] - offsets[0], rest, rest, via,
+                tuple(joints))  # fmt: skip
+
+
 def _spans(
     asked: Programme, starts: Sequence[float], offsets: Sequence[float], joints: Sequence[State | None]
 ) -> tuple[Span, ...]:
-    if asked.stretches and joints[0] is None:
-        raise InputError(
-            "a cycle begins where velocity and acceleration are known: begin it after a Dwell, a ConstantVelocity or a "
-            "Move, or put one of them between the free motions"
-        )
     spans: list[Span] = []
     i = 0
     while i < len(asked.stretches):

@@ -237,6 +237,7 @@ FIELDS: tuple[Field, ...] = (
             _entry("degree", Kind.WHOLE, "Degree of Z(k), or of the law on each piece.", "degree of Z", default=9),
             _entry("breaks", Kind.BREAKS, 'For bsplines and pieces: places such as "0 0.3 1", or how many equal ones.'),
             _entry("continuity", Kind.WHOLE, "For bsplines and pieces: order up to which derivatives are continuous."),
+            _entry("straight", Kind.NUMBERS, "For periodic pieces: numbers, from 0 on, of those without acceleration."),
         ),
         near=_any,
         compared="basis",

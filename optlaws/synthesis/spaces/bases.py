@@ -33,7 +33,7 @@ class Basis(ABC):
     Examples
     --------
     >>> sorted(Basis.kinds)
-    ['bernstein', 'bsplines', 'chebyshev', 'pieces', 'powers']
+    ['bernstein', 'bsplines', 'chebyshev', 'periodic', 'pieces', 'powers']
     """
 
     name: ClassVar[str]

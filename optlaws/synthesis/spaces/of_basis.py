@@ -8,6 +8,7 @@ from optlaws.errors import InputError
 from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.pieces.free import PieceSpace, piece_space
+from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces, PeriodicSpace, periodic_space
 from optlaws.synthesis.spaces.pieces.splines import SplineSpace, spline_space
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace, polynomial_space
 from optlaws.synthesis.spaces.space import LawSpace
@@ -40,6 +41,11 @@ def _(basis: PolynomialBasis, boundary: BoundaryConditions, *, symmetric: bool) 
 @space_of.register
 def _(basis: Pieces, boundary: BoundaryConditions, *, symmetric: bool) -> PieceSpace:
     return piece_space(boundary, basis.breaks, basis.degree, basis.continuity, symmetric=symmetric)
+
+
+@space_of.register
+def _(basis: PeriodicPieces, boundary: BoundaryConditions, *, symmetric: bool) -> PeriodicSpace:  # noqa: ARG001 - never
+    return periodic_space(boundary, basis)
 
 
 @space_of.register

@@ -6,12 +6,13 @@ from fractions import Fraction
 from functools import singledispatch
 from math import factorial
 
-from flint import fmpq, fmpq_poly
+from flint import fmpq, fmpq_mat, fmpq_poly
 
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
+from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.verification.enclosing.balls import rational
 from optlaws.verification.exact.space import Condition, ExactSpace, Functions
@@ -86,6 +87,47 @@ def _(basis: Pieces, problem: Problem) -> ExactSpace:
     functions = [[*part, base] for part in kept]
     divided = problem.boundary is None and problem.order > 1 and (problem.symmetric or len(breaks) > 2)
     return _FreePieces(problem, breaks, functions, continuity=basis.continuity, conditions=wanted, divided=divided)
+
+
+@_space.register
+def _(basis: PeriodicPieces, problem: Problem) -> ExactSpace:
+    start, end = (Fraction(part[0]) for part in (problem.conditions.start, problem.conditions.end))
+    breaks = [Fraction(k) for k in basis.breaks]
+    free = _kept_by(basis, _splines(breaks, basis.degree, basis.continuity, lowest=1))
+    wanted = [Condition(0, Fraction(1), end), Condition(1, Fraction(1), Fraction(0), less=Fraction(0))]
+    base = fmpq_poly([rational(start)])
+    functions = [[*part, base] for part in free]
+    return ExactSpace(problem, breaks, functions, continuity=basis.continuity, conditions=wanted)
+
+
+def _kept_by(basis: PeriodicPieces, functions: list[Functions]) -> list[Functions]:
+    """The combinations of functions whose acceleration is periodic, and 0 on straight pieces."""
+    bent = [[4 * one.derivative().derivative() for one in part] for part in functions]
+    rows = [[one[i] for one in bent[piece]] for piece in basis.straight for i in range(basis.degree - 1)]
+    first, last = bent[0], bent[-1]
+    for _ in range(basis.continuity - 1):
+        rows.append([after(fmpq(1)) - before(fmpq(-1)) for before, after in zip(first, last, strict=True)])
+        first, last = ([one.derivative() for one in part] for part in (first, last))
+    free = _null_space(rows)
+    return [
+        [sum((w * one for w, one in zip(way, part, strict=True) if w != 0), _ZERO) for way in free]
+        for part in functions
+    ]
+
+
+def _null_space(rows: list[list[fmpq]]) -> list[list[fmpq]]:
+    """Vectors that every row makes 0, as many as there are independent ones."""
+    reduced, rank = fmpq_mat(len(rows), len(rows[0]), [one for row in rows for one in row]).rref()
+    count = len(rows[0])
+    leading = [next(j for j in range(count) if reduced[i, j] != 0) for i in range(rank)]
+    ways = []
+    for j in sorted(set(range(count)) - set(leading)):
+        way = [fmpq(0)] * count
+        way[j] = fmpq(1)
+        for i, place in enumerate(leading):
+            way[place] = -reduced[i, j]
+        ways.append(way)
+    return ways
 
 
 class _FreePieces(ExactSpace):

@@ -307,8 +307,8 @@ class ExactRows:
                 self._everywhere(RowName.RATIO, self.space.ratio, (1.0,), {})
         for constant, wanted in problem.bounded:
             self._range(constant, wanted)
-        for nu, k, value in self.space.conditions:
-            self.equations.append(Row(self.space.values(nu, k), {}, -ball(value)))
+        for asked in self.space.conditions:
+            self.equations.append(Row(self.space.condition(asked), {}, -ball(asked.value)))
         for i, window in enumerate(problem.windows, 1):
             halves = (names.window(i), names.mirrored(names.window(i)))
             if window.motion is not None:

@@ -25,11 +25,12 @@ class Bounds(NamedTuple):
 
 
 class Condition(NamedTuple):
-    """The derivative of order nu has a value at k in every law: an end condition the functions do not keep."""
+    """The derivative of order nu has a value at k in every law, or so much more than at `less`."""
 
     nu: int
     k: Fraction
     value: Fraction
+    less: Fraction | None = None
 
 
 class ExactSpace:
@@ -84,6 +85,13 @@ class ExactSpace:
     def values(self, nu: int, k: Fraction) -> list[arb]:
         """Values of the derivatives of order nu at k."""
         return values(self.derivative(nu)[self.piece(k)], x_of(k))
+
+    def condition(self, asked: Condition) -> list[arb]:
+        """The row of a condition: what each function has of it, the base law last."""
+        row = self.values(asked.nu, asked.k)
+        if asked.less is None:
+            return row
+        return [one - other for one, other in zip(row, self.values(asked.nu, asked.less), strict=True)]
 
     def on_piece(self, nu: int, piece: int, x: arb) -> list[arb]:
         """Values of the derivatives of order nu at x = 2k - 1, by the polynomials of a piece."""

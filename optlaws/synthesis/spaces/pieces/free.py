@@ -56,8 +56,7 @@ class PieceSpace(PiecewiseSpace):
         end_velocity = self.stroke if self._free_start else float(boundary.end[1])
         self.velocity_change = end_velocity - self.start_velocity
 
-    @staticmethod
-    def _splines(breaks: Array, order: int, multiplicity: int) -> Array:
+    def _splines(self, breaks: Array, order: int, multiplicity: int) -> Array:
         """Chebyshev series of every B-spline on every piece, and a zero column for the base law."""
         from scipy.interpolate import BSpline
 
