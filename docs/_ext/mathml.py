@@ -1,5 +1,8 @@
 """Formulas as MathML: every browser shows it without a script, so the pages need no network."""
 
+import re
+from html import escape
+
 from docutils import nodes
 from latex2mathml.converter import convert
 from sphinx.application import Sphinx
@@ -8,6 +11,8 @@ from sphinx.util.math import get_node_equation_number
 from sphinx.writers.html5 import HTML5Translator
 
 logger = logging.getLogger(__name__)
+
+TAG = re.compile(r"\\tag\{([^{}]*)\}")
 
 
 def to_mathml(node: nodes.Element, display: str) -> str:
@@ -29,9 +34,25 @@ def visit_math(translator: HTML5Translator, node: nodes.math) -> None:
     raise nodes.SkipNode
 
 
+def split_tag(latex: str) -> tuple[str, str]:
+    r"""The formula without its tag, and the tag's text: a number stands apart, not in the formula.
+
+    Examples
+    --------
+    >>> split_tag(r"b = a' \tag{8}")
+    ("b = a' ", '8')
+    """
+    found = TAG.search(latex)
+    return TAG.sub("", latex), found[1] if found else ""
+
+
 def visit_math_block(translator: HTML5Translator, node: nodes.math_block) -> None:
     """Write a formula on a line of its own, with its number if it has one."""
     translator.body.append(translator.starttag(node, "div", CLASS="math"))
+    latex, tag = split_tag(node.astext())
+    node.children = [nodes.Text(latex)]
+    if tag:
+        translator.body.append(f'<span class="eqno">({escape(tag)})</span>')
     if node["number"]:
         translator.body.append(f'<span class="eqno">({get_node_equation_number(translator, node)})')
         translator.add_permalink_ref(node, "Link to this equation")

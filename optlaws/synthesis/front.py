@@ -76,6 +76,21 @@ class Front:
         """Draw the points into matplotlib's axes, new ones unless given; a third constant as colour; the artists."""
         return plotted("front", self, ax, **style)
 
+    def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported here alone
+        """The rows as a data frame, a line for each point; needs the extra `optlaws[studies]`.
+
+        Examples
+        --------
+        >>> from optlaws.synthesis import Problem
+        >>> from optlaws.synthesis.pareto import pareto_front
+        >>> front = pareto_front(Problem(order=4), over=("B", "C"), points=3, between=(1.5, 1.8))
+        >>> front.to_pandas()[["B", "C", "status"]].round(4).to_dict("list")
+        {'B': [1.5, ..., 1.8], 'C': [5.705, ..., 4.6958], 'status': ['optimal', 'optimal', 'optimal']}
+        """
+        import pandas as pd
+
+        return pd.DataFrame(self.rows, columns=list(HEADINGS))
+
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict with every solution whole."""
         return {
