@@ -165,7 +165,8 @@ def _call(function: str, parts: list[Interval]) -> Interval:
 
 def _wave(turn: Interval) -> Interval:
     """Of a cosine."""
-    ends = [np.cos(turn.low), np.cos(turn.high)]
+    with np.errstate(invalid="ignore"):
+        ends = [np.cos(turn.low), np.cos(turn.high)]
     top = np.floor(turn.high / (2 * pi)) * 2 * pi >= turn.low
     bottom = np.floor((turn.high - pi) / (2 * pi)) * 2 * pi + pi >= turn.low
     return Interval(np.where(bottom, -1.0, np.minimum(*ends)), np.where(top, 1.0, np.maximum(*ends)))

@@ -13,6 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
+from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
@@ -91,8 +92,9 @@ def _power_alone(certificate: PowerCertificate, data: Mapping[str, Any]) -> Veri
 
 
 def _power(certificate: PowerCertificate) -> Fraction | None:
-    # the steps count on constants of at least 0
-    return prove_power(certificate) if never_negative(certificate.problem) else None
+    # of a sum the steps count on constants of at least 0
+    alone = len(list(leaves(certificate.problem.objective))) == 1
+    return prove_power(certificate) if alone or never_negative(certificate.problem) else None
 
 
 def _of_power(certificate: PowerCertificate, proven: Fraction | None, data: Mapping[str, Any]) -> Iterator[Claim]:

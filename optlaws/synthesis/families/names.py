@@ -75,6 +75,11 @@ def envelope(number: int, name: str, sign: float) -> str:
     return f"beneath {number} of {name}, {_SIDES[sign]}"
 
 
+def plane(number: int, name: str) -> str:
+    """One of the planes that a formula's rows are above in a box: from the middle (0) or from a corner on."""
+    return f"plane {number} of {name}"
+
+
 def mirrored(name: str) -> str:
     """The same rows for the mirror image: of symmetric laws they speak of the other half."""
     return f"{name} mirrored"

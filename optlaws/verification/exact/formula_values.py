@@ -143,6 +143,9 @@ class _Derivatives:
                 )
             names["k"] = arb_series([k, arb(1)])
             found: arb_series = evaluate(self.motion.formula, names, BALLS)
+        except ValueError:
+            # a divisor may be 0 somewhere in the ball
+            return arb_series([arb.nan()] * _LENGTH)
         finally:
             ctx.cap = before
         return found

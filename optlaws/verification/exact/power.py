@@ -1,51 +1,39 @@
-"""A power certificate with every rounding enclosed: boxes with sides rounded outward, sums of rows in balls.
-
-Nothing has to be corrected. What the multipliers leave of a coordinate costs its least value in the box, so that the
-steps prove what they prove, whatever they are.
-"""
+"""Power certificates in exact arithmetic: of D, and of peaks of formulas that are not convex."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
 from fractions import Fraction
+from functools import reduce
+from itertools import combinations_with_replacement, product
+from math import isfinite
 
-from flint import arb, arb_mat, ctx
+from flint import arb, ctx
 
+from optlaws.formulas.arithmetic import evaluate
+from optlaws.formulas.slopes import derivative
+from optlaws.formulas.tree import Formula, Reciprocal
+from optlaws.formulas.vocabulary import ORDERS
+from optlaws.kept import kept_property
+from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.problem.expression import Expression, Maximum
+from optlaws.synthesis.functionals.curved_rows import Branch
+from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaValue
+from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.proof.certificate import Certificate, Contact
-from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step
+from optlaws.synthesis.proof.certificate import Contact
+from optlaws.synthesis.proof.power import beneath_formulas
+from optlaws.synthesis.proof.power.beneath_formulas import PEAKS, Way
+from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.proof.power.rows import POWER_ROWS, applies
+from optlaws.verification.enclosing.ball_formulas import BALLS
 from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.exact.box_steps import Box, BoxSteps, Vector
 from optlaws.verification.exact.known_constants import known
-from optlaws.verification.exact.rows import ExactRows
 
-Vector = list[arb]
 _BITS = 256
-
-
-@dataclass(frozen=True, eq=False)
-class _Box:
-    """Points that are nowhere above the least values, and nowhere below the greatest."""
-
-    low: Vector
-    high: Vector
-
-    def cut(self, variable: int, *, low: arb | None = None, high: arb | None = None) -> _Box:
-        sides = [list(self.low), list(self.high)]
-        for values, value in zip(sides, (low, high), strict=True):
-            if value is not None:
-                values[variable] = value
-        return _Box(*sides)
-
-    def least(self, row: Vector) -> arb:
-        """What a row, its constant last, is at least."""
-        total = row[-1]
-        for weight, low, high in zip(row, self.low, self.high, strict=False):
-            total += (weight * low).min(weight * high)
-        return total.lower()
+_DEEPEST = 5
 
 
 def prove_power(certificate: PowerCertificate) -> Fraction | None:
@@ -65,99 +53,49 @@ def prove_power(certificate: PowerCertificate) -> Fraction | None:
     """
     for constant in sorted(certificate.problem.constants, key=repr):
         known(constant)
-    if not applies(certificate.problem):
+    kind = _kind(certificate.problem)
+    if kind is None:
         return None
     with ctx.workprec(_BITS):
         try:
-            proven = _Proof(certificate).holds()
+            proven = kind(certificate).holds()
         except ZeroDivisionError:
             # the points do not determine the law
             proven = False
     return Fraction(certificate.claim) if proven else None
 
 
-class _Proof:
-    def __init__(self, certificate: PowerCertificate) -> None:
-        self.certificate, self.problem = certificate, certificate.problem
-        self.rows = ExactRows(Certificate(certificate.problem, (), ()))
-        self.points = [Fraction(k) for k in certificate.points]
-        velocities = [self.rows.space.values(1, k) for k in self.points]
-        if len(velocities) != self.rows.space.terms:
-            raise ZeroDivisionError
-        self.inverse = arb_mat([row[:-1] for row in velocities]).inv()
-        self.base = arb_mat(len(velocities), 1, [row[-1] for row in velocities])
-        self.greatest = _greatest(self.problem, Fraction(certificate.claim))
-        start, change, _ = self.rows.space.bounds
-        ends = [
-            ball(0) if start is None else arb(start),
-            arb(0) if start is None or change is None else arb(start + change),
-        ]
-        self.D = ball(self.greatest["D"])
-        reach = (max(ends, key=lambda end: float(abs(end))) ** 2 + self.D).sqrt()
-        self.B = ball(self.greatest["B"]).min(reach) if "B" in self.greatest else reach
-        self.anchors = [(Fraction(0), ends[0], ends[0]), (Fraction(1), ends[1], ends[1])]
+def _kind(problem: Problem) -> type[BoxSteps] | None:
+    if applies(problem):
+        return _PowerProof
+    return _FormulaProof if beneath_formulas.applies(problem) else None
+
+
+class _PowerProof(BoxSteps):
+    """Of a problem with D in it."""
+
+    def greatest_velocity(self) -> arb:
+        """Also b b changes by no more than 2 D."""
+        reach = (max(self.ends, key=lambda end: float(abs(end))) ** 2 + self.D).sqrt()
+        return ball(self.greatest["B"]).min(reach) if "B" in self.greatest else reach
+
+    @property
+    def D(self) -> arb:
+        """What D is at most."""
+        return ball(self.greatest["D"])
+
+    @property
+    def anchors(self) -> list[tuple[Fraction, arb, arb]]:
+        """Places at which the velocity is known to lie between two values."""
+        known_at = [(Fraction(i), end, end) for i, end in enumerate(self.ends)]
         asked, peak = self.problem.range("B"), self.problem.peak_at
         if asked is not None and asked.low > 0.0 and peak is not None:
-            self.anchors.append((Fraction(peak), ball(asked.low), self.B))
+            known_at.append((Fraction(peak), ball(asked.low), self.B))
+        return known_at
 
-    def holds(self) -> bool:
-        """Whether the steps empty every box."""
-        boxes = [self.root()]
-        for step in self.certificate.steps:
-            if not boxes or not -1 <= step.variable < len(boxes[-1].low):
-                return False
-            box = boxes.pop()
-            if isinstance(step, Cut):
-                if step.variable < 0:
-                    return False
-                at = ball(step.at)
-                boxes += [box.cut(step.variable, low=at), box.cut(step.variable, high=at)]
-            else:
-                boxes += self.moved(box, step)
-        return not boxes
-
-    def root(self) -> _Box:
-        """The box of all laws of the problem whose objective is below the claim."""
-        brackets = [self.outer(k) for k in self.points]
-        asked = self.problem.range("B")
-        low = [ball(asked.low) if name == "B" and asked is not None else arb(0) for name in self.rows.names]
-        high = [self.B if name == "B" else ball(self.greatest[name]) for name in self.rows.names]
-        return _Box(
-            [least.lower() for least, _ in brackets] + low,
-            [most.upper() for _, most in brackets] + [x.upper() for x in high],
-        )
-
-    def moved(self, box: _Box, step: Step) -> list[_Box]:
-        """The box after a step, none if it is empty."""
-        total = [arb(0)] * (len(box.low) + 1)
-        if step.variable >= 0:
-            total[step.variable] = arb(step.side)
-        parts = [(max(contact.multiplier, 0.0), self.contact(contact, box)) for contact in step.contacts]
-        equations = [self.mapped(row.vector(self.rows.names)) for row in self.rows.equations]
-        parts += zip(step.equations, equations, strict=False)
-        cost = [ball(self.rows.cost.get(name, 0.0)) for name in self.rows.names]
-        parts.append((max(step.claim, 0.0), [*[arb(0)] * len(self.points), *cost, -ball(self.certificate.claim)]))
-        for weight, row in parts:
-            total = [x + ball(weight) * y for x, y in zip(total, row, strict=True)]
-        least = box.least(total)
-        if step.variable < 0:
-            return [] if least > 0 else [box]
-        low, high = box.low[step.variable], box.high[step.variable]
-        if step.side > 0:
-            return [] if least > high else [box.cut(step.variable, low=low.max(least))]
-        return [] if -least < low else [box.cut(step.variable, high=high.min(-least))]
-
-    def mapped(self, vector: Vector) -> Vector:
-        """A row over the coordinates as one over the variables of a box."""
-        terms = len(self.points)
-        weights = arb_mat(1, terms, vector[:terms]) * self.inverse
-        shift = (weights * self.base).entries()[0]
-        return [*weights.entries(), *vector[terms:-1], vector[-1] - shift]
-
-    def derivative(self, nu: int, k: Fraction) -> Vector:
-        """The law's derivative at k over the variables of a box."""
-        *free, base = self.rows.space.values(nu, k)
-        return self.mapped([*free, *[arb(0)] * len(self.rows.names), base])
+    def own_sides(self, name: str) -> tuple[arb, arb]:
+        """Constants are at least 0."""
+        return arb(0), ball(self.greatest[name])
 
     def outer(self, k: Fraction, anchors: Sequence[tuple[Fraction, arb, arb]] | None = None) -> tuple[arb, arb]:
         """Between what values b(k) is: b |b| changes no faster than 2 D."""
@@ -171,15 +109,13 @@ class _Proof:
         assert high is not None  # noqa: S101
         return (low.max(arb(0)) if self.problem.monotone else low), high.min(self.B)
 
-    def contact(self, contact: Contact, box: _Box) -> Vector:
-        """The row of a contact, at most 0; zeros where the problem asks for nothing of the kind."""
-        nothing = [arb(0)] * (len(box.low) + 1)
-        if contact.constraint in POWER_ROWS:
-            return self.power(contact, box) or nothing
-        row = self.rows.row(contact)
-        return nothing if row is None else self.mapped(row.vector(self.rows.names))
+    def curved(self, contact: Contact, box: Box) -> Vector | None:
+        """The power's rows."""
+        if contact.constraint not in POWER_ROWS:
+            return None
+        return self.power(contact, box) or [arb(0)] * (len(box.low) + 1)
 
-    def power(self, contact: Contact, box: _Box) -> Vector | None:
+    def power(self, contact: Contact, box: Box) -> Vector | None:
         """S c <= D / |b| by the chord of 1 / |b|; None where the box does not keep b from zero."""
         k = Fraction(contact.k)
         velocity = self.derivative(1, k)
@@ -203,29 +139,131 @@ class _Proof:
         return row
 
 
+class _FormulaProof(BoxSteps):
+    """Of a problem with peaks of formulas that are not convex."""
+
+    def greatest_velocity(self) -> arb:
+        """B, or what a bound of a mean of |c|, or of |j|, says: b is no further from its mean, and c from its own."""
+        found = [ball(self.greatest["B"])] if "B" in self.greatest else []
+        found += [self.stroke + ball(self.greatest[name]) for name in ("C", "rms_c") if name in self.greatest]
+        drop = abs(self.ends[1] - self.ends[0])
+        found += [self.stroke + drop + ball(self.greatest[name]) for name in ("J", "rms_j") if name in self.greatest]
+        return reduce(lambda one, other: one.min(other), found) if found else arb.pos_inf()
+
+    def own_sides(self, name: str) -> tuple[arb, arb]:
+        """A constant is at least what its formula is where the ends say it."""
+        constants = (leaf for _, leaf in leaves(self.problem.objective) if isinstance(leaf, Functional))
+        floors = {leaf.name: leaf.floor(self.problem.conditions) for leaf in constants}
+        return ball(floors[name]), ball(self.greatest[name])
+
+    def outer(self, k: Fraction) -> tuple[arb, arb]:
+        """Within B, and where C is bounded within reach of the ends."""
+        low, high = (arb(0) if self.problem.monotone else -self.B), self.B
+        if "C" in self.greatest:
+            for place, velocity in zip((Fraction(0), Fraction(1)), self.ends, strict=True):
+                reach = ball(self.greatest["C"] * abs(k - place))
+                low, high = low.max(velocity - reach), high.min(velocity + reach)
+        return low, high
+
+    def curved(self, contact: Contact, box: Box) -> Vector | None:
+        """A plane that the formula is nowhere below."""
+        found = self._branches.get((contact.constraint, contact.sign))
+        if found is None:
+            return None
+        branch, way, slack, high = found
+        k = Fraction(contact.k)
+        if not branch.motion.start <= k <= branch.motion.stop:
+            return [arb(0)] * (len(box.low) + 1)
+        names_of = sorted(branch.motion.formula.names() & ORDERS.keys())
+        rows = [self.derivative(ORDERS[name], k) for name in names_of]
+        ranges = [self._range(name, row, box, k) for name, row in zip(names_of, rows, strict=True)]
+        plane = _plane(branch, way, dict(zip(names_of, ranges, strict=True)), k)
+        if plane is None:
+            return [arb(0)] * (len(box.low) + 1)
+        slopes, height = plane
+        row = [_dot(slopes, column) for column in zip(*rows, strict=True)]
+        row[-1] += height - ball(high)
+        for name, weight in slack.items():
+            row[len(self.points) + self.rows.names.index(name)] += weight
+        return row
+
+    @kept_property
+    def _branches(self) -> dict[tuple[str, float], tuple[Branch, Way, dict[str, float], float]]:
+        """Formulas with where their planes touch and what they are at most, by the names and signs of rows."""
+        sought = (leaf for _, leaf in leaves(self.problem.objective) if isinstance(leaf, Functional))
+        asked: list[tuple[Functional, dict[str, float], float]] = [(leaf, {leaf.name: -1.0}, 0.0) for leaf in sought]
+        asked += [(constant, {}, limits.high) for constant, limits in self.problem.bounded if isfinite(limits.high)]
+        found = {}
+        for constant, slack, high in asked:
+            if not isinstance(constant, FormulaPeak | FormulaValue):
+                continue
+            for branch in constant.branches(symmetric=self.problem.symmetric):
+                count = len(branch.motion.formula.names() & ORDERS.keys())
+                for i, way in enumerate([None, *product((-1, 1), repeat=count)]):
+                    found[names.plane(i, branch.name), branch.sign] = (branch, way, slack, high)
+        return found
+
+    def _range(self, name: str, row: Vector, box: Box, k: Fraction) -> tuple[arb, arb]:
+        low, high = box.least(row), -box.least([-x for x in row])
+        bound = self.outer(k) if name == "b" else None
+        if bound is None and (most := self.greatest.get(PEAKS.get(name, ""))) is not None:
+            bound = -ball(most), ball(most)
+        if bound is not None:
+            low, high = low.max(bound[0]), high.min(bound[1])
+        return low.lower(), high.upper()
+
+
+def _plane(branch: Branch, way: Way, ranges: dict[str, tuple[arb, arb]], k: Fraction) -> tuple[Vector, arb] | None:
+    """Slopes by the derivatives and height of a plane that sign times the formula is nowhere below in the ranges.
+
+    None where it has none. What Taylor's formula leaves is half the form of second derivatives somewhere in the ranges.
+    """
+    sides, sign, formula = list(ranges.values()), ball(branch.sign), branch.motion.formula
+    if way is None:
+        touch = [((low + high) / 2).mid() for low, high in sides]
+    else:
+        touch = [high if end > 0 else low for end, (low, high) in zip(way, sides, strict=True)]
+    at = dict(zip(ranges, touch, strict=True)) | {"k": ball(k)}
+    first = {name: derivative(formula, name) for name in ranges}
+    slopes = [sign * evaluate(slope, at, BALLS) for slope in first.values()]
+    height = sign * evaluate(formula, at, BALLS) - _dot(slopes, touch)
+    if not branch.convex:
+        for one, other in combinations_with_replacement(ranges, 2):
+            bend = sign * _over(derivative(first[one], other), ranges, k)
+            away = [[end - at[name] for end in ranges[name]] for name in (one, other)]
+            # products of ends, for balls around products of ranges that begin at 0 would be wider by a half
+            ends = [x * y for x, y in product(*away)] if one != other else [arb(0), *(x * x / 2 for x in away[0])]
+            height += _least([bend.lower() * end for end in ends] + [bend.upper() * end for end in ends])
+    finite = height.is_finite() and all(slope.is_finite() for slope in slopes)
+    return (slopes, height) if finite else None
+
+
+def _over(formula: Formula, ranges: dict[str, tuple[arb, arb]], k: Fraction, depth: int = 0) -> arb:
+    """A ball that holds a formula in the ranges: by parts of those that divide, for balls of quotients are wide."""
+    divisors = (part for part in formula.walk() if isinstance(part, Reciprocal))
+    dividing = {name for divisor in divisors for name in divisor.names()} & ranges.keys()
+    if depth == (_DEEPEST if dividing else 0):
+        within = {name: low.union(high) for name, (low, high) in ranges.items()} | {"k": ball(k)}
+        whole: arb = evaluate(formula, within, BALLS)
+        return whole
+    widest = max(sorted(dividing), key=lambda name: float(ranges[name][1] - ranges[name][0]))
+    low, high = ranges[widest]
+    middle = ((low + high) / 2).mid()
+    halves = (_over(formula, ranges | {widest: half}, k, depth + 1) for half in ((low, middle), (middle, high)))
+    return reduce(lambda one, other: one.union(other), halves)
+
+
+def _least(values: Sequence[arb]) -> arb:
+    return reduce(lambda one, other: one.min(other), values).lower()
+
+
+def _dot(one: Sequence[arb], other: Sequence[arb]) -> arb:
+    return sum((x * y for x, y in zip(one, other, strict=True)), arb(0))
+
+
 def _signed_root(square: arb) -> arb:
     if square >= 0:
         return square.sqrt()
     if square < 0:
         return -(-square).sqrt()
     return abs(square).sqrt().union(-abs(square).sqrt())
-
-
-def _greatest(problem: Problem, claim: Fraction) -> dict[str, Fraction]:
-    greatest: dict[str, Fraction] = {}
-
-    def spread(expression: Expression, most: Fraction) -> None:
-        for weight, term in expression.terms:
-            share = most / Fraction(weight)
-            greatest[repr(term)] = min(greatest.get(repr(term), share), share)
-            if isinstance(term, Maximum):
-                for part in term.parts:
-                    spread(part, share)
-
-    spread(problem.objective, claim)
-    for name in ("B", *(constant.name for constant, _ in problem.bounded)):
-        asked = problem.range(name)
-        if asked is not None and asked.high < float("inf"):
-            high = Fraction(asked.high)
-            greatest[name] = min(greatest.get(name, high), high)
-    return greatest

@@ -1,11 +1,11 @@
-"""Which rows of boxes a problem has: those of its power, or of a body that shares its energy."""
+"""Which rows of boxes a problem has: those of its power, of a body that shares its energy, or of formulas."""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.proof.power import rows, shared_energy
+from optlaws.synthesis.proof.power import beneath_formulas, rows, shared_energy
 from optlaws.synthesis.proof.power.box import BoxRows
 
 
@@ -13,4 +13,6 @@ def rows_of(problem: Problem, claim: float, points: Sequence[float]) -> BoxRows 
     """The rows of a problem under a claim; None where nothing of it can be bounded by boxes."""
     if shared_energy.applies(problem):
         return shared_energy.EnergyRows(problem, claim, points)
-    return rows.PowerRows(problem, claim, points) if rows.applies(problem) else None
+    if rows.applies(problem):
+        return rows.PowerRows(problem, claim, points)
+    return beneath_formulas.FormulaRows(problem, claim, points) if beneath_formulas.applies(problem) else None

@@ -1,0 +1,232 @@
+"""Rows that every law in a box obeys where the peak of a formula that is not convex is bounded.
+
+In a box the law's derivatives at a place lie between two values each. From the middle of these, and from each of their
+corners, a formula is nowhere below its tangent plane less what its second derivatives, enclosed over them all, can take
+away (Taylor's formula with Lagrange's remainder). As a box shrinks that falls with the square of its width.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from itertools import combinations_with_replacement, product
+from math import inf, isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.formulas.intervals import Interval, enclosed
+from optlaws.formulas.vocabulary import ORDERS
+from optlaws.kept import kept_property
+from optlaws.synthesis.families import names
+from optlaws.synthesis.families.curved import CurvedFamily
+from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.problem.expression import leaves
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.writer import Model, model_of
+from optlaws.synthesis.proof.below_claim import asked_or_claimed, means
+from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
+from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
+
+Array = NDArray[np.float64]
+
+#: constants whose bound is one of a derivative's magnitude everywhere
+PEAKS = {"b": "B", "c": "C", "j": "J"}
+#: where a plane touches
+Way = tuple[int, ...] | None
+
+# of what a formula's value and slopes amount to: more than they are rounded by
+_ROUNDED = 2.0**-44
+_MOST_CORNERS = 8
+_MOST_C = 1e9
+
+
+def applies(problem: Problem) -> bool:
+    """Whether boxes bound the problem's formulas: those of polynomials whose velocities some constant bounds."""
+    model = model_of(problem)
+    known = isinstance(model.space, PolynomialSpace) and model.space.order > 1
+    if not known or not any(_bent(family) for family in model.program.families):
+        return False
+    sides = _own_sides(model, 1.0)
+    return bool(np.isfinite(sides).all()) and "B" in _greatest(model, 1.0)
+
+
+def _bent(family: Family) -> bool:
+    """Whether some sign of a family's rows bounds no convex set."""
+    return isinstance(family, CurvedFamily) and any(sign not in family.tangents for sign in family.signs)
+
+
+def _greatest(model: Model, claim: float) -> dict[str, float]:
+    """Greatest values of the constants in laws below the claim, with one of |b|."""
+    bounds = asked_or_claimed(model, claim)
+    for order, mean in means(model.problem, model.space, bounds):
+        # b is nowhere further from its mean, the stroke, than the mean of |c|, nor c from its own than that of |j|
+        mean_of_c = mean if order == 2 else abs(model.space.velocity_change) + mean if order == 3 else inf
+        most = abs(model.space.stroke) + mean_of_c
+        if most < bounds.get("B", inf):
+            bounds["B"] = most
+    return {name: bound for name, bound in bounds.items() if isfinite(bound)}
+
+
+def _own_sides(model: Model, claim: float) -> Array:
+    """Least and greatest values of the program's own variables, in their order, a row each."""
+    constants = {leaf.name: leaf for _, leaf in leaves(model.problem.objective) if isinstance(leaf, Functional)}
+    greatest, asked = _greatest(model, claim), model.problem.range("B")
+    sides = []
+    for name in sorted(model.places, key=model.places.__getitem__):
+        least = constants[name].floor(model.space.boundary) if name in constants else -inf
+        if name == "B":
+            least = asked.low if asked is not None else 0.0
+        sides.append((least, greatest.get(name, inf)))
+    return np.array(sides, dtype=np.float64).reshape(-1, 2)
+
+
+@dataclass(frozen=True, eq=False)
+class Plane:
+    """Where planes touch that sign times a family's formula is nowhere below, less what is taken from them.
+
+    Attributes
+    ----------
+    family, sign
+        The rows of a formula.
+    way
+        None for the middle of the ranges; for a corner -1 or 1 by which end of each.
+    """
+
+    family: CurvedFamily
+    sign: float
+    way: Way
+
+    def touching(self, low: Array, high: Array) -> Array:
+        """The derivatives there, from their least and greatest values; shape (names, places) each."""
+        if self.way is None:
+            return np.asarray((low + high) / 2.0)
+        return np.where(np.array(self.way)[:, None] > 0, high, low)
+
+    def taken(self, low: Array, high: Array, k: Array) -> Array:
+        """What second derivatives can take from the plane within the ranges."""
+        taken = np.zeros(k.shape)
+        if self.sign in self.family.tangents:
+            return taken
+        within = {name: Interval(*ends) for name, *ends in zip(self.family.names, low, high, strict=True)}
+        within["k"] = Interval(k, k)
+        reach = (high - low) / (2.0 if self.way is None else 1.0)
+        for i, j in combinations_with_replacement(range(len(reach)), 2):
+            bend = enclosed(self.family.slopes.second[i][j], within)
+            least, most = (bend.low, bend.high) if self.sign > 0.0 else (-bend.high, -bend.low)
+            if i == j:
+                worst = 0.5 * np.maximum(-least, 0.0)
+            elif self.way is None:
+                worst = np.maximum(np.abs(least), np.abs(most))
+            else:
+                worst = np.maximum(-least if self.way[i] == self.way[j] else most, 0.0)
+            taken = taken + np.where(worst == 0.0, 0.0, worst * reach[i] * reach[j])
+        return taken
+
+
+class FormulaRows(BoxRows):
+    """The rows of a problem with peaks of formulas in it, one that `applies`; parameters as of `BoxRows`."""
+
+    def __init__(self, problem: Problem, claim: float, points: Sequence[float]) -> None:
+        super().__init__(problem, claim, points)
+        self.greatest = _greatest(self.model, claim)
+        families = self.model.program.families
+        self.families = [family for family in families if isinstance(family, CurvedFamily)]
+        self._orders = sorted({ORDERS[name] for family in self.families for name in family.names})
+        self._laws = {nu: self.space.derivative(nu, "", np.zeros(self.own)) for nu in self._orders}
+
+    def root(self) -> Box:
+        """The box of all laws of the problem whose objective is below the claim."""
+        low, high = self.brackets_at(self.points)
+        own = _own_sides(self.model, self.claim)
+        return Box(np.append(low, own[:, 0]), np.append(high, own[:, 1]))
+
+    def brackets_at(self, k: Array) -> tuple[Array, Array]:
+        """Least and greatest velocity at the places k: those of the peak, and of what C leaves from the ends on."""
+        low, high = np.full(k.shape, -self.greatest["B"]), np.full(k.shape, self.greatest["B"])
+        if self.problem.monotone:
+            low = np.maximum(low, 0.0)
+        start = self.space.start_velocity
+        for place, velocity in ((0.0, start), (1.0, start + self.space.velocity_change)):
+            away = np.abs(k - place)
+            reach = np.where(away > 0.0, self.greatest.get("C", _MOST_C) * away, 0.0)
+            low, high = np.maximum(low, velocity - reach), np.minimum(high, velocity + reach)
+        return low, high
+
+    def is_curved(self, family: Family) -> bool:
+        """Whether it is of a formula."""
+        return isinstance(family, CurvedFamily)
+
+    @kept_property
+    def _planes(self) -> dict[tuple[str, float], Plane]:
+        """By the names and the signs of their rows."""
+        found = {}
+        for family in self.families:
+            ways: list[Way] = [None]
+            if _bent(family) and 2 ** len(family.names) <= _MOST_CORNERS:
+                ways += list(product((-1, 1), repeat=len(family.names)))
+            for (i, way), sign in product(enumerate(ways), family.signs):
+                found[names.plane(i, family.name), sign] = Plane(family, sign, way)
+        return found
+
+    @property
+    def names(self) -> tuple[str, ...]:
+        """Of every plane."""
+        return tuple(dict.fromkeys(name for name, _ in self._planes))
+
+    def kinds(self, box: Box) -> list[tuple[str, float]]:
+        """Every plane with its sign."""
+        del box
+        return list(self._planes)
+
+    def places(self, k: Array) -> Places:
+        """Rows of the derivatives that are in the formulas."""
+        rows = (self.mapped(np.asarray(law.columns(law.u(k))[0])) for law in self._laws.values())
+        return Places(k, tuple(rows))
+
+    def curved(self, box: Box, places: Places, name: str, signs: Array) -> Array:
+        """The planes of a name; zeros outside the formula's part and where it has no value."""
+        rows = dict(zip(self._orders, places.rows, strict=True))
+        found = np.zeros((len(places.k), self.size + 1))
+        for sign in np.unique(signs).tolist():
+            plane = self._planes.get((name, sign))
+            if plane is None:
+                continue
+            u = plane.family.u(places.k)
+            mine = (signs == sign) & (u >= plane.family.domain[0]) & (u <= plane.family.domain[1])
+            if mine.any():
+                parts = np.stack([rows[ORDERS[part]][mine] for part in plane.family.names])
+                found[mine] = self._rows(box, plane, places.k[mine], parts)
+        return found
+
+    def _rows(self, box: Box, plane: Plane, k: Array, parts: Array) -> Array:
+        family, sign = plane.family, plane.sign
+        low, high = self._ranges(box, family.names, parts, k)
+        touch = plane.touching(low, high)
+        with np.errstate(all="ignore"):
+            values = {**dict(zip(family.names, touch, strict=True)), "k": k}
+            value, gradient = family.slopes.value(values), family.slopes.gradient(values)[:-1]
+            row = np.einsum("ip,ipn->pn", sign * gradient, parts)
+            size = np.abs(value) + (np.abs(gradient) * np.maximum(np.abs(low), np.abs(high))).sum(axis=0)
+            row[:, -1] += sign * (value - (gradient * touch).sum(axis=0)) - plane.taken(low, high, k) - _ROUNDED * size
+            row -= self._room(family)
+        return np.where(np.isfinite(row).all(axis=1)[:, None], row, 0.0)
+
+    def _room(self, family: CurvedFamily) -> Array:
+        row: Array = self.mapped(np.append(family.slack, family.bound)[None])[0]
+        return row
+
+    def _ranges(self, box: Box, parts_of: Sequence[str], parts: Array, k: Array) -> tuple[Array, Array]:
+        """Least and greatest values of the derivatives at the places k of the laws in a box."""
+        lows, highs = [], []
+        for name, rows in zip(parts_of, parts, strict=True):
+            low, high = box.extent(rows)
+            if name == "b":
+                least, most = self.brackets_at(k)
+            else:
+                most = np.full(k.shape, self.greatest.get(PEAKS.get(name, ""), inf))
+                least = -most
+            lows.append(np.maximum(low, least))
+            highs.append(np.minimum(high, most))
+        return np.array(lows), np.array(highs)
