@@ -21,6 +21,7 @@ milli- = 1e-3 = m-
 centi- = 1e-2 = c-
 kilo- = 1e3 = k-
 mega- = 1e6 = M-
+giga- = 1e9 = G-
 meter = [length] = m = metre
 gram = [mass] = g
 second = [time] = s = sec
@@ -32,6 +33,7 @@ degree = 3.141592653589793 / 180 * radian = deg = °
 revolution = 360 * degree = rev = turn
 revolutions_per_minute = revolution / minute = rpm
 newton = kilogram * meter / second ** 2 = N
+pascal = newton / meter ** 2 = Pa
 joule = newton * meter = J
 watt = joule / second = W
 hertz = 1 / second = Hz
@@ -54,6 +56,7 @@ DIMENSIONS = {
     "moment of inertia": ("kilogram * meter ** 2", "0.02 kg m^2"),
     "force": ("newton", "120 N"),
     "torque": ("newton * meter", "0.4 N m"),
+    "pressure": ("newton / meter ** 2", "210 GPa"),
     "stiffness": ("newton / meter", "3 N/mm"),
     "torsional stiffness": ("newton * meter / radian", "0.4 N m/deg"),
     "viscous friction": ("newton * second / meter", "5 N s/m"),

@@ -1,0 +1,267 @@
+"""Forces of a cam at a speed: contact force, pressure and the torque at its shaft, over the turn and enclosed."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, field
+from math import degrees, sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.disc import DiscCam
+from optlaws.cams.followers.contact import FaceContact
+from optlaws.cams.loads.hertz import LineContact, line_contact
+from optlaws.cams.loads.transmission import Friction, Transmission, transmission
+from optlaws.cycles.asked.programme import TURN
+from optlaws.cycles.asked.quantities import quantity
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.drive import Drive, read_drive
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.numbers import finite, real_times
+from optlaws.series.enclosed import Enclosure, enclosed, integrated
+from optlaws.suggest import unknown_key
+
+Array = NDArray[np.float64]
+
+_SHARE = 1e-8
+_FRICTION = ("contact", "guide", "overhang", "length")
+
+
+@dataclass(frozen=True)
+class CamForces:
+    """The forces of a cam and its follower at a speed, over the cam's angle in radians; N, N m, Pa.
+
+    Parameters
+    ----------
+    cam
+        The cam.
+    speed
+        Of the cam, such as "300 rpm"; that of its cycle unless given.
+    drive
+        What the follower moves: entries of a cycle's drive, mass (or inertia), stiffness, preload, gravity, viscous and
+        dry; the drive of its cycle unless given. Spring and preload press the follower on the cam.
+    friction
+        `contact`, the coefficient between cam and face or of a rolling roller; for slides `guide`, the coefficient in
+        the guide, with `overhang` and `length` of the guide.
+    width, materials
+        Of the contact, for Hertz's pressure: "20 mm", ("steel", "steel").
+
+    Raises
+    ------
+    InputError
+        If there is no speed or no drive, or an entry is unknown or of another dimension.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Dwell, Return, Rise
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
+    >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> forces = CamForces(cam, drive={"mass": "2 kg", "stiffness": "3 N/mm", "preload": "60 N"}, width="20 mm")
+    >>> round(forces.contact.most, 3), round(forces.torque.most, 3), round(forces.rms_torque[1], 3)
+    (180.0, 4.299, 2.05)
+    >>> forces.lifts_off, abs(forces.mean_torque[1]) < 1e-7, round(forces.pressure.most / 1e6, 2)
+    (False, True, 174.95)
+    """
+
+    cam: DiscCam
+    speed: Any = None
+    drive: Mapping[str, Any] | None = None
+    friction: Mapping[str, Any] = field(default_factory=dict)
+    width: Any = None
+    materials: Any = ("steel", "steel")
+
+    def __post_init__(self) -> None:
+        self.rate, self.load, self._friction, self._line  # noqa: B018 - what is wrong is refused at once
+
+    @kept_property
+    def rate(self) -> float:
+        """The cam's angular velocity, rad/s."""
+        if self.speed is not None:
+            found = quantity(self.speed, "angular velocity", "speed")
+            if found <= 0.0:
+                raise InputError(f"speed must be above 0, got {shortened(self.speed)}")
+            return found
+        if not isinstance(self.cam.motion, Cycle):
+            raise InputError("forces need the cam's speed: give one, such as speed='300 rpm'")
+        return TURN / self.cam.motion.duration
+
+    @kept_property
+    def load(self) -> Drive:
+        """What the follower moves, in SI units."""
+        given = self.drive
+        if given is None and isinstance(self.cam.motion, Cycle):
+            given = self.cam.motion.drive
+        if given is None:
+            raise InputError("forces need what the follower moves: give a drive, such as drive={'mass': '2 kg'}")
+        return read_drive(given, self.cam.displacement.axis)
+
+    @kept_property
+    def edges(self) -> Array:
+        """Angles between which forces are smooth, rad: breaks of the motion, and where the follower turns back."""
+        places = [np.array(self.cam.displacement.breaks)]
+        for one in self.cam.displacement.stretches:
+            inner = one.segment.candidates(one.length, 0) if one.stroke else np.empty(0)
+            places.append(one.start + (one.stop - one.start) * inner)
+        return np.unique(np.concatenate(places))
+
+    def follower_force(self, angle: Any) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
+        """What the follower takes along its way, N, or about its pivot, N m."""
+        return self._given(self._follower_force, angle)
+
+    def contact_force(self, angle: Any) -> Any:  # noqa: ANN401 - as for the follower's
+        """The force between cam and follower along their normal, N; below 0 where the follower would lift off."""
+        return self._given(self._contact_force, angle)
+
+    def shaft_torque(self, angle: Any) -> Any:  # noqa: ANN401 - as for the follower's
+        """The torque that turns the cam, N m; below 0 where the follower drives it."""
+        return self._given(self._torque, angle)
+
+    def contact_pressure(self, angle: Any) -> Any:  # noqa: ANN401 - as for the follower's
+        """Hertz's greatest pressure in the contact, Pa.
+
+        Raises
+        ------
+        InputError
+            If no width was given.
+        """
+        return self._given(self._pressure, angle)
+
+    @kept_property
+    def contact(self) -> Enclosure:
+        """Least and greatest contact force, enclosed over the turn."""
+        return self._enclosed(self._contact_force)
+
+    @property
+    def lifts_off(self) -> bool:
+        """Whether the follower leaves the cam somewhere."""
+        return self.contact.low < 0.0
+
+    @kept_property
+    def torque(self) -> Enclosure:
+        """Least and greatest torque at the shaft, enclosed over the turn."""
+        return self._enclosed(self._torque)
+
+    @kept_property
+    def pressure(self) -> Enclosure:
+        """Least and greatest of Hertz's pressure, enclosed over the turn."""
+        return self._enclosed(self._pressure)
+
+    @kept_property
+    def mean_torque(self) -> tuple[float, float]:
+        """Between which values the mean of the torque lies: 0 over a turn without friction."""
+        low, high = integrated(self._torque, self.edges, share=_SHARE)
+        return low / self._angle, high / self._angle
+
+    @kept_property
+    def rms_torque(self) -> tuple[float, float]:
+        """Between which values the root mean square of the torque lies."""
+        low, high = integrated(lambda angle: self._torque(angle) ** 2, self.edges, share=_SHARE)
+        return sqrt(max(low, 0.0) / self._angle), sqrt(max(high, 0.0) / self._angle)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Peaks with their places in degrees, and means, as plain data in SI units."""
+        found = {name: _plain(getattr(self, name)) for name in ("contact", "torque")}
+        pressed = {} if self.width is None else {"pressure": _plain(self.pressure)}
+        return {
+            "speed": self.rate,
+            **found,
+            **pressed,
+            "rms_torque": self.rms_torque[1],
+            "mean_torque": 0.5 * sum(self.mean_torque),
+            "lifts_off": self.lifts_off,
+        }
+
+    @property
+    def _angle(self) -> float:
+        return float(self.edges[-1] - self.edges[0])
+
+    @kept_property
+    def _friction(self) -> Friction:
+        for key in self.friction:
+            if key not in _FRICTION:
+                raise InputError(f"friction: {unknown_key(key, _FRICTION)}")
+        given = self.friction
+        sizes = {name: quantity(given[name], "length", f"friction: {name}") for name in _FRICTION[2:] if name in given}
+        shares = {name: finite(given[name], f"friction: {name}") for name in _FRICTION[:2] if name in given}
+        for name, value in (sizes | shares).items():
+            if value < 0.0 or (name == "length" and value == 0.0):
+                raise InputError(f"friction: {name} must be {'above' if name == 'length' else 'at least'} 0")
+        if shares.get("guide") and (self.cam.displacement.axis == "angle" or len(sizes) < 2):
+            raise InputError("friction: guide is that of a slide, and needs overhang and length of its guide")
+        return Friction(**shares, **sizes)
+
+    @kept_property
+    def _line(self) -> LineContact | None:
+        return None if self.width is None else line_contact(self.width, self.materials, self.cam.contact.roller)
+
+    @kept_property
+    def _directions(self) -> Array:
+        """1, -1 or 0 between edges: whether the follower goes up, down, or rests."""
+        middles = 0.5 * (self.edges[1:] + self.edges[:-1])
+        slopes = np.asarray(self.cam.displacement(middles, 1))
+        return np.where(np.abs(slopes) > 1e-12 * np.abs(slopes).max(), np.sign(slopes), 0.0)
+
+    def direction(self, angle: Array) -> Array:
+        """1 where the follower goes up, -1 where it goes down, 0 where it rests."""
+        which = np.searchsorted(self.edges[1:-1], self.cam.displacement.within(angle), side="right")
+        return np.asarray(self._directions[which])
+
+    def _given(self, function: Callable[[Array], Array], angle: Any) -> Any:  # noqa: ANN401
+        values = function(real_times(angle))
+        return values if np.ndim(values) else float(values)
+
+    def _enclosed(self, function: Callable[[Array], Array]) -> Enclosure:
+        return enclosed(function, self.edges, share=_SHARE)
+
+    def _follower_force(self, angle: Array) -> Array:
+        motion, rate, load = self.cam.displacement, self.rate, self.load
+        moved = load.inertia * rate**2 * motion(angle, 2) + load.viscous * rate * motion(angle, 1)
+        held = load.stiffness * motion(angle) + load.constant
+        return np.asarray(moved + held + load.dry * self.direction(angle))
+
+    def _transmission(self, angle: Array) -> Transmission:
+        return transmission(self.cam.contact, self.cam.displacement.jet(angle, 2))
+
+    def _contact_force(self, angle: Array) -> Array:
+        one = self._transmission(angle)
+        faced = isinstance(self.cam.contact, FaceContact)
+        held = self._friction.held_back(one, self.cam.contact.turning, faced=faced)
+        lever = self._lever(one) - self.direction(angle) * held
+        if np.any(lever <= 0.0):
+            place = degrees(float(angle.flat[int(np.argmin(lever))]))
+            raise InputError(
+                f"the follower jams in its guide at {place:.6g} deg of the cam: lessen the pressure angle, the "
+                "friction of the guide or its overhang, or make the guide longer"
+            )
+        return np.asarray(self._follower_force(angle) / lever)
+
+    def _lever(self, one: Transmission) -> Array:
+        """What drives the follower for a normal force of 1 N, a roller or a face that is dragged along."""
+        faced = isinstance(self.cam.contact, FaceContact)
+        return one.lever + self._friction.contact * one.dragged if faced else one.lever
+
+    def _torque(self, angle: Array) -> Array:
+        one, force = self._transmission(angle), self._contact_force(angle)
+        driven = force * self._lever(one) * np.asarray(self.cam.displacement(angle, 1))
+        return np.asarray(driven + self._friction.contact * one.sliding * np.maximum(force, 0.0))
+
+    def _pressure(self, angle: Array) -> Array:
+        if self._line is None:
+            raise InputError("the pressure needs the width of the contact: give one, such as width='20 mm'")
+        return self._line.pressure(self._contact_force(angle), np.asarray(self.cam.radius_of_curvature(angle)))
+
+
+def _plain(one: Enclosure) -> dict[str, float]:
+    return {
+        "least": one.least,
+        "least_at": degrees(one.least_at),
+        "most": one.most,
+        "most_at": degrees(one.most_at),
+        "low": one.low,
+        "high": one.high,
+    }

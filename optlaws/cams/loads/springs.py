@@ -1,0 +1,259 @@
+"""Springs that keep a follower on its cam over a range of speeds: the least that does, with what proves it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from math import degrees
+from typing import Any, NoReturn
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.disc import DiscCam
+from optlaws.cams.loads.forces import CamForces
+from optlaws.cycles.asked.quantities import quantity
+from optlaws.echo import shortened
+from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.series.enclosed import Enclosure, enclosed
+
+Array = NDArray[np.float64]
+
+_FIRST = 97
+_STEPS = 40
+_NEAR = 1e-9  # how near extremes are enclosed, as a share of the forces
+_KEPT = 1e-7  # to what a linear program keeps its rows; what is missing then is added to the spring
+_RAISED = 1e-3  # of the stroke: so far up more stiffness is more force
+_UNITS = {"length": ("force", "stiffness"), "angle": ("torque", "torsional stiffness")}
+
+
+@dataclass(frozen=True)
+class Spring:
+    """A spring that holds a follower on its cam; N and N/m, or N m and N m/rad for one that swings.
+
+    Attributes
+    ----------
+    stiffness, preload
+        Of the spring; the preload is its force where the displacement is 0.
+    greatest
+        The greatest force on the follower along its way, at any angle and speed.
+    objective
+        What was sought: "preload", "stiffness" or "greatest".
+    lower_bound
+        What it cannot be below: the least of springs that do at the angles that bind.
+    margin
+        Proven: along the follower's way the cam presses with at least this force at every angle and speed.
+    critical
+        Where the force is least: the cam's angle in degrees, and the speed in rad/s.
+    """
+
+    stiffness: float
+    preload: float
+    greatest: float
+    objective: str
+    lower_bound: float
+    margin: float
+    critical: tuple[float, float]
+
+    @property
+    def value(self) -> float:
+        """What was sought."""
+        return float(getattr(self, self.objective))
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict."""
+        return asdict(self)
+
+
+def least_spring(
+    cam: DiscCam,
+    *,
+    drive: Mapping[str, Any],
+    speeds: Sequence[Any],
+    force: str | None = None,
+    stiffness: str | None = None,
+    preload: str | None = None,
+) -> Spring:
+    """The least spring that keeps the follower on the cam at every speed of a range.
+
+    The spring's preload is sought where its stiffness is given, its stiffness where the preload is, and where neither
+    is, both, so that the greatest force on the follower is least. The problem is linear; at each angle the worst speed
+    is known in closed form.
+
+    Parameters
+    ----------
+    cam
+        The cam.
+    drive
+        What else the follower moves: mass or inertia, gravity, viscous, dry.
+    speeds
+        The least and the greatest speed of the cam, such as ("0 rpm", "300 rpm").
+    force
+        What the cam shall press with at least, along the follower's way: "20 N"; 0 unless given.
+    stiffness, preload
+        Of the spring, where it is known: "3 N/mm", "60 N".
+
+    Raises
+    ------
+    InputError
+        If a quantity is of another dimension, or the drive has a spring of its own.
+    InfeasibleProblem
+        If no stiffness helps, as where the follower would lift off at displacement 0.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Dwell, Return, Rise
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
+    >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> spring = least_spring(cam, drive={"mass": "2 kg"}, speeds=("0 rpm", "300 rpm"), preload="20 N")
+    >>> round(spring.stiffness, 3), round(spring.margin, 6) + 0.0, round(spring.critical[0], 3)
+    (2273.443, 0.0, 91.666)
+    """
+    asked = _asked(cam, drive, speeds, force)
+    force_unit, stiffness_unit = _UNITS[cam.displacement.axis]
+    return _sought(
+        asked, _Given(_known(preload, force_unit, "preload"), _known(stiffness, stiffness_unit, "stiffness"))
+    )
+
+
+@dataclass(frozen=True)
+class _Given:
+    """What is known of the spring."""
+
+    preload: float | None
+    stiffness: float | None
+
+    @property
+    def objective(self) -> str:
+        if self.stiffness is not None:
+            return "preload"
+        return "greatest" if self.preload is None else "stiffness"
+
+
+@dataclass(frozen=True)
+class _Asked:
+    """A cam, what its follower moves, between which speeds, and what the cam shall press with."""
+
+    forces: CamForces
+    slow: float
+    fast: float
+    least: float
+
+    def displacement(self, angle: Array) -> Array:
+        return np.asarray(self.forces.cam.displacement(angle))
+
+    def rate(self, angle: Array, side: float) -> Array:
+        """The speed at which the force is least (side 1) or greatest (-1): an end of the range, or between."""
+        square, linear = (side * one for one in self._moved(angle))
+        inner = np.clip(-0.5 * linear / np.where(square > 0.0, square, 1.0), self.slow, self.fast)
+        rates = np.stack([np.full(square.shape, self.slow), np.full(square.shape, self.fast), inner])
+        return np.asarray(np.take_along_axis(rates, np.argmin(square * rates**2 + linear * rates, axis=0)[None], 0)[0])
+
+    def without_spring(self, angle: Array, side: float) -> Array:
+        """The least (side 1) or greatest (-1) force on the follower at any speed, but for the spring's."""
+        (square, linear), rate, load = self._moved(angle), self.rate(angle, side), self.forces.load
+        return np.asarray(square * rate**2 + linear * rate + load.constant + load.dry * self.forces.direction(angle))
+
+    def _moved(self, angle: Array) -> tuple[Array, Array]:
+        motion, load = self.forces.cam.displacement, self.forces.load
+        return load.inertia * np.asarray(motion(angle, 2)), load.viscous * np.asarray(motion(angle, 1))
+
+
+def _asked(cam: DiscCam, drive: Mapping[str, Any], speeds: Sequence[Any], force: str | None) -> _Asked:
+    if not isinstance(speeds, tuple | list) or len(speeds) != 2:
+        raise InputError(f"speeds must be two, the least and the greatest, got {shortened(speeds)}")
+    for key in ("stiffness", "preload"):
+        if key in drive:
+            raise InputError(f"drive: the {key} is sought with the spring: to fix it give {key}=... beside the drive")
+    slow, fast = (quantity(one, "angular velocity", "speeds") for one in speeds)
+    if not 0.0 <= slow <= fast or fast == 0.0:
+        raise InputError(f"speeds must rise from at least 0, got {shortened(speeds)}")
+    least = 0.0 if force is None else quantity(force, _UNITS[cam.displacement.axis][0], "force")
+    return _Asked(CamForces(cam, speed=speeds[1], drive=drive), slow, fast, least)
+
+
+def _known(value: str | None, dimension: str, name: str) -> float | None:
+    if value is None:
+        return None
+    found = quantity(value, dimension, name)
+    if found < 0.0:
+        raise InputError(f"{name} must be at least 0, got {shortened(value)}")
+    return found
+
+
+def _sought(asked: _Asked, given: _Given) -> Spring:
+    """By exchange: the best spring for some angles, then those at which it is wrong, until it is so nowhere."""
+    edges = asked.forces.edges
+    angles = np.linspace(edges[0], edges[-1], _FIRST)
+    for _ in range(_STEPS):
+        best = _program(asked, angles, given)
+        found, pushed = _extremes(asked, best)
+        slack = _KEPT * max(pushed.peak, asked.least)
+        if found.low >= asked.least - slack and (given.objective != "greatest" or pushed.high <= best[2] + slack):
+            break
+        angles = np.append(angles, [found.least_at, pushed.most_at])
+    return _stronger(asked, given, best, found)
+
+
+def _extremes(asked: _Asked, spring: tuple[float, float, float]) -> tuple[Enclosure, Enclosure]:
+    """The least and the greatest force on the follower at any speed, each enclosed over the turn."""
+
+    def along(angle: Array, side: float) -> Array:
+        return spring[0] + spring[1] * asked.displacement(angle) + asked.without_spring(angle, side)
+
+    edges = asked.forces.edges
+    least = enclosed(lambda angle: along(angle, 1.0), edges, share=_NEAR)
+    return least, enclosed(lambda angle: along(angle, -1.0), edges, share=_NEAR)
+
+
+def _program(asked: _Asked, angles: Array, given: _Given) -> tuple[float, float, float]:
+    """The best preload and stiffness for some angles, and the greatest force there: a linear program."""
+    from scipy.optimize import linprog
+
+    y, low, high = asked.displacement(angles), asked.without_spring(angles, 1.0), asked.without_spring(angles, -1.0)
+    unit = float(np.abs([low, high]).max() + abs(asked.least)) or 1.0
+    scale = float(np.abs(y).max())
+    units = (unit, unit / scale)
+    ones, y = np.ones_like(y), y / scale
+    rows = np.concatenate([np.stack([-ones, -y, 0.0 * ones], axis=1), np.stack([ones, y, -ones], axis=1)])
+    sides = np.concatenate([low - asked.least, -high]) / unit
+    known = (given.preload, given.stiffness)
+    bounds = [(0.0, None) if one is None else (one / by,) * 2 for one, by in zip(known, units, strict=True)]
+    weights = {"preload": (1.0, 0.0, 0.0), "stiffness": (0.0, 1.0, 0.0), "greatest": (0.0, 0.0, 1.0)}[given.objective]
+    found = linprog(weights, A_ub=rows, b_ub=sides, bounds=[*bounds, (None, None)], method="highs")
+    if found.status != 0 or found.x is None:
+        _refuse(asked, angles, given)
+    preload, stiffness, greatest = (float(one) for one in found.x)
+    return max(preload, 0.0) * unit, max(stiffness, 0.0) * units[1], greatest * unit
+
+
+def _refuse(asked: _Asked, angles: Array, given: _Given) -> NoReturn:
+    missing = asked.least - asked.without_spring(angles, 1.0) - (given.preload or 0.0)
+    worst = int(np.argmax(np.where(asked.displacement(angles) <= 0.0, missing, -np.inf)))
+    raise InfeasibleProblem(
+        f"no stiffness keeps the follower on the cam: at {degrees(angles[worst]):.6g} deg of the cam, where the "
+        f"displacement is not above 0, {missing[worst]:.6g} N (or N m) are missing; give so much more preload"
+    )
+
+
+def _stronger(asked: _Asked, given: _Given, best: tuple[float, float, float], found: Enclosure) -> Spring:
+    """The spring made stronger by what it may miss, and what is then left everywhere."""
+    preload, stiffness, greatest = best
+    bound = {"preload": preload, "stiffness": stiffness, "greatest": greatest}[given.objective]
+    missing = max(asked.least - found.low, 0.0)
+    if given.preload is None:
+        preload += missing
+    elif (up := float(asked.displacement(np.array(found.least_at)))) > _RAISED * asked.forces.cam.displacement.range[1]:
+        stiffness += missing / up
+    least, pushed = _extremes(asked, (preload, stiffness, greatest))
+    rate = float(asked.rate(np.array([least.least_at]), 1.0)[0])
+    return Spring(
+        stiffness=stiffness,
+        preload=preload,
+        greatest=pushed.high,
+        objective=given.objective,
+        lower_bound=bound,
+        margin=least.low,
+        critical=(degrees(least.least_at), rate),
+    )
