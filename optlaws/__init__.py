@@ -115,7 +115,11 @@ declare(
 )
 declare(
     "exporting",
-    {"optlaws.exports.export": "cycle law motion", "optlaws.exports.motion_pieces": "pieces_of_cycle pieces_of_law"},
+    {
+        "optlaws.cams.cutting.cam_files": "cam",
+        "optlaws.exports.export": "cycle law motion",
+        "optlaws.exports.motion_pieces": "pieces_of_cycle pieces_of_law",
+    },
 )
 declare(
     "export format",

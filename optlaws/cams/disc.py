@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, field
 from math import degrees
+from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -19,6 +20,7 @@ from optlaws.cycles.asked.quantities import quantity
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.exporting import exported
 from optlaws.kept import kept_property
 from optlaws.numbers import derivative, real_times
 from optlaws.suggest import unknown_key
@@ -115,6 +117,27 @@ class DiscCam:
             If the radius is no length above 0.
         """
         return self.pitch_curve.offset(positive(cutter_radius, "cutter_radius") - self.contact.roller)
+
+    def export(self, file: str | Path, as_: str | None = None, **asked: Any) -> Path:  # noqa: ANN401 - of the file
+        """Write the profile, the pitch curve or the path of a cutter to a file, whole or not at all; return its path.
+
+        Parameters
+        ----------
+        file
+            Where; its ending (.dxf, .svg, .csv, .nc) says the format unless `as_` does.
+        as_
+            "dxf spline", "dxf polyline", "dxf arcs", "svg", "csv", "csv polar", "g-code" or "g-code arcs".
+        asked
+            `curve` ("profile", "pitch" or "cutter") with `cutter_radius`, and of the file: tolerance, decimals, points,
+            degree, feed, about.
+
+        Raises
+        ------
+        InputError
+            If an entry is unknown or out of its range, the motion is no whole turn, or the file cannot be written.
+        """
+        written: Path = exported("cam", self, file, as_, **asked)
+        return written
 
     def pressure_angle(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, arrays for arrays
         """The angle between the force on the follower and its way, rad, or a derivative of it by the cam's angle.
