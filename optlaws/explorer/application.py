@@ -18,7 +18,7 @@ from starlette.routing import Route
 from optlaws import catalogue
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, OptlawsError
-from optlaws.explorer.answers import front_view, law_view, nearest, residual_view
+from optlaws.explorer.answers import cycle_view, front_view, law_view, nearest, residual_view, saved
 from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, read
 from optlaws.explorer.guard import Guard
 
@@ -33,6 +33,9 @@ QUESTIONS: dict[str, tuple[type[msgspec.Struct], Answer]] = {
     "laws": (AskedLaws, law_view.answer),
     "front": (front_view.AskedFront, front_view.answer),
     "nearest": (AskedLaw, nearest.answer),
+    "cycle": (cycle_view.AskedCycle, cycle_view.answer),
+    "cycle-nearest": (cycle_view.AskedCycle, cycle_view.nearest),
+    "save": (saved.AskedFile, saved.answer),
     "residual": (residual_view.AskedResidual, residual_view.answer),
 }
 
@@ -43,10 +46,10 @@ def application(start: dict[str, Any]) -> Starlette:
     Examples
     --------
     >>> sorted(route.path for route in application({}).routes)[:3]
-    ['/', '/api/front', '/api/laws']
+    ['/', '/api/cycle', '/api/cycle-nearest']
     """
     names = [*catalogue, "I(0)", "II(6)", "III(7.2)", "IV(10)"]
-    first = msgspec.json.encode({"state": start, "names": names})
+    first = msgspec.json.encode({"state": start, "names": names, "cycle": cycle_view.example()})
     routes = [
         Route("/api/start", lambda _: _json(first)),
         *(Route(f"/api/{name}", _asking(*one), methods=["POST"]) for name, one in QUESTIONS.items()),

@@ -9,7 +9,7 @@ for name in ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS"):
     os.environ[name] = "1"
 os.environ["MPLBACKEND"] = "Agg"
 
-from tests.bench import arrays, pieces, startup, study  # noqa: E402  # threads are counted when numpy is loaded
+from tests.bench import arrays, explorer, pieces, startup, study  # noqa: E402  # threads are counted when numpy is loaded
 from tests.bench.report import main  # noqa: E402
 
 main()
@@ -17,3 +17,4 @@ arrays.main()
 study.main()
 pieces.main()
 startup.main()
+explorer.main()

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+from pathlib import Path
 from typing import TYPE_CHECKING, Any
+from xml.etree import ElementTree as ET
 
 import pytest
 
@@ -188,3 +190,47 @@ def test_dark_and_light_are_the_readers_choice(page: Page, served: Server) -> No
     light = page.evaluate(ground)
     page.get_by_role("button", name="◐").click()
     assert page.evaluate(ground) != light
+
+
+def saves(page: Page, kind: str) -> str:
+    """The text of a file that the reader saves."""
+    page.locator("summary").click()
+    with page.expect_download() as download:
+        page.locator(f"[data-kind={kind}]").click()
+    return Path(download.value.path()).read_text("utf-8")
+
+
+def test_what_is_saved_is_what_is_seen(page: Page, served: Server) -> None:
+    go(page, served.link(laws=[at_velocity(1.859), {"name": "modified sine"}], picture="residual"))
+    assert "Problem(B=1.859, order=4" in saves(page, "python")
+    assert saves(page, "problem").startswith('job = "solutions"')
+    picture = ET.fromstring(saves(page, "picture"))  # noqa: S314 - our own
+    lines = [one for one in picture.iter("{http://www.w3.org/2000/svg}path") if one.get("fill") == "none"]
+    assert len(lines) == 10
+    assert all(one.get("stroke", "").startswith("rgb") for one in lines)
+
+
+def test_a_cycle_is_shown_changed_and_refused(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    page.get_by_role("tab", name="Cycle").click()
+    settle(page)
+    cell = page.locator("#segments tbody tr >> nth=0 >> td >> nth=4")
+    assert cell.inner_text() == "616"
+    assert page.locator("#motion svg").count() == 4
+    page.get_by_label("limit velocity").fill("300 mm/s")
+    settle(page)
+    assert "no such law" in page.locator("#cycle-trust").inner_text()
+    assert page.locator("#motion .line").count() == 0
+    page.get_by_role("button", name="raise the limit of velocity").click()
+    settle(page)
+    assert "proven optimal" in page.locator("#cycle-trust").inner_text()
+    page.get_by_label("limit velocity").fill("300 mil/s")
+    settle(page)
+    assert "velocity" in page.locator("#cycle-trust").inner_text()
+    assert page.locator("#motion .line").count() == 0
+    page.get_by_label("limit velocity").fill("500 mm/s")
+    for segment in (0, 2):
+        page.get_by_label(f"segment {segment} law").fill("modified sine")
+    settle(page)
+    assert page.locator("#segments .over").count() == 2
+    assert page.locator("#motion .beyond").count() == 1

@@ -8,12 +8,8 @@ from typing import Any
 import optlaws
 from optlaws.cli.laws.catalogue import continuous
 from optlaws.cli.options import AsJson, Whole, check_files, read_law, save_picture
-from optlaws.cli.show import NOISE, constants_table, number, print_json, show, table
+from optlaws.cli.show import constants_table, number, print_json, show, table
 from optlaws.errors import InputError
-
-_LETTERS = ("a", "b", "c", "j", "d")
-_SAMPLES = 201
-_DIGITS = 15
 
 
 def law(
@@ -50,13 +46,16 @@ def law(
     as_json
         Print one JSON object on stdout and nothing else.
     """
+    from optlaws.files import writing
+    from optlaws.laws.values import LETTERS, SAMPLES, table_of_values
+
     check_files(csv, plot=plot)
     if samples is not None and csv is None:
         raise InputError("--samples says how many lines --csv FILE has: name the file")
     about, found = _asked(name, alpha, peak_velocity)
-    values = [{"k": k, **{one: getattr(found, one)(k) for one in _LETTERS}} for k in at or ()]
+    values = [{"k": k, **{one: getattr(found, one)(k) for one in LETTERS}} for k in at or ()]
     if csv is not None:
-        _save_samples(found, name, csv, _SAMPLES if samples is None else samples)
+        writing.write(csv, table_of_values(found, name, SAMPLES if samples is None else samples))
     if plot is not None:
         save_picture(plot, found)
     if as_json:
@@ -71,17 +70,12 @@ def _show(about: dict[str, Any], found: optlaws.MotionLaw, values: list[dict[str
         head.add_row(key, value)
     show(head, constants_table(found.constants))
     if values:
+        from optlaws.laws.values import sizes
+
         rows = table(*values[0])
-        sizes = [1.0, *_sizes(found)]
         for row in values:
-            rows.add_row(*(number(value, size) for value, size in zip(row.values(), sizes, strict=True)))
+            rows.add_row(*(number(value, size) for value, size in zip(row.values(), (1.0, *sizes(found)), strict=True)))
         show(rows)
-
-
-def _sizes(found: optlaws.MotionLaw) -> tuple[float, ...]:
-    """The greatest values of a, b, c, j and d."""
-    one = found.constants
-    return found.peak(0).value, one.B.value, one.C.value, one.J.value, one.D.value
 
 
 def _asked(name: str, alpha: float | None, B: float | None) -> tuple[dict[str, Any], optlaws.MotionLaw]:
@@ -126,20 +120,3 @@ def _lines(about: dict[str, Any]) -> list[tuple[str, str]]:
         if about["from_memory"]:
             lines.append(("", "the definition is from memory: compare it with the source"))
     return [*lines, ("continuous", continuous(about["continuity"]))]
-
-
-def _save_samples(found: optlaws.MotionLaw, name: str, file: Path, count: int) -> None:
-    import numpy as np
-
-    from optlaws.files import tables, writing
-    from optlaws.numbers import MOST_VALUES, whole
-
-    k = np.linspace(0.0, 1.0, whole(count, "samples", least=2, most=MOST_VALUES))
-    columns = [getattr(found, one)(k) for one in _LETTERS]
-    clean = [
-        np.where(np.abs(values) <= NOISE * size, 0.0, values)
-        for values, size in zip(columns, _sizes(found), strict=True)
-    ]
-    about = f"law {' '.join(name.split())}: dimensionless; after a jump its value there"
-    rows = np.column_stack([k, *clean]).tolist()
-    writing.write(file, tables.to_csv(("k", *_LETTERS), rows, about=about, digits=_DIGITS))

@@ -19,7 +19,7 @@ LETTERS = ("a", "b", "c", "d", "j")
 _ORDERS = {"a": 0, "b": 1, "c": 2, "j": 3}
 _SAMPLES = 161
 _DRAWN = 6  # decimals of what is drawn; what is read is a text of its own
-_HEARD = {Status.OPTIMAL: "proven optimal", Status.LOCAL: "local", Status.INACCURATE: "bound not met"}
+HEARD = {Status.OPTIMAL: "proven optimal", Status.LOCAL: "local", Status.INACCURATE: "bound not met"}
 _LEAST_GAP = 1e-12
 _LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
 
@@ -181,14 +181,21 @@ def trust(solution: Solution) -> dict[str, Any]:
         facts.append(f"no law of any degree is below {digits(solution.limit)}, {digits(above, 3)} % less")
     return {
         "status": solution.status.value,
-        "word": _HEARD[solution.status],
+        "word": HEARD[solution.status],
         "advice": solution.status.advice,
-        "gap": _gap(solution.gap),
+        "gap": gap_text(solution.gap),
         "facts": facts,
     }
 
 
-def _gap(gap: float) -> str:
+def gap_text(gap: float) -> str:
+    """The gap in words; what is below 1e-12 is rounding.
+
+    Examples
+    --------
+    >>> gap_text(0.07), gap_text(3e-14)
+    ('gap 7.0e-02', 'gap below 1e-12')
+    """
     if bounded(gap) is None:
         return "no bound is known"
     return f"gap {gap:.1e}" if gap > _LEAST_GAP else "gap below 1e-12"

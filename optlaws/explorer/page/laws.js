@@ -98,7 +98,7 @@ export class Laws {
     this.#asked = question.laws;
     this.#ways = null;
     const active = this.#state.active;
-    if (laws[active]?.refused && question.laws[active]?.problem) this.#nearest.ask(question.laws[active]);
+    if (laws[active]?.refused?.word === "no such law" && question.laws[active]?.problem) this.#nearest.ask(question.laws[active]);
     else this.#ways = [];
     this.#render();
     this.#drawn();

@@ -1,12 +1,13 @@
 // The page: state in, views out.
 
+import { CycleView } from "./cycle.js";
 import { tabs } from "./fields.js";
 import { Laws } from "./laws.js";
 import { FIRST, Study, read } from "./state.js";
 import { restore } from "./theme.js";
 import { Tools } from "./tools.js";
 
-const VIEWS = { laws: "Laws" };
+const VIEWS = { laws: "Laws", cycle: "Cycle" };
 
 restore();
 
@@ -31,11 +32,14 @@ function painted() {
 }
 
 async function begin() {
-  const { state, names } = await (await fetch("api/start")).json();
+  const { state, names, cycle } = await (await fetch("api/start")).json();
   const first = location.hash.length > 1 ? read(location.hash) : { ...structuredClone(FIRST), ...state };
   const views = {};
   const study = new Study(first, render);
-  const choose = tabs(document.getElementById("views"), VIEWS, (key) => study.change("view", (next) => (next.view = key)));
+  const choose = tabs(document.getElementById("views"), VIEWS, (key) => study.change("view", (next) => {
+    next.view = key;
+    if (key === "cycle") next.cycle ??= structuredClone(cycle);
+  }));
   const tools = new Tools(document.getElementById("tools"), study, notice);
 
   function render(now) {
@@ -48,6 +52,8 @@ async function begin() {
   }
 
   views.laws = new Laws(study, names, failed, painted);
+  views.cycle = new CycleView(study, failed);
+  if (first.view === "cycle") first.cycle ??= structuredClone(cycle);
   addEventListener("hashchange", () => study.replace(read(location.hash)));
   for (const kind of ["input", "pointermove", "keydown"]) addEventListener(kind, () => performance.mark("input"), { capture: true, passive: true });
   render(first);

@@ -20,11 +20,12 @@ export function savings(state) {
 
 export async function save(kind, state) {
   if (kind === "picture") return download("optlaws.svg", "image/svg+xml", picture(state));
-  const { view, laws, active, cycle } = state;
+  const { view, laws, active } = state;
+  const cycle = state.cycle ? { study: state.cycle, axis: state.axis } : null;
   const response = await fetch("api/save", {
     method: "POST",
     headers: { "Content-Type": "application/json" },
-    body: JSON.stringify({ kind, view, laws, active, cycle: cycle ?? null }),
+    body: JSON.stringify({ kind, view, laws, active, cycle }),
   });
   const answer = await response.json();
   if (!response.ok) throw new Error(answer.error);

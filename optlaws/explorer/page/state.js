@@ -2,12 +2,14 @@
 
 const MERGED = 800; // ms within which changes of one thing are one step
 const MOST = 200;
+const WRITTEN = 120; // ms after the last change the address holds it
 
 export const FIRST = {
   view: "laws",
   laws: [{ problem: { order: 4, degree: 9, B: 1.7 }, weights: { C: 1 } }],
   active: 0,
   picture: "B-C",
+  axis: 0,
   nu: 20,
   damping: 0,
 };
@@ -42,8 +44,9 @@ export function read(fragment) {
     if (name !== "law" && value !== undefined && value !== null) state[name] = value;
   }
   if (!Number.isInteger(state.active) || state.active < 0 || state.active >= state.laws.length) state.active = 0;
-  for (const name of ["nu", "damping"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
+  for (const name of ["nu", "damping", "axis"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
   for (const name of ["view", "picture"]) if (typeof state[name] !== "string") state[name] = FIRST[name];
+  if (typeof state.cycle !== "object") delete state.cycle;
   return state;
 }
 
@@ -52,6 +55,7 @@ export class Study {
   #future = [];
   #last = { what: null, at: 0 };
   #changed;
+  #writing = null;
 
   constructor(state, changed) {
     this.state = state;
@@ -110,7 +114,9 @@ export class Study {
 
   #show(state) {
     this.state = state;
-    history.replaceState(null, "", written(state));
+    // browsers take a few addresses a second, a drag makes more
+    clearTimeout(this.#writing);
+    this.#writing = setTimeout(() => history.replaceState(null, "", written(this.state)), WRITTEN);
     this.#changed(state);
   }
 }

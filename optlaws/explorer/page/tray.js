@@ -8,6 +8,7 @@ export class Tray {
   #root;
   #study;
   #names;
+  #shown = "";
 
   constructor(root, study, names) {
     this.#root = root;
@@ -16,6 +17,9 @@ export class Tray {
   }
 
   show(laws, views, active) {
+    const shown = JSON.stringify([laws.length, views.map((view, i) => titled(laws[i], view)), active]);
+    if (shown === this.#shown) return;
+    this.#shown = shown;
     const chips = laws.map((law, i) => this.#chip(law, views[i], i, i === active, laws.length > 1));
     this.#root.replaceChildren(...chips, ...(laws.length < MOST ? this.#adding() : []), this.#names);
   }
@@ -30,7 +34,7 @@ export class Tray {
   }
 
   #chip(law, view, i, active, several) {
-    const title = view?.title ?? law.title ?? law.name ?? "a problem";
+    const title = titled(law, view);
     const choose = html("button", { type: "button", class: "choose", "aria-pressed": String(active), title, onclick: () => this.#study.change("active", (state) => (state.active = i)) }, html("span", { class: `swatch law-${i}`, text: "ABCD"[i] }), html("span", { class: "chip-name", text: title }));
     const close = several ? html("button", { type: "button", class: "close", "aria-label": `Take ${title} away`, text: "×", onclick: () => this.#remove(i) }) : null;
     return html("span", { class: `chip${active ? " active" : ""}` }, choose, close);
@@ -54,4 +58,8 @@ export class Tray {
     field.addEventListener("change", () => field.value.trim() && this.add(field.value.trim()));
     return [copy, field];
   }
+}
+
+function titled(law, view) {
+  return view?.title ?? law.title ?? law.name ?? "a problem";
 }

@@ -28,9 +28,14 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     about = f"{spec.title}; from {file.name}"
     texts = {"cycle.md": str(page(spec, cycles)), "cycle.json": _stored(cycles, about)}
     for name, cycle in cycles.items():
-        texts[f"{_file_name(name)}.csv"] = tables.to_csv(_columns(cycle), _rows(cycle, spec.rows), about=about)
+        texts[f"{_file_name(name)}.csv"] = table_of_motion(cycle, spec.rows, about)
     figures = {_file_name(name): draw(cycle, f"{spec.title}: {name}") for name, cycle in cycles.items()}
     return [writing.write(out / name, text) for name, text in texts.items()] + drawing.save_pictures(figures, out)
+
+
+def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
+    """Angle, time, position, velocity, acceleration and jerk at equal steps over the cycle, as CSV."""
+    return tables.to_csv(_columns(cycle), _rows(cycle, rows), about=about)
 
 
 def answer(cycles: Mapping[str, Cycle]) -> dict[str, Any]:
@@ -84,7 +89,7 @@ def _told(cycle: Cycle) -> list[list[tables.Cell]]:
     """What is least, how it is proven, and what the drive takes."""
     rows: list[list[tables.Cell]] = []
     if cycle.solutions:
-        unit = _objective_unit(cycle)
+        unit = objective_unit(cycle)
         rows += [["status", cycle.status.value, None], [f"least {cycle.minimise}", cycle.objective, unit]]
         if cycle.lower_bound is not None:
             rows.append(["proven lower bound", cycle.lower_bound, unit])
@@ -102,7 +107,8 @@ def _told(cycle: Cycle) -> list[list[tables.Cell]]:
     return [*rows, *([f"greatest leap of the {name} at a joint", leap, "SI"] for name, leap in leaps.items())]
 
 
-def _objective_unit(cycle: Cycle) -> str:
+def objective_unit(cycle: Cycle) -> str:
+    """The unit of what a cycle minimises."""
     nu, _ = OBJECTIVES[cycle.minimise]
     if nu < 0:
         return "N" if cycle.axis == "length" else "N m"

@@ -1,0 +1,258 @@
+"""Cycles as the page shows them: motion in machine units, what lies beyond limits, segments, and words of trust."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator
+from functools import lru_cache
+from math import inf
+from pathlib import Path
+from typing import Annotated, Any
+
+import msgspec
+import numpy as np
+
+from optlaws import Cycle, Status
+from optlaws.cycles.optimal import LIMITS, read_limits
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.explorer.answers.asked import MOST_DEGREE, MOST_ORDER
+from optlaws.explorer.answers.law_view import HEARD, digits, drawn, gap_text, refusal
+from optlaws.jobs.cycle.cycle import objective_unit
+from optlaws.jobs.cycle.entries import Axis, Study, cycle_of
+from optlaws.jobs.cycle.picture import QUANTITIES, UNITS
+from optlaws.laws.catalogue import reading
+
+_EACH = 100
+_TURN = 360.0
+_KEPT = 1.0 + 1e-9
+_ROUNDING = 1e-11
+_ROOM = 1e-6
+_WHERE = Path("the cycle")
+
+
+class AskedCycle(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A cycle as its problem file says it, and which of its axes is shown."""
+
+    study: dict[str, Any]
+    axis: Annotated[int, msgspec.Meta(ge=0, le=7)] = 0
+
+
+def answer(asked: AskedCycle) -> dict[str, Any]:
+    """The view of an axis, or why there is none."""
+    try:
+        return _view(cycle(asked))
+    except (InfeasibleProblem, SolverFailure) as error:
+        return {"refused": refusal(error)}
+    except InputError as error:
+        return {"refused": {"word": "not understood", "reason": str(error), "tried": ""}}
+
+
+def nearest(asked: AskedCycle) -> dict[str, Any]:
+    """How far limits must go back so that there is a motion again: one limit at a time, the others as they are."""
+    spec, axis = read(asked)
+    return {"ways": list(_ways(spec, axis))}
+
+
+def read(asked: AskedCycle) -> tuple[Study, Axis]:
+    """The programme that is asked, and the axis that is shown.
+
+    Raises
+    ------
+    InputError
+        If an entry is unknown or wrong, or larger than the explorer takes, or a law is named by a file.
+    """
+    from optlaws.files.problem_file import convert
+
+    spec = convert(asked.study, Study, _WHERE)
+    axis = spec.axis[min(asked.axis, len(spec.axis) - 1)]
+    if axis.order > MOST_ORDER or axis.degree > MOST_DEGREE:
+        raise InputError(f"the explorer takes cycles of order up to {MOST_ORDER} and degree up to {MOST_DEGREE}")
+    for one in axis.segment:
+        if one.law is not None and reading.is_file(one.law):
+            raise InputError(f"law: {one.law} names a file, and the page reads none: take a law of the catalogue")
+    return spec, axis
+
+
+def cycle(asked: AskedCycle) -> Cycle:
+    """The cycle of the axis that is shown.
+
+    Raises
+    ------
+    InputError
+        If durations, positions or velocities do not fit.
+    """
+    return _stored(*read(asked))
+
+
+def _stored(spec: Study, axis: Axis) -> Cycle:
+    return _made(msgspec.json.encode((axis, spec.speed, spec.period)))
+
+
+@lru_cache(maxsize=64)
+def _made(question: bytes) -> Cycle:
+    axis, speed, period = msgspec.json.decode(question, type=tuple[Axis, str | None, str | None])
+    made = cycle_of(axis, Study(job="cycle", title="a cycle", axis=[axis], speed=speed, period=period))
+    _ = made.peaks  # what cannot be found is told here
+    return made
+
+
+def _view(shown: Cycle) -> dict[str, Any]:
+    return {
+        "period": f"{digits(1e3 * shown.duration)} ms",
+        "panels": [_panel(shown, nu) for nu in range(4)],
+        "segments": list(_segments(shown)),
+        "trust": _trust(shown),
+        "facts": _facts(shown),
+    }
+
+
+def _degrees(shown: Cycle, time: float) -> float:
+    return round(_TURN * time / shown.duration, 4)
+
+
+def _limits(shown: Cycle) -> list[dict[int, float]]:
+    """What each segment must keep: its own limits and those of the axis, in SI units by order."""
+    whole = read_limits(shown.limits, shown.axis, "limits")
+    return [
+        {nu: min(whole.get(nu, inf), own.get(nu, inf)) for nu in sorted({*whole, *own})}
+        for own in shown.limits_of_segments
+    ]
+
+
+def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
+    unit, factor = UNITS[shown.axis][nu]
+    places: list[float] = []
+    values: list[float | None] = []
+    for piece in shown.pieces:
+        breaks = piece.start + piece.duration * np.array(piece.law.breaks)
+        times = np.unique(np.concatenate([np.linspace(piece.start, piece.stop, _EACH), breaks]))
+        places += [_degrees(shown, one) for one in times.tolist()]
+        values += drawn(factor * piece.values(times, nu))
+    limits = [
+        {"from": _degrees(shown, one.start), "to": _degrees(shown, one.start + one.duration), "value": own[nu] * factor}
+        for one, own in zip(shown.peaks, _limits(shown), strict=True)
+        if nu in own
+    ]
+    name = QUANTITIES[nu]
+    return {"name": name, "unit": unit, "at": places, "values": values, "limits": limits, "peaks": _peaks(shown, nu)}
+
+
+def _peaks(shown: Cycle, nu: int) -> list[dict[str, Any]]:
+    """The least and the greatest value of the cycle."""
+    factor = UNITS[shown.axis][nu][1]
+    low = min((one.extremes[nu][0] for one in shown.peaks), key=lambda pair: pair[0])
+    high = max((one.extremes[nu][1] for one in shown.peaks), key=lambda pair: pair[0])
+    seen = [pair for pair in (low, high) if abs(pair[0]) > _ROUNDING * shown.peak(nu)]
+    return [
+        {"at": _degrees(shown, time), "value": value * factor, "text": digits(value * factor, 6)}
+        for value, time in seen
+    ]
+
+
+def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
+    units = UNITS[shown.axis]
+    for one, own, stretch in zip(shown.peaks, _limits(shown), shown.programme.stretches, strict=True):
+        peaks = [
+            {
+                "text": _plain(one.peak(nu) * units[nu][1], shown.peak(nu) * units[nu][1]),
+                "beyond": one.peak(nu) > own.get(nu, inf) * _KEPT,
+            }
+            for nu in (1, 2, 3)
+        ]
+        yield {
+            "name": one.name,
+            "from": digits(_degrees(shown, one.start), 6),
+            "to": digits(_degrees(shown, one.start + one.duration), 6),
+            "at": [_degrees(shown, one.start), _degrees(shown, one.start + one.duration)],
+            "time": digits(1e3 * one.duration, 6),
+            "by": _plain(stretch.displacement * units[0][1], shown.peak(0) * units[0][1]),
+            "peaks": peaks,
+        }
+
+
+def _plain(value: float, size: float) -> str:
+    return digits(0.0 if abs(value) <= _ROUNDING * size else value, 6)
+
+
+def _trust(shown: Cycle) -> dict[str, Any] | None:
+    if not shown.solutions:
+        return None
+    unit = objective_unit(shown)
+    facts = [f"least {shown.minimise} = {digits(shown.objective)} {unit}"]
+    gap = ""
+    if shown.lower_bound is not None:
+        facts.append(f"no motions of this programme are below {digits(shown.lower_bound)} {unit}")
+        gap = gap_text(1.0 - shown.lower_bound / shown.objective)
+    advice = {Status.OPTIMAL: "The lower bound meets the objective: no laws of this programme are better."}
+    status = shown.status
+    return {
+        "status": status.value,
+        "word": HEARD[status],
+        "advice": advice.get(status, status.advice),
+        "gap": gap,
+        "facts": facts,
+    }
+
+
+def _facts(shown: Cycle) -> list[str]:
+    """What the drive takes, and leaps at the joints."""
+    facts = []
+    if shown.drive is not None:
+        name, unit = ("force", "N") if shown.axis == "length" else ("torque", "N m")
+        effort = shown.effort
+        facts += [
+            f"peak {name} {digits(effort.peak_force, 6)} {unit}",
+            f"rms {name} {digits(effort.rms_force, 6)} {unit}",
+            f"peak power {digits(effort.peak_power, 6)} W",
+        ]
+    leap = max(abs(joint["acceleration"]) for joint in shown.joints)
+    unit = UNITS[shown.axis][2][0]
+    return [*facts, f"greatest leap of the acceleration at a joint {digits(leap, 6)} {unit}"]
+
+
+def _ways(spec: Study, axis: Axis) -> Iterator[dict[str, Any]]:
+    for name, given in axis.limits.items():
+        if name not in LIMITS:
+            continue
+        others = {other: value for other, value in axis.limits.items() if other != name}
+        freed = msgspec.structs.replace(axis, limits=others, minimise=name, follower=None)
+        try:
+            least = _stored(spec, freed).objective
+        except (InfeasibleProblem, SolverFailure):
+            continue
+        unit, factor = UNITS[_stored(spec, freed).axis][LIMITS[name]]
+        text = f"{least * factor * (1.0 + _ROOM):.6g} {unit}"
+        yield {"entry": name, "value": text, "text": f"raise the limit of {name} from {given} to {text}"}
+
+
+#: what the page shows where no cycle was given
+EXAMPLE: dict[str, Any] = {
+    "job": "cycle",
+    "title": "Rise, dwell, return, dwell",
+    "speed": "200 rpm",
+    "axis": [
+        {
+            "name": "slide",
+            "minimise": "acceleration",
+            "limits": {"velocity": "616 mm/s"},
+            "segment": [
+                {"kind": "rise", "by": "35 mm", "duration": "120 deg"},
+                {"kind": "dwell", "duration": "90 deg"},
+                {"kind": "return", "by": "35 mm", "duration": "100 deg"},
+                {"kind": "dwell"},
+            ],
+        }
+    ],
+}
+
+
+def example() -> dict[str, Any]:
+    """The cycle that is shown where none was given.
+
+    Examples
+    --------
+    >>> answer(AskedCycle(study=example()))["trust"]["word"]
+    'proven optimal'
+    """
+    copy: dict[str, Any] = json.loads(json.dumps(EXAMPLE))
+    return copy

@@ -1,0 +1,232 @@
+"""Files that the page offers: what is seen as Python, as a problem file, as laws and tables."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Callable, Mapping
+from pprint import pformat
+from typing import Annotated, Any, Literal
+
+import msgspec
+
+import optlaws
+from optlaws import Cycle, Problem, Solution
+from optlaws.errors import InputError
+from optlaws.explorer.answers import cycle_view
+from optlaws.explorer.answers.asked import MOST_LAWS, AskedLaw, law_of, problem_of, solved
+from optlaws.explorer.answers.law_view import title
+from optlaws.files.toml_text import to_toml
+from optlaws.files.writing import MARK
+from optlaws.jobs.cycle.cycle import table_of_motion
+from optlaws.jobs.cycle.entries import AskedFollower, cycle_of
+from optlaws.laws.values import table_of_values
+
+_NAMES = "abcd"
+_ROWS = 361
+_WIDTH = 116
+_CALLED = re.compile(r"\b([A-Za-z_]\w*)\(")
+
+File = dict[str, str]
+
+
+class AskedFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A file of what is seen."""
+
+    kind: Literal["python", "problem", "law", "table"]
+    view: Literal["laws", "cycle"] = "laws"
+    laws: Annotated[list[AskedLaw], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
+    active: Annotated[int, msgspec.Meta(ge=0, lt=MOST_LAWS)] = 0
+    cycle: cycle_view.AskedCycle | None = None
+
+
+def answer(asked: AskedFile) -> File:
+    """A file: its name, its type, its text.
+
+    Raises
+    ------
+    InputError
+        If there is nothing to save.
+    InfeasibleProblem, SolverFailure
+        If the law that is to be saved does not exist.
+
+    Examples
+    --------
+    >>> answer(AskedFile(kind="table", laws=[AskedLaw(name="cycloidal")]))["name"]
+    'cycloidal.csv'
+    """
+    if asked.view == "cycle":
+        return _of_cycle(asked)
+    law = asked.laws[min(asked.active, len(asked.laws) - 1)]
+    makers: Mapping[str, Callable[[], File]] = {
+        "python": lambda: _file("study.py", "text/x-python", python(asked.laws)),
+        "problem": lambda: _file("problem.toml", "application/toml", problem_file(law)),
+        "law": lambda: _file(f"{_stem(law)}.json", "application/json", stored(law)),
+        "table": lambda: _file(f"{_stem(law)}.csv", "text/csv", table_of_values(law_of(law), _title(law))),
+    }
+    return makers[asked.kind]()
+
+
+def _file(name: str, kind: str, text: str) -> File:
+    return {"name": name, "type": kind, "text": text}
+
+
+def _title(law: AskedLaw) -> str:
+    if law.problem is None:
+        return law.title or law.name or "a stored law"
+    return law.title or title(problem_of(law))
+
+
+def _stem(law: AskedLaw) -> str:
+    return "_".join(re.findall(r"[A-Za-z0-9.]+", _title(law)))[:60].strip("._") or "law"
+
+
+def python(laws: list[AskedLaw]) -> str:
+    """Lines that make the same laws with the same digits, and draw them.
+
+    Examples
+    --------
+    >>> print(python([AskedLaw(name="cycloidal")]), end="")
+    from optlaws import compare
+    <BLANKLINE>
+    comparison = compare('cycloidal')
+    for row in comparison.rows:
+        print(row)
+    comparison.plot()[0].figure.savefig("laws.png")
+    """
+    made, given = [], []
+    for name, law in zip(_NAMES, laws, strict=False):
+        text = _expression(law)
+        given.append(text if law.name is not None and law.problem is None else name)
+        if given[-1] == name:
+            made.append(f"{name} = {text}")
+    lines = [
+        *made,
+        f"comparison = compare({', '.join(given)})",
+        "for row in comparison.rows:",
+        "    print(row)",
+        'comparison.plot()[0].figure.savefig("laws.png")',
+    ]
+    return _with_imports(lines)
+
+
+def _expression(law: AskedLaw) -> str:
+    if law.problem is not None:
+        return f"synthesize({_problem_text(problem_of(law))})"
+    if law.law is not None:
+        return f"MotionLaw.from_dict({pformat(law.law, width=_WIDTH, sort_dicts=False)})"
+    return repr(law.name)
+
+
+def _problem_text(problem: Problem) -> str:
+    """A problem as Python; from its entries where its own text is not Python."""
+    text = repr(problem)
+    known = {name: getattr(optlaws, name) for name in _called(text)}
+    try:
+        same = eval(text, {"__builtins__": {}}, known) == problem  # noqa: S307 - our own text, to see that it is Python
+    except (NameError, SyntaxError, TypeError, ValueError):
+        same = False
+    return text if same else f"Problem.from_dict({problem.to_dict()!r})"
+
+
+def _called(text: str) -> list[str]:
+    return sorted({name for name in _CALLED.findall(text) if name in optlaws.__all__})
+
+
+def _with_imports(lines: list[str]) -> str:
+    body = "\n".join(lines)
+    names = _called(body) + (["MotionLaw"] if "MotionLaw." in body else [])
+    names += ["Problem"] if "Problem." in body and "Problem" not in names else []
+    return f"from optlaws import {', '.join(sorted(names))}\n\n{body}\n"
+
+
+def problem_file(law: AskedLaw) -> str:
+    """The problem as a file for `optlaws run` and `optlaws explore`.
+
+    Raises
+    ------
+    InputError
+        If the law is of no problem.
+
+    Examples
+    --------
+    >>> print(problem_file(AskedLaw(problem={"order": 4, "B": 1.7, "J": [0, 60]})), end="")
+    job = "solutions"
+    title = "least C, J ≤ 60, B = 1.7, order 4, degree 9"
+    <BLANKLINE>
+    [problem]
+    minimise = "C"
+    order = 4
+    basis = "chebyshev"
+    degree = 9
+    monotone = false
+    symmetric = true
+    J = [0, 60]
+    <BLANKLINE>
+    [[sweep]]
+    B = [1.7]
+    """
+    if law.problem is None:
+        raise InputError(
+            "a law that is given is of no problem: save it as a law, or ask for an optimal one in its place"
+        )
+    problem = problem_of(law)
+    entries = problem.to_dict()
+    swept = "B" if isinstance(entries.get("B"), float) else "order"
+    value = entries.pop(swept)
+    entries = {name: _bounds(one) for name, one in entries.items()}
+    return to_toml({"job": "solutions", "title": title(problem), "problem": entries, "sweep": [{swept: [value]}]})
+
+
+def _bounds(value: Any) -> Any:  # noqa: ANN401 - an entry
+    """A range without an upper end has none in JSON, but an infinite one in a file."""
+    if isinstance(value, list) and len(value) == 2 and value[1] is None:
+        return [value[0], float("inf")]
+    return {name: _bounds(one) for name, one in value.items()} if isinstance(value, dict) else value
+
+
+def stored(law: AskedLaw) -> str:
+    """The law as JSON; a solution with its problem and its proof, for `optlaws verify`."""
+    found = solved(problem_of(law)) if law.problem is not None else None
+    data = found.to_dict() if isinstance(found, Solution) else law_of(law).to_dict()
+    return json.dumps({"about": MARK, **data} if isinstance(found, Solution) else data, indent=1) + "\n"
+
+
+def _of_cycle(asked: AskedFile) -> File:
+    if asked.cycle is None:
+        raise InputError("there is no cycle to save")
+    if asked.kind == "problem":
+        cycle_view.read(asked.cycle)
+        return _file("cycle.toml", "application/toml", to_toml(asked.cycle.study))
+    spec, axis = cycle_view.read(asked.cycle)
+    cycle = cycle_view.cycle(asked.cycle)
+    if asked.kind == "table":
+        about = f"{spec.title}: {axis.name}; SI units but for mm and deg"
+        return _file(f"{axis.name}.csv", "text/csv", table_of_motion(cycle, _ROWS, about))
+    if asked.kind == "python":
+        free = msgspec.structs.replace(axis, follower=None)
+        return _file("cycle.py", "text/x-python", cycle_python(cycle_of(free, spec), axis.follower))
+    raise InputError("a cycle has several laws: save it as a problem file or a table")
+
+
+def cycle_python(cycle: Cycle, follower: AskedFollower | None = None) -> str:
+    """Lines that make the same cycle, or that of the cam whose follower moves so.
+
+    Examples
+    --------
+    >>> from optlaws.explorer.answers.cycle_view import AskedCycle, example
+    >>> cycle_python(cycle_view.cycle(AskedCycle(study=example()))).splitlines()[0]
+    'from optlaws import Cycle, Dwell, Return, Rise'
+    """
+    asked = {name: getattr(cycle, name) for name in ("speed", "period", "minimise", "limits", "start", "advance")}
+    asked |= {"drive": cycle.drive, "order": cycle.order, "degree": cycle.degree}
+    given = ", ".join(f"{name}={value!r}" for name, value in asked.items() if value not in (None, {}))
+    segments = "\n".join(f"    {one!r}," for one in cycle.segments)
+    lines = [
+        f"segments = [\n{segments}\n]",
+        f"cycle = Cycle(segments, {given})"
+        + ("" if follower is None else f".cam({follower.period!r}, damping={follower.damping!r})"),
+        "print(cycle.status.value, cycle.objective, cycle.lower_bound)",
+        'cycle.plot()[0].figure.savefig("cycle.png")',
+    ]
+    return _with_imports(lines)

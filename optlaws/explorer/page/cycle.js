@@ -1,0 +1,68 @@
+// The view of a cycle: its programme on the left, the motion in machine units, its segments and its limits.
+
+import { Latest } from "./latest.js";
+import { Motion } from "./motion.js";
+import { Programme } from "./programme.js";
+import { html } from "./svg.js";
+import { showTrust } from "./trust.js";
+
+const element = (id) => document.getElementById(id);
+const HEADINGS = ["segment", "from, deg", "to, deg", "takes, ms", "moves", "velocity", "acceleration", "jerk"];
+
+export class CycleView {
+  #study;
+  #programme;
+  #motion = new Motion(element("motion"));
+  #answer = null;
+  #ways = null;
+  #cycles;
+  #nearest;
+
+  constructor(study, failed) {
+    this.#study = study;
+    this.#programme = new Programme(element("programme"), study);
+    this.#cycles = new Latest("api/cycle", (answer, question) => this.#answered(answer, question), failed);
+    this.#nearest = new Latest("api/cycle-nearest", ({ ways }) => this.#render(this.#answer, ways), failed);
+  }
+
+  show(state) {
+    this.#programme.show(state.cycle, state.axis);
+    this.#cycles.ask({ study: state.cycle, axis: state.axis });
+  }
+
+  #answered(answer, question) {
+    if (answer.refused?.word === "no such law") this.#nearest.ask(question);
+    this.#render(answer, answer.refused?.word === "no such law" ? null : []);
+  }
+
+  #render(answer, ways) {
+    this.#answer = answer;
+    this.#ways = ways;
+    showTrust(element("cycle-trust"), answer, this.#ways, (way) => this.#back(way));
+    if (answer.facts) element("cycle-trust").append(html("p", { class: "facts", text: answer.facts.join(" · ") }));
+    this.#motion.show(answer);
+    element("segments").replaceChildren(...(answer.refused ? [] : [table(answer)]));
+  }
+
+  #back({ entry, value }) {
+    this.#study.change(`back ${entry}`, (state) => {
+      const axis = state.cycle.axis[state.axis];
+      axis.limits = { ...axis.limits, [entry]: value };
+    });
+  }
+}
+
+function table({ segments, panels }) {
+  const units = panels.map(({ unit }) => unit);
+  const named = HEADINGS.map((name, i) => (i >= 4 ? `${name}, ${units[i - 4]}` : name));
+  const head = html("tr", {}, ...named.map((name, i) => html("th", { scope: "col", class: i ? "number" : null, text: name })));
+  const rows = segments.map(({ name, from, to, time, by, peaks }) =>
+    html(
+      "tr", {},
+      html("th", { scope: "row", text: name }),
+      ...[from, to, time, by].map((text) => html("td", { class: "number", text })),
+      ...peaks.map(({ text, beyond }) => html("td", { class: `number${beyond ? " over" : ""}`, title: beyond ? "beyond its limit" : null, text: beyond ? `${text} !` : text })),
+    ),
+  );
+  return html("table", { "aria-label": "Segments with their peaks" }, html("thead", {}, head), html("tbody", {}, ...rows));
+}

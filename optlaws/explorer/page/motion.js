@@ -1,0 +1,94 @@
+// The motion of a cycle in machine units over the angle of the master, with red zones beyond what is allowed.
+
+import { frame, scale, ticks } from "./axes.js";
+import { html, path, svg } from "./svg.js";
+
+const BOX = { left: 64, right: 14, top: 20, bottom: 6 };
+const FOOT = 34;
+const LETTER = 17;
+const NEAR = 1.6; // limits farther out than this many peaks are out of sight
+
+export class Motion {
+  #root;
+  #shown = null;
+
+  constructor(root) {
+    this.#root = root;
+    new ResizeObserver(() => this.#draw()).observe(root);
+  }
+
+  show(answer) {
+    this.#shown = answer;
+    this.#draw();
+  }
+
+  #draw() {
+    const width = this.#root.clientWidth - 16;
+    if (!this.#shown || width < 100) return;
+    if (this.#shown.refused) {
+      const { word } = this.#shown.refused;
+      this.#root.replaceChildren(html("div", { class: "nothing" }, html("strong", { text: word }), html("span", { text: "there is nothing to draw" })));
+      return;
+    }
+    const { panels } = this.#shown;
+    const height = Math.max(96, Math.floor((this.#root.clientHeight - 16 - FOOT) / panels.length));
+    this.#root.replaceChildren(...panels.map((panel, i) => this.#panel(panel, i, width, height, i === panels.length - 1)));
+  }
+
+  #panel(panel, number, width, height, last) {
+    const box = { left: BOX.left, right: width - BOX.right, top: BOX.top, bottom: height - BOX.bottom };
+    const known = panel.values.filter((value) => value !== null);
+    const most = Math.max(0, ...known.map(Math.abs));
+    const limits = panel.limits.filter(({ value }) => value <= NEAR * most).map(({ value }) => value);
+    const reach = limits.length ? Math.max(...limits) : 0;
+    const [low, high] = [Math.min(0, ...known, -reach), Math.max(0, ...known, reach)];
+    const room = ((high - low || 1) * LETTER) / (box.bottom - box.top - 2 * LETTER);
+    const x = scale([0, 360], [box.left, box.right]);
+    const y = scale([low < 0 ? low - room : low, high + room], [box.bottom, box.top]);
+    const drawing = svg("svg", { class: "curve", width, height: height + (last ? FOOT : 0), role: "img", "aria-label": told(panel) });
+    const xs = [0, 45, 90, 135, 180, 225, 270, 315, 360];
+    drawing.append(frame(box, x, y, { xs, ys: ticks(low, high, 3), xlabels: last, xname: last ? `master, deg (${this.#shown.period} a turn)` : "" }));
+    drawing.append(svg("text", { class: "title", x: box.left, y: 13, text: `${panel.name}, ${panel.unit}` }));
+    const places = panel.at.map((at, i) => (panel.values[i] === null ? null : [x(at), y(panel.values[i])]));
+    const zones = this.#zones(panel, x, y, box);
+    const clip = svg("clipPath", { id: `beyond-${number}` }, ...zones.map((zone) => zone.cloneNode()));
+    drawing.append(clip, ...zones, ...this.#joints(x, box, number === 0));
+    drawing.append(svg("path", { class: "line law-0 active", d: path(places) }));
+    if (number && this.#shown.segments.some(({ peaks }) => peaks[number - 1].beyond)) drawing.append(svg("path", { class: "beyond", d: path(places), "clip-path": `url(#beyond-${number})` }));
+    for (const peak of panel.peaks) drawing.append(peakOf(peak, x, y, box));
+    return drawing;
+  }
+
+  /** Where the motion must not go: above and below the limits of each segment. */
+  #zones(panel, x, y, box) {
+    const zone = ({ from, to }, top, bottom) => svg("rect", { class: "zone", x: x(from), width: x(to) - x(from), y: top, height: Math.max(0, bottom - top) });
+    return panel.limits.flatMap((limit) => {
+      const [above, below] = [Math.max(box.top, y(limit.value)), Math.min(box.bottom, y(-limit.value))];
+      const found = above > box.top ? [zone(limit, box.top, above)] : [];
+      return below < box.bottom ? [...found, zone(limit, below, box.bottom)] : found;
+    });
+  }
+
+  #joints(x, box, named) {
+    return this.#shown.segments.flatMap(({ name, at }) => {
+      const marks = at[0] > 0 ? [svg("line", { class: "cursor", x1: x(at[0]), x2: x(at[0]), y1: box.top, y2: box.bottom })] : [];
+      if (named && x(at[1]) - x(at[0]) > 7 * name.length) marks.push(svg("text", { class: "segment", x: (x(at[0]) + x(at[1])) / 2, y: 13, "text-anchor": "middle", text: name }));
+      return marks;
+    });
+  }
+}
+
+function peakOf(peak, x, y, box) {
+  const at = [x(peak.at), y(peak.value)];
+  const anchor = at[0] > box.right - 60 ? "end" : at[0] < box.left + 60 ? "start" : "middle";
+  return svg(
+    "g",
+    { class: "peak law-0" },
+    svg("circle", { cx: at[0].toFixed(1), cy: at[1].toFixed(1), r: 3 }),
+    svg("text", { x: at[0].toFixed(1), y: (at[1] + (peak.value > 0 ? -7 : 16)).toFixed(1), "text-anchor": anchor, text: peak.text }),
+  );
+}
+
+function told(panel) {
+  return `${panel.name} over the angle of the master, ${panel.unit}: ${panel.peaks.map((peak) => `${peak.text} at ${peak.at} degrees`).join(", ")}`;
+}

@@ -1,0 +1,95 @@
+// The programme of a cycle as a form: speed, what is least, limits, and the segments with their laws.
+
+import { group } from "./fields.js";
+import { html } from "./svg.js";
+
+const OBJECTIVES = ["acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "force", "rms force"];
+const LIMITS = { velocity: "616 mm/s", acceleration: "20 m/s²", jerk: "2000 m/s³" };
+const KINDS = { rise: ["by"], return: ["by"], move: ["by", "to"], dwell: [], "constant velocity": ["velocity"], free: ["by", "to"] };
+const LAWS = ["rise", "return", "move"];
+const PLACEHOLDERS = { by: "35 mm", to: "0 mm", velocity: "300 mm/s", duration: "120 deg, or free", law: "optimal" };
+
+export class Programme {
+  #root;
+  #study;
+  #shape = "";
+  #shows = [];
+
+  constructor(root, study) {
+    this.#root = root;
+    this.#study = study;
+  }
+
+  show(cycle, index) {
+    const axis = cycle.axis?.[index] ?? cycle.axis?.[0];
+    if (!axis) return;
+    const shape = JSON.stringify([index, cycle.axis.map((one) => one.name), (axis.segment ?? []).map((one) => one.kind), "period" in cycle]);
+    if (shape !== this.#shape) this.#build(cycle, axis, index);
+    this.#shape = shape;
+    for (const show of this.#shows) show(cycle, axis);
+  }
+
+  #change(what, alter) {
+    this.#study.change(what, (state) => alter(state.cycle.axis[state.axis] ?? state.cycle.axis[0], state.cycle, state));
+  }
+
+  #build(cycle, axis, index) {
+    this.#shows = [];
+    const timing = "period" in cycle ? "period" : "speed";
+    const head = [
+      this.#select("timing", "given by", { speed: "speed", period: "period" }, () => timing, (_axis, study, kind) => {
+        delete study.speed;
+        delete study.period;
+        study[kind] = kind === "speed" ? "200 rpm" : "0.3 s";
+      }),
+      this.#text("timing value", timing, "200 rpm", (_axis, study) => study[timing], (_axis, study, value) => (study[timing] = value)),
+      this.#select("minimise", "least", Object.fromEntries(OBJECTIVES.map((one) => [one, one])), (one) => one.minimise ?? "acceleration", (one, _study, value) => (one.minimise = value)),
+    ];
+    if (cycle.axis.length > 1) head.unshift(this.#select("axis", "axis", Object.fromEntries(cycle.axis.map((one, i) => [i, one.name])), () => String(index), (_axis, _study, value, state) => (state.axis = Number(value))));
+    const limits = Object.entries(LIMITS).map(([name, usual]) => this.#text(`limit ${name}`, name, `none, or ${usual}`, (one) => one.limits?.[name], (one, _study, value) => {
+      one.limits = { ...one.limits, [name]: value };
+      if (!value) delete one.limits[name];
+    }));
+    const segments = (axis.segment ?? []).map((segment, i) => this.#segment(segment, i, axis.segment.length));
+    const add = html("button", { type: "button", text: "+ segment", onclick: () => this.#change("add segment", (one) => one.segment.push({ kind: "dwell", duration: "30 deg" })) });
+    this.#root.replaceChildren(group("Cycle", ...head), group("At most", ...limits), group("Segments", ...segments, add));
+  }
+
+  #segment(segment, i, count) {
+    const of = (axis) => axis.segment?.[i] ?? {};
+    const row = (name) => this.#text(`segment ${i} ${name}`, name, PLACEHOLDERS[name], (axis) => listed(of(axis)[name]), (axis, _study, value) => {
+      if (value) axis.segment[i][name] = name === "duration" && value.includes(" to ") ? value.split(" to ").map((one) => one.trim()) : value;
+      else delete axis.segment[i][name];
+    });
+    const kind = this.#select(`segment ${i} kind`, String(i + 1), Object.fromEntries(Object.keys(KINDS).map((one) => [one, one])), (axis) => of(axis).kind, (axis, _study, value) => {
+      const { duration, name } = axis.segment[i];
+      axis.segment[i] = { kind: value, ...(duration && { duration }), ...(name && { name }) };
+      if (value === "rise" || value === "return" || value === "free") axis.segment[i].by = "10 mm";
+      if (value === "move") axis.segment[i].by = "10 mm";
+    });
+    const remove = count > 1 ? html("button", { type: "button", class: "close", "aria-label": `Take segment ${i + 1} away`, text: "×", onclick: () => this.#change(`remove segment ${i}`, (axis) => axis.segment.splice(i, 1)) }) : null;
+    const rows = [...(KINDS[segment.kind] ?? []).map(row), row("duration"), ...(LAWS.includes(segment.kind) ? [row("law")] : [])];
+    if (remove) kind.append(remove);
+    return html("div", { class: "segment-card" }, kind, ...rows);
+  }
+
+  #text(what, name, placeholder, get, put) {
+    const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 100, "aria-label": what, ...(name === "law" && { list: "names" }) });
+    field.addEventListener("input", () => this.#change(what, (axis, study) => put(axis, study, field.value.trim())));
+    field.addEventListener("change", () => this.#study.rest());
+    this.#shows.push((cycle, axis) => {
+      const value = get(axis, cycle) ?? "";
+      if (document.activeElement !== field || field.value.trim() !== value) field.value = value;
+    });
+    return html("label", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
+  }
+
+  #select(what, name, options, get, put) {
+    const field = html("select", { "aria-label": what }, ...Object.entries(options).map(([value, text]) => html("option", { value, text })));
+    field.addEventListener("change", () => this.#change(what, (axis, study, state) => put(axis, study, field.value, state)));
+    this.#shows.push((cycle, axis) => (field.value = get(axis, cycle)));
+    return html("div", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
+  }
+}
+
+const listed = (value) => (Array.isArray(value) ? value.join(" to ") : value);

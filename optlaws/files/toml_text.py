@@ -1,0 +1,78 @@
+"""Plain data written as TOML, as people write problem files: values first, then tables under their names."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping
+from typing import Any
+
+from optlaws.errors import InputError
+
+
+def to_toml(data: Mapping[str, Any]) -> str:
+    """TOML that reads as the same data: text, numbers, switches, lists and tables; None is left out.
+
+    Raises
+    ------
+    InputError
+        If a value is none that TOML has.
+
+    Examples
+    --------
+    >>> print(to_toml({"job": "cycle", "axis": [{"name": "slide", "segment": [{"kind": "dwell"}]}]}), end="")
+    job = "cycle"
+    <BLANKLINE>
+    [[axis]]
+    name = "slide"
+    <BLANKLINE>
+    [[axis.segment]]
+    kind = "dwell"
+    """
+    return "\n".join(_lines(data, ())).strip("\n") + "\n"
+
+
+def _lines(data: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
+    present = {name: value for name, value in data.items() if value is not None}
+    tables = {name: value for name, value in present.items() if _has_own_lines(value)}
+    yield from (f"{_key(name)} = {_value(value)}" for name, value in present.items() if name not in tables)
+    for name, value in tables.items():
+        own = (*path, name)
+        heading = ".".join(map(_key, own))
+        for one in value if isinstance(value, list) else [value]:
+            yield ""
+            yield f"[[{heading}]]" if isinstance(value, list) else f"[{heading}]"
+            yield from _lines(one, own)
+
+
+def _has_own_lines(value: Any) -> bool:  # noqa: ANN401
+    """Whether a value is a table of tables, a list of tables, or a table of more than a line."""
+    if isinstance(value, list):
+        return bool(value) and all(isinstance(one, Mapping) for one in value)
+    return isinstance(value, Mapping) and (len(value) > 4 or any(isinstance(one, Mapping) for one in value.values()))
+
+
+def _key(name: str) -> str:
+    plain = name and all(letter.isascii() and (letter.isalnum() or letter in "_-") for letter in name)
+    return name if plain else _text(name)
+
+
+def _value(value: Any) -> str:  # noqa: ANN401
+    if isinstance(value, bool):
+        return "true" if value else "false"
+    if isinstance(value, int):
+        return str(value)
+    if isinstance(value, float):
+        return repr(value)  # nan and inf are those of TOML too
+    if isinstance(value, str):
+        return _text(value)
+    if isinstance(value, list | tuple):
+        return f"[{', '.join(map(_value, value))}]"
+    if isinstance(value, Mapping):
+        inner = ", ".join(f"{_key(name)} = {_value(one)}" for name, one in value.items() if one is not None)
+        return f"{{ {inner} }}" if inner else "{}"
+    raise InputError(f"TOML has no {type(value).__name__}")
+
+
+def _text(text: str) -> str:
+    # the escapes of JSON are those of TOML, which wants DEL escaped too
+    return json.dumps(text, ensure_ascii=False).replace("\x7f", "\\u007f")

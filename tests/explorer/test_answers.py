@@ -1,0 +1,237 @@
+"""What the page is answered, without a browser: the numbers are the library's, the files make them again."""
+
+import json
+import tomllib
+from dataclasses import replace
+from pathlib import Path
+from typing import Any
+
+import pytest
+
+from optlaws import Problem, Range, Solution, at_most, between, synthesize
+from optlaws.errors import InputError
+from optlaws.explorer.answers import cycle_view, front_view, law_view, nearest, saved
+from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, given_law, law_of, problem_of, solved
+from optlaws.explorer.answers.cycle_view import AskedCycle, example
+from optlaws.explorer.answers.saved import AskedFile
+from optlaws.explorer.start import start
+from optlaws.files.toml_text import to_toml
+from tests.documents import ROOT
+from tests.explorer.talk import OPTIMAL
+
+STORED = {"law": given_law(AskedLaw(name="cubic")).to_dict()}
+FORMULA = {"problem": {"order": 3, "B": 1.8, "degree": 7, "minimise": "max(C/4, J/32)", "bounds": {"rms_c": [0, 4.5]}}}
+ENDS = {"problem": {"start": [0, 0], "end": [1, 0.5], "degree": 7, "symmetric": False}}
+
+
+def law(entries: dict[str, Any]) -> AskedLaw:
+    return AskedLaw(**entries)
+
+
+def cycle_of(**changed: Any) -> AskedCycle:  # noqa: ANN401 - entries of an axis
+    study = example()
+    study["axis"][0] |= changed
+    return AskedCycle(study=study)
+
+
+def with_law(name: str) -> list[dict[str, str]]:
+    return [one | ({"law": name} if "by" in one else {}) for one in example()["axis"][0]["segment"]]
+
+
+# --- laws and fronts ---
+
+
+@pytest.mark.parametrize("pair", front_view.PAIRS)
+def test_points_of_a_front_are_laws_of_their_own_problems(pair: tuple[str, str]) -> None:
+    x, y = pair
+    swept = front_view.swept_problem(problem_of(law(OPTIMAL)), x, y)
+    line = front_view.front(swept, x, y)["line"]
+    first, second = line[len(line) // 2]
+    asked: dict[str, Any] = {x: first if x == "B" else at_most(first)}
+    alone = synthesize(replace(swept, **asked))
+    assert law_view.digits(getattr(alone.constants, x).value, 6) == law_view.digits(first, 6)
+    assert getattr(alone.constants, y).value == pytest.approx(second, rel=1e-4 if y == "J" else 2e-6)
+
+
+def test_a_front_ends_where_laws_end_and_its_limit_lies_below() -> None:
+    found = front_view.front(Problem(order=4, J=at_most(70.0)), "B", "C")
+    least, greatest = found["line"][0][0], found["line"][-1][0]
+    for B, exists in ((least, True), (least - 0.01, False), (greatest, True)):
+        assert isinstance(solved(Problem(order=4, J=at_most(70.0), B=B)), Solution) == exists
+    limits = dict(map(tuple, found["limit"]))
+    assert min(limits) > 1.3  # below it the jerk is too small for any law
+    assert all(limits[min(limits, key=lambda other: abs(other - B))] - 0.2 < C for B, C in found["line"])
+
+
+def test_a_front_without_any_law_says_so() -> None:
+    assert front_view.front(Problem(order=4, J=at_most(20.0)), "B", "C")["words"] == "no B has a law of this problem"
+
+
+@pytest.mark.parametrize(
+    ("entries", "entry"),
+    [
+        ({"B": 1.7, "J": [0, 20]}, "J"),
+        ({"B": 1.2, "J": [0, 70]}, "B"),
+        ({"B": 1.7, "bounds": {"rms_c": [0, 3.5]}}, "rms_c"),
+    ],
+)
+def test_the_way_back_is_as_short_as_can_be(entries: dict[str, Any], entry: str) -> None:
+    question = law({"problem": {"order": 4, "degree": 9} | entries})
+    (way,) = (one for one in nearest.answer(question)["ways"] if one["entry"] == entry)
+    problem = problem_of(question)
+
+    def changed(value: float) -> Problem:
+        if entry == "rms_c":
+            return replace(problem, bounds={"rms_c": at_most(value)})
+        asked: dict[str, Any] = {entry: value if entry == "B" else at_most(value)}
+        return replace(problem, **asked)
+
+    assert isinstance(solved(changed(way["value"])), Solution)
+    assert not isinstance(solved(changed(way["value"] * (1 - 1e-3))), Solution)
+
+
+def test_a_problem_with_a_law_needs_no_way_back() -> None:
+    assert nearest.answer(law(OPTIMAL)) == {"ways": []}
+
+
+@pytest.mark.parametrize("entries", [{"order": 13}, {"order": 4, "degree": 42}, {"order": 4, "minimize": "C"}])
+def test_what_is_too_large_or_unknown_is_refused_in_its_place(entries: dict[str, Any]) -> None:
+    views = law_view.answer(AskedLaws(laws=[law({"problem": entries}), law({"name": "cubic"})]))["laws"]
+    assert views[0]["refused"]["word"] == "not understood"
+    assert views[1]["constants"][0]["text"] == "1.5"
+
+
+def test_the_page_reads_no_file(tmp_path: Path) -> None:
+    file = tmp_path / "law.json"
+    file.write_text(json.dumps(STORED["law"]), "utf-8")
+    with pytest.raises(InputError, match="reads none"):
+        given_law(AskedLaw(name=str(file)))
+    with pytest.raises(InputError, match="reads none"):
+        cycle_view.read(cycle_of(segment=with_law(str(file))))
+
+
+def test_a_peak_without_bound_is_said_to_be() -> None:
+    view = law_view.answer(AskedLaws(laws=[law({"name": "constant acceleration"})]))["laws"][0]
+    assert view["constants"][3] == {"name": "J", "text": "∞", "value": None, "k": "k = 0.5"}
+
+
+# --- what is shown first ---
+
+
+@pytest.mark.parametrize("file", ["mixed.toml", "d_minimal.toml", "cycle_press.toml"])
+def test_problem_files_are_shown(file: str) -> None:
+    found = start(str(ROOT / "problems" / file))
+    if found["view"] == "cycle":
+        assert "trust" in cycle_view.answer(AskedCycle(study=found["cycle"]))
+    else:
+        assert isinstance(solved(problem_of(law(found["laws"][0]))), Solution)
+
+
+def test_a_solution_is_shown_as_its_problem_and_a_law_as_itself(tmp_path: Path) -> None:
+    file = tmp_path / "solution.json"
+    file.write_text(json.dumps(synthesize(Problem(order=4, B=1.7)).to_dict()), "utf-8")
+    assert problem_of(law(start(str(file))["laws"][0])) == Problem(order=4, B=1.7)
+    file.write_text(json.dumps(STORED["law"]), "utf-8")
+    assert law_of(law(start(str(file))["laws"][0])) == given_law(AskedLaw(name="cubic"))
+
+
+@pytest.mark.parametrize(
+    ("given", "message"),
+    [("nobody", "nobody"), ("none.toml", "none.toml"), ("{ROOT}/problems/lever_nomogram.toml", "explorer shows")],
+)
+def test_what_cannot_be_shown_is_refused_by_its_name(given: str, message: str) -> None:
+    with pytest.raises((InputError, OSError), match=message):
+        start(given.format(ROOT=ROOT))
+
+
+# --- files ---
+
+
+def run(code: str, folder: Path, monkeypatch: pytest.MonkeyPatch) -> dict[str, Any]:
+    monkeypatch.chdir(folder)
+    names: dict[str, Any] = {}
+    exec(code, names)  # noqa: S102 - what a user would run
+    return names
+
+
+def test_python_makes_the_same_laws_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    laws = [law(OPTIMAL), law(FORMULA), law(STORED), law({"name": "III(7.2)"})]
+    code = saved.answer(AskedFile(kind="python", laws=laws))["text"]
+    made = run(code, tmp_path, monkeypatch)["comparison"]
+    assert list(made.laws.values()) == [law_of(one) for one in laws]
+    assert (tmp_path / "laws.png").stat().st_size > 1000
+
+
+@pytest.mark.parametrize("entries", [OPTIMAL, FORMULA, ENDS])
+def test_a_problem_file_is_the_same_problem(entries: dict[str, Any], tmp_path: Path) -> None:
+    file = tmp_path / "problem.toml"
+    file.write_text(saved.answer(AskedFile(kind="problem", laws=[law(entries)]))["text"], "utf-8")
+    assert problem_of(law(start(str(file))["laws"][0])) == problem_of(law(entries))
+    with pytest.raises(InputError, match="of no problem"):
+        saved.answer(AskedFile(kind="problem", laws=[law(STORED)]))
+
+
+def test_laws_and_tables_are_those_of_the_command() -> None:
+    text = saved.answer(AskedFile(kind="law", laws=[law(OPTIMAL)]))["text"]
+    assert json.loads(text)["problem"] == Problem(order=4, B=1.7).to_dict()
+    assert json.loads(saved.answer(AskedFile(kind="law", laws=[law(STORED)]))["text"]) == STORED["law"]
+    table = saved.answer(AskedFile(kind="table", laws=[law({"name": "cubic"})]))["text"].splitlines()
+    assert table[1] == "k,a,b,c,j,d"
+    assert len(table) == 203
+
+
+@pytest.mark.parametrize(
+    "data",
+    [
+        {"a": 1, "b": [1.5, float("inf")], "c": 'é "quoted"\n\x7f', "d": True, "odd key": {"x": []}},
+        {"one": {"two": {"three": 3}}, "list": [{"a": {"b": 1}}, {"c": [[1, 2], [3]]}]},
+        {},
+    ],
+)
+def test_toml_reads_as_what_was_written(data: dict[str, Any]) -> None:
+    assert tomllib.loads(to_toml(data)) == data
+
+
+def test_toml_has_no_other_values() -> None:
+    with pytest.raises(InputError, match="TOML has no Range"):
+        to_toml({"a": Range(1.0, 2.0)})
+    assert to_toml({"a": None, "b": 1}) == "b = 1\n"
+    assert between(1.0, 2.0) == Range(1.0, 2.0)
+
+
+# --- cycles ---
+
+
+def test_a_cycle_within_its_limits_is_proven() -> None:
+    view = cycle_view.answer(cycle_of())
+    assert view["trust"]["word"] == "proven optimal"
+    assert [one["peaks"][0]["text"] for one in view["segments"]] == ["616", "0", "616", "0"]
+    assert not any(peak["beyond"] for one in view["segments"] for peak in one["peaks"])
+    assert [one["value"] for one in view["panels"][1]["limits"]] == [616.0] * 4
+
+
+def test_a_given_law_beyond_a_limit_is_marked() -> None:
+    view = cycle_view.answer(cycle_of(segment=with_law("cycloidal")))
+    assert view["trust"] is None
+    assert [one["peaks"][0]["beyond"] for one in view["segments"]] == [True, False, True, False]
+
+
+def test_a_cycle_that_cannot_keep_its_limit_says_how_far_to_go_back() -> None:
+    asked = cycle_of(limits={"velocity": "430 mm/s"})
+    assert "Return" in cycle_view.answer(asked)["refused"]["reason"]
+    (way,) = cycle_view.nearest(asked)["ways"]
+    assert "refused" not in cycle_view.answer(cycle_of(limits={"velocity": way["value"]}))
+    tighter = f"{float(way['value'].split()[0]) * 0.999} mm/s"
+    assert "refused" in cycle_view.answer(cycle_of(limits={"velocity": tighter}))
+
+
+@pytest.mark.parametrize("file", ["cycle_press", "cycle_flying_shear", "cycle_savin_design"])
+def test_python_and_files_make_the_same_cycle(file: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    asked = AskedCycle(study=start(str(ROOT / "problems" / f"{file}.toml"))["cycle"])
+    one = AskedFile(kind="problem", view="cycle", laws=[law(OPTIMAL)], cycle=asked)
+    assert tomllib.loads(saved.answer(one)["text"]) == asked.study
+    one.kind = "python"
+    made = run(saved.answer(one)["text"], tmp_path, monkeypatch)["cycle"]
+    assert made.peak(2) == cycle_view.cycle(asked).peak(2)
+    one.kind = "table"
+    assert len(saved.answer(one)["text"].splitlines()) == 363
