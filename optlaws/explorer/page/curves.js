@@ -49,8 +49,9 @@ export class Curves {
     const y = scale([low < 0 ? low - size : low, high + (letter === "a" ? 0.2 : 1) * size], [box.bottom, box.top]);
     const element = svg("svg", { class: "curve", width, height: height + (last ? FOOT : 0), role: "img", "aria-label": this.#told(letter) });
     const xs = [0, 0.25, 0.5, 0.75, 1];
-    element.append(frame(box, x, y, { xs, ys: ticks(low, high, 3), xlabels: last, xname: last ? "dimensionless time k" : "" }));
+    element.append(frame(box, x, y, { xs, ys: ticks(low, high, 4), xlabels: last, xname: last ? "dimensionless time k" : "" }));
     element.append(svg("text", { class: "title", x: box.left, y: 13, text: NAMES[letter] }));
+    if (letter === "j" && this.#views[this.#active]?.constants?.some(({ name, value }) => name === "J" && value === null)) element.append(svg("text", { class: "limit-name", x: box.left + 50, y: 13, text: "without bound: c jumps" }));
     for (const { view, i } of laws.toSorted((one, other) => (one.i === this.#active) - (other.i === this.#active))) {
       const places = view.curves.k.map((k, n) => (view.curves[letter][n] === null ? null : [x(k), y(view.curves[letter][n])]));
       element.append(svg("path", { class: `line law-${i}${i === this.#active ? " active" : ""}`, d: path(places) }));

@@ -47,7 +47,7 @@ export class Motion {
     const y = scale([low < 0 ? low - room : low, high + room], [box.bottom, box.top]);
     const drawing = svg("svg", { class: "curve", width, height: height + (last ? FOOT : 0), role: "img", "aria-label": told(panel) });
     const xs = [0, 45, 90, 135, 180, 225, 270, 315, 360];
-    drawing.append(frame(box, x, y, { xs, ys: ticks(low, high, 3), xlabels: last, xname: last ? `master, deg (${this.#shown.period} a turn)` : "" }));
+    drawing.append(frame(box, x, y, { xs, ys: ticks(low, high, 4), xlabels: last, xname: last ? `master, deg (${this.#shown.period} a turn)` : "" }));
     drawing.append(svg("text", { class: "title", x: box.left, y: 13, text: `${panel.name}, ${panel.unit}` }));
     const places = panel.at.map((at, i) => (panel.values[i] === null ? null : [x(at), y(panel.values[i])]));
     const zones = this.#zones(panel, x, y, box);

@@ -9,6 +9,9 @@ const STEPS = { B: 0.001, C: 0.01, D: 0.01, J: 0.1 };
 
 const rounded = (value, step) => Number((Math.round(value / step) * step).toPrecision(8));
 
+/** Whether two pieces of writing, or a mark and one, are in each other's way. */
+const overlap = (one, other) => Math.abs(one.y - other.y) < 11 && one.left < other.right && one.right > other.left;
+
 export class Plane {
   #root;
   #svg = svg("svg", { class: "plane" });
@@ -87,12 +90,14 @@ export class Plane {
       if (place) group.append(svg("text", { class: "family-name", x: place[0] + 5, y: place[1] + 4, text: name }));
     }
     const limit = this.#front.limit.map(at).filter((one) => this.#inside(one, box));
-    const last = limit[Math.floor(limit.length * 0.62)];
-    if (last) group.append(svg("text", { class: "limit-name", x: last[0], y: last[1] + 16, "text-anchor": "middle", text: "limit of all laws" }));
+    // no smooth law lies below and before the limit: there is room
+    const place = limit[Math.floor(limit.length * 0.22)];
+    if (place) group.append(svg("text", { class: "limit-name", x: Math.max(place[0] - 8, box.left + 90), y: place[1] + 14, "text-anchor": "end", text: "limit of all laws" }));
     return group;
   }
 
   #known(box) {
+    const places = this.#front.known.map(({ at }) => [this.#x(at[0]), this.#y(at[1])]);
     const [shown, written] = [[], []];
     for (const { name, at, text, named } of this.#front.known) {
       const place = [this.#x(at[0]), this.#y(at[1])];
@@ -114,10 +119,10 @@ export class Plane {
         svg("circle", { class: "mark", cx: place[0], cy: place[1], r: 3.2 }),
       );
       const end = place[0] > box.right - 120;
-      const width = 6 * name.length * (end ? -1 : 1);
-      const free = written.every((one) => Math.abs(one[1] - place[1]) > 12 || Math.max(one[0], one[2]) < Math.min(place[0], place[0] + width) || Math.min(one[0], one[2]) > Math.max(place[0], place[0] + width));
+      const space = { left: end ? place[0] - 6 * name.length - 7 : place[0] + 5, right: end ? place[0] - 5 : place[0] + 6 * name.length + 7, y: place[1] };
+      const free = !written.some((one) => overlap(one, space)) && !places.some(([left, y]) => overlap({ left, right: left, y }, space));
       if (named && free) {
-        written.push([place[0], place[1], place[0] + width]);
+        written.push(space);
         point.append(svg("text", { x: place[0] + (end ? -7 : 7), y: place[1] + 4, "text-anchor": end ? "end" : "start", text: name }));
       }
       shown.push(point);
