@@ -117,13 +117,18 @@ declare(
     "exporting",
     {
         "optlaws.cams.cutting.cam_files": "cam",
-        "optlaws.exports.export": "cycle law motion",
-        "optlaws.exports.motion_pieces": "pieces_of_cycle pieces_of_law",
+        "optlaws.exports.export": "cycle law motion solution",
+        "optlaws.exports.pieces.motion_pieces": "pieces_of_cycle pieces_of_law",
     },
 )
 declare(
     "export format",
     {
+        "optlaws.exports.controllers.acp10": "br-acp10",
+        "optlaws.exports.controllers.cam_builder": "codesys-cambuilder",
+        "optlaws.exports.controllers.cam_handling": "siemens-elements siemens-points siemens-polynomials",
+        "optlaws.exports.controllers.motion_functions": "twincat-mc3 twincat-nc2",
+        "optlaws.exports.controllers.source_code": "c99 iec-st iec-st-real",
         "optlaws.exports.tables.codesys": "codesys-xy codesys-xyva",
         "optlaws.exports.tables.plain": "csv isg kas lenze sew technosoft",
         "optlaws.exports.tables.rockwell": "rockwell-cam rockwell-cam-extended rockwell-cam-profile",

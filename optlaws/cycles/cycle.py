@@ -350,7 +350,7 @@ class Cycle:
         """Times and polynomial coefficients of the cycle, as a `PiecewiseMotion`: `breaks` and `coefficients`.
 
         Over time in seconds unless a master is given; exact where laws are made of polynomials, else within
-        `tolerance`, a share of the greatest stroke, certified by the eighth derivative.
+        `tolerance`, a share of the greatest stroke, over the whole cycle.
 
         Raises
         ------

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from math import isfinite
 from pathlib import Path
 from typing import Any
@@ -15,6 +15,7 @@ from optlaws.exports.polynomials import PiecewiseMotion
 from optlaws.exports.report import QUANTITIES, Report, as_run
 from optlaws.files import writing
 from optlaws.laws import MotionLaw
+from optlaws.synthesis.solution import Solution
 
 Row = tuple[str, float | None, float | None, float | None]
 
@@ -85,7 +86,7 @@ class Export:
             "model": written.model,
             written.counted: written.points,
             "resolution": written.resolution,
-            "notes": list(written.notes),
+            "notes": [*self.motion.proof, *written.notes],
             "units": {"master": self.motion.units.master, "slave": self.motion.units.slave},
             "IsPeriodic": self.motion.repeats,
             **self.report.to_dict(),
@@ -129,7 +130,11 @@ class Export:
 
     def __str__(self) -> str:
         written = self.written
-        lines = [f"{self.format.target}: {written.points} {written.counted}, {written.model}", *written.notes]
+        lines = [
+            f"{self.format.target}: {written.points} {written.counted}, {written.model}",
+            *self.motion.proof,
+            *written.notes,
+        ]
         width = max(len(name) for name, *_ in self.rows())
         lines.append(f"{'':{width}}  {'run':>14}  {'law':>14}  {'run/law':>9}")
         for name, run, law, ratio in self.rows():
@@ -149,7 +154,7 @@ def export_motion(motion: Motion, to: Any, **asked: Any) -> Export:  # noqa: ANN
     """
     chosen = format_of(to)
     written = chosen.write(motion, chosen.request(**asked))
-    return Export(chosen, motion, written, as_run(written.run, motion, written.bound))
+    return Export(chosen, motion, written, as_run(written.run, motion, written.bound, written.roundings))
 
 
 @exports("law")
@@ -157,6 +162,15 @@ def export_law(law: MotionLaw, to: Any, said: dict[str, Any], **asked: Any) -> E
     """A law with its stroke, time and master, as `motion_of_law` takes them, in a format."""
     chosen = format_of(to)
     return export_motion(motion_of_law(law, **said), chosen.name, **asked)
+
+
+@exports("solution")
+def export_solution(solution: Solution, to: Any, said: dict[str, Any], **asked: Any) -> Export:  # noqa: ANN401
+    """A solution's law as `export_law` takes one; the file and the report say what is proven of it."""
+    best = f"least {solution.problem.minimise} = {solution.objective:.9g}"
+    proof = f"law: {best}, none below {solution.lower_bound:.9g} in its space; status {solution.status.value}"
+    chosen = format_of(to)
+    return export_motion(replace(motion_of_law(solution.law, **said), proof=(proof,)), chosen.name, **asked)
 
 
 @exports("cycle")

@@ -79,6 +79,9 @@ class Written:
         What roundings may add to the peak of the acceleration, in units of the slave by the master's squared.
     notes
         What else there is to say.
+    roundings
+        Leaps of velocity, acceleration and jerk by the master up to which they are roundings of the numbers that the
+        target holds, where these are not doubles.
     """
 
     text: str
@@ -89,6 +92,7 @@ class Written:
     resolution: float = 0.0
     bound: float = 0.0
     notes: tuple[str, ...] = ()
+    roundings: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)

@@ -56,6 +56,8 @@ class Motion:
         Units of both.
     repeats
         Whether the end goes on with the start (`advance` further), or rest comes before and after.
+    proof
+        What is proven of its laws, for files to say.
 
     Examples
     --------
@@ -70,6 +72,7 @@ class Motion:
     pieces: tuple[Piece, ...]
     units: Units
     repeats: bool
+    proof: tuple[str, ...] = ()
 
     @property
     def start(self) -> float:
@@ -270,12 +273,25 @@ def motion_of_cycle(cycle: Cycle, *, master: Any = "360 deg", unit: str | None =
     chosen = {"length": "mm", "angle": "deg"}[cycle.axis] if unit is None else unit
     size = 1.0 / quantity(f"1 {chosen}", cycle.axis, "unit")
     share = span.number / cycle.duration
-    starts = [*(share * piece.start for piece in cycle.pieces), span.number]
+    starts = [*(_as_said(share * piece.start) for piece in cycle.pieces), span.number]
     pieces = tuple(
         replace(one, start=low, duration=high - low, offset=size * one.offset, stroke=size * one.stroke)
         for one, (low, high) in zip(cycle.pieces, pairwise(starts), strict=True)
     )
-    return Motion(pieces, Units(span.unit, chosen, share), repeats=True)
+    return Motion(pieces, Units(span.unit, chosen, share), repeats=True, proof=_proof(cycle))
+
+
+def _as_said(x: float) -> float:
+    """A place of the master without the roundings of the way to seconds and back: 120 in place of 119.99..."""
+    return float(f"{x:.13g}")
+
+
+def _proof(cycle: Cycle) -> tuple[str, ...]:
+    if not cycle.solutions:
+        return ()
+    bound = "" if cycle.lower_bound is None else f", none below {cycle.lower_bound:.9g} is possible"
+    sought = f"least {cycle.minimise} {cycle.objective:.9g}{bound} (SI units)"
+    return (f"laws looked for: {len(cycle.solutions)}, status {cycle.status.value}; {sought}",)
 
 
 def _span(master: Any, seconds: float | None) -> Given:  # noqa: ANN401 - a quantity

@@ -122,7 +122,7 @@ class Report:
         }
 
 
-def as_run(run: PiecewiseMotion, motion: Motion, bound: float = 0.0) -> Report:
+def as_run(run: PiecewiseMotion, motion: Motion, bound: float = 0.0, roundings: tuple[float, ...] = ()) -> Report:
     """The report of a run: every number is an extreme over the whole motion, none is one of a grid.
 
     Parameters
@@ -133,21 +133,28 @@ def as_run(run: PiecewiseMotion, motion: Motion, bound: float = 0.0) -> Report:
         What was exported.
     bound
         What roundings may add to the acceleration, by the master.
+    roundings
+        Leaps of velocity, acceleration and jerk by the master that are no more than roundings.
     """
     rate = motion.units.rate or 1.0
     law = _of_law(motion, rate)
     deviation = tuple(_deviation(run, motion, nu, rate, has=isfinite(law.peak(nu))) for nu in ORDERS[:3])
-    return Report(_of_run(run, motion, rate), law, deviation, rate, bound * rate**2)
+    known = (0.0, *(roundings or (0.0,) * 3))
+    return Report(_of_run(run, motion, rate, known), law, deviation, rate, bound * rate**2)
 
 
-def _of_run(run: PiecewiseMotion, motion: Motion, rate: float) -> Characteristics:
+def _of_run(run: PiecewiseMotion, motion: Motion, rate: float, roundings: tuple[float, ...]) -> Characteristics:
     extremes = [tuple(_sized(one, rate**nu) for one in run.extremes(nu)) for nu in ORDERS]
     ends = [run.ends(nu) for nu in ORDERS]
     start = tuple(float(first[0]) * rate**nu for nu, (first, _) in enumerate(ends))
     end = tuple(float(last[-1]) * rate**nu for nu, (_, last) in enumerate(ends))
     height, step = run.peak(0).value, float(run.lengths.min())
     small = tuple(
-        max(ROUNDING[0] * max(abs(low.value), abs(high.value)), ROUNDING[1] * height * (rate / step) ** nu)
+        max(
+            ROUNDING[0] * max(abs(low.value), abs(high.value)),
+            ROUNDING[1] * height * (rate / step) ** nu,
+            roundings[nu] * rate**nu,
+        )
         for nu, (low, high) in enumerate(extremes)
     )
     return Characteristics(

@@ -202,7 +202,7 @@ class MotionLaw(Curve, Stored):
         """Times and polynomial coefficients in machine units, as a `PiecewiseMotion`: `breaks`, `coefficients`.
 
         Exact, each coefficient rounded once, where the law is made of polynomials; else within `tolerance`, a share of
-        the stroke, certified by the eighth derivative. `stroke`, `time`, `master` and `start` are those of `export`.
+        the stroke, over the whole interval. `stroke`, `time`, `master` and `start` are those of `export`.
 
         Raises
         ------

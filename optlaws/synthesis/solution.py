@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
+from optlaws.exporting import exported
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.numbers import bounded
@@ -169,6 +170,34 @@ class Solution:
         'no law has a smaller C: 4.02314'
         """
         return plotted("solution", self, ax, **style)
+
+    def export(self, to: str, *, stroke: Any = None, time: Any = None, **options: Any) -> Any:  # noqa: ANN401
+        """The law in the format of a controller, as `MotionLaw.export` has it; file and report say what is proven.
+
+        Parameters
+        ----------
+        to
+            The format: `optlaws export --list` names them.
+        stroke, time
+            As of `MotionLaw.export`, "35 mm" and "0.1 s".
+        options
+            The others of `MotionLaw.export`: master, start, points, name and what the format takes.
+
+        Raises
+        ------
+        InputError
+            If there is no such format, it takes no such option, or it cannot hold the motion.
+
+        Examples
+        --------
+        >>> from optlaws import Pieces, Problem, synthesize
+        >>> solution = synthesize(Problem(B=1.859, order=4, basis=Pieces(8, degree=7, continuity=3)))
+        >>> made = solution.export("codesys-cambuilder", stroke="35 mm", time="0.1 s", master="120 deg", name="Press")
+        >>> [line.strip() for line in made.text.splitlines() if "none below" in line]
+        ['law: least C = 4.59646..., none below 4.59646... in its space; status optimal']
+        """
+        said = {"stroke": stroke, "time": time} | {name: options.pop(name, None) for name in ("master", "start")}
+        return exported("solution", self, to, said, **options)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: the command line's `--json`, with the problem and the certificate beside it."""

@@ -27,7 +27,7 @@ def heading(motion: Motion, target: str) -> tuple[str, ...]:
     units = motion.units
     rate = "" if units.rate is None or units.master == "s" else f", {units.rate:.9g} {units.master}/s"
     master = f"master in {units.master} from {motion.start:.9g} to {motion.stop:.9g}{rate}"
-    return (f"{target}: {master}, slave in {units.slave}", MARK)
+    return (f"{target}: {master}, slave in {units.slave}", *motion.proof, MARK)
 
 
 def iec_comment(lines: tuple[str, ...]) -> str:

@@ -17,7 +17,7 @@ from optlaws.errors import InputError
 from optlaws.exports.code.c99 import c_name, header
 from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, error_bounds, held
 from optlaws.exports.code.heading import Labels
-from optlaws.exports.law_pieces import polynomials_of_law
+from optlaws.exports.pieces.law_pieces import polynomials_of_law
 from optlaws.exports.polynomials import PiecewiseMotion
 from tests.exports.motions import random_motion
 

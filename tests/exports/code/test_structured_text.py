@@ -12,7 +12,7 @@ from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, error_bounds, held
 from optlaws.exports.code.heading import Labels
 from optlaws.exports.code.literals import real
 from optlaws.exports.code.structured_text import function_block
-from optlaws.exports.law_pieces import polynomials_of_law
+from optlaws.exports.pieces.law_pieces import polynomials_of_law
 from optlaws.exports.polynomials import PiecewiseMotion
 from tests.exports.motions import random_motion
 from tests.exports.structured_text import Block, parsed
@@ -21,7 +21,7 @@ OUTPUTS = ("position", "velocity", "acceleration", "jerk")
 
 
 def test_the_grammar_of_the_standard_takes_it() -> None:
-    source = function_block(random_motion(1, pieces=3), "FB_Press", Labels(notes=("a (* comment *) in it",)))
+    source = function_block(random_motion(1, pieces=1, degree=2), "FB_Press", Labels(notes=("a (* comment *) in it",)))
     tree = parsed(source)
     [block] = tree.items
     assert block.name == "FB_Press"

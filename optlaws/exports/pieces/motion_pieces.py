@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
+from functools import reduce
 from itertools import pairwise
-from math import factorial
 from typing import Any
 
 import numpy as np
@@ -13,9 +13,9 @@ from optlaws.cycles.asked.conversion import Piece
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.exporting import exports
-from optlaws.exports.interpolation import hermite
-from optlaws.exports.law_pieces import is_polynomial, polynomials_of_law
 from optlaws.exports.motion import Motion, motion_of_cycle, motion_of_law
+from optlaws.exports.pieces.fitting import Stretch
+from optlaws.exports.pieces.law_pieces import is_polynomial, polynomials_of_law
 from optlaws.exports.polynomials import PiecewiseMotion
 from optlaws.laws import MotionLaw
 from optlaws.numbers import positive
@@ -37,12 +37,12 @@ def pieces_of_motion(motion: Motion, tolerance: float = TOLERANCE) -> PiecewiseM
         The motion.
     tolerance
         How far the position may be from the law's, as a share of the stroke, where laws are not made of polynomials
-        or of ones whose powers lose more digits than that: certified by the law's eighth derivative.
+        or of ones whose powers lose more digits than that: over the whole interval, no grid.
 
     Raises
     ------
     InputError
-        If that derivative grows without limit, or too many pieces would be needed.
+        If derivatives are infinite, or too many pieces would be needed.
 
     Examples
     --------
@@ -77,9 +77,9 @@ def _of_piece(piece: Piece, tolerance: float) -> PiecewiseMotion:
         sizes = np.abs(exact.powers()) * exact.lengths[:, None] ** np.arange(exact.degree + 1)
         if _ROUNDING * float(sizes.sum(axis=1).max()) <= tolerance:
             return _moved(exact, piece)
-    breaks = _fine(piece, tolerance)
-    values = np.array([piece.stroke * piece.law(breaks, nu) / piece.duration**nu for nu in range(_ORDERS)])
-    return _moved(hermite(piece.duration * breaks, values), piece)
+    stretches = [Stretch(piece.law, ends) for ends in pairwise(piece.law.breaks)]
+    near = reduce(PiecewiseMotion.then, (_near(one, tolerance / abs(piece.stroke)) for one in stretches))
+    return _moved(near.in_units(piece.duration, piece.stroke), piece)
 
 
 def _moved(motion: PiecewiseMotion, piece: Piece) -> PiecewiseMotion:
@@ -89,26 +89,15 @@ def _moved(motion: PiecewiseMotion, piece: Piece) -> PiecewiseMotion:
     return PiecewiseMotion([piece.start + x for x in motion.breaks], rows)
 
 
-def _fine(piece: Piece, tolerance: float) -> Array:
-    """Places k between which Hermite's polynomials of degree 7 are near enough.
-
-    They are off by (h/2)^8 / 8! times the greatest eighth derivative between their ends, at most.
-    """
-    order = 2 * _ORDERS
-    found: list[float] = [0.0]
-    waiting = list(pairwise(piece.law.breaks))[::-1]
-    while waiting:
-        low, high = waiting.pop()
-        steepest = max(abs(one.value) for one in piece.law.extrema(order, within=(low, high)))
-        off = abs(piece.stroke) * (0.5 * (high - low)) ** order / factorial(order) * steepest
-        if off <= tolerance:
-            found.append(high)
-        elif len(found) + len(waiting) > _MOST or not np.isfinite(off):
-            raise InputError(
-                f"the law does not become polynomials within {tolerance:.3g}: its derivatives grow without limit near "
-                f"k = {low:.6g}; take a greater tolerance, a law of polynomials, or a format of points"
-            )
-        else:
-            middle = 0.5 * (low + high)
-            waiting += [(middle, high), (low, middle)]
-    return np.array(found)
+def _near(stretch: Stretch, tolerance: float) -> PiecewiseMotion:
+    """So many of Hermite's polynomials of degree 7 on a stretch, each time twice as many, that they are near enough."""
+    count = 1
+    while count <= _MOST:
+        run = stretch.hermite(np.linspace(*stretch.ends, count + 1), _ORDERS)
+        if stretch.off(run, 0) <= tolerance:
+            return run
+        count *= 2
+    raise InputError(
+        f"{_MOST} polynomials do not come within {tolerance:.3g} of the law near k = {stretch.ends[0]:.6g}: take a "
+        "greater tolerance, a law of polynomials, or a format of points"
+    )

@@ -1,0 +1,179 @@
+"""Siemens S7-1500T: points and elements of the library LCamHdl, which fill the technology object TO_Cam."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
+
+from optlaws.errors import InputError
+from optlaws.exports.controllers.polynomials_of import asked, fields, iec_heading, leaping
+from optlaws.exports.format import Format, Request, Written, declared
+from optlaws.exports.identifiers import iec_name
+from optlaws.exports.interpolation import hermite_powers
+from optlaws.exports.motion import Motion
+from optlaws.exports.pieces.fitting import Fitted
+from optlaws.exports.polynomials import PiecewiseMotion
+
+SEGMENTS = 50
+POINTS = SEGMENTS + 1
+#: codes of LCamHdl_ProfileConstants; an element of each takes one segment of the TO
+DWELL, CONST_VELO, POLY_5, ADD_POLY = 2, 3, 5, 44
+START_JERK = 1  # LCAMHDL_POLY_MODE_BOUNDARY_VALUES_AND_START_JERK
+
+
+def _write_elements(motion: Motion, request: Request) -> Written:
+    name = iec_name(request.name, "SIMATIC AX")
+    made = asked(motion, request, 5, SEGMENTS)
+    ends = _ends(made.run, 3)
+    rows = [
+        fields(**_bounds(one), camProfileType=_profile(row))
+        for one, row in zip(ends, made.run.coefficients, strict=True)
+    ]
+    run = PiecewiseMotion(made.run.breaks, [_quintic(one) for one in ends])
+    notes = (made.said(motion.units.slave), f"{len(rows)} of the {SEGMENTS} segments of the TO")
+    text = _configuration(name, "LCamHdl_typeAdvancedElement", rows, motion, (run, notes))
+    return Written(text, run, "quintic polynomials by their ends", len(rows), "segments", notes=notes)
+
+
+def _write_polynomials(motion: Motion, request: Request) -> Written:
+    name = iec_name(request.name, "SIMATIC AX")
+    made = asked(motion, request, 6, SEGMENTS)
+    ends = _ends(made.run, 4)
+    rows = [
+        fields(**_bounds(one), geoJerkStart=one.first[3], camProfileType=ADD_POLY, polynomialMode=START_JERK)
+        for one in ends
+    ]
+    run = PiecewiseMotion(made.run.breaks, [_sixth(one) for one in ends])
+    notes = (made.said(motion.units.slave), f"{len(rows)} of the {SEGMENTS} segments of the TO")
+    text = _configuration(name, "LCamHdl_typePolynomialElement", rows, motion, (run, notes))
+    return Written(
+        text, run, "polynomials of degree 6 by their ends and start jerk", len(rows), "segments", notes=notes
+    )
+
+
+class Ends(NamedTuple):
+    """A piece by its ends: leading values, and y, V, A, ... just inside each."""
+
+    x: tuple[float, float]
+    first: tuple[float, ...]
+    last: tuple[float, ...]
+
+
+def _ends(run: PiecewiseMotion, orders: int) -> list[Ends]:
+    firsts, lasts = (np.array(side).T.tolist() for side in zip(*(run.ends(nu) for nu in range(orders)), strict=True))
+    places = zip(run.breaks, run.breaks[1:], strict=False)
+    return [Ends(x, tuple(a), tuple(b)) for x, a, b in zip(places, firsts, lasts, strict=True)]
+
+
+def _bounds(one: Ends) -> dict[str, object]:
+    """The fields that elements of all kinds have."""
+    return {
+        "leadingValueStart": one.x[0],
+        "leadingValueEnd": one.x[1],
+        "followingValueStart": one.first[0],
+        "followingValueEnd": one.last[0],
+        "geoVeloStart": one.first[1],
+        "geoVeloEnd": one.last[1],
+        "geoAccelStart": one.first[2],
+        "geoAccelEnd": one.last[2],
+    }
+
+
+def _profile(row: Sequence[float]) -> int:
+    degree = max((n for n, c in enumerate(row) if c), default=0)
+    return POLY_5 if degree > 1 else (DWELL, CONST_VELO)[degree]
+
+
+def _quintic(one: Ends) -> list[float]:
+    """The quintic with the values of both ends."""
+    return list(hermite_powers(np.array(one.x), np.array([one.first[:3], one.last[:3]]).T)[0].tolist())
+
+
+def _sixth(one: Ends) -> list[float]:
+    """The quintic of the ends and so much of u³ (1 - u)³ that the jerk at the start is as told."""
+    quintic, length = _quintic(one), one.x[1] - one.x[0]
+    share = one.first[3] / 6.0 - quintic[3]
+    bump = {3: share, 4: -3.0 * share / length, 5: 3.0 * share / length**2, 6: -share / length**3}
+    return [c + bump.get(n, 0.0) for n, c in enumerate([*quintic, 0.0])]
+
+
+def _write_points(motion: Motion, request: Request) -> Written:
+    name = iec_name(request.name, "SIMATIC AX")
+    made = _smooth(motion, asked(motion, request, 5, SEGMENTS, points=True))
+    values = np.array([np.append(first, last[-1:]) for first, last in (made.run.ends(nu) for nu in range(3))])
+    run = PiecewiseMotion(made.run.breaks, hermite_powers(np.array(made.run.breaks), values))
+    rows = [
+        fields(leadingValue=x, followingValue=y, velocityRatio=v, accelerationRatio=a)
+        for x, (y, v, a) in zip(run.breaks, values.T.tolist(), strict=True)
+    ]
+    notes = (made.said(motion.units.slave), f"{made.count} of the {SEGMENTS} segments of the TO")
+    text = _configuration(name, "LCamHdl_typeBasicPoint", rows, motion, (run, notes))
+    return Written(text, run, "quintic polynomials between points", len(rows), notes=notes)
+
+
+def _smooth(motion: Motion, made: Fitted) -> Fitted:
+    for nu, quantity in ((1, "velocity"), (2, "acceleration")):
+        x = leaping(made.run, nu)
+        if x is not None:
+            raise InputError(
+                f"the {quantity} leaps at x = {x:.9g} {motion.units.master}, and a basic point holds one value of it: "
+                "take siemens-elements, whose elements have ends of their own, or a smoother law"
+            )
+    return made
+
+
+def _configuration(
+    name: str, kind: str, rows: Sequence[str], motion: Motion, said: tuple[PiecewiseMotion, Sequence[str]]
+) -> str:
+    run, notes = said
+    return "\n".join(
+        [
+            iec_heading(f"{name}: a cam for LCamHdl and a TO_Cam of the S7-1500T, {kind}", motion, run, notes)
+            + "USING Simatic.Ax.LCamHdl;",
+            f"CONFIGURATION {name}_configuration",
+            "    VAR_GLOBAL",
+            f"        {name} : ARRAY[1..{len(rows)}] OF {kind} := [",
+            ",\n".join(f"            ({row})" for row in rows),
+            "        ];",
+            "    END_VAR",
+            "END_CONFIGURATION",
+            "",
+        ]
+    )
+
+
+BASIC = declared(
+    Format(
+        name="siemens-points",
+        target="Siemens S7-1500T, LCamHdl_typeBasicPoint of LCamHdl_CreateCamBasic",
+        held="leadingValue, followingValue, velocityRatio, accelerationRatio (LREAL)",
+        model="quintic polynomials",
+        limits=f"at most {POINTS} points, which make the {SEGMENTS} segments of a TO_Cam",
+        extension=".st",
+        write=_write_points,
+    )
+)
+ADVANCED = declared(
+    Format(
+        name="siemens-elements",
+        target="Siemens S7-1500T, LCamHdl_typeAdvancedElement of LCamHdl_CreateCamAdvanced",
+        held="leading and following values, geoVelo and geoAccel at both ends (LREAL), camProfileType",
+        model="quintic polynomials, straight lines, dwells",
+        limits=f"at most {SEGMENTS} segments in a TO_Cam; degree 5 (POLY_7 takes two segments of degree 6: not used)",
+        extension=".st",
+        write=_write_elements,
+    )
+)
+POLYNOMIALS = declared(
+    Format(
+        name="siemens-polynomials",
+        target="Siemens S7-1500T, LCamHdl_typePolynomialElement of LCamHdl_AddCamPolynomial",
+        held="leading and following values, geoVelo and geoAccel at both ends, geoJerkStart (LREAL), polynomialMode 1",
+        model="exact polynomials of degree 6",
+        limits=f"at most {SEGMENTS} segments in a TO_Cam, degree 6",
+        extension=".st",
+        write=_write_polynomials,
+    )
+)

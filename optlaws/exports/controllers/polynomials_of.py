@@ -1,0 +1,99 @@
+"""What formats of polynomials have in common: how many are laid for a request, and what their files say of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+
+from optlaws.errors import InputError
+from optlaws.exports.code.error_bounds import SINGLE, error_bounds
+from optlaws.exports.code.heading import Labels, heading, rounded_up
+from optlaws.exports.code.literals import real, safe
+from optlaws.exports.format import BEST, Request
+from optlaws.exports.motion import Motion
+from optlaws.exports.pieces.best_breaks import fitted_best
+from optlaws.exports.pieces.fitting import OFF, Fitted, fitted
+from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.files.writing import MARK
+
+_ROUNDING = 1e-9
+
+
+def asked(
+    motion: Motion, request: Request, degree: int, most: int, *, points: bool = False, near: float = OFF
+) -> Fitted:
+    """Polynomials of at most a degree and a number: so many, the best, or as few as will do.
+
+    Parameters
+    ----------
+    motion
+        The motion.
+    request
+        Its `points` is a number of segments, or of points where `points` says so.
+    degree, most
+        Of the polynomials that the target holds, and how many segments it holds.
+    points
+        Whether it is points that are counted, one more than segments.
+    near
+        How far the acceleration may be off where as few as will do are laid.
+
+    Raises
+    ------
+    InputError
+        If the target cannot hold them.
+    """
+    if request.points is None:
+        return fitted(motion, degree, most, near=near)
+    if request.points == BEST:
+        return fitted_best(motion, degree, most)
+    count = int(request.points) - points
+    if count > most:
+        raise InputError(f"points must be at most {most + points}, which the target holds, got {request.points}")
+    return fitted(motion, degree, most, count)
+
+
+def labels_of(motion: Motion, notes: Sequence[str] = ()) -> Labels:
+    """Units of a motion, and notes, for comments."""
+    rate = motion.units.rate
+    said = [] if rate is None or motion.units.master == "s" else [f"the master goes {rate:.9g} {motion.units.master}/s"]
+    return Labels(motion.units.master, motion.units.slave, (*said, *motion.proof, *notes))
+
+
+def iec_heading(title: str, motion: Motion, run: PiecewiseMotion, notes: Sequence[str]) -> str:
+    """The comment at the head of a program in a language of IEC 61131-3."""
+    lines = safe([title, *heading(run, labels_of(motion, notes), []), MARK])
+    return "\n".join(["(*", *(f"   {line}".rstrip() for line in lines), "*)", ""])
+
+
+def fields(**values: object) -> str:
+    """Fields of a structure with their values, floats as literals.
+
+    Examples
+    --------
+    >>> fields(PointIndex=1, MasterPos=0.5)
+    'PointIndex := 1, MasterPos := 0.5'
+    """
+    texts = ((name, real(one) if isinstance(one, float) else str(one)) for name, one in values.items())
+    return ", ".join(f"{name} := {text}" for name, text in texts)
+
+
+def leaps_of_single(run: PiecewiseMotion) -> tuple[float, ...]:
+    """By how much velocity, acceleration and jerk may leap where polynomials meet because REAL32 rounds them."""
+    return tuple(2.0 * bound for bound in error_bounds(run, SINGLE)[1:])
+
+
+def said_of_leaps(motion: Motion, leaps: tuple[float, ...]) -> str:
+    """The same in words."""
+    units = labels_of(motion)
+    said = ", ".join(f"{rounded_up(leap)} {units.unit(nu)}" for nu, leap in enumerate(leaps, start=1))
+    return f"leaps at joints by at most {said} are roundings of REAL32"
+
+
+def leaping(run: PiecewiseMotion, nu: int) -> float | None:
+    """The first break where the derivative of order nu leaps by more than rounding; None where there is none."""
+    size = max(abs(one.value) for one in run.extremes(nu))
+    # positions are rounded, and what is left of that in a derivative grows as pieces get shorter
+    rounding = 2.0**-44 * run.peak(0).value / float(run.lengths.min()) ** nu
+    for x, leap in zip(run.breaks[1:], run.jumps(nu).tolist(), strict=False):
+        if abs(leap) > max(_ROUNDING * size, rounding):
+            return x
+    return None
