@@ -288,6 +288,11 @@ class Cycle:
             made.append(Move(self._shown(one.displacement), time, law=law, name=given.label))
         return replace(self, segments=made, speed=None, period=f"{self.duration!r} s")
 
+    def _repr_html_(self) -> str:
+        from optlaws.cycles.notebook import cycle_page
+
+        return cycle_page(self)
+
     @property
     def limits_of_segments(self) -> tuple[dict[int, float], ...]:
         """The limits that each segment was asked to keep, in SI units, by the order of the derivative."""

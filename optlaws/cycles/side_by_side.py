@@ -88,6 +88,13 @@ class Comparison:
         """Draw a, b, c and j of all laws, one over the other, into four axes of matplotlib; the artists."""
         return plotted("comparison", self, ax, **style)
 
+    def _repr_html_(self) -> str:
+        from optlaws.laws.html import drawings
+        from optlaws.showing import Html, page, table
+
+        rows = [[*row.values(), Html(drawings(law))] for row, law in zip(self.rows, self.laws.values(), strict=True)]
+        return page("Comparison", table((*self.rows[0], "a, b, c, j"), rows))
+
     def _row(self, law: MotionLaw) -> dict[str, float]:
         one = law.constants
         row = {name: float(getattr(one, name).value) for name in CONSTANTS[:-1]} | {"rms_c": one.rms_c}

@@ -52,6 +52,11 @@ class Constants:
             table["rms_c"] = bounded(self.rms_c)
         return table
 
+    def _repr_html_(self) -> str:
+        from optlaws.laws.html import table_of_constants
+
+        return table_of_constants(self)
+
 
 # where pickles of laws made before it stood here look for it
 vars(peaks)["Constants"] = Constants

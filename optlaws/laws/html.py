@@ -1,47 +1,44 @@
-"""How a law shows itself in a notebook: a table of its constants and a drawing of a, b and c."""
+"""How laws and motions of a mass show themselves in a notebook: their constants, and a, b, c and j drawn small."""
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
-from optlaws.laws.constants import Constants
+import numpy as np
 
-WIDTH = 150
-HEIGHT = 60
-MARGIN = 4
+from optlaws import showing
+
+if TYPE_CHECKING:
+    from optlaws.laws.curve import Curve
+
+_SAMPLES = 121
 
 
-def page(title: str, constants: Constants, curves: Mapping[str, Sequence[float]]) -> str:
-    """HTML text without scripts or styles of its own; curves are values at equal steps of k.
+def table_of_constants(constants: Any) -> str:  # noqa: ANN401 - Constants, which show themselves by it
+    """The peaks with their places, and the root mean square of c.
 
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> "<svg" in page("a law", smoothstep(2).constants, {"a": [0.0, 1.0]})
+    >>> "<td>5.773503</td>" in table_of_constants(smoothstep(3).constants)
     True
     """
-    peaks = {"B": constants.B, "C": constants.C, "D": constants.D, "J": constants.J}
-    rows = "".join(
-        f"<tr><th>{name}</th><td>{peak.value:.7g}</td><td>{peak.k:.6g}</td></tr>" for name, peak in peaks.items()
-    )
-    drawings = "".join(_drawing(name, values) for name, values in curves.items())
-    return (
-        f"<div><b>{title}</b><table><tr><th></th><th>peak</th><th>k</th></tr>{rows}"
-        f"<tr><th>RMS c</th><td>{constants.rms_c:.7g}</td><td></td></tr></table>{drawings}</div>"
-    )
+    peaks = {name: getattr(constants, name) for name in "BCDJ"}
+    rows: list[list[object]] = [[name, peak.value, peak.k] for name, peak in peaks.items()]
+    return showing.table(("", "peak", "k"), [*rows, ["RMS c", constants.rms_c, None]])
 
 
-def _drawing(name: str, values: Sequence[float]) -> str:
-    low, high = min(0.0, *values), max(0.0, *values)
-    scale = (HEIGHT - 2 * MARGIN) / ((high - low) or 1.0)
-    step = (WIDTH - 2 * MARGIN) / (len(values) - 1)
-    points = " ".join(
-        f"{MARGIN + i * step:.1f},{HEIGHT - MARGIN - (value - low) * scale:.1f}" for i, value in enumerate(values)
-    )
-    zero = HEIGHT - MARGIN + low * scale
-    return (
-        f'<svg width="{WIDTH}" height="{HEIGHT}" role="img" aria-label="{name}(k)">'
-        f'<line x1="{MARGIN}" x2="{WIDTH - MARGIN}" y1="{zero:.1f}" y2="{zero:.1f}" stroke="#bbb"/>'
-        f'<polyline points="{points}" fill="none" stroke="#1f6fb2" stroke-width="1.5"/>'
-        f'<text x="{MARGIN}" y="12" font-size="11">{name}</text></svg>'
+def drawings(curve: Curve) -> str:
+    """Small drawings of a, b, c and j over the whole interval; what grows without limit is cut at the highest sample.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> drawings(smoothstep(3)).count("<svg")
+    4
+    """
+    k = np.linspace(*curve.interval, _SAMPLES)
+    places = k.tolist()
+    return "".join(
+        showing.drawing(name, places, np.asarray(curve(k, nu), dtype=float).tolist()) for nu, name in enumerate("abcj")
     )

@@ -13,7 +13,6 @@ from optlaws.exporting import exported
 from optlaws.kept import kept_property
 from optlaws.laws.constants import Constants
 from optlaws.laws.curve import Curve, Sides
-from optlaws.laws.html import page
 from optlaws.laws.storage import Stored
 from optlaws.numbers import derivative, times
 from optlaws.series.peaks import Peak
@@ -225,9 +224,11 @@ class MotionLaw(Curve, Stored):
         return f"{type(self).__name__}({self._summary()}, {shown})"
 
     def _repr_html_(self) -> str:
-        k = np.linspace(0.0, 1.0, 121)
-        curves = {name: _clipped(self._derivative(k, nu)).tolist() for nu, name in enumerate("abc")}
-        return page(f"{type(self).__name__}, {self._summary()}", self.constants, curves)
+        from optlaws.laws.html import drawings, table_of_constants
+        from optlaws.showing import page
+
+        title = f"{type(self).__name__}, {self._summary()}"
+        return page(title, table_of_constants(self.constants), drawings(self))
 
     def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
         return times(k)
@@ -277,8 +278,3 @@ class MotionLaw(Curve, Stored):
     @abstractmethod
     def _summary(self) -> str:
         """What the repr says besides the constants."""
-
-
-def _clipped(values: Array) -> Array:
-    known = values[np.isfinite(values)]
-    return np.clip(values, known.min(), known.max())

@@ -26,6 +26,8 @@ if TYPE_CHECKING:
     import pyarrow as pa
     import xarray as xr
 
+_SHOWN = 12
+
 
 class Study:
     """A study's directory, read as far as it is there.
@@ -184,6 +186,17 @@ class Study:
         from optlaws.studies.store.dataset import dataset
 
         return dataset(self._rows(), self._points, self.about)
+
+    def _repr_html_(self) -> str:
+        from optlaws.showing import facts, page, table
+
+        first = [[*row["inputs"].values(), row["status"], *(row[name] for name in CONSTANTS)] for row in self._first()]
+        done = {"done": f"{sum(self.counts.values())} of {len(self)}", **self.counts}
+        return page(self.about["title"], facts(done), table((*self.file.names(), "status", *CONSTANTS), first))
+
+    def _first(self) -> list[Row]:
+        rows = self._rows()
+        return [row for row, _ in zip(rows, range(_SHOWN), strict=False)]
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{number} {status}" for status, number in self.counts.items())

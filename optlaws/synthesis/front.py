@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import html
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -114,13 +113,14 @@ class Front:
         return f"Front(over={self.over!r}, {len(self)} points, {', '.join(ends)})"
 
     def _repr_html_(self) -> str:
-        head = "".join(f"<th>{name}</th>" for name in HEADINGS)
-        lines = [
-            "".join(f"<td>{'' if cell is None else _shown(cell)}</td>" for cell in row)
-            for row in self.rows[:: 1 + len(self) // _SHOWN]
-        ]
-        body = "".join(f"<tr>{line}</tr>" for line in lines)
-        return f"<p>{html.escape(repr(self))}</p><table><tr>{head}</tr>{body}</table>"
+        from optlaws.showing import drawing, page, table
+
+        rows = self.rows[:: 1 + len(self) // _SHOWN]
+        curve = ""
+        if len(self.over) == len(("given", "minimised")):
+            x, y = self.values.T
+            curve = drawing(f"{self.over[1]} over {self.over[0]}", x.tolist(), (y - y.min()).tolist())
+        return page(repr(self), table(HEADINGS, rows), curve)
 
 
 def undominated(solutions: Sequence[Solution], over: Sequence[str]) -> list[Solution]:
@@ -155,7 +155,3 @@ def value_of(solution: Solution, name: str) -> float:
     5.080702
     """
     return named(name).value(solution.law)
-
-
-def _shown(cell: float | str) -> str:
-    return cell if isinstance(cell, str) else f"{cell:.6g}"

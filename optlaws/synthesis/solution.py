@@ -220,6 +220,20 @@ class Solution:
             "versions": self.versions,
         }
 
+    def _repr_html_(self) -> str:
+        from optlaws.laws.html import drawings, table_of_constants
+        from optlaws.showing import facts, page
+
+        known = {
+            "status": self.status.value,
+            str(self.problem.minimise): self.objective,
+            "lower bound": self.lower_bound,
+            "gap": f"{self.gap:.1e}",
+            "limit": self.limit,
+            "problem": repr(self.problem),
+        }
+        return page("Solution", facts(known), table_of_constants(self.constants), drawings(self.law))
+
     def __repr__(self) -> str:
         limit = "" if self.limit is None else f"limit={self.limit:.9g}, "
         return (

@@ -304,6 +304,16 @@ class SolutionArray:
                 raise InputError(f"the problem of solutions[{place}] is another than that of the arrays")
         return made
 
+    def _repr_html_(self) -> str:
+        from optlaws.showing import drawing, facts, page
+
+        names, counts = np.unique(self.status, return_counts=True)
+        shown = facts({"shape": str(self.shape), **dict(zip(names.tolist(), counts.tolist(), strict=True))})
+        values = self.objective
+        if values.ndim != 1 or len(values) < len(("first", "last")):
+            return page("SolutionArray", shown)
+        return page("SolutionArray", shown, drawing("objective", list(range(len(values))), values.tolist()))
+
     def __repr__(self) -> str:
         names, counts = np.unique(self.status, return_counts=True)
         told = ", ".join(f"{count} {name}" for name, count in zip(names.tolist(), counts.tolist(), strict=True))

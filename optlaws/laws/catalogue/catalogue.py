@@ -91,6 +91,17 @@ class Catalogue(Mapping[str, "Entry"]):
     def __repr__(self) -> str:
         return f"<catalogue of {len(self)} laws: {', '.join(list(self)[:3])}, ...>"
 
+    def _repr_html_(self) -> str:
+        from optlaws.laws.html import drawings
+        from optlaws.showing import Html, page, table
+
+        rows = []
+        for name, entry in self._entries.items():
+            one = entry.law.constants
+            shown = drawings(entry.law).split("<svg")[3]
+            rows.append([name, one.B.value, one.C.value, one.D.value, one.J.value, Html(f"<svg{shown}")])
+        return page(f"{len(self)} standard laws", table(("law", "B", "C", "D", "J", "acceleration"), rows))
+
     def search(self, text: str) -> tuple[Entry, ...]:
         """The entries that a text may mean, the likeliest first: by name, part of a name, words, likeness.
 

@@ -104,6 +104,13 @@ class Entry:
     def __repr__(self) -> str:
         return f"Entry({self.name!r}, {self.formula!r})"
 
+    def _repr_html_(self) -> str:
+        from optlaws.laws.html import drawings, table_of_constants
+        from optlaws.showing import facts, page
+
+        known = {"also": ", ".join(self.aliases) or None, "built": self.formula, "source": self.source}
+        return page(self.name, facts(known), table_of_constants(self.constants), drawings(self.law))
+
     @property
     def aliases(self) -> tuple[str, ...]:
         """Its other names, without the numbers of enumerations."""

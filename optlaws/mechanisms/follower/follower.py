@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import pi, sqrt
+from math import cos, exp, pi, sqrt, tau
 
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law, state
 from optlaws.mechanisms.follower.cycle import CycleResponse
 from optlaws.mechanisms.follower.response import Response
 from optlaws.numbers import frequency, not_negative, positive
+
+_SHOWN = 240
 
 
 @dataclass(frozen=True)
@@ -140,6 +142,15 @@ class Follower:
         """
         angle, period = positive(rise_angle_deg, "rise_angle_deg"), positive(natural_period, "natural_period")
         return pi / 3.0 * angle / (self.nu * period)
+
+    def _repr_html_(self) -> str:
+        from optlaws.showing import drawing, facts, page
+
+        nu, zeta = self.nu, self.damping
+        known = {"nu": nu, "damping ratio": zeta, "n": self.n, "free vibrations in the rise": nu / tau}
+        k = [i / _SHOWN for i in range(_SHOWN + 1)]
+        decay = [exp(-self.n * place) * cos(nu * sqrt(max(0.0, 1.0 - zeta**2)) * place) for place in k]
+        return page("Follower", facts(known), drawing("free vibration", k, decay))
 
     def response(self, law: MotionLaw, *, initial: tuple[float, float] | None = None) -> Response:
         """Motion of the mass when the cam moves by `law` and rests afterwards.

@@ -39,6 +39,12 @@ class MassMotion(Curve):
     def _before_breaks(self, nu: int) -> Array:
         return self._motion.before_breaks(nu)
 
+    def _repr_html_(self) -> str:
+        from optlaws.laws.html import drawings
+        from optlaws.showing import page
+
+        return page(repr(self), drawings(self))
+
     def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
         return real_times(k)
 

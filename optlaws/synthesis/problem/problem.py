@@ -224,12 +224,20 @@ class Problem:
         """
         return cls(**from_entries(data))
 
+    def _repr_html_(self) -> str:
+        from optlaws.showing import facts, page
+
+        asked = {f.name: getattr(self, f.name) for f in fields(self) if f.name in _ALWAYS or _given(self, f)}
+        texts = {name: "free" if value is None else str(value) for name, value in asked.items()}
+        return page("Problem", facts(texts))
+
     def __repr__(self) -> str:
-        shown = ("B", "order", "basis", "minimise")
-        parts = [f"{f.name}={getattr(self, f.name)!r}" for f in fields(self) if f.name in shown or _given(self, f)]
+        parts = [f"{f.name}={getattr(self, f.name)!r}" for f in fields(self) if f.name in _ALWAYS or _given(self, f)]
         return f"Problem({', '.join(parts)})"
 
 
+#: what a problem always says
+_ALWAYS = ("B", "order", "basis", "minimise")
 _check_velocity = next(field.check for field in FIELDS if field.name == "B")
 #: what a number for B has no part in
 _KEPT_ALONG_B = {one.name for one in fields(Problem)} | {"objective", "convex", "constants", "bounded"}
