@@ -8,6 +8,13 @@ from optlaws.lazy import declare, face
 _load, __dir__, __all__ = face(
     __name__,
     {
+        "optlaws.cams.curves.motion_by_angle": "CamMotion",
+        "optlaws.cams.disc": "DiscCam",
+        "optlaws.cams.followers.oscillating_flat": "OscillatingFlat",
+        "optlaws.cams.followers.oscillating_roller": "OscillatingRoller",
+        "optlaws.cams.followers.translating_flat": "TranslatingFlat",
+        "optlaws.cams.followers.translating_roller": "TranslatingRoller",
+        "optlaws.cams.least_sizes": "greatest_roller least_base_circle",
         "optlaws.cycles.cycle": "Cycle",
         "optlaws.cycles.asked.segments": "ConstantVelocity Dwell Free Move Return Rise",
         "optlaws.cycles.machine_follower": "MachineFollower machine_follower",

@@ -2,6 +2,14 @@
 from optlaws import laws as laws
 from optlaws import mechanisms as mechanisms
 from optlaws import synthesis as synthesis
+from optlaws.cams.curves.motion_by_angle import CamMotion as CamMotion
+from optlaws.cams.disc import DiscCam as DiscCam
+from optlaws.cams.followers.oscillating_flat import OscillatingFlat as OscillatingFlat
+from optlaws.cams.followers.oscillating_roller import OscillatingRoller as OscillatingRoller
+from optlaws.cams.followers.translating_flat import TranslatingFlat as TranslatingFlat
+from optlaws.cams.followers.translating_roller import TranslatingRoller as TranslatingRoller
+from optlaws.cams.least_sizes import greatest_roller as greatest_roller
+from optlaws.cams.least_sizes import least_base_circle as least_base_circle
 from optlaws.cycles.asked.segments import ConstantVelocity as ConstantVelocity
 from optlaws.cycles.asked.segments import Dwell as Dwell
 from optlaws.cycles.asked.segments import Free as Free
@@ -138,6 +146,7 @@ __all__ = [
     "C",
     "C_minus",
     "C_plus",
+    "CamMotion",
     "Certificate",
     "Chebyshev",
     "Clutch",
@@ -149,6 +158,7 @@ __all__ = [
     "CycleResponse",
     "D",
     "Deviation",
+    "DiscCam",
     "Dwell",
     "Expression",
     "Follower",
@@ -168,6 +178,8 @@ __all__ = [
     "Move",
     "NotNormalised",
     "OptlawsError",
+    "OscillatingFlat",
+    "OscillatingRoller",
     "Peak",
     "PeakCertificate",
     "PeriodicPieces",
@@ -190,6 +202,8 @@ __all__ = [
     "SolverFailure",
     "Status",
     "TorsionLever",
+    "TranslatingFlat",
+    "TranslatingRoller",
     "TrapeziumSubstitute",
     "Window",
     "acceleration_limit",
@@ -210,8 +224,10 @@ __all__ = [
     "find_torsion_levers",
     "flat_output",
     "functional",
+    "greatest_roller",
     "integral",
     "jounce",
+    "least_base_circle",
     "limit",
     "limit_law",
     "loader",

@@ -49,6 +49,7 @@ SEVERAL = {
     "atlas",
     "catalogue",
     "below_peak",
+    "cam",
     "certificate",
     "checks",
     "constants",

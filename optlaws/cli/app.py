@@ -24,6 +24,9 @@ COMMANDS = {
     "laws.law": (
         "Show a law of the catalogue, a coded law, a member of Savin's families or a stored law, with its constants."
     ),
+    "mechanisms.cam": (
+        "Cams of cycles: curves, enclosed pressure angles and curvatures, proof of no undercut, least sizes."
+    ),
     "mechanisms.cycle": (
         "Whole cycles of a machine in physical units, optimal as a whole: peaks, joints, drives, tables and pictures."
     ),

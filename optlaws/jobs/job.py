@@ -15,6 +15,7 @@ Job = Callable[[Mapping[str, Any], Path, Path], list[Path]]
 
 _MODULES = {
     "atlas": "laws.atlas",
+    "cam": "cam.cam",
     "cycle": "cycle.cycle",
     "dwell drawing": "dwell.drawing",
     "dwell types": "dwell.types",

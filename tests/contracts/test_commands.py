@@ -20,6 +20,7 @@ STUDY = "[problem]\norder = 2\nbasis = 'pieces'\nbreaks = 4\ncontinuity = 1\ndeg
 #: a call of each that has something infinite to tell where it can have it
 CALLS = {
     "atlas": f"--order 4 --peak-velocity 1.71 --file {ROOT}/results/atlas/atlas.csv",
+    "cam": "cam.toml",
     "catalogue": "",
     "compare": "0050 cubic --nu 20",
     "constants": "--order 1 --z 0.5",
@@ -56,6 +57,7 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     """A folder with the files that the calls name, and one that holds a file in the place of a folder."""
     monkeypatch.chdir(tmp_path)
     (tmp_path / "study.toml").write_text(STUDY, "utf-8")
+    (tmp_path / "cam.toml").write_bytes((ROOT / "problems" / "cam_flat_face.toml").read_bytes())
     (tmp_path / "cycle.toml").write_bytes((ROOT / "problems" / "cycle_press.toml").read_bytes())
     (tmp_path / "problem.toml").write_bytes((ROOT / "problems" / "lever_nomogram.toml").read_bytes())
     (tmp_path / "file").write_text("", "utf-8")

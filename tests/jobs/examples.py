@@ -37,6 +37,29 @@ duration = "100 deg"
 [[axis.segment]]
 kind = "dwell"
 """
+CAM = """
+job = "cam"
+title = "Slide on a cam"
+speed = "200 rpm"
+rows = 13
+base_radius = "50 mm"
+cutter_radius = "20 mm"
+pressure_angle = "30 deg"
+[follower]
+kind = "translating roller"
+radius = "12 mm"
+offset = "6 mm"
+[motion]
+name = "slide"
+[[motion.segment]]
+kind = "rise"
+by = "20 mm"
+duration = "120 deg"
+law = "cycloidal"
+[[motion.segment]]
+kind = "return"
+law = "cycloidal"
+"""
 DWELL_TYPES = """
 job = "dwell types"
 title = "Few"
@@ -332,6 +355,18 @@ EXAMPLES = {
             ("order = [3, 4]", "ordre = [3, 4]", "ordre.*order"),
             ("order = [3, 4]\n", "", "an atlas varies minimise, order, degree, B"),
             ("order = [3, 4]", "order = [0]", "order"),
+        ),
+    ),
+    "cam": Example(
+        CAM,
+        (
+            ('"6 mm"', '"66 mm"', "roller: offset 66 mm is beyond the base circle.*base circle larger"),
+            ('"12 mm"', '"52 mm"', "roller: its radius 52 mm is not less"),
+            ('offset = "6 mm"', 'arm = "6 mm"', "a translating roller takes no arm; it takes radius, offset"),
+            ('radius = "12 mm"\n', "", "base_radius|a translating roller needs its radius"),
+            ('"translating roller"', '"translating rollr"', "kind"),
+            ('by = "20 mm"', 'by = "20 deg"', "take an oscillating follower"),
+            ('"50 mm"', '"50"', "base_radius must be a length"),
         ),
     ),
     "cycle": Example(

@@ -179,6 +179,7 @@ class _Look:
 
     def _reached(self, places: Array, value: Enclosure) -> None:
         angles = self.stretch.start + places * (self.stretch.stop - self.stretch.start)
+        angles = np.where(places == 1.0, self.stretch.stop, angles)  # to the last bit, where sides may differ
         low, high = int(np.argmin(value.high)), int(np.argmax(value.low))
         self.lowest = min(self.lowest, (float(value.high[low]), float(angles[low])))
         self.highest = max(self.highest, (float(value.low[high]), float(angles[high])), key=lambda one: one[0])

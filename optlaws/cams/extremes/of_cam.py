@@ -97,8 +97,7 @@ def cam_extremes(motion: CamMotion, contact: Contact) -> CamExtremes:
     pressure = pressure_angles(motion, contact)
     if isinstance(contact, RollerContact):
         return _under_roller(motion, contact, pressure)
-    assert isinstance(contact, FaceContact)  # noqa: S101 - there are no others
-    least, _ = enclosed_extremes(motion, contact.radius, 2)
+    least = bulging_radius(motion, contact)
     # a face turns with the cam all the way, so that its envelope is convex where its radius is above 0
     return CamExtremes(pressure, least, None, Undercut(_status(least), least.low > 0.0, least))
 
@@ -130,10 +129,31 @@ def pitch_curvatures(motion: CamMotion, contact: RollerContact) -> tuple[Extreme
     return enclosed_extremes(motion, contact.curvature, 2)
 
 
+def bulging_radius(motion: CamMotion, contact: Contact) -> Extreme:
+    """The least radius of curvature of the profile where it bulges, m.
+
+    Examples
+    --------
+    >>> from optlaws.cams.followers.translating_flat import SlidingFace
+    >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
+    >>> round(bulging_radius(rise, SlidingFace(1.0, 0.0, 0.08)).value, 6)
+    0.052694
+    """
+    if isinstance(contact, RollerContact):
+        return _inside(pitch_curvatures(motion, contact)[1], contact.roller)
+    assert isinstance(contact, FaceContact)  # noqa: S101 - there are no others
+    return enclosed_extremes(motion, contact.radius, 2)[0]
+
+
+def _inside(curvature: Extreme, roller: float) -> Extreme:
+    """The radius of curvature of the profile where the pitch curve bulges most."""
+    low, high = 1.0 / curvature.high, 1.0 / curvature.low
+    return _outward(low - roller, high - roller, curvature.angle, high)
+
+
 def _under_roller(motion: CamMotion, contact: RollerContact, pressure: tuple[Extreme, Extreme]) -> CamExtremes:
     least, greatest = pitch_curvatures(motion, contact)
-    roller = contact.roller
-    bulging = _outward(1.0 / greatest.high - roller, 1.0 / greatest.low - roller, greatest.angle, 1.0 / greatest.low)
+    roller, bulging = contact.roller, _inside(greatest, contact.roller)
     hollow = None
     if least.low < 0.0:
         nearest = -1.0 / least.low + roller

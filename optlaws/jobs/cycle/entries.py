@@ -88,13 +88,13 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, dict[str, Cycle]]:
         if one.name in cycles:
             raise InputError(f"{file}: two axes are called {one.name}: give each a name of its own")
         try:
-            cycles[one.name] = cycle_of(one, spec)
+            cycles[one.name] = cycle_of(one, spec.speed, spec.period)
         except InputError as error:
             raise InputError(f"{file}: axis {one.name}: {error}") from None
     return spec, cycles
 
 
-def cycle_of(axis: Axis, spec: Study) -> Cycle:
+def cycle_of(axis: Axis, speed: str | None, period: str | None) -> Cycle:
     """The cycle of an axis: that of the cam, where there is a follower.
 
     Raises
@@ -104,8 +104,8 @@ def cycle_of(axis: Axis, spec: Study) -> Cycle:
     """
     found = Cycle(
         [segment_of(one, i + 1) for i, one in enumerate(axis.segment)],
-        speed=spec.speed,
-        period=spec.period,
+        speed=speed,
+        period=period,
         minimise=axis.minimise,
         limits=axis.limits,
         start=axis.start,

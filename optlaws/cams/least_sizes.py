@@ -1,0 +1,340 @@
+"""The least base circle that keeps limits of a cam, and the greatest roller for one: each with proof that no other is.
+
+Which base circles break a limit is shown from below: at the angle of the cam where a limit is broken worst, the base
+circle grows until it is kept there, and this again until it is kept all around. These angles then are witnesses: over
+every range of smaller base circles one of them is proven to break its limit, with the range itself as an enclosure.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, fields, replace
+from math import degrees, tan
+from typing import Any, TypeVar
+
+import numpy as np
+
+from optlaws.cams.curves.jets import Jet
+from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
+from optlaws.cams.disc import TURNINGS, DiscCam
+from optlaws.cams.extremes.enclosure import ROUNDING, Enclosure, exact
+from optlaws.cams.extremes.of_cam import bulging_radius, pitch_curvatures, pressure_angles
+from optlaws.cams.followers.contact import Contact, FaceContact, RollerContact
+from optlaws.cams.followers.follower import Follower, Place, shown
+from optlaws.cycles.asked.quantities import quantity
+from optlaws.cycles.cycle import Cycle
+from optlaws.echo import shortened
+from optlaws.errors import InfeasibleProblem, InputError
+
+Kind = TypeVar("Kind", bound=Contact)
+
+PRESSURE, CURVATURE = "pressure angle", "radius of curvature"
+WIDTH = 1e-8  # of the bracket, relative
+_KEPT = 1e-10  # by how much more than needed the radius grows at last
+_STEPS, _LOOKS, _DEPTH = 60, 150, 60
+_LEAST, _LARGEST = 1e-6, 1e3  # of base circles that are looked at, times the greatest length of the mechanism
+
+
+@dataclass(frozen=True)
+class Witness:
+    """Where a limit is broken: which one, at which angle of the cam in rad, and from which side it is seen."""
+
+    limit: str
+    angle: float
+    sign: float
+    before: bool
+
+
+@dataclass(frozen=True)
+class LeastBaseCircle:
+    """The least base circle that keeps limits.
+
+    Attributes
+    ----------
+    radius
+        It keeps them all around, as is proven, m.
+    too_small
+        Every one up to this radius breaks a limit or has no such mechanism, m; 0.00000001 less, relatively.
+    proven
+        Whether that is proven for every one of them; if not, for this one alone.
+    limit, angle
+        Which limit is broken first, and at which angle of the cam, rad; "mechanism" where there is none below.
+    cam
+        The cam with the base circle.
+    """
+
+    radius: float
+    too_small: float
+    proven: bool
+    limit: str
+    angle: float
+    cam: DiscCam
+
+
+def least_base_circle(
+    motion: Cycle | CamMotion,
+    follower: Follower,
+    *,
+    pressure_angle: Any = None,  # noqa: ANN401 - quantities
+    radius_of_curvature: Any = None,  # noqa: ANN401
+    turning: str = "counterclockwise",
+) -> LeastBaseCircle:
+    """The least base circle under a pressure-angle limit, a least radius of curvature of the profile, or both.
+
+    Parameters
+    ----------
+    motion, follower, turning
+        As of a `DiscCam`.
+    pressure_angle
+        The greatest magnitude, such as "30 deg".
+    radius_of_curvature
+        The least one where the profile bulges, such as "5 mm".
+
+    Raises
+    ------
+    InputError
+        If neither limit is given, or one is out of range.
+    InfeasibleProblem
+        If no base circle keeps them.
+
+    Examples
+    --------
+    >>> from optlaws.cams.followers.translating_flat import TranslatingFlat
+    >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
+    >>> least = least_base_circle(rise, TranslatingFlat(), radius_of_curvature="15 mm")
+    >>> round(1e3 * least.radius, 6), least.proven, least.limit
+    (36.32799, True, 'radius of curvature')
+    """
+    limits = _limits(pressure_angle, radius_of_curvature)
+    sizes = _Sizes(as_motion(motion, follower.axis), follower, TURNINGS[turning], limits)
+    radius = start = sizes.least
+    witnesses: list[Witness] = []
+    for _ in range(_STEPS):
+        broken = sizes.witnesses(radius)
+        if not broken:
+            break
+        witnesses += broken
+        radius = max(radius, *(sizes.kept_from(one, radius) for one in broken)) * (1.0 + _KEPT)
+    cam = DiscCam(motion, f"{radius!r} m", follower, turning=turning)
+    if sizes.witnesses(radius, proven=True):
+        raise InfeasibleProblem(f"no base circle was found that keeps {_told(limits)}: give wider limits")
+    last = witnesses[-1] if witnesses else Witness("mechanism", 0.0, 1.0, before=False)
+    below = radius * (1.0 - WIDTH)
+    proven = not witnesses or below <= start or sizes.breaks_between(start, below, witnesses[::-1])
+    return LeastBaseCircle(radius, max(below, start), proven, last.limit, last.angle, cam)
+
+
+@dataclass(frozen=True)
+class GreatestRoller:
+    """The greatest roller for a base circle: the smaller radius is proven to be free of undercut, the larger not, m.
+
+    Attributes
+    ----------
+    radius, too_large
+        The bracket.
+    angle
+        Where the larger one cuts, rad.
+    """
+
+    radius: float
+    too_large: float
+    angle: float
+
+
+def greatest_roller(cam: DiscCam, *, radius_of_curvature: Any = "0 mm") -> GreatestRoller:  # noqa: ANN401 - a quantity
+    """The greatest roller with which the profile of a cam keeps a radius of curvature; its base circle stays.
+
+    Parameters
+    ----------
+    cam
+        With a roller, whose radius does not matter.
+    radius_of_curvature
+        The least one that the profile is to have where it bulges.
+
+    Raises
+    ------
+    InputError
+        If the cam has no roller, or no roller keeps the radius.
+
+    Examples
+    --------
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
+    >>> found = greatest_roller(DiscCam(rise, "60 mm", TranslatingRoller("12 mm")), radius_of_curvature="5 mm")
+    >>> round(1e3 * found.radius, 6), bool(found.too_large - found.radius < 1e-10)
+    (55.0, True)
+    """
+    least = quantity(radius_of_curvature, "length", "radius_of_curvature")
+    if not isinstance(cam.contact, RollerContact):
+        raise InputError("follower: a flat face has no roller: take a TranslatingRoller or an OscillatingRoller")
+    greatest = pitch_curvatures(cam.displacement, cam.contact)[1]
+    low, high = (1.0 / value - least for value in (greatest.high, greatest.low))
+    if low <= 0.0:
+        raise InputError(
+            f"radius_of_curvature: the pitch curve itself has {shown(1.0 / greatest.low)} at"
+            f" {degrees(greatest.angle):.6g} deg, so that no roller leaves {shown(least)}: make the base circle larger"
+        )
+    slack = 8.0 * ROUNDING * (1.0 / greatest.low + abs(least))
+    return GreatestRoller(low - slack, high + slack, greatest.angle)
+
+
+def _limits(pressure_angle: Any, radius: Any) -> dict[str, float]:  # noqa: ANN401
+    found = {}
+    if pressure_angle is not None:
+        angle = quantity(pressure_angle, "angle", "pressure_angle")
+        if not 0.0 < angle < 0.5 * np.pi:
+            raise InputError(f"pressure_angle must be above 0 and below 90 deg, got {shortened(pressure_angle)}")
+        found[PRESSURE] = tan(angle)
+    if radius is not None:
+        found[CURVATURE] = quantity(radius, "length", "radius_of_curvature")
+        if found[CURVATURE] < 0.0:
+            raise InputError(f"radius_of_curvature must be at least 0, got {shortened(radius)}")
+    if not found:
+        raise InputError("a least base circle needs pressure_angle='30 deg', radius_of_curvature='5 mm', or both")
+    return found
+
+
+def _told(limits: dict[str, float]) -> str:
+    texts = {
+        PRESSURE: lambda value: f"a pressure angle of {degrees(np.arctan(value)):.6g} deg",
+        CURVATURE: lambda value: f"a radius of curvature of {shown(value)}",
+    }
+    return " and ".join(texts[name](value) for name, value in limits.items())
+
+
+@dataclass(frozen=True)
+class _Sizes:
+    """Cams that differ by their base circle, and the limits that they keep or break."""
+
+    motion: CamMotion
+    follower: Follower
+    turning: float
+    limits: dict[str, float]
+
+    @property
+    def least(self) -> float:
+        """From where on there is such a mechanism."""
+        rising = self._scale * np.geomspace(_LEAST, _LARGEST, _LOOKS)
+        fit = next((i for i, radius in enumerate(rising) if self._fits(radius)), None)
+        if fit is None:
+            raise InfeasibleProblem("no base circle fits the follower: give it other sizes")
+        if fit == 0:
+            return float(rising[0])
+        low, high = float(rising[fit - 1]), float(rising[fit])
+        for _ in range(100):
+            middle = 0.5 * (low + high)
+            if not low < middle < high:
+                break
+            low, high = (low, middle) if self._fits(middle) else (middle, high)
+        return high * (1.0 + 1e-9)
+
+    @property
+    def _scale(self) -> float:
+        low, high = self.motion.range
+        sizes = [high - low] if self.motion.axis == "length" else []
+        for name in ("radius", "arm", "pivot_distance", "offset"):
+            given = getattr(self.follower, name, None)
+            sizes += [abs(quantity(given, "length", name))] if given is not None else []
+        return max(sizes)
+
+    def _fits(self, radius: float) -> bool:
+        try:
+            self.contact(radius)
+        except InputError:
+            return False
+        return True
+
+    def contact(self, radius: float) -> Contact:
+        """The contact with a base circle."""
+        return self.follower.contact(Place(radius, *self.motion.range, self.motion.slopes, self.turning))
+
+    def witnesses(self, radius: float, *, proven: bool = False) -> list[Witness]:
+        """Where limits are broken worst; with `proven`, where they are not proven to be kept."""
+        contact, broken = self.contact(radius), []
+        if PRESSURE in self.limits:
+            least, greatest = pressure_angles(self.motion, contact)
+            most = float(np.arctan(self.limits[PRESSURE]))
+            for one, sign in ((greatest, 1.0), (-least, -1.0)):
+                if (one.high if proven else one.low) > most:
+                    broken.append(self._seen(PRESSURE, one.angle, sign, radius))
+        if CURVATURE in self.limits:
+            margin, least_radius = bulging_radius(self.motion, contact), self.limits[CURVATURE]
+            if (margin.low if proven else margin.high) < least_radius:
+                broken.append(self._seen(CURVATURE, margin.angle, 1.0, radius))
+        return broken
+
+    def _seen(self, limit: str, angle: float, sign: float, radius: float) -> Witness:
+        """From which side of a break the limit is broken more."""
+        sides = [Witness(limit, angle, sign, before) for before in (False, True)]
+        return max(sides, key=lambda one: float(self._excess(self.contact(radius), one, self._jet(one)).middle))
+
+    def kept_from(self, witness: Witness, radius: float) -> float:
+        """The least radius from one on with which a limit is kept at a witness's angle."""
+        from scipy.optimize import brentq
+
+        jet = self._jet(witness)
+
+        def excess(size: float) -> float:
+            return float(self._excess(self.contact(size), witness, jet).middle)
+
+        last = radius
+        if excess(radius) <= 0.0:
+            return radius
+        for size in radius + self._scale * np.geomspace(_LEAST, _LARGEST, _LOOKS):
+            if not self._fits(float(size)):
+                break
+            if excess(float(size)) <= 0.0:
+                return float(brentq(excess, last, float(size), xtol=1e-16, rtol=1e-14))
+            last = float(size)
+        raise InfeasibleProblem(
+            f"no base circle keeps {_told(self.limits)}: at {degrees(witness.angle):.6g} deg of the cam the "
+            f"{witness.limit} breaks it with every one up to {shown(last)}: give wider limits, or spread the motion"
+        )
+
+    def breaks_between(self, low: float, high: float, witnesses: list[Witness]) -> bool:
+        """Whether every base circle in a range is proven to break a limit at one of the witnesses' angles."""
+        jets = [(one, self._jet(one)) for one in witnesses]
+        waiting = [(low, high, 0)]
+        while waiting:
+            first, last, depth = waiting.pop()
+            contact = _spanning(self.contact(first), self.contact(last))
+            if any(bool(self._excess(contact, one, jet).low > 0.0) for one, jet in jets):
+                continue
+            if depth == _DEPTH:
+                return False
+            middle = 0.5 * (first + last)
+            waiting += [(first, middle, depth + 1), (middle, last, depth + 1)]
+        return True
+
+    def _jet(self, witness: Witness) -> Jet:
+        jet = self.motion.jet(np.array(witness.angle), 2, before=witness.before)
+        return Jet(tuple(exact(term) for term in jet.terms))
+
+    def _excess(self, contact: Contact, witness: Witness, s: Jet) -> Enclosure:
+        """By how much a limit is broken, above 0; all of it multiplied out, so that nothing is divided by."""
+        limit = self.limits[witness.limit]
+        found: Enclosure
+        if witness.limit == PRESSURE:
+            found = contact.pressure(s).terms[0] * witness.sign - limit
+        elif isinstance(contact, FaceContact):
+            found = -contact.radius(s).terms[0] + limit
+        else:
+            assert isinstance(contact, RollerContact)  # noqa: S101 - there are no others
+            found = contact.curvature(s).terms[0] - 1.0 / (limit + contact.roller)
+        return found
+
+
+def _spanning(one: Kind, two: Kind) -> Kind:
+    """A contact whose base circle is anywhere between two."""
+    changed: dict[str, Any] = {}
+    for name in _numbers(one):
+        first, last = getattr(one, name), getattr(two, name)
+        if first != last:
+            middle = 0.5 * (first + last)
+            radius = 0.5 * abs(last - first) + 16.0 * ROUNDING * (abs(first) + abs(last))
+            changed[name] = Enclosure(np.array(middle), np.array(radius))
+    return replace(one, **changed)
+
+
+def _numbers(contact: Contact) -> Iterator[str]:
+    return (one.name for one in fields(contact))

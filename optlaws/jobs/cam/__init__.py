@@ -1,0 +1,1 @@
+"""The job "cam": cams of cycles, analysed with enclosed extremes."""
