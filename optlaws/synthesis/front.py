@@ -10,7 +10,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
+from optlaws.laws import PolynomialLaw
 from optlaws.plotting import plotted
+from optlaws.synthesis.arrays.constants import of_polynomials
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.solution import Solution
@@ -22,6 +24,9 @@ HEADINGS = ("B", "C", "D", "J", "lower bound", "gap", "limit", "status")
 #: of a constant: two values that differ by less are one
 SAME = 1e-9
 _SHOWN = 12
+#: from so many laws on constants are computed for all at once
+_MANY = 16
+_IN_ARRAYS = ("B", "C", "D", "J", "rms_c")
 
 
 @dataclass(frozen=True)
@@ -55,7 +60,7 @@ class Front:
     @kept_property
     def values(self) -> Array:
         """The constants of each point: one row a point, one column a constant of `over`."""
-        return np.array([[value_of(point, name) for name in self.over] for point in self.points])
+        return values_of(self.points, self.over)
 
     @property
     def rows(self) -> list[list[float | str | None]]:
@@ -133,7 +138,7 @@ def undominated(solutions: Sequence[Solution], over: Sequence[str]) -> list[Solu
     >>> [solution.problem.B for solution in undominated(solutions, ("B", "C"))]
     [1.6, 1.8]
     """
-    values = np.array([[value_of(solution, name) for name in over] for solution in solutions])
+    values = values_of(solutions, over)
     order = np.lexsort(values.T[::-1])
     kept: list[int] = []
     for i in order:
@@ -155,3 +160,25 @@ def value_of(solution: Solution, name: str) -> float:
     5.080702
     """
     return named(name).value(solution.law)
+
+
+def values_of(solutions: Sequence[Solution], names: Sequence[str]) -> Array:
+    """Constants of the laws of many solutions: one row a solution, one column a constant.
+
+    Examples
+    --------
+    >>> from optlaws.synthesis import Problem, sweep
+    >>> values_of(list(sweep([Problem(B=1.6, order=4), Problem(B=1.8, order=4)])), ("B", "C")).round(4).tolist()
+    [[1.6, 5.2622], [1.8, 4.6958]]
+    """
+    return np.column_stack([_column(solutions, name) for name in names])
+
+
+def _column(solutions: Sequence[Solution], name: str) -> Array:
+    if all(repr(one.problem.objective) == name for one in solutions):
+        return np.array([one.objective for one in solutions])
+    laws = [one.law for one in solutions]
+    polynomials = [law for law in laws if isinstance(law, PolynomialLaw)]
+    if len(laws) >= _MANY and name in _IN_ARRAYS and len(polynomials) == len(laws):
+        return of_polynomials(polynomials, name)
+    return np.array([value_of(one, name) for one in solutions])

@@ -8,6 +8,7 @@ from math import inf, log2, sqrt
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
@@ -23,7 +24,9 @@ from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.program.writer import extreme_velocity
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import synthesize
-from optlaws.synthesis.solve_array import solved
+from optlaws.synthesis.solved_line import SolvedLine
+
+Array = NDArray[np.float64]
 
 # how far above its least value a constant is held while the next one is minimised: as near as the solver can go
 _ABOVE = (1e-5, 1e-7, 1e-9)
@@ -134,10 +137,11 @@ class _Curve:
         # the middles of the first stretches, and of their halves, and so on
         begun = 2 ** int(log2(count / _EVEN))
         values = [low * (high / low) ** (i / begun) for i in range(1, begun)]
+        line = SolvedLine(self._problems, low, high)
         while values:
-            results = solved(self._problems(values))
-            laws = [(value, results.result(i)) for i, value in enumerate(values)]
-            found = [(value, one) for value, one in laws if isinstance(one, Solution) and one.status is Status.OPTIMAL]
+            results = line.at(np.array(values))
+            proven = np.flatnonzero(results.status == Status.OPTIMAL.value)
+            found = [(values[i], one) for i in proven.tolist() if isinstance(one := results.result(i), Solution)]
             self.points = sorted([*self.points, *found], key=lambda point: point[0])
             if len(found) < len(values):
                 # the others are looked at one by one
@@ -147,11 +151,11 @@ class _Curve:
             places = wanting[np.argsort(-widths[wanting])][: count - len(self.points)]
             values = [sqrt(self.points[i][0] * self.points[i + 1][0]) for i in sorted(places.tolist())]
 
-    def _problems(self, values: list[float]) -> ProblemArray:
+    def _problems(self, values: Array) -> ProblemArray:
         if self.over[0] != "B":
-            return ProblemArray.of([self._asked(value) for value in values])
+            return ProblemArray.of([self._asked(value) for value in values.tolist()])
         entries = {field.name: getattr(self.problem, field.name) for field in fields(Problem)}
-        return ProblemArray(**{**entries, "B": np.array(values)})
+        return ProblemArray(**{**entries, "B": values})
 
     def _asked(self, value: float) -> Problem:
         return _at_most(self.problem, self.over[0], value)
@@ -186,7 +190,7 @@ class _Curve:
 
     def _widths(self) -> list[float]:
         """How much each stretch wants a point: its length in normalised logarithms, more where the front turns."""
-        logs = np.log([[value, value_of(solution, self.over[1])] for value, solution in self.points])
+        logs = np.log([[value, solution.objective] for value, solution in self.points])
         span = np.abs(logs[-1] - logs[0])
         if span[0] < _NOTHING:
             return [0.0] * (len(self.points) - 1)

@@ -7,7 +7,7 @@ one of any problems that are there, of one kind or of several) and raises nothin
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping, Sequence
 from math import inf
 from time import perf_counter
 
@@ -110,9 +110,21 @@ def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
             parts.append(Part(line.places[rows], line.path.model, found.taken(rows).frozen()))
             for beyond in (line.places[: rows[0]][::-1], line.places[rows[-1] + 1 :]):
                 others.update(_beyond(problems, beyond, bound))
+    return completed(problems, parts, others, began, bound=bound)
+
+
+def completed(
+    problems: ProblemArray,
+    parts: Sequence[Part],
+    others: Mapping[int, Solution | OptlawsError],
+    began: float,
+    *,
+    bound: str = "quick",
+) -> SolutionArray:
+    """What is known of some of the problems, with the rest solved one by one, each begun at the law before it."""
     known = np.concatenate([np.array(list(others), dtype=np.intp), *(part.places for part in parts)])
-    others.update(_others(problems, np.setdiff1d(np.arange(problems.size), known), bound))
-    return SolutionArray(problems, tuple(parts), others, perf_counter() - began)
+    rest = _others(problems, np.setdiff1d(np.arange(problems.size), known), bound)
+    return SolutionArray(problems, tuple(parts), {**others, **rest}, perf_counter() - began)
 
 
 def _along(problems: ProblemArray, line: Line, bound: str) -> Found:

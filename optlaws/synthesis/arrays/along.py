@@ -53,15 +53,25 @@ def laws_along(path: Path, t: Array) -> Found:
     >>> laws_along(path, np.array([0.0, 0.2])).objective.round(6).tolist()
     [5.262224, 5.173677]
     """
-    segments = Walk(path, float(t[0]), float(t[-1])).whole(t[0] + _STARTS * (t[-1] - t[0]))
+    return laws_on(path, segments_of(path, float(t[0]), float(t[-1])), t)
+
+
+def segments_of(path: Path, least: float, greatest: float) -> list[Segment]:
+    """The structures between two t, by ascending t, as far as they were found."""
+    return Walk(path, least, greatest).whole(least + _STARTS * (greatest - least))
+
+
+def laws_on(path: Path, segments: list[Segment], t: Array) -> Found:
+    """The optima at ascending t on segments that are known."""
     most = max((segment.structure.count for segment in segments), default=0)
     program = path.model.program
     found = Found.none(len(t), program.size, most, len(program.right))
+    reach = segments[-1].end - segments[0].begin if segments else 0.0
     begins = np.array([segment.begin for segment in segments])
     owner = np.searchsorted(begins, t, side="right") - 1
     for i, segment in enumerate(segments):
         # what lies between two segments, nearer than they are known, is tried with the first
-        places = np.flatnonzero((owner == i) & (t <= segment.end + _BESIDE * (t[-1] - t[0])))
+        places = np.flatnonzero((owner == i) & (t <= segment.end + _BESIDE * reach))
         if len(places):
             _fill(found, path, segment, places, t[places])
     return found

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from functools import lru_cache
 
 import numpy as np
 from numpy.polynomial import chebyshev
 from numpy.typing import NDArray
 
+from optlaws.laws import PolynomialLaw
 from optlaws.series.chebyshev import from_values, nodes
 
 Array = NDArray[np.float64]
@@ -36,6 +38,26 @@ def peaks(series: Array) -> Array:
 def power_peaks(velocity: Array, acceleration: Array) -> Array:
     """Greatest magnitude of the product of two series, for each of many laws."""
     return peaks(product(velocity, acceleration))
+
+
+def of_polynomials(laws: Sequence[PolynomialLaw], name: str) -> Array:
+    """B, C, D, J or rms_c of many polynomial laws.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> of_polynomials([smoothstep(2), smoothstep(3)], "C").round(6).tolist()
+    [6.0, 5.773503]
+    """
+    count = max((len(law.acceleration) for law in laws), default=0) + 1
+    c = np.array([[*law.acceleration, *[0.0] * (count - len(law.acceleration))] for law in laws]).reshape(-1, count)
+    b = chebyshev.chebint(c, lbnd=-1.0, scl=0.5, axis=1)
+    b[:, 0] += [law.b0 for law in laws]
+    if name == "D":
+        return power_peaks(b, c)
+    if name == "rms_c":
+        return root_mean_squares(c)
+    return peaks({"B": b, "C": c, "J": 2.0 * chebyshev.chebder(c, axis=1)}[name])
 
 
 def product(first: Array, second: Array) -> Array:

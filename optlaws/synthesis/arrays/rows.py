@@ -67,7 +67,7 @@ class Structure:
     @kept_property
     def held(self) -> NDArray[np.bool_]:
         """Which contacts are held at an end off which they could move."""
-        return ~self.free & (self.domains[:, 0] != self.domains[:, 1])
+        return np.asarray(~self.free & (self.domains[:, 0] != self.domains[:, 1]))
 
     @kept_property
     def rounding(self) -> Array:

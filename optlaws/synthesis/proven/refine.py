@@ -17,6 +17,7 @@ from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.pareto import least_value, where_it_pays
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proven.front import Lazily, ProvenFront, interval_gaps, weighted_value
 from optlaws.synthesis.proven.line import lower_line
 from optlaws.synthesis.proven.line_array import lower_lines
@@ -24,7 +25,7 @@ from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solution import NOTHING, Solution, Status
 from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.synthesis.solve import synthesize
-from optlaws.synthesis.solve_array import solved
+from optlaws.synthesis.solved_line import SolvedLine
 
 Array = NDArray[np.float64]
 
@@ -108,6 +109,7 @@ class _Refined:
 
     def __init__(self, number: RunningNumber, ends: tuple[float, float]) -> None:
         self.number, self.ends = number, ends
+        self.line = SolvedLine(self._problems, *ends)
         self.values = np.array(ends)
         self.laws: list[_Law] = [_at_end(number, end) for end in ends]
         self.known = np.array([self._known(value, one) for value, one in zip(ends, self.laws, strict=True)])
@@ -158,7 +160,7 @@ class _Refined:
         known = np.full((len(values), 3), np.nan)
         for begin in range(0, len(values), _CHUNK):
             some = values[begin : begin + _CHUNK]
-            found = solved(self._problems(some))
+            found = self.line.at(some)
             for part in found.parts:
                 lines = lower_lines(part, some[part.places], self.number, self.ends)
                 if lines is not None:
@@ -192,7 +194,7 @@ class _Refined:
     def _known(self, value: float, law: _Law) -> tuple[float, float, float]:
         """What is known of the least objective: above and below, and the slope of the line that goes on from there."""
         assert isinstance(law, Solution)  # noqa: S101 - as it came from `_alone`
-        top, claim, slope = law.objective, -inf, 0.0
+        top, claim, slope = worth(law.problem, law.law).objective, -inf, 0.0
         if self.number.concave:
             slope = weighted_value(self.number, law.law)
             claim = max(top + slope * (end - value) for end in self.ends)
