@@ -19,6 +19,7 @@ Function = Callable[[Array], Array]
 TERMS = 13
 _PARTS = 4
 _DEEPEST = 40
+_MOST = 100_000
 _ROUNDING = 2.0**-44
 
 
@@ -99,11 +100,11 @@ def _bernstein(u: Array) -> Array:
     return np.array([comb(degree, i) * u**i * (1.0 - u) ** (degree - i) for i in range(TERMS)]).T
 
 
-def integrated(function: Function, edges: Array, *, share: float = 1e-9) -> tuple[float, float]:
+def integrated(function: Function, edges: Array, *, share: float = 1e-9, scale: float = 0.0) -> tuple[float, float]:
     """Between which values the integral of a function is that is smooth between edges.
 
     The polynomials of `bounds` are integrated; intervals are halved until what these may be off by is a share of the
-    integral of the magnitude.
+    integral of the magnitude, or of that of a scale.
 
     Raises
     ------
@@ -124,15 +125,21 @@ def integrated(function: Function, edges: Array, *, share: float = 1e-9) -> tupl
         values, off = _means(function, starts, stops)
         size += float(np.abs(values) @ lengths)
         # each interval may miss its part of what may be missed
-        open_ones = off > 0.5 * share * size / whole
+        open_ones = off > 0.5 * share * max(size / whole, scale)
         total += float(values[~open_ones] @ lengths[~open_ones])
         missed += float(off[~open_ones] @ lengths[~open_ones])
         if not open_ones.any():
             return total - missed, total + missed
         size -= float(np.abs(values[open_ones]) @ lengths[open_ones])
-        middles = 0.5 * (starts + stops)[open_ones]
-        starts, stops = np.append(starts[open_ones], middles), np.append(middles, stops[open_ones])
+        starts, stops = _halves(starts[open_ones], stops[open_ones])
     raise InputError("what is to be integrated is not smooth between the places where it may leap")
+
+
+def _halves(starts: Array, stops: Array) -> tuple[Array, Array]:
+    if len(starts) > _MOST:
+        raise InputError("what is to be enclosed is not smooth: its extremes are hidden in rounding")
+    middles = 0.5 * (starts + stops)
+    return np.append(starts, middles), np.append(middles, stops)
 
 
 def _means(function: Function, starts: Array, stops: Array) -> tuple[Array, Array]:
@@ -151,11 +158,11 @@ def _missed(series: Array, values: Array) -> Array:
     return np.asarray(2.0 * np.abs(series[-2:]).sum(axis=0) + _ROUNDING * np.abs(values).max(axis=0))
 
 
-def enclosed(function: Function, edges: Array, *, share: float = 1e-9) -> Enclosure:
+def enclosed(function: Function, edges: Array, *, share: float = 1e-9, scale: float = 0.0) -> Enclosure:
     """Least and greatest value of a function that is smooth between edges, over the whole from the first to the last.
 
-    Intervals are halved until the bounds are within a share of the function's greatest magnitude of values that it
-    has; those that cannot hold an extreme are left.
+    Intervals are halved until the bounds are within a share of the function's greatest magnitude, or of a scale, of
+    values that it has; those that cannot hold an extreme are left.
 
     Parameters
     ----------
@@ -165,6 +172,8 @@ def enclosed(function: Function, edges: Array, *, share: float = 1e-9) -> Enclos
         Increasing, shape (n + 1,).
     share
         How near the bounds come.
+    scale
+        Of what the function is a difference: where it is next to nothing beside that, it is rounding.
 
     Raises
     ------
@@ -183,13 +192,12 @@ def enclosed(function: Function, edges: Array, *, share: float = 1e-9) -> Enclos
         values, places = _tried(function, starts, stops)
         known = _with(known, values, places)
         low, high = bounds(function, starts, stops)
-        slack = share * known.peak
+        slack = share * max(known.peak, scale)
         open_ones = (low < known.least - slack) | (high > known.most + slack)
         known = _within(known, low[~open_ones], high[~open_ones])
         if not open_ones.any():
             return known
-        middles = 0.5 * (starts + stops)[open_ones]
-        starts, stops = np.append(starts[open_ones], middles), np.append(middles, stops[open_ones])
+        starts, stops = _halves(starts[open_ones], stops[open_ones])
     raise InputError("what is to be enclosed is not smooth between the places where it may leap")
 
 

@@ -1,0 +1,166 @@
+"""The torque at the shaft of a cycle, alone and with the inertial loader that balances it, in N m."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import sqrt
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cycles.asked.conversion import Piece
+from optlaws.cycles.asked.programme import TURN
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.drive import Drive, read_drive
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.mechanisms.loader.loader import Loader
+from optlaws.numbers import finite, real_times
+from optlaws.series.enclosed import Enclosure, enclosed, integrated
+
+Array = NDArray[np.float64]
+
+_SHARE = 1e-7
+_AGREES = 1e-9
+
+
+class TorqueOverTurn(NamedTuple):
+    """A torque at a shaft over the turn: extremes, enclosed, and its root mean square, N m."""
+
+    extremes: Enclosure
+    rms: float
+
+    @property
+    def peak(self) -> float:
+        """The greatest magnitude."""
+        return self.extremes.peak
+
+
+@dataclass(frozen=True)
+class Balancing:
+    """A cycle whose moves are balanced by inertial loaders: what the shaft must give before and after.
+
+    Each move from rest to rest has the loader of its law, which takes up the kinetic energy that the link gives off
+    (eq. 1, 2 of the paper on inertial loaders). Between moves the loader stands still or runs on at uniform speed, as
+    that of a dwell mechanism of type I does, and takes no torque.
+
+    Parameters
+    ----------
+    cycle
+        The executive cycle, with its drive: mass or inertia, and what else it moves, which no loader balances.
+    share
+        The loader's mass over the one that balances the inertia in full.
+
+    Raises
+    ------
+    InputError
+        If the cycle has no drive, its moves have different peak speeds, so that the loader would have to change its
+        own in the dwells, or a move is not from rest to rest.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Dwell, Return, Rise
+    >>> moves = [Rise("40 mm", "90 deg", law="K"), Dwell("90 deg"), Return(duration="90 deg", law="K"), Dwell()]
+    >>> one = Balancing(Cycle(moves, speed="120 rpm", drive={"mass": "3 kg"}))
+    >>> round(one.before.peak, 6), one.after.peak < 1e-12 * one.before.peak
+    (0.757986, True)
+    """
+
+    cycle: Cycle
+    share: float = 1.0
+
+    def __post_init__(self) -> None:
+        if finite(self.share, "share") < 0.0:
+            raise InputError(f"share must be at least 0, got {self.share!r}")
+        self.load, self._loaders  # noqa: B018 - what is wrong is refused at once
+
+    @kept_property
+    def load(self) -> Drive:
+        """What the cycle drives."""
+        if self.cycle.drive is None:
+            raise InputError("the cycle has no drive: give one, such as drive={'mass': '3 kg'}")
+        return read_drive(self.cycle.drive, self.cycle.axis)
+
+    @property
+    def rate(self) -> float:
+        """The shaft's angular velocity, rad/s."""
+        return TURN / self.cycle.duration
+
+    @kept_property
+    def before(self) -> TorqueOverTurn:
+        """The torque without loaders."""
+        return self._over_turn(self._executive)
+
+    @kept_property
+    def after(self) -> TorqueOverTurn:
+        """The torque with them."""
+        return self._over_turn(lambda time: self._executive(time) + self._loader(time))
+
+    def torque(self, degrees: Any, *, balanced: bool = True) -> Any:  # noqa: ANN401 - a number for a number, arrays for arrays
+        """The torque at an angle of the shaft in degrees, with the loaders or without, N m."""
+        times = np.mod(real_times(degrees), 360.0) * (self.cycle.duration / 360.0)
+        values = self._executive(times) + (self._loader(times) if balanced else 0.0)
+        return values if np.ndim(values) else float(values)
+
+    @kept_property
+    def _loaders(self) -> tuple[Loader | None, ...]:
+        """The loader of each piece that moves."""
+        moving = [piece for piece in self.cycle.pieces if piece.stroke]
+        for piece in moving:
+            if max(abs(piece.end(1, side)) for side in (0, 1)) > _AGREES * self.cycle.peak(1):
+                raise InputError("an inertial loader balances moves from rest to rest: let each begin and end so")
+        speeds = [abs(piece.stroke) / piece.duration * piece.law.peak(1).value for piece in moving]
+        if max(speeds) - min(speeds) > _AGREES * max(speeds):
+            raise InputError(
+                "the moves have different peak speeds, from "
+                f"{min(speeds):.6g} to {max(speeds):.6g} in SI units, and the loader's energy would not suit them all: "
+                "choose durations that make them equal"
+            )
+        return tuple(Loader(piece.law) if piece.stroke else None for piece in self.cycle.pieces)
+
+    def _over_turn(self, torque: Callable[[Array], Array]) -> TorqueOverTurn:
+        edges, scale = self._edges, self._scale
+        _, square = integrated(lambda time: torque(time) ** 2, edges, share=_SHARE, scale=scale**2)
+        extremes = enclosed(torque, edges, share=_SHARE, scale=scale)
+        return TorqueOverTurn(extremes, sqrt(max(square, 0.0) / self.cycle.duration))
+
+    @kept_property
+    def _scale(self) -> float:
+        """The torque of the inertia that the loaders balance: beside it what is left may be rounding."""
+        moving = [piece for piece in self.cycle.pieces if piece.stroke]
+        peaks = [piece.stroke**2 / piece.duration**3 * piece.law.power_peak().value for piece in moving]
+        return self.load.inertia * max(peaks, default=0.0) / self.rate
+
+    @kept_property
+    def _edges(self) -> Array:
+        """Times between which everything is smooth."""
+        places = []
+        for piece, one in zip(self.cycle.pieces, self._loaders, strict=True):
+            breaks = piece.law.breaks if one is None else (*piece.law.breaks, *one.law.breaks)
+            places.append(piece.start + piece.duration * np.unique(breaks))
+        return np.unique(np.round(np.concatenate(places), 15))
+
+    def _executive(self, time: Array) -> Array:
+        return self._by_piece(time, lambda piece, _, at: self.load.along(piece, at) * piece.values(at, 1) / self.rate)
+
+    def _loader(self, time: Array) -> Array:
+        return self._by_piece(time, self._of_loader)
+
+    def _of_loader(self, piece: Piece, one: Loader | None, time: Array) -> Array:
+        """Its power over the shaft's speed: its own velocity times its own acceleration."""
+        if one is None:
+            return np.zeros(time.shape)
+        # mass times stroke squared, in full: eq. (2)
+        moved = self.share * self.load.inertia * (piece.stroke / one.Y) ** 2
+        return np.asarray(moved / piece.duration**3 * one.law.d(piece.places(time)) / self.rate)
+
+    def _by_piece(self, time: Array, values: Callable[[Piece, Loader | None, Array], Array]) -> Array:
+        pieces = self.cycle.pieces
+        which = np.searchsorted([piece.start for piece in pieces[1:]], time, side="right")
+        found = np.empty(np.shape(time))
+        for i in np.unique(which):
+            here = which == i
+            found[here] = values(pieces[i], self._loaders[i], np.asarray(time)[here])
+        return found

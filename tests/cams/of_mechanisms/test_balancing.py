@@ -1,0 +1,49 @@
+from math import pi
+
+import numpy as np
+import pytest
+
+from optlaws import Cycle, Dwell, Return, Rise
+from optlaws.cams.of_mechanisms.balancing import Balancing
+from optlaws.cycles.effort import effort
+from optlaws.errors import InputError
+
+
+def cycle(law: str, back: str = "90 deg", **drive: str) -> Cycle:
+    moves = [Rise("40 mm", "90 deg", law=law), Dwell("90 deg"), Return(duration=back, law=law), Dwell()]
+    return Cycle(moves, speed="120 rpm", drive={"mass": "3 kg", **drive})
+
+
+@pytest.mark.parametrize("law", ["K", "3-4-5", "modified sine"])
+def test_a_loader_takes_all_of_the_inertia_s_torque(law: str) -> None:
+    one = Balancing(cycle(law))
+    # m h² D/T³ over the shaft's speed
+    peak = 3.0 * 0.04**2 * one.cycle.pieces[0].law.power_peak().value / 0.125**3 / (4.0 * pi)
+    assert one.before.peak == pytest.approx(peak, rel=1e-6)
+    assert one.after.peak < 1e-9 * peak
+    assert one.after.rms < 1e-9 * peak
+
+
+def test_what_no_loader_balances_is_left() -> None:
+    one = Balancing(cycle("3-4-5", stiffness="1 N/mm", dry="5 N"))
+    rest = Balancing(cycle("3-4-5", stiffness="1 N/mm", dry="5 N", mass="0 kg"))
+    degrees = np.linspace(0.0, 359.0, 200)
+    assert one.torque(degrees) == pytest.approx(rest.torque(degrees, balanced=False), abs=1e-9)
+    assert one.before.peak == pytest.approx(
+        effort(one.load, one.cycle.pieces, one.cycle.duration).peak_power / one.rate
+    )
+
+
+def test_a_lighter_loader_leaves_its_share() -> None:
+    full, most = Balancing(cycle("3-4-5")), Balancing(cycle("3-4-5"), share=0.9)
+    assert most.after.peak == pytest.approx(0.1 * full.before.peak, rel=1e-6)
+    assert most.after.rms == pytest.approx(0.1 * full.before.rms, rel=1e-6)
+
+
+def test_what_cannot_be_balanced_says_why() -> None:
+    with pytest.raises(InputError, match="different peak speeds"):
+        Balancing(cycle("3-4-5", back="100 deg"))
+    with pytest.raises(InputError, match="no drive"):
+        Balancing(Cycle(cycle("K").segments, speed="120 rpm"))
+    with pytest.raises(InputError, match="share must be at least 0"):
+        Balancing(cycle("K"), share=-0.1)
