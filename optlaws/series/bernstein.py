@@ -15,7 +15,7 @@ from optlaws.series.peaks import TIE
 Array = NDArray[np.float64]
 
 ROUNDING = 2.0**-48
-_HALVINGS = 60
+_ROUNDS, _PARTS = 20, 8
 _WIDTH = 1e-4  # a smooth top is flat to TIE over about so much
 
 
@@ -53,20 +53,20 @@ def from_values(values: Array) -> Array:
 def top(control: Array) -> Top:
     """The greatest value of polynomials on [0, 1], given by Bernstein coefficients, a row each.
 
-    What can still be higher than the highest value met is halved, to rounding; of places as high as one another the
-    first is told.
+    What can still be higher than the highest value met is cut in eight, to rounding; of places as high as one another
+    the first is told.
 
     Examples
     --------
     >>> top(from_powers(np.array([[0.0, 1.0, -1.0]])))
     Top(value=0.25, above=0.25, row=0, u=0.5)
     """
-    left, right = _halvings(control.shape[1] - 1)
+    parts = _cuts(control.shape[1] - 1)
     scale = float(np.abs(control).max())
     rows, lows, width = np.arange(len(control)), np.zeros(len(control)), 1.0
     best, above = -np.inf, -np.inf
     met: list[Array] = []
-    for _ in range(_HALVINGS):
+    for _ in range(_ROUNDS):
         best = max(best, float(control[:, [0, -1]].max()))
         for side, u in ((0, lows), (-1, lows + width)):
             near = control[:, side] >= best - TIE * scale
@@ -76,9 +76,9 @@ def top(control: Array) -> Top:
         above = max(above, float(height[~kept].max(initial=-np.inf)))
         if not kept.any():
             break
-        control, rows, lows, width = control[kept], rows[kept], lows[kept], width / 2.0
-        control = np.concatenate([control @ left, control @ right])
-        rows, lows = np.tile(rows, 2), np.concatenate([lows, lows + width])
+        width /= _PARTS
+        control = (control[kept] @ parts).reshape(-1, control.shape[1])
+        rows, lows = np.repeat(rows[kept], _PARTS), (lows[kept, None] + width * np.arange(_PARTS)).ravel()
     else:
         above = max(above, float(control.max()))
     which, place = _first(np.concatenate(met, axis=1), best - TIE * scale)
@@ -111,9 +111,12 @@ def _of_values(count: int) -> Array:
 
 
 @lru_cache(maxsize=64)
-def _halvings(degree: int) -> tuple[Array, Array]:
+def _cuts(degree: int) -> Array:
+    """By what control points are multiplied for those of eight equal parts, side by side."""
     left = np.array([[comb(i, j) / 2.0**i for i in range(degree + 1)] for j in range(degree + 1)])
-    right = left[::-1, ::-1].copy()
-    for one in (left, right):
-        one.setflags(write=False)
-    return left, right
+    matrices = [np.eye(degree + 1)]
+    while len(matrices) < _PARTS:
+        matrices = [one @ half for one in matrices for half in (left, left[::-1, ::-1])]
+    joined = np.concatenate(matrices, axis=1)
+    joined.setflags(write=False)
+    return joined

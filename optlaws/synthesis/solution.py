@@ -171,17 +171,31 @@ class Solution:
         """
         return plotted("solution", self, ax, **style)
 
-    def export(self, to: str, *, stroke: Any = None, time: Any = None, **options: Any) -> Any:  # noqa: ANN401
-        """The law in the format of a controller, as `MotionLaw.export` has it; file and report say what is proven.
+    def export(
+        self,
+        to: str,
+        *,
+        stroke: Any = None,  # noqa: ANN401 - a quantity
+        time: Any = None,  # noqa: ANN401
+        master: Any = None,  # noqa: ANN401
+        start: Any = None,  # noqa: ANN401
+        points: int | str | None = None,
+        counts: int | None = None,
+        digits: int | None = None,
+        decimal: str | None = None,
+        interpolation: str | None = None,
+        name: str | None = None,
+    ) -> Any:  # noqa: ANN401 - made a layer above
+        """The law in the format of a controller, whose file and report say what is proven of it.
 
         Parameters
         ----------
         to
             The format: `optlaws export --list` names them.
-        stroke, time
-            As of `MotionLaw.export`, "35 mm" and "0.1 s".
-        options
-            The others of `MotionLaw.export`: master, start, points, name and what the format takes.
+        stroke, time, master, start
+            As of `MotionLaw.export`: "35 mm", "0.1 s", "120 deg".
+        points, counts, digits, decimal, interpolation, name
+            As there.
 
         Raises
         ------
@@ -196,8 +210,9 @@ class Solution:
         >>> [line.strip() for line in made.text.splitlines() if "none below" in line]
         ['law: least C = 4.59646..., none below 4.59646... in its space; status optimal']
         """
-        said = {"stroke": stroke, "time": time} | {name: options.pop(name, None) for name in ("master", "start")}
-        return exported("solution", self, to, said, **options)
+        said = {"stroke": stroke, "time": time, "master": master, "start": start}
+        asked = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
+        return exported("solution", self, to, said, **asked, interpolation=interpolation, name=name)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: the command line's `--json`, with the problem and the certificate beside it."""

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -95,10 +96,13 @@ def best_breaks(law: MotionLaw, degree: int = 7, most: int = MOST) -> BestBreaks
     orders = (whole(degree, "degree", least=3, most=9) + 1) // 2
     if degree % 2 == 0:
         raise InputError(f"degree must be odd, for as many derivatives are met at both ends, got {degree}")
-    known = motion_law(law)
-    _refuse_leaps(known, orders)
-    search = Search(Stretch(known, (0.0, 1.0)), orders, known.constants.C.value)
-    return search.fewest(whole(most, "most", least=1, most=1000))
+    return _best_breaks(motion_law(law), orders, whole(most, "most", least=1, most=1000))
+
+
+@lru_cache(maxsize=32)
+def _best_breaks(law: MotionLaw, orders: int, most: int) -> BestBreaks:
+    _refuse_leaps(law, orders)
+    return Search(Stretch(law, (0.0, 1.0)), orders, law.constants.C.value).fewest(most)
 
 
 @dataclass(frozen=True)
@@ -228,12 +232,8 @@ def fitted_best(motion: Motion, degree: int, most: int) -> Fitted:
     >>> made.count, abs(made.run.peak(2).value / motion.peak(2) - 1) <= 1e-3
     (3, True)
     """
-    found: dict[MotionLaw, BestBreaks] = {}
 
     def best(piece: Piece) -> PiecewiseMotion:
-        law = piece.law
-        if law not in found:
-            found[law] = best_breaks(law, degree - 1 + degree % 2, min(most, MOST))
-        return found[law].run
+        return best_breaks(piece.law, degree - 1 + degree % 2, min(most, MOST)).run
 
     return fitted(motion, degree, most, laid=best)
