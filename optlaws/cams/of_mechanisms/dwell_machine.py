@@ -105,17 +105,11 @@ class DwellMachine:
             If rise, return and dwells do not make a turn.
         """
         one = self._turn()
-        places = zip(pairwise(one.motion.breaks), one.motion.segments, strict=True)
-        return CamMotion(
-            tuple(
-                Stretch(
-                    tau * low, tau * high, one.swing * float(one.motion.a(low)), one.swing, tau, segment, high - low
-                )
-                for (low, high), segment in places
-            ),
-            axis="angle",
-            closed=True,
-        )
+        stretches = []
+        for (low, high), segment in zip(pairwise(one.motion.breaks), one.motion.segments, strict=True):
+            offset = one.swing * float(one.motion.a(low))
+            stretches.append(Stretch(tau * low, tau * high, offset, one.swing, tau, segment, high - low))
+        return CamMotion(tuple(stretches), axis="angle", closed=True)
 
     def cams(self, roller: str, pivot_distance: str) -> dict[str, DiscCam]:
         """The executive cam and the loader's, with rollers on arms.
@@ -182,7 +176,7 @@ def dwell_machine(
     clutch_time: str = "0 s",
     more: Mapping[str, Any] | None = None,
 ) -> DwellMachine:
-    """A balancing dwell mechanism from a machine's data: its clutch takes a time, and so an angle that grows with speed.
+    """A balancing dwell mechanism from a machine's data: its clutch takes a time, an angle that grows with the speed.
 
     Parameters
     ----------
@@ -225,8 +219,7 @@ def dwell_machine(
         "inertia": _above(inertia, "moment of inertia", "inertia"),
         "loader_inertia": _above(loader_inertia, "moment of inertia", "loader_inertia"),
     }
-    angles = {name: _above(value, "angle", name) for name, value in
-              (("dwell", dwell), ("rise", rise), ("swing", swing))}  # fmt: skip
+    turned = _above(swing, "angle", "swing")
     time = quantity(clutch_time, "time", "clutch_time")
     if time < 0.0:
         raise InputError(f"clutch_time must be at least 0, got {shortened(clutch_time)}")
@@ -234,9 +227,11 @@ def dwell_machine(
         kind,
         law=law,
         clutch_angle=given["speed"] * time,
-        radius_ratio=given["base_radius"] / (angles["swing"] * given["arm"]),
+        radius_ratio=given["base_radius"] / (turned * given["arm"]),
         inertia_ratio=given["loader_inertia"] / given["inertia"],
-        **angles,
+        dwell=_above(dwell, "angle", "dwell"),
+        rise=_above(rise, "angle", "rise"),
+        swing=turned,
         **(more or {}),
     )
     sizes = {name: given[name] for name in ("inertia", "loader_inertia", "arm", "base_radius")}
