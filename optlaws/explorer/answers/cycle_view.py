@@ -91,7 +91,7 @@ def _stored(spec: Study, axis: Axis) -> Cycle:
 @lru_cache(maxsize=64)
 def _made(question: bytes) -> Cycle:
     axis, speed, period = msgspec.json.decode(question, type=tuple[Axis, str | None, str | None])
-    made = cycle_of(axis, Study(job="cycle", title="a cycle", axis=[axis], speed=speed, period=period))
+    made = cycle_of(axis, speed, period)
     _ = made.peaks  # what cannot be found is told here
     return made
 

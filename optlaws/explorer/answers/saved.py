@@ -205,7 +205,7 @@ def _of_cycle(asked: AskedFile) -> File:
         return _file(f"{axis.name}.csv", "text/csv", table_of_motion(cycle, _ROWS, about))
     if asked.kind == "python":
         free = msgspec.structs.replace(axis, follower=None)
-        return _file("cycle.py", "text/x-python", cycle_python(cycle_of(free, spec), axis.follower))
+        return _file("cycle.py", "text/x-python", cycle_python(cycle_of(free, spec.speed, spec.period), axis.follower))
     raise InputError("a cycle has several laws: save it as a problem file or a table")
 
 
