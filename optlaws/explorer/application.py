@@ -17,14 +17,16 @@ from starlette.routing import Route
 
 from optlaws import catalogue
 from optlaws.echo import cut
-from optlaws.errors import InfeasibleProblem, OptlawsError
-from optlaws.explorer.answers import cycle_view, front_view, law_view, nearest, residual_view, saved
+from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
+from optlaws.explorer.answers import cycle_view, front_view, handed, law_view, nearest, residual_view, saved
 from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, read
 from optlaws.explorer.guard import Guard
 
 #: no question of the page is longer
 MOST_BYTES = 400_000
 _TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript", ".svg": "image/svg+xml"}
+#: members of Savin's families that the page offers by name
+_MEMBERS = ("I(0)", "II(6)", "III(7.2)", "IV(10)")
 _BAD, _TOO_LONG, _WRONG = 400, 413, 422
 
 Answer = Callable[[Any], dict[str, Any]]
@@ -35,6 +37,7 @@ QUESTIONS: dict[str, tuple[type[msgspec.Struct], Answer]] = {
     "nearest": (AskedLaw, nearest.answer),
     "cycle": (cycle_view.AskedCycle, cycle_view.answer),
     "cycle-nearest": (cycle_view.AskedCycle, cycle_view.nearest),
+    "export": (handed.AskedExport, handed.answer),
     "save": (saved.AskedFile, saved.answer),
     "residual": (residual_view.AskedResidual, residual_view.answer),
 }
@@ -48,8 +51,8 @@ def application(start: dict[str, Any]) -> Starlette:
     >>> sorted(route.path for route in application({}).routes)[:3]
     ['/', '/api/cycle', '/api/cycle-nearest']
     """
-    names = [*catalogue, "I(0)", "II(6)", "III(7.2)", "IV(10)"]
-    first = msgspec.json.encode({"state": start, "names": names, "cycle": cycle_view.example()})
+    known = {"names": [*catalogue, *_MEMBERS], "cycle": cycle_view.example(), "formats": handed.formats()}
+    first = msgspec.json.encode({"state": start, **known})
     routes = [
         Route("/api/start", lambda _: _json(first)),
         *(Route(f"/api/{name}", _asking(*one), methods=["POST"]) for name, one in QUESTIONS.items()),
@@ -86,15 +89,20 @@ def _asking(kind: type[msgspec.Struct], answer: Answer) -> Callable[[Request], A
 
 
 def _answered(body: bytes, kind: type[msgspec.Struct], answer: Answer) -> Response:
+    """The answer; where what is asked does not exist, that is one too, and only what cannot be read is an error."""
     try:
-        return _json(msgspec.json.encode(answer(read(body, kind))))
-    except InfeasibleProblem as error:
-        return _told(str(error.args[0]), _WRONG)
-    except OptlawsError as error:
+        question = read(body, kind)
+    except InputError as error:
         return _told(str(error), _WRONG)
+    try:
+        return _json(msgspec.json.encode(answer(question)))
+    except (InfeasibleProblem, SolverFailure) as error:
+        return _told(str(error.args[0]))
+    except OptlawsError as error:
+        return _told(str(error))
 
 
-def _told(text: str, code: int) -> Response:
+def _told(text: str, code: int = 200) -> Response:
     return _json(msgspec.json.encode({"error": cut(text)}), code)
 
 

@@ -234,3 +234,25 @@ def test_a_cycle_is_shown_changed_and_refused(page: Page, served: Server) -> Non
     settle(page)
     assert page.locator("#segments .over").count() == 2
     assert page.locator("#motion .beyond").count() == 1
+
+
+def test_an_export_says_what_the_controller_will_run(page: Page, served: Server) -> None:
+    go(page, served.link(laws=[at_velocity(1.859)], picture="residual"))
+    page.get_by_role("button", name="Export").click()
+    page.get_by_label("format").select_option("twincat-table")
+    page.get_by_label("points").fill("361")
+    page.get_by_label("encoder counts a stroke").fill("65536")
+    settle(page)
+    row = page.locator(".report tr", has_text="peak of acceleration")
+    asked = {"format": "twincat-table", "laws": [at_velocity(1.859)], "points": 361, "counts": 65536}
+    told_row = next(one for one in served.ask("export", asked)["rows"] if one[0].startswith("peak of acceleration"))
+    assert row.locator("td").all_inner_texts() == told_row[1:]
+    assert float(told_row[3]) > 2.0
+    with page.expect_download() as download:
+        page.get_by_role("button", name="Save Cam.st").click()
+    assert "ARRAY" in Path(download.value.path()).read_text("utf-8")
+    page.get_by_label("stroke").first.fill("35 kg")
+    settle(page)
+    assert "stroke" in page.locator(".report").inner_text()
+    assert page.locator(".report table").count() == 0
+    page.wait_for_url("**machine=**")

@@ -10,7 +10,7 @@ import msgspec
 import numpy as np
 
 from optlaws import Problem, ProblemArray, Range, Solution, SolutionArray, Status, each, limit, synthesize_array
-from optlaws.errors import InputError
+from optlaws.errors import InputError, OptlawsError
 from optlaws.explorer.answers import known_laws
 from optlaws.explorer.answers.asked import AskedLaw, problem_of, solved, without
 from optlaws.explorer.answers.law_view import wanted
@@ -23,6 +23,7 @@ _POINTS, _LIMITS = 57, 61
 #: problems with D in them are solved one by one
 _POINTS_ALONE = 25
 _ROOM = 1e-6
+_SAID = 80
 #: laws of lower order may have jumps of c at their ends, beside which no limit of J is known
 _JERK_ORDER = 2
 
@@ -46,7 +47,7 @@ def answer(asked: AskedFront) -> dict[str, Any]:
     Raises
     ------
     InputError
-        If the constants are no pair that may be exchanged, or the problem is none.
+        If the constants are no pair that may be exchanged.
     """
     x, y = asked.over
     if (x, y) not in PAIRS:
@@ -55,7 +56,10 @@ def answer(asked: AskedFront) -> dict[str, Any]:
     beside = {"x": x, "y": y, "ranges": [RANGES[x], RANGES[y]], "known": given[0], "families": given[1]}
     if asked.law.problem is None:
         return beside | {"line": [], "words": "", "limit": [], "swept": False}
-    return beside | {"swept": True} | front(swept_problem(problem_of(asked.law), x, y), x, y)
+    try:
+        return beside | {"swept": True} | front(swept_problem(problem_of(asked.law), x, y), x, y)
+    except OptlawsError as error:  # the view of the law says why at length
+        return beside | {"line": [], "words": f"no front: {str(error.args[0])[:_SAID]}", "limit": [], "swept": False}
 
 
 def swept_problem(problem: Problem, x: str, y: str) -> Problem:

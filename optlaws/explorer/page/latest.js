@@ -14,7 +14,7 @@ async function ask(path, question) {
     body: JSON.stringify(question),
   });
   const answer = await response.json();
-  if (!response.ok) throw new Error(answer.error);
+  if (answer.error) throw new Error(answer.error);
   return answer;
 }
 

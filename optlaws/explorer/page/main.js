@@ -1,6 +1,7 @@
 // The page: state in, views out.
 
 import { CycleView } from "./cycle.js";
+import { Exporting } from "./exporting.js";
 import { tabs } from "./fields.js";
 import { Laws } from "./laws.js";
 import { FIRST, Study, read } from "./state.js";
@@ -32,7 +33,7 @@ function painted() {
 }
 
 async function begin() {
-  const { state, names, cycle } = await (await fetch("api/start")).json();
+  const { state, names, cycle, formats } = await (await fetch("api/start")).json();
   const first = location.hash.length > 1 ? read(location.hash) : { ...structuredClone(FIRST), ...state };
   const views = {};
   const study = new Study(first, render);
@@ -40,7 +41,8 @@ async function begin() {
     next.view = key;
     if (key === "cycle") next.cycle ??= structuredClone(cycle);
   }));
-  const tools = new Tools(document.getElementById("tools"), study, notice);
+  const exporting = new Exporting(study, formats);
+  const tools = new Tools(document.getElementById("tools"), study, notice, exporting);
 
   function render(now) {
     notice("");
@@ -49,6 +51,7 @@ async function begin() {
     choose(view);
     tools.show(study);
     views[view].show(now);
+    exporting.show(now);
   }
 
   views.laws = new Laws(study, names, failed, painted);

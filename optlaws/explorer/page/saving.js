@@ -28,11 +28,11 @@ export async function save(kind, state) {
     body: JSON.stringify({ kind, view, laws, active, cycle }),
   });
   const answer = await response.json();
-  if (!response.ok) throw new Error(answer.error);
+  if (answer.error) throw new Error(answer.error);
   return download(answer.name, answer.type, answer.text);
 }
 
-function download(name, type, text) {
+export function download(name, type, text) {
   const address = URL.createObjectURL(new Blob([text], { type }));
   const link = document.createElement("a");
   link.href = address;

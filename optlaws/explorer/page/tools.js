@@ -8,7 +8,7 @@ export class Tools {
   #undo;
   #redo;
 
-  constructor(root, study, notice) {
+  constructor(root, study, notice, exporting) {
     const button = (text, title, act) => html("button", { type: "button", title, text, onclick: act });
     this.#undo = button("Undo", "Undo (Ctrl Z)", () => study.undo());
     this.#redo = button("Redo", "Redo (Ctrl Shift Z)", () => study.redo());
@@ -21,7 +21,7 @@ export class Tools {
       }
       setTimeout(() => (link.textContent = "Copy link"), 1500);
     });
-    root.replaceChildren(this.#undo, this.#redo, link, menu(study, notice), button("◐", "Dark or light", toggle));
+    root.replaceChildren(this.#undo, this.#redo, link, button("Export", "For a controller, with what it will run", () => exporting.open()), menu(study, notice), button("◐", "Dark or light", toggle));
     addEventListener("keydown", (event) => this.#key(event, study));
   }
 
