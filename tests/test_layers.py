@@ -18,7 +18,7 @@ MAY_IMPORT = {
     "errors": {"echo"},
     "formulas": KNOWN,
     "exporting": {"lazy"},
-    "files": {"echo", "errors", "suggest"},
+    "files": {"echo", "errors", "locks", "suggest"},
     "kept": set[str](),
     "lazy": set[str](),
     "locks": set[str](),

@@ -19,7 +19,7 @@ from optlaws import catalogue
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
 from optlaws.explorer.answers import cycle_view, front_view, handed, law_view, nearest, residual_view, saved
-from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, read
+from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, read, ready
 from optlaws.explorer.guard import Guard
 
 #: no question of the page is longer
@@ -53,6 +53,7 @@ def application(start: dict[str, Any]) -> Starlette:
     """
     known = {"names": [*catalogue, *_MEMBERS], "cycle": cycle_view.example(), "formats": handed.formats()}
     first = msgspec.json.encode({"state": start, **known})
+    ready(*(kind for kind, _ in QUESTIONS.values()), cycle_view.Study)
     routes = [
         Route("/api/start", lambda _: _json(first)),
         *(Route(f"/api/{name}", _asking(*one), methods=["POST"]) for name, one in QUESTIONS.items()),

@@ -44,3 +44,9 @@ class Server:
         response, said = self.send("POST", f"/api/{name}", body, Content_Type="application/json")
         assert response.status == code, said
         return json.loads(said)
+
+    def get_start(self) -> Any:  # noqa: ANN401 - JSON
+        """What the page shows first."""
+        response, said = self.send("GET", "/api/start")
+        assert response.status == 200
+        return json.loads(said)["state"]

@@ -2,7 +2,6 @@
 
 import json
 import re
-import subprocess
 import sys
 from typing import Any
 from unittest.mock import patch
@@ -119,17 +118,3 @@ def test_without_the_extra_the_remedy_is_told() -> None:
         pytest.raises(InputError, match=r"pip install 'optlaws\[explore\]'"),
     ):
         server({})
-
-
-def test_the_command_serves_until_it_is_interrupted() -> None:
-    arguments = [sys.executable, "-m", "optlaws", "explore", "cycloidal", "--no-browser", "--port", "0"]
-    with subprocess.Popen(arguments, stdout=subprocess.PIPE, text=True) as running:
-        assert running.stdout is not None
-        address = running.stdout.readline().split()[2]
-        try:
-            found = Server("127.0.0.1", int(address.rstrip("/").rpartition(":")[2]))
-            response, said = found.send("GET", "/api/start")
-            assert response.status == 200
-            assert json.loads(said)["state"] == {"view": "laws", "laws": [{"name": "cycloidal"}]}
-        finally:
-            running.terminate()
