@@ -21,6 +21,7 @@ from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFa
 from optlaws.explorer.answers import cycle_view, front_view, handed, law_view, nearest, residual_view, saved
 from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, read, ready
 from optlaws.explorer.guard import Guard
+from optlaws.jobs.cycle.entries import Study
 
 #: no question of the page is longer
 MOST_BYTES = 400_000
@@ -53,7 +54,7 @@ def application(start: dict[str, Any]) -> Starlette:
     """
     known = {"names": [*catalogue, *_MEMBERS], "cycle": cycle_view.example(), "formats": handed.formats()}
     first = msgspec.json.encode({"state": start, **known})
-    ready(*(kind for kind, _ in QUESTIONS.values()), cycle_view.Study)
+    ready(*(kind for kind, _ in QUESTIONS.values()), Study)
     routes = [
         Route("/api/start", lambda _: _json(first)),
         *(Route(f"/api/{name}", _asking(*one), methods=["POST"]) for name, one in QUESTIONS.items()),
