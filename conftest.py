@@ -13,6 +13,9 @@ from xdist.scheduler import LoadScopeScheduling
 
 from tests.documents import documents
 
+#: the gallery's examples are run when the pages are made, and their copies stand beside them
+collect_ignore_glob = ["docs/examples/*.py", "docs/gallery/*"]
+
 _PACKAGE = Path(__file__).parent / "optlaws"
 _SHARING = ("tests/explorer/test_page.py", "tests/jobs/", "tests/studies/test_kills.py")
 _collect_document = documents.pytest()

@@ -21,8 +21,23 @@ extensions = [
     "public_names",
     "sphinx.ext.autodoc",
     "sphinx.ext.napoleon",
+    "sphinx_gallery.gen_gallery",
 ]
-exclude_patterns = ["_build"]
+exclude_patterns = ["_build", "examples", "gallery/*.ipynb", "gallery/*.py", "sg_execution_times.rst"]
+
+# The examples are run whenever the pages are made anew; one that fails ends the build.
+sphinx_gallery_conf = {
+    "examples_dirs": "examples",
+    "gallery_dirs": "gallery",
+    "filename_pattern": r"\.py$",
+    "abort_on_example_error": True,
+    "download_all_examples": False,
+    "write_computation_times": False,
+    "show_signature": False,
+    "capture_repr": (),
+    "reset_modules": ("matplotlib", "gallery_style.use"),
+    "within_subsection_order": "FileNameSortKey",
+}
 
 # A section of the contents may wait for its first page. (suppress_warnings does not reach this warning:
 # Sphinx gives it a subtype but no type.)

@@ -31,7 +31,7 @@ BROWN = "#a6761d"
 #: colours of curves that have no order of their own, apart for those too who see no red and green
 DISTINCT = (BLUES[3], WARM, GREEN, VIOLET, BROWN, GREY)
 
-_STYLE: Any = {  # matplotlib's type lists every key there is
+STYLE: Any = {  # matplotlib's type lists every key there is
     "font.family": "DejaVu Sans",
     "font.size": 10.0,
     "axes.titlesize": 11.0,
@@ -57,7 +57,7 @@ def style() -> Iterator[None]:
     """The style of every picture of the project, for the time of a `with` block."""
     import matplotlib as mpl
 
-    with mpl.rc_context(_STYLE):
+    with mpl.rc_context(STYLE):
         yield
 
 

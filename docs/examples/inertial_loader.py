@@ -1,0 +1,18 @@
+"""An inertial loader
+==================
+
+A second mass gives off what the first one takes up: their energies add up to one number.
+"""
+
+import numpy as np
+from matplotlib import pyplot as plt
+
+from optlaws import catalogue, loader
+
+found = loader(catalogue["cycloidal"].law)
+k = np.linspace(0.0, 1.0, 801)
+plt.plot(k, found.executive.b(k), label="executive link")
+plt.plot(k, found.law.b(k), "--", label="loader")
+plt.xlabel("k (dimensionless time)")
+plt.ylabel("velocity b (dimensionless)")
+plt.legend()

@@ -1,0 +1,10 @@
+"""Meeting a conveyor
+==================
+
+From rest to half the mean velocity: any values at the ends, built into the law.
+"""
+
+from optlaws import BoundaryConditions, Chebyshev, Problem, synthesize
+
+meeting = BoundaryConditions(start=(0, 0, 0), end=(1, 0.5, 0))
+synthesize(Problem(boundary=meeting, symmetric=False, basis=Chebyshev(9))).law.plot()

@@ -1,0 +1,17 @@
+"""What each further end condition costs
+=====================================
+
+Sixty laws of each order l, solved as arrays. More conditions cost at low B and pay at high B.
+"""
+
+import numpy as np
+from matplotlib import pyplot as plt
+
+from optlaws import Chebyshev, ProblemArray, synthesize_array
+
+B = np.linspace(1.4, 2.4, 61)
+for order in (2, 3, 4, 5):
+    plt.plot(B, synthesize_array(ProblemArray(B=B, order=order, basis=Chebyshev(9))).C, label=f"l = {order}")
+plt.xlabel("peak velocity B (dimensionless)")
+plt.ylabel("least peak acceleration C (dimensionless)")
+plt.legend()

@@ -1,0 +1,9 @@
+"""A law of pieces
+===============
+
+Z in B-splines: polynomials on eight pieces, whose acceleration nearly reaches the limit.
+"""
+
+from optlaws import BSplines, Problem, synthesize
+
+synthesize(Problem(B=1.859, order=3, basis=BSplines(8, degree=3))).plot()

@@ -1,0 +1,18 @@
+"""A cam that makes its follower obey
+==================================
+
+At its design frequency the mass moves by the law and nothing vibrates; 10 % off it does again.
+"""
+
+import numpy as np
+from matplotlib import pyplot as plt
+
+from optlaws import Follower, polydyne, savin
+
+cam = polydyne(savin("III", 7.2), nu=20)
+k = np.linspace(0.0, 1.5, 1501)
+for nu in (18, 20, 22):
+    plt.plot(k, Follower(nu=nu).response(cam).c(k), label=f"mass, nu = {nu}")
+plt.xlabel("k (dimensionless time; the dwell begins at 1)")
+plt.ylabel("acceleration (dimensionless)")
+plt.legend()

@@ -1,0 +1,10 @@
+"""A whole cycle
+=============
+
+Rise, dwell, return, dwell, in the units of the machine, under a limit of the velocity.
+"""
+
+from optlaws import Cycle, Dwell, Return, Rise
+
+segments = [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()]
+Cycle(segments, speed="200 rpm", limits={"velocity": "616 mm/s"}).plot()
