@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, fields
-from math import inf, prod
+from math import inf, isfinite, prod
 from typing import Any
 
 import msgspec
@@ -18,6 +18,7 @@ from optlaws.synthesis.arrays.found import Found
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.problem.ranges import Range
+from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import problem_of, stated
@@ -25,6 +26,7 @@ from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
 from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.spaces.bases import Basis, basis
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
 #: what stands for the status of a problem without a law
 INFEASIBLE, FAILED, INVALID = "infeasible", "failed", "invalid"
@@ -199,9 +201,8 @@ def _error(row: Plain) -> OptlawsError:
 
 
 def _plain(value: Any) -> Any:  # noqa: ANN401
-    if isinstance(value, np.ndarray) and value.dtype.kind in "fiub":
-        flat = [one if np.isfinite(one) else str(one) for one in value.reshape(-1).tolist()]
-        return {"array": flat, "shape": list(value.shape), "type": str(value.dtype)}
+    if isinstance(value, np.ndarray):
+        return _plain_array(value)
     if isinstance(value, Range):
         return [value.low, bounded(value.high)]
     if isinstance(value, Basis):
@@ -213,6 +214,42 @@ def _plain(value: Any) -> Any:  # noqa: ANN401
     if value is None or type(value) in {bool, int, float, str}:
         return value
     raise TypeError(type(value).__name__)
+
+
+def _plain_array(values: NDArray[Any]) -> Plain:
+    shape = list(values.shape)
+    if values.dtype == object:
+        return {"objects": [_plain_object(one) for one in values.reshape(-1).tolist()], "shape": shape}
+    if values.dtype.kind not in "fiub":
+        raise TypeError(str(values.dtype))
+    flat = [one if np.isfinite(one) else str(one) for one in values.reshape(-1).tolist()]
+    return {"array": flat, "shape": shape, "type": str(values.dtype)}
+
+
+def _plain_object(value: Any) -> Any:  # noqa: ANN401
+    """What stands at one place of an array of objects, of which each is read back as it was."""
+    if isinstance(value, Range):
+        return {"range": [value.low, bounded(value.high)]}
+    if isinstance(value, Window):
+        return {"window": value.to_dict()}
+    if isinstance(value, BoundaryConditions):
+        return {"start": list(map(float, value.start)), "end": list(map(float, value.end))}
+    if isinstance(value, float) and not isfinite(value):
+        return {"number": str(value)}
+    return _plain(value)
+
+
+def _read_object(value: Any) -> Any:  # noqa: ANN401
+    if not isinstance(value, dict):
+        return _read(value)
+    if "range" in value:
+        low, high = value["range"]
+        return Range(low, inf if high is None else high)
+    if "window" in value:
+        return Window.from_dict(value["window"])
+    if "start" in value:
+        return BoundaryConditions(value["start"], value["end"])
+    return float(value["number"]) if "number" in value else _read(value)
 
 
 def _name(key: object) -> str:
@@ -230,6 +267,11 @@ def _read(value: Any) -> Any:  # noqa: ANN401
         kind = np.dtype(value["type"])
         numbers = [float(one) if isinstance(one, str) else one for one in value["array"]]
         return np.array(numbers, dtype=kind).reshape(value["shape"])
+    if "objects" in value:
+        found = np.empty(len(value["objects"]), dtype=object)
+        for i, one in enumerate(value["objects"]):
+            found[i] = _read_object(one)
+        return found.reshape(value["shape"])
     if "basis" in value:
         entries = dict(value["basis"])
         return basis(entries.pop("basis"), entries.pop("degree"), **entries)

@@ -36,6 +36,21 @@ degree = 7
 minimise = ["rms_j", "rms_c"]
 B = { from = 1.5, to = 2.4, steps = 250 }
 """
+#: lines that are solved as arrays, each in a chunk
+LINES: dict[str, Any] = {
+    "problem": {"order": 4, "degree": 5},
+    "vary": {"minimise": ["C", "D", "J"], "B": {"from": 1.5, "to": 2.4, "steps": 150}},
+    "chunk": 150,
+}
+FILE_OF_LINES = """
+chunk = 150
+[problem]
+order = 4
+degree = 5
+[vary]
+minimise = ["C", "D", "J"]
+B = { from = 1.5, to = 2.4, steps = 150 }
+"""
 
 
 @pytest.fixture(scope="module")
@@ -104,16 +119,16 @@ def _alive(pid: int) -> bool:
     return _text(Path(f"/proc/{pid}/stat")).rpartition(")")[2].split()[:1] not in ([], ["Z"])
 
 
-def study_file(folder: Path) -> Path:
+def study_file(folder: Path, text: str = FILE) -> Path:
     file = folder / "swept.toml"
-    file.write_text(FILE)
+    file.write_text(text)
     return file
 
 
-def disturbed(folder: Path, seed: int, victims: Sequence[str]) -> Iterator[str]:
+def disturbed(folder: Path, seed: int, victims: Sequence[str], text: str = FILE) -> Iterator[str]:
     """Run to the end through kills of the run itself or of a solver process at random moments; who was killed."""
     chance = np.random.default_rng(seed)
-    file, out = study_file(folder), folder / "out"
+    file, out = study_file(folder, text), folder / "out"
     run = Run(file, out)
     for victim in victims:
         # the chunks are spread over the kills, and a kill falls anywhere within a chunk's work
@@ -130,8 +145,15 @@ def disturbed(folder: Path, seed: int, victims: Sequence[str]) -> Iterator[str]:
             assert gone(solvers)
             run = Run(file, out)
         yield victim
-    status, text = run.finish()
-    assert status == 0, text
+    status, said = run.finish()
+    assert status == 0, said
+
+
+def test_killed_within_an_array_it_ends_as_if_nothing_had_been(tmp_path: Path) -> None:
+    assert list(disturbed(tmp_path, 2, ["run"], FILE_OF_LINES)) == ["run"]
+    study = open_study(tmp_path / "out")
+    assert study.counts == {"optimal": 300, "local": 150}
+    assert rows(study) == rows(serially(LINES, tmp_path / "undisturbed"))
 
 
 def test_killed_twice_it_ends_as_if_nothing_had_been(undisturbed: Study, tmp_path: Path) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from optlaws import (
+    BoundaryConditions,
     Chebyshev,
     InfeasibleProblem,
     InputError,
@@ -22,6 +23,7 @@ from optlaws import (
     synthesize,
     synthesize_array,
     synthesize_chunks,
+    via,
 )
 from optlaws.synthesis.solve_array import solved
 from optlaws.verification import verify_all
@@ -142,9 +144,22 @@ def test_tables_have_a_row_and_datasets_a_place_for_each_problem() -> None:
     [
         ProblemArray(B=np.append(np.linspace(1.5, 2.0, 140), [np.nan, 1.02]), order=4),
         ProblemArray(B=np.array([[1.6], [1.7]]), J=(None, np.array([60.0, 80.0])), order=4, basis=Chebyshev(5)),
-        ProblemArray(B=each(float, np.array([1.6, 0.5])), order=4, minimise="J"),
+        ProblemArray(B=each(float, np.array([1.6, 0.5, np.nan])), order=4, minimise="J"),
+        ProblemArray(
+            B=1.7,
+            order=4,
+            J=each(at_most, np.array([60.0, 80.0])),
+            windows=each(lambda height: via("b", height, at=0.25), np.array([1.0, 1.1])),
+            minimise=each("{:g}*C".format, np.array([1.0, 2.0])),
+            basis=each(Chebyshev, np.array([7, 9])),
+        ),
+        ProblemArray(
+            order=3,
+            symmetric=False,
+            boundary=each(lambda v: BoundaryConditions((0.0, 0.0, 0.0), (1.0, v, 0.0)), np.array([0.2, 0.4])),
+        ),
     ],
-    ids=["together and alone", "a table", "objects"],
+    ids=["together and alone", "a table", "objects", "objects of many kinds", "end values"],
 )
 def test_an_array_is_stored_and_read_as_it_was(problems: ProblemArray) -> None:
     laws = synthesize_array(problems)
@@ -159,8 +174,8 @@ def test_an_array_is_stored_and_read_as_it_was(problems: ProblemArray) -> None:
     for at in set(range(laws.size)) - set(laws.errors):
         assert again.result(at) == laws.result(at)
         assert again.result(at).certificate.bound == laws.result(at).certificate.bound  # type: ignore[union-attr]
-    if set(problems.varied) == set(again.problems.varied):
-        assert again.to_pandas().equals(laws.to_pandas())
+    assert set(problems.varied) == set(again.problems.varied)
+    assert again.to_pandas().equals(laws.to_pandas())
 
 
 def test_an_array_that_was_edited_is_refused() -> None:
