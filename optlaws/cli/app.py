@@ -21,6 +21,10 @@ COMMANDS = {
     "laws.explore": (
         "Explore laws, fronts and cycles in the browser, from this machine alone: drag a point and the law follows."
     ),
+    "laws.export": (
+        "Write a law or a cycle in the format of a controller, and say what the controller will run.\n\n"
+        "The file goes to --output or, without it, to stdout and the report to stderr."
+    ),
     "laws.law": (
         "Show a law of the catalogue, a coded law, a member of Savin's families or a stored law, with its constants."
     ),

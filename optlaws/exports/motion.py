@@ -144,8 +144,11 @@ class Motion:
 
     def extrema(self, nu: int) -> tuple[Place, Place]:
         """Least and greatest value of the derivative of order nu, each with its x, over the whole motion."""
-        known = [piece.extremes(nu, piece.start, piece.stop) for piece in self.pieces]
-        return min((low for low, _ in known), key=_value), max((high for _, high in known), key=_value)
+        if nu not in self._extrema:
+            known = [piece.extremes(nu, piece.start, piece.stop) for piece in self.pieces]
+            lowest, highest = min((low for low, _ in known), key=_value), max((high for _, high in known), key=_value)
+            self._extrema[nu] = (lowest, highest)
+        return self._extrema[nu]
 
     def peak(self, nu: int) -> float:
         """The greatest magnitude of the derivative of order nu; inf where a lower one leaps, joints included."""
@@ -176,6 +179,10 @@ class Motion:
         if self.units.master == "s":
             return self
         return self._scaled(1.0 / self.units.rate, Units("s", self.units.slave, 1.0))
+
+    @kept_property
+    def _extrema(self) -> dict[int, tuple[Place, Place]]:
+        return {}
 
     def _size(self, nu: int) -> float:
         return max(abs(value) for value, _ in self.extrema(nu))

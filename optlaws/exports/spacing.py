@@ -22,6 +22,7 @@ MOST_TRIED = 1001
 _RATIO = 1.12
 _NEAR = 12
 _AS_GOOD = 1.001
+_DIGITS = 12
 
 
 class Tabled(Protocol):
@@ -65,8 +66,16 @@ def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
     """
     breaks = np.array(motion.breaks)
     shares = _shares(np.diff(breaks), count - 1, _needs(motion) if straight else np.ones(len(breaks) - 1))
-    parts = [np.linspace(low, high, n + 1)[:-1] for (low, high), n in zip(pairwise(breaks), shares, strict=True)]
+    digits = _DIGITS - int(np.ceil(np.log10(motion.length)))
+    parts = [_between(low, high, n, digits) for (low, high), n in zip(pairwise(breaks), shares, strict=True)]
     return np.concatenate([*parts, breaks[-1:]])
+
+
+def _between(low: float, high: float, steps: int, digits: int) -> Array:
+    """Equal steps without the end; rounded where nobody sees it, so that a file says 0.075 and not its neighbour."""
+    inside = np.linspace(low, high, steps + 1)[:-1]
+    inside[1:] = np.round(inside[1:], digits)
+    return inside
 
 
 def least_points(motion: Motion, least: int = 2) -> int:

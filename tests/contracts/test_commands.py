@@ -25,6 +25,7 @@ CALLS = {
     "compare": "0050 cubic --nu 20",
     "constants": "--order 1 --z 0.5",
     "cycle": "cycle.toml",
+    "export": "0050 --to csv --stroke 35mm --time 0.1s --points 9",
     "dwell": "K --dwell 90 --rise 90 --swing 20 --clutch-angle 15 --radius-ratio 1 --inertia-ratio 0.1 --most-torque 1",
     "explore": "cycloidal --no-browser --port 0",
     "follower": "0050 --nu 20",

@@ -24,6 +24,10 @@ rows = 13
 name = "slide"
 limits = { velocity = "616 mm/s" }
 drive = { mass = "2 kg", dry = "5 N" }
+[[axis.export]]
+to = "rockwell-cam"
+points = 61
+counts = 65536
 [[axis.segment]]
 kind = "rise"
 by = "35 mm"
@@ -378,6 +382,9 @@ EXAMPLES = {
             ('kind = "return"', 'kind = "retrun"', "kind"),
             ('duration = "90 deg"', 'duration = "90 deg"\nby = "3 mm"', "segment 2: a dwell takes no by"),
             ("mass =", "inertia =", "drive: .*inertia"),
+            ('"rockwell-cam"', '"rockwell-came"', "axis slide: export to.*did you mean 'rockwell-cam'"),
+            ("counts = 65536", "file = '../cam.st'", "axis slide: export to rockwell-cam: file must be a name without"),
+            ("points = 61", "points = 4", "axis slide: export.*points must be from 5"),
         ),
     ),
     "dwell drawing": Example(

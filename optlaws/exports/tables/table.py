@@ -16,6 +16,7 @@ from optlaws.kept import kept_property
 
 Array = NDArray[np.float64]
 
+NOISE = 2.0**-46
 DEGREES = {1: "linear", 2: "cubic Hermite", 3: "quintic Hermite", 4: "Hermite of degree 7"}
 
 
@@ -128,7 +129,7 @@ def osculated(motion: Motion, count: int, held: Held, orders: int) -> Table:
         If a derivative is infinite at a point.
     """
     exact = places(motion, count, straight=orders > 2)
-    values = np.array([motion(exact, nu) for nu in range(orders)])
+    values = _without_rounding(np.array([motion(exact, nu) for nu in range(orders)]))
     if not np.isfinite(values).all():
         raise InputError(
             "the law's acceleration or jerk is infinite at a point: export positions alone, or another law"
@@ -144,6 +145,11 @@ def by_interpolation(motion: Motion, count: int, held: Held, interpolation: str)
     if interpolation in orders:
         return osculated(motion, count, held, orders[interpolation])
     return straight(motion, count, held) if interpolation == "linear" else splined(motion, count, held)
+
+
+def _without_rounding(values: Array) -> Array:
+    """The values with 0 where rounding, beside the greatest of their row, has missed it."""
+    return np.where(np.abs(values) <= NOISE * np.abs(values).max(axis=1, keepdims=True), 0.0, values)
 
 
 def rounding_bound(motion: Motion, x: Array, y: Array, slopes: Array) -> float:

@@ -15,6 +15,7 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.optimal import OBJECTIVES
 from optlaws.files import tables, writing
 from optlaws.jobs.cycle.entries import Study, read
+from optlaws.jobs.cycle.machine_files import Exports, add_exports, exports_of
 from optlaws.jobs.cycle.picture import QUANTITIES, UNITS, draw
 from optlaws.jobs.pages.page import Page
 
@@ -25,12 +26,14 @@ _SHARE = 360.0
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec, cycles = read(data, file)
+    made = exports_of(spec, cycles, file)
     about = f"{spec.title}; from {file.name}"
-    texts = {"cycle.md": str(page(spec, cycles)), "cycle.json": _stored(cycles, about)}
+    texts = {"cycle.md": str(page(spec, cycles, made)), "cycle.json": _stored(cycles, about)}
     for name, cycle in cycles.items():
         texts[f"{_file_name(name)}.csv"] = table_of_motion(cycle, spec.rows, about)
     figures = {_file_name(name): draw(cycle, f"{spec.title}: {name}") for name, cycle in cycles.items()}
-    return [writing.write(out / name, text) for name, text in texts.items()] + drawing.save_pictures(figures, out)
+    files = [writing.write(out / name, text) for name, text in texts.items()] + drawing.save_pictures(figures, out)
+    return files + [one.write(out / name) for named in made.values() for name, one in named.items()]
 
 
 def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
@@ -43,13 +46,14 @@ def answer(cycles: Mapping[str, Cycle]) -> dict[str, Any]:
     return {name: _facts(cycle) for name, cycle in cycles.items()}
 
 
-def page(spec: Study, cycles: Mapping[str, Cycle]) -> Page:
+def page(spec: Study, cycles: Mapping[str, Cycle], made_exports: Exports) -> Page:
     """The page of results."""
     made = Page(spec.title).text(spec.text)
     for name, cycle in cycles.items():
         made.heading(name).figure(_file_name(name), f"{spec.title}: {name}")
         made.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
         made.table(("what", "value", "unit"), _told(cycle), digits=9)
+        add_exports(made, made_exports[name])
     return made
 
 

@@ -47,6 +47,21 @@ class AskedFollower(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     damping: float = 0.0
 
 
+class AskedExport(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """An export of an axis: its format, its file, and what the format takes."""
+
+    to: str
+    file: Text | None = None
+    master: str = "360 deg"
+    unit: str | None = None
+    points: int | str | None = None
+    counts: int | None = None
+    digits: int | None = None
+    decimal: str | None = None
+    interpolation: str | None = None
+    name: str | None = None
+
+
 class Axis(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """One axis of the machine."""
 
@@ -58,6 +73,7 @@ class Axis(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     advance: str | None = None
     drive: dict[str, str] | None = None
     follower: AskedFollower | None = None
+    export: Annotated[list[AskedExport], msgspec.Meta(max_length=20)] = []
     order: int = 3
     degree: int = 9
 

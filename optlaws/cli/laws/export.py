@@ -1,0 +1,158 @@
+"""The command `optlaws export`: a law or a cycle in the format of a controller, and what the controller will run."""
+
+from __future__ import annotations
+
+import sys
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+from cyclopts import Parameter
+
+from optlaws.cli.options import AsJson, Whole, check_files, read_law
+from optlaws.cli.show import print_json, show, table
+from optlaws.errors import InputError
+
+if TYPE_CHECKING:
+    from optlaws.exports.export import Export
+    from optlaws.exports.motion import Motion
+
+BEST = "best"
+
+
+def export(
+    law: str | None = None,
+    /,
+    *,
+    to: str | None = None,
+    listed: Annotated[bool, Parameter(name="--list")] = False,
+    stroke: str | None = None,
+    time: str | None = None,
+    master: str | None = None,
+    start: str | None = None,
+    axis: str | None = None,
+    points: str | None = None,
+    counts: Whole | None = None,
+    digits: Whole | None = None,
+    decimal: str | None = None,
+    interpolation: str | None = None,
+    name: str | None = None,
+    output: Path | None = None,
+    as_json: AsJson = False,
+) -> None:
+    """Write a law or a cycle in the format of a controller, and say what the controller will run.
+
+    The file goes to --output or, without it, to stdout and the report to stderr.
+
+    Parameters
+    ----------
+    law
+        A law by its name or file, or a problem file of the job "cycle" (.toml).
+    to
+        The format; --list tells which there are.
+    listed
+        List the formats: who takes them, how it interpolates, what it cannot hold.
+    stroke
+        How far the slave moves, such as "35 mm" or "-20 deg": positions are in its unit. Of a law alone.
+    time
+        How long it takes, such as "0.1 s". Of a law alone.
+    master
+        How far the master goes, "120 deg"; without it the master of a law is time in seconds, that of a cycle 360 deg.
+    start
+        Position of the slave at the start; 0 unless given. Of a law alone.
+    axis
+        Which axis of a problem file with several.
+    points
+        How many points, or "best", as it is unless given: the fewest whose run is as good as that of any number.
+    counts
+        Steps of the slave's encoder over the stroke, to which positions are rounded.
+    digits
+        Digits behind the decimal sign, of tables as text.
+    decimal
+        The decimal sign of tables as text: "." or ",".
+    interpolation
+        How the controller is told to interpolate, where it can be told.
+    name
+        Of the variable, the table or the joint.
+    output
+        The file to write; one that is there and says something else is kept as NAME.orig.
+    as_json
+        Print one JSON object on stdout and nothing else: the report, and the text without --output.
+    """
+    if listed:
+        _list(as_json=as_json)
+        return
+    check_files(output)
+    if law is None or to is None:
+        raise InputError("say what is exported and to which format: optlaws export LAW --to FORMAT; --list lists them")
+    from optlaws.exports.export import export_motion
+    from optlaws.exports.format import format_of
+
+    chosen = format_of(to)
+    asked = {"counts": counts, "digits": digits, "decimal": decimal, "interpolation": interpolation, "name": name}
+    request = {**asked, "points": _points(points)}
+    chosen.request(**request)
+    said = {"stroke": stroke, "time": time, "master": master, "start": start}
+    made = export_motion(_motion(law, axis, said), to, **request)
+    _answer(made, output, as_json=as_json)
+
+
+def _points(text: str | None) -> int | str | None:
+    if text is None or text == BEST:
+        return text
+    try:
+        return int(text)
+    except ValueError:
+        raise InputError(f"--points takes a whole number or {BEST}, got {text}") from None
+
+
+def _motion(law: str, axis: str | None, said: dict[str, str | None]) -> Motion:
+    from optlaws.exports.motion import motion_of_cycle, motion_of_law
+
+    if not law.endswith(".toml"):
+        if axis is not None:
+            raise InputError("--axis is one of a problem file with several; a law has none")
+        return motion_of_law(read_law(law), **said)
+    for one in ("stroke", "time", "start"):
+        if said[one] is not None:
+            raise InputError(f"--{one} is of a law alone: a cycle has its own")
+    cycle = _cycle(Path(law), axis)
+    return motion_of_cycle(cycle) if said["master"] is None else motion_of_cycle(cycle, master=said["master"])
+
+
+def _cycle(file: Path, axis: str | None) -> Any:  # noqa: ANN401 - a Cycle, which the help must not import
+    from optlaws.files import reading
+    from optlaws.jobs.cycle.entries import read
+
+    _, cycles = read(reading.toml(file), file)
+    if axis is None and len(cycles) > 1:
+        raise InputError(f"{file} has several axes, say which by --axis: {', '.join(cycles)}")
+    chosen = next(iter(cycles)) if axis is None else axis
+    if chosen not in cycles:
+        raise InputError(f"--axis: {file} has no axis {chosen}; it has {', '.join(cycles)}")
+    return cycles[chosen]
+
+
+def _answer(made: Export, output: Path | None, *, as_json: bool) -> None:
+    if output is not None:
+        made.write(output)
+    if as_json:
+        print_json(made.to_dict() | ({"text": made.text} if output is None else {"file": str(output)}))
+    elif output is None:
+        print(made.text, end="")  # noqa: T201 - the answer itself
+        print(made, file=sys.stderr)  # noqa: T201
+    else:
+        show(str(made))
+
+
+def _list(*, as_json: bool) -> None:
+    from optlaws.exports.format import FORMATS
+
+    formats = [FORMATS[name] for name in sorted(FORMATS)]
+    if as_json:
+        keys = ("name", "target", "held", "model", "limits", "extension", "takes")
+        print_json([{key: getattr(one, key) for key in keys} for one in formats])
+        return
+    rows = table("format", "target", "holds", "runs", "limits")
+    for one in formats:
+        rows.add_row(one.name, one.target, one.held, one.model, one.limits)
+    show(rows)

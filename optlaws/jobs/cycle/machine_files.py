@@ -1,0 +1,84 @@
+"""What the axes of a problem file are exported to: the files of controllers, and what these will run."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from pathlib import Path
+
+import msgspec
+
+from optlaws.cycles.cycle import Cycle
+from optlaws.errors import InputError
+from optlaws.exports.export import Export, export_cycle
+from optlaws.exports.format import FORMATS, format_of
+from optlaws.files import tables, writing
+from optlaws.jobs.cycle.entries import AskedExport, Axis, Study
+from optlaws.jobs.pages.page import Page
+
+#: the exports of each axis by the names of their files
+Exports = dict[str, dict[str, Export]]
+
+_HEADINGS = ("file", "format", "points", "peak velocity", "peak acceleration", "peak jerk", "greatest deviation, unit")
+
+
+def exports_of(spec: Study, cycles: Mapping[str, Cycle], file: Path) -> Exports:
+    """The exports that the axes name, made but not yet written.
+
+    Raises
+    ------
+    InputError
+        If one is wrong or cannot hold its axis, or two have the same file; the error names file and axis.
+    """
+    made: Exports = {}
+    taken: set[str] = set()
+    for axis in spec.axis:
+        try:
+            made[axis.name] = _of_axis(axis, cycles[axis.name], taken)
+        except InputError as error:
+            raise InputError(f"{file}: axis {axis.name}: export {error}") from None
+    return made
+
+
+def add_exports(page: Page, made: Mapping[str, Export]) -> None:
+    """A table of what controllers will run, where there are exports."""
+    if made:
+        page.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
+        page.table(_HEADINGS, [_row(name, one) for name, one in made.items()], digits=7)
+
+
+def _of_axis(axis: Axis, cycle: Cycle, taken: set[str]) -> dict[str, Export]:
+    made: dict[str, Export] = {}
+    for asked in axis.export:
+        name = _file_name(axis.name, asked)
+        if name in taken:
+            raise InputError(f"to {asked.to}: another export goes to {name}: give each a file of its own")
+        taken.add(name)
+        try:
+            made[name] = _export(cycle, asked)
+        except InputError as error:
+            raise InputError(f"to {asked.to}: {error}") from None
+    return made
+
+
+def _export(cycle: Cycle, asked: AskedExport) -> Export:
+    given = msgspec.structs.asdict(asked)
+    said = {"master": given.pop("master"), "unit": given.pop("unit")}
+    del given["file"], given["to"]
+    return export_cycle(cycle, asked.to, said, **given)
+
+
+def _file_name(axis: str, asked: AskedExport) -> str:
+    form = format_of(asked.to)
+    plain = "".join(letter if letter.isalnum() else "_" for letter in axis.lower())
+    name = asked.file or f"{plain}_{form.name}{FORMATS[form.name].extension}"
+    if Path(name).name != name:
+        raise InputError(f"to {asked.to}: file must be a name without a folder, got {name}")
+    writing.check_name(Path(name))
+    return name
+
+
+def _row(name: str, one: Export) -> list[tables.Cell]:
+    ratios = [one.report.ratio(nu) for nu in (1, 2, 3)]
+    shown = [f"{ratio:.7g}" if abs(ratio) < float("inf") else "leaps" for ratio in ratios]
+    deviation = f"{one.report.deviation[0].value:.3g} {one.motion.units.slave}"
+    return [name, one.format.name, one.points, *shown, deviation]

@@ -1,0 +1,73 @@
+"""The command `optlaws export`: what it writes and says, and what it refuses."""
+
+import json
+from pathlib import Path
+
+import pytest
+
+from optlaws.cli.app import BAD_INPUT, exit_code
+from optlaws.exports.format import FORMATS
+from tests.documents import ROOT
+
+Capture = pytest.CaptureFixture[str]
+LAW = ["cycloidal", "--stroke", "35 mm", "--master", "120 deg", "--time", "0.1 s"]
+TABLE = str(ROOT / "problems" / "cycle_rotary_table.toml")
+
+
+def test_the_file_goes_to_stdout_and_the_report_to_stderr(capsys: Capture) -> None:
+    assert exit_code(["export", *LAW, "--to", "csv", "--points", "37", "--counts", "65536"]) == 0
+    out, err = capsys.readouterr()
+    assert out.startswith(
+        "# table: master in deg from 0 to 120, 1200 deg/s, slave in mm; made by optlaws\nx deg,y mm\n0,0\n"
+    )
+    assert out.count("\n") == 39
+    assert "37 points" in err
+    assert "roundings may add" in err
+
+
+def test_a_file_is_written_and_never_lost(tmp_path: Path, capsys: Capture) -> None:
+    file = tmp_path / "cam.csv"
+    file.write_text("mine\n", "utf-8")
+    assert exit_code(["export", *LAW, "--to", "sew", "--points", "13", "--output", str(file)]) == 0
+    assert "cubics whose acceleration leaps" in capsys.readouterr().out
+    assert (tmp_path / "cam.csv.orig").read_text("utf-8") == "mine\n"
+    written = file.read_bytes()
+    assert exit_code(["export", *LAW, "--to", "sew", "--points", "13", "--output", str(file)]) == 0
+    assert file.read_bytes() == written
+    assert sorted(one.name for one in tmp_path.iterdir()) == ["cam.csv", "cam.csv.orig"]
+
+
+def test_an_axis_of_a_problem_file(capsys: Capture) -> None:
+    assert exit_code(["export", TABLE, "--to", "csv", "--axis", "table", "--points", "30", "--json"]) == 0
+    told = json.loads(capsys.readouterr().out)
+    assert (told["points"], told["IsPeriodic"], told["units"]["slave"]) == (30, True, "deg")
+    assert told["text"].count("\n") == 32
+
+
+def test_the_formats_are_listed(capsys: Capture) -> None:
+    assert exit_code(["export", "--list", "--json"]) == 0
+    assert [one["name"] for one in json.loads(capsys.readouterr().out)] == sorted(FORMATS)
+    assert exit_code(["export", "--list"]) == 0
+    assert all(name in capsys.readouterr().out for name in ("codesys-xyva",))
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (["--to", "csv"], ["optlaws export LAW --to FORMAT", "--list"]),
+        ([*LAW], ["--to FORMAT"]),
+        ([*LAW, "--to", "cvs"], ["'cvs'", "'csv'"]),
+        ([*LAW[:1], "--to", "csv"], ["stroke", "35 mm"]),
+        ([*LAW, "--to", "csv", "--points", "many"], ["--points", "best", "many"]),
+        ([*LAW, "--to", "codesys-xyva", "--digits", "3"], ["codesys-xyva takes no digits"]),
+        ([*LAW, "--to", "csv", "--axis", "table"], ["--axis"]),
+        ([TABLE, "--to", "csv"], ["--axis", "table", "weld head"]),
+        ([TABLE, "--to", "csv", "--axis", "x"], ["--axis", "x", "weld head"]),
+        ([TABLE, "--to", "csv", "--stroke", "1 mm"], ["--stroke", "a cycle has its own"]),
+    ],
+)
+def test_what_is_wrong_is_named(arguments: list[str], words: list[str], capsys: Capture) -> None:
+    assert exit_code(["export", *arguments]) == BAD_INPUT
+    out, err = capsys.readouterr()
+    assert out == ""
+    assert all(word in err for word in words)
