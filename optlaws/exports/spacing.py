@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from math import inf, isfinite
-from typing import Protocol, TypeVar
+from typing import NamedTuple, Protocol, TypeVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,8 @@ Array = NDArray[np.float64]
 MOST_TRIED = 1001
 _RATIO = 1.12
 _NEAR = 12
-_AS_GOOD = 1.001
+_EACH = 64
+_AS_GOOD = 1e-3
 _DIGITS = 12
 
 
@@ -114,26 +115,35 @@ def chosen(motion: Motion, request: Request, make: Callable[[int], Made], least:
 
 
 def best(motion: Motion, make: Callable[[int], Made], least: int, most: int) -> Made:
-    """What is made with the number of points whose run is best, tried over the whole range and then around the best.
+    """What is made with the number of points whose run is best, tried up to 64 one by one, then over the range.
 
-    The run's peak of the acceleration, where it is above the law's, and what the acceleration leaps further than the
-    law's does, at points and at the ends, are least together; where the velocity leaps (straight lines), its leaps.
-    Of numbers as good as the best to a thousandth the least is taken.
+    The best run has the least peak of the acceleration (where straight lines leap in velocity, the least leap); what is
+    below the law's own peak is no gain. Among numbers as good to a thousandth those count whose acceleration leaps
+    least further than the law's, at points and at the ends, to a thousandth of the peak, and of these the least.
     """
-    judge, tried = Judge.of(motion), dict[int, tuple[float, Made]]()
+    judge, tried = Judge.of(motion), dict[int, tuple[Rank, Made]]()
 
     def attempt(counts: set[int]) -> None:
         for count in sorted(counts - tried.keys()):
             made = make(count)
-            tried[count] = (judge.excess(made.x, made.powers), made)
+            tried[count] = (judge.rank(made.x, made.powers), made)
 
     rough = least * _RATIO ** np.arange(1 + int(np.log(most / least) / np.log(_RATIO)))
-    attempt({*(int(one) for one in rough), most})
+    attempt({*range(least, min(most, _EACH) + 1), *(int(one) for one in rough), most})
     top = min(tried, key=lambda count: tried[count][0])
     near = np.linspace(max(least, top / _RATIO), min(most, top * _RATIO), 2 * _NEAR + 1)
     attempt({int(one) for one in near})
-    lowest = min(value for value, _ in tried.values())
-    return tried[min(count for count, (value, _) in tried.items() if value <= _AS_GOOD * lowest)][1]
+    lowest = min(rank.peak for rank, _ in tried.values())
+    as_good = {count: rank.leap for count, (rank, _) in tried.items() if rank.peak <= lowest * (1.0 + _AS_GOOD)}
+    smoothest = min(as_good.values())
+    return tried[min(count for count, leap in as_good.items() if leap <= smoothest + _AS_GOOD)][1]
+
+
+class Rank(NamedTuple):
+    """How good a run is: its peak over the law's, at least 1, and what it leaps further, over the law's peak."""
+
+    peak: float
+    leap: float
 
 
 @dataclass(frozen=True)
@@ -153,19 +163,19 @@ class Judge:
         ends = abs(last - first) if motion.repeats else max(abs(first), abs(last))
         return cls(motion.peak(1), motion.peak(2), motion.leap(2)[0], ends, motion.repeats)
 
-    def excess(self, x: Array, powers: Array) -> float:
-        """How much worse than the law polynomials are: see `best`; 1 where they are as good."""
+    def rank(self, x: Array, powers: Array) -> Rank:
+        """How good polynomials are."""
         steps = np.diff(x)
         if self.acceleration in {0.0, inf} or powers.shape[1] == 2:
             first, last = _ends(powers, steps, 1)
             edges = np.array([first[0] - last[-1]] if self.repeats else [first[0], last[-1]])
             leaps = np.abs(np.concatenate([first[1:] - last[:-1], edges]))
-            return 1.0 + float(leaps.max()) / self.velocity
+            return Rank(1.0 + float(leaps.max()) / self.velocity, 0.0)
         first, last = _ends(powers, steps, 2)
         ends = abs(last[-1] - first[0]) if self.repeats else max(abs(first[0]), abs(last[-1]))
         leap = float(np.abs(first[1:] - last[:-1]).max(initial=0.0))
         beyond = max(leap - self.leap, 0.0) + max(float(ends) - self.leap_at_ends, 0.0)
-        return max(_peak(powers, steps, first, last) / self.acceleration, 1.0) + beyond / self.acceleration
+        return Rank(max(_peak(powers, steps, first, last) / self.acceleration, 1.0), beyond / self.acceleration)
 
 
 def _ends(powers: Array, steps: Array, nu: int) -> tuple[Array, Array]:
