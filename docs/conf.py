@@ -61,6 +61,7 @@ nitpicky = True
 nitpick_ignore_regex = [("py:.*", r"(?!optlaws\.).*"), ("py:.*", r"optlaws\.(.*\.)?_.*")]
 # what a solution keeps for its neighbours, and the engine that constants are written over; not public
 nitpick_ignore = [
+    ("py:class", "optlaws.cycles.asked.conversion.Piece"),
     ("py:class", "optlaws.formulas.of_motion.Motion"),
     ("py:class", "optlaws.mechanisms.machine.dynamics.Drive"),
     ("py:class", "optlaws.mechanisms.machine.dynamics.Dynamics"),

@@ -56,6 +56,7 @@ SEVERAL = {
     "cycle",
     "drawing",
     "dwell",
+    "export",
     "family",
     "follower",
     "front",
