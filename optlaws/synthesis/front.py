@@ -19,7 +19,9 @@ from optlaws.synthesis.solution import Solution
 
 Array = NDArray[np.float64]
 
-HEADINGS = ("B", "C", "D", "J", "lower bound", "gap", "limit", "status")
+_OF_POINTS = ("lower bound", "gap", "limit", "status")
+#: of fronts of B, C, D and J
+HEADINGS = (*CONSTANTS, *_OF_POINTS)
 
 #: of a constant: two values that differ by less are one
 SAME = 1e-9
@@ -63,11 +65,24 @@ class Front:
         return values_of(self.points, self.over)
 
     @property
+    def headings(self) -> tuple[str, ...]:
+        """What the rows have: B, C, D and J, what else is exchanged, and how good each point is."""
+        return (*self._columns, *_OF_POINTS)
+
+    @property
+    def _columns(self) -> tuple[str, ...]:
+        return (*CONSTANTS, *(name for name in self.over if name not in CONSTANTS))
+
+    @property
     def rows(self) -> list[list[float | str | None]]:
-        """What `HEADINGS` names, a row for each point."""
+        """What `headings` name, a row for each point."""
+        return self.rows_of(self._columns)
+
+    def rows_of(self, columns: Sequence[str]) -> list[list[float | str | None]]:
+        """Constants of each point, with its lower bound, its gap, its limit and its status."""
         return [
             [
-                *(value_of(point, name) for name in CONSTANTS),
+                *(value_of(point, name) for name in columns),
                 point.lower_bound,
                 point.gap,
                 point.limit,
@@ -93,7 +108,7 @@ class Front:
         """
         import pandas as pd
 
-        return pd.DataFrame(self.rows, columns=list(HEADINGS))
+        return pd.DataFrame(self.rows, columns=list(self.headings))
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict with every solution whole."""
@@ -125,7 +140,7 @@ class Front:
         if len(self.over) == len(("given", "minimised")):
             x, y = self.values.T
             curve = drawing(f"{self.over[1]} over {self.over[0]}", x.tolist(), (y - y.min()).tolist())
-        return page(repr(self), table(HEADINGS, rows), curve)
+        return page(repr(self), table(self.headings, rows), curve)
 
 
 def undominated(solutions: Sequence[Solution], over: Sequence[str]) -> list[Solution]:

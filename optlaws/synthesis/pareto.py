@@ -13,12 +13,12 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.numbers import real, whole
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.front import SAME, Front, undominated, value_of
 from optlaws.synthesis.method.exchange import solve
-from optlaws.synthesis.problem.constants import FUNCTIONALS, PLAIN
+from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.fields import CONSTANTS
+from optlaws.synthesis.problem.named_constants import apart, is_named, named
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.program.writer import extreme_velocity
@@ -39,7 +39,7 @@ _NOTHING = 1e-6
 
 def pareto_front(
     problem: Problem,
-    over: Sequence[str] = ("B", "C"),
+    over: Sequence[str | Functional] = ("B", "C"),
     *,
     points: int = 50,
     between: tuple[float, float] | None = None,
@@ -55,7 +55,8 @@ def pareto_front(
     problem
         What else is asked; its `minimise` does not count.
     over
-        Two or three constants. The last may be any that can be minimised, the others of B, C, D, J.
+        Two or three constants, by their names or themselves: B, C, D, J, or any that can be minimised and bounded,
+        such as "peak(c + 0.2*b)", "residual(nu=20)" or `machine.peak("torque")`.
     points
         How many laws; fewer where some are no better than others in any constant, or with three constants.
     between
@@ -236,7 +237,7 @@ def _at_most(problem: Problem, name: str, value: float) -> Problem:
 
 
 def _with(problem: Problem, name: str, asked: float | Range) -> Problem:
-    changed: dict[str, Any] = {name: asked}
+    changed: dict[str, Any] = {name: asked} if name in CONSTANTS else {"bounds": {**problem.bounds, name: asked}}
     return replace(problem, **changed)
 
 
@@ -258,15 +259,16 @@ def least_value(problem: Problem, name: str) -> float:
     return float(optimum.x[extreme.places["B"]])
 
 
-def _checked(problem: object, over: Sequence[str], between: tuple[float, float] | None) -> tuple[str, ...]:
+def _checked(problem: object, over: Sequence[str | Functional], between: tuple[float, float] | None) -> tuple[str, ...]:
     if not isinstance(problem, Problem):
         raise InputError(f"pareto_front takes a Problem, got {type(problem).__name__}")
-    names = tuple(over) if not isinstance(over, str) else tuple(name.strip() for name in over.split(","))
+    several = over if not isinstance(over, str) else apart(over)
+    names: tuple[Any, ...] = tuple(repr(name) if isinstance(name, Functional) else name for name in several)
     if len(names) not in (2, 3) or len(set(names)) != len(names):
         raise InputError(f"over must name two or three constants, each once, such as ('B', 'C'); got {shortened(over)}")
-    for name, known in zip(names, [CONSTANTS] * (len(names) - 1) + [(*FUNCTIONALS, *PLAIN)], strict=True):
-        if name not in known:
-            raise InputError(unknown_key(name, known, "constant"))
+    for name in names:
+        if name not in CONSTANTS and not (isinstance(name, str) and is_named(named(name))):
+            raise InputError(f"over names constants, such as 'B' or 'peak(c + 0.2*b)', got {shortened(name)}")
         if problem.range(name) is not None:
             given = getattr(problem, name, problem.range(name))
             raise InputError(f"{name} is exchanged: leave it out of the problem, got {given!r}")

@@ -10,6 +10,7 @@ from optlaws import Chebyshev, InputError, Problem, Solution, synthesize
 from optlaws.synthesis.front import HEADINGS, Front, undominated, value_of
 from optlaws.synthesis.limits.closed_forms import limit
 from optlaws.synthesis.pareto import pareto_front
+from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.problem.ranges import Range
 
 L4 = Problem(order=4)
@@ -124,7 +125,8 @@ def test_worse_laws_are_left_out() -> None:
         (L4, ("B",), "two or three constants"),
         (L4, ("B", "B"), "each once"),
         (L4, ("B", "X"), "'X'"),
-        (L4, ("jounce", "C"), "'jounce'"),
+        (L4, ("jounce + C", "C"), "is no constant of a law but an expression"),
+        (L4, ("B", 3), "over names constants"),
         (Problem(B=1.6, order=4), ("B", "C"), "B is exchanged"),
         (Problem(order=4, C=6.0), ("B", "C"), "C is exchanged"),
         ("L4", ("B", "C"), "takes a Problem"),
@@ -184,3 +186,18 @@ def test_many_points_are_put_in_together_and_lie_as_evenly() -> None:
     assert lengths.max() < 4.0 * lengths.mean()
     alone = synthesize(front[77].problem)
     assert front[77].objective == pytest.approx(alone.objective, rel=1e-11)
+
+
+@pytest.mark.parametrize("over", [("residual(nu=20.0)", "C"), ("peak(c + 0.2*b)", "J"), ("rms_c", "C_cam(nu=20.0)")])
+def test_any_constants_are_exchanged(over: tuple[str, str]) -> None:
+    front = pareto_front(Problem(B=1.8, order=4), over=over, points=4)
+    first, last = front.values.T
+    assert (first[1:] > first[:-1]).all()
+    assert (last[1:] < last[:-1]).all()
+    assert set(over) <= set(front.headings)
+    assert [len(row) for row in front.rows] == [len(front.headings)] * len(front)
+    for point, value in zip(front, first, strict=True):
+        assert named(over[0]).value(point.law) == value
+        assert synthesize(point.problem).objective == pytest.approx(point.objective, rel=1e-8)
+    same = pareto_front(Problem(B=1.8, order=4), over=tuple(named(name) for name in over), points=4)
+    assert same.values == pytest.approx(front.values, rel=1e-9)

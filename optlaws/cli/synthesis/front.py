@@ -10,6 +10,7 @@ from optlaws.cli.options import AsJson, Whole, check_files, save_picture
 from optlaws.cli.problem_options import asks_for_a_problem
 from optlaws.cli.show import busy, print_json, show, table
 from optlaws.numbers import whole
+from optlaws.synthesis.problem.named_constants import apart
 
 
 @asks_for_a_problem(
@@ -31,7 +32,8 @@ def front(
     Parameters
     ----------
     over
-        Two or three constants, separated by commas; the last is minimised at given values of the others.
+        Two or three constants, separated by commas, such as "residual(nu=20),C"; the last is minimised at given values
+        of the others.
     points
         How many laws.
     between
@@ -47,7 +49,7 @@ def front(
         Draw the front into this file, PNG or SVG.
     """
     check_files(csv, plot=plot)
-    problem, names = optlaws.Problem.from_dict(entries), tuple(over.split(","))
+    problem, names = optlaws.Problem.from_dict(entries), tuple(apart(over))
     with busy("solving"):
         found = (
             optlaws.pareto_front(problem, names, points=points, between=between)
@@ -70,9 +72,7 @@ Rows = list[list[Any]]
 
 def _table(found: optlaws.Front | optlaws.ProvenFront, points: int) -> tuple[tuple[str, ...], Rows]:
     if isinstance(found, optlaws.Front):
-        from optlaws.synthesis.front import HEADINGS
-
-        return HEADINGS, found.rows
+        return found.headings, found.rows
     low, high = found.between
     values = [low + (high - low) * i / (points - 1) for i in range(points - 1)]
     some = [found(value) for value in [*values, high]]

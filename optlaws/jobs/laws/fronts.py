@@ -26,6 +26,7 @@ from optlaws.synthesis import FUNCTIONALS, Problem
 from optlaws.synthesis.front import HEADINGS, Front
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.pareto import pareto_front
+from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.proven.front import ProvenFront
 from optlaws.synthesis.proven.refine import proven_front
 
@@ -117,7 +118,8 @@ def _front(spec: Study, picture: Picture, curve: Curve) -> Front:
 
 
 def _lines(curve: Curve, front: Front) -> list[list[tables.Cell]]:
-    return [[curve.label, *row[:5], gap(point), *row[6:]] for row, point in zip(front.rows, front, strict=True)]
+    rows = front.rows_of(CONSTANTS)
+    return [[curve.label, *row[:5], gap(point), *row[6:]] for row, point in zip(rows, front, strict=True)]
 
 
 def _page(spec: Study, found: Fronts) -> Page:

@@ -35,7 +35,7 @@ from optlaws.synthesis.functionals.curved_rows import (
     split,
     squared,
 )
-from optlaws.synthesis.functionals.sizes import known_values, reach
+from optlaws.synthesis.functionals.sizes import check_ends, known_values, reach
 from optlaws.synthesis.problem.constants import Asked, Functional
 from optlaws.synthesis.problem.ranges import as_range
 
@@ -115,9 +115,20 @@ class OfFormula(Functional):
     def value(self, law: MotionLaw) -> float:
         """The constant of a law, recomputed over the whole part."""
 
-    @abstractmethod
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
-        """Rows that hold if and only if the constant is at most slack . x + bound."""
+        """Rows that hold if and only if the constant is at most slack . x + bound.
+
+        Raises
+        ------
+        InputError
+            If the formula has no value at an end of the laws.
+        """
+        check_ends(self.motion, space.boundary)
+        return self._families(space, slack, bound)
+
+    @abstractmethod
+    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+        """The rows themselves."""
 
 
 @dataclass(frozen=True, repr=False)
@@ -158,7 +169,7 @@ class FormulaPeak(OfFormula):
                 found += split(side.motion, sign, side.name) or []
         return found
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """One family; two where symmetric laws count on half the interval but the formula is not symmetric."""
         if self.affine:
             found = sides(self.motion, self.name, self.signs, symmetric=space.symmetric)
@@ -200,7 +211,7 @@ class FormulaRms(OfFormula):
         """The root of the mean square, by Gauss's rule, exact where the formula is a polynomial of k."""
         return float(np.sqrt(mean_square_along(self.motion, law) / self.length))
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """A norm of the coordinates, or the root of an integral."""
         if not self.affine:
             root = float(np.sqrt(self.length))
@@ -235,7 +246,7 @@ class FormulaIntegral(OfFormula):
         """By Gauss's rule, exact where the formula is a polynomial of k."""
         return integral_along(self.motion, law)
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """One row."""
         return (integral_rows(space, self.motion, self.name, slack, bound, root=False, convex=self.convex),)
 
@@ -257,7 +268,7 @@ class FormulaValue(OfFormula):
         [motion] = self.parts(symmetric=symmetric)
         return split(motion, 1.0, self.name) or []
 
-    def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
+    def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """One row, or one for each branch."""
         return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
 

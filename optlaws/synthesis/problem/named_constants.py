@@ -65,3 +65,21 @@ def is_named(term: Term) -> bool:
         return named(text) == term
     except InputError:
         return False
+
+
+def apart(text: str) -> list[str]:
+    """What stands between the commas that are in no bracket.
+
+    Examples
+    --------
+    >>> apart("residual(nu=(18, 22)), C")
+    ['residual(nu=(18, 22))', 'C']
+    """
+    parts, depth = [""], 0
+    for character in text:
+        depth += (character == "(") - (character == ")")
+        if character == "," and depth == 0:
+            parts.append("")
+        else:
+            parts[-1] += character
+    return [part.strip() for part in parts]

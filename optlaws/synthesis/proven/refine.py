@@ -16,6 +16,7 @@ from optlaws.numbers import positive, real
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.pareto import least_value, where_it_pays
 from optlaws.synthesis.problem.fields import CONSTANTS
+from optlaws.synthesis.problem.named_constants import apart
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.proven.front import Lazily, ProvenFront, interval_gaps, weighted_value
@@ -225,8 +226,7 @@ class _Refined:
 def _number(problem: object, over: str | Sequence[str]) -> RunningNumber:
     if not isinstance(problem, Problem):
         raise InputError(f"proven_front takes a Problem, got {type(problem).__name__}")
-    names = [over] if isinstance(over, str) and "," not in over else over
-    listed = [name.strip() for name in names.split(",")] if isinstance(names, str) else list(names)
+    listed = apart(over) if isinstance(over, str) else list(over)
     if len(listed) not in {1, 2} or not all(isinstance(name, str) for name in listed):
         raise InputError(f"over must name what runs and what is minimised, such as ('B', 'C'), got {shortened(over)}")
     return RunningNumber(problem if len(listed) == 1 else replace(problem, minimise=listed[1]), listed[0])
