@@ -182,7 +182,7 @@ class PiecewiseMotion:
     def peak(self, nu: int) -> Extreme:
         """The greatest magnitude of the derivative of order nu."""
         low, high = self.extremes(nu)
-        return max(Extreme(-low.value, low.x), high, key=lambda one: (one.value, -one.x))
+        return max(Extreme(0.0 - low.value, low.x), high, key=lambda one: (one.value, -one.x))
 
     def rms(self, nu: int) -> float:
         """Root mean square of the derivative of order nu, impulses left out.

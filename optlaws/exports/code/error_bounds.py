@@ -93,7 +93,7 @@ def error_bounds(motion: PiecewiseMotion, arithmetic: Arithmetic = DOUBLE) -> tu
         length = Fraction(run.breaks[i + 1]) - Fraction(run.breaks[i])
         for nu in range(ORDERS):
             error = gamma * _magnitude(row, length, nu) + _magnitude(missed, length, nu)
-            bounds[nu] = max(bounds[nu], error + _underflow(count, length, nu, arithmetic))
+            bounds[nu] = max(bounds[nu], error + _underflow(run.degree, length, nu, arithmetic))
     return tuple(_up(one) for one in bounds)
 
 
@@ -113,10 +113,11 @@ def _magnitude(row: list[Fraction], length: Fraction, nu: int) -> Fraction:
     )
 
 
-def _underflow(count: int, length: Fraction, nu: int, arithmetic: Arithmetic) -> Fraction:
-    # each of the operations may miss by u times the least normal number, and is then multiplied by s at most so often
-    growth: Fraction = max(Fraction(1), length) ** count
-    return Fraction(factorial(nu) * 2**count) * growth * arithmetic.unit * arithmetic.least
+def _underflow(degree: int, length: Fraction, nu: int, arithmetic: Arithmetic) -> Fraction:
+    # four products a step may each miss by u times the least normal number, which at most 2^degree paths then carry on,
+    # with at most as many factors s as there are steps; twice that covers the roundings on the way
+    paths = Fraction((4 * degree + 2) * 2 ** (degree + 1)) * max(Fraction(1), length) ** degree
+    return factorial(nu) * paths * arithmetic.unit * arithmetic.least
 
 
 def _up(value: Fraction) -> float:

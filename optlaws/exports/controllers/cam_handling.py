@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from typing import NamedTuple
 
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.exports.controllers.polynomials_of import asked, fields, iec_heading, leaping
+from optlaws.exports.controllers.polynomials_of import Ends, asked, ends_of, fields, iec_heading, leaping
 from optlaws.exports.format import Format, Request, Written, declared
 from optlaws.exports.identifiers import iec_name
 from optlaws.exports.interpolation import hermite_powers
@@ -26,7 +25,7 @@ START_JERK = 1  # LCAMHDL_POLY_MODE_BOUNDARY_VALUES_AND_START_JERK
 def _write_elements(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "SIMATIC AX")
     made = asked(motion, request, 5, SEGMENTS)
-    ends = _ends(made.run, 3)
+    ends = ends_of(motion, made.run, 3)
     rows = [
         fields(**_bounds(one), camProfileType=_profile(row))
         for one, row in zip(ends, made.run.coefficients, strict=True)
@@ -40,7 +39,7 @@ def _write_elements(motion: Motion, request: Request) -> Written:
 def _write_polynomials(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "SIMATIC AX")
     made = asked(motion, request, 6, SEGMENTS)
-    ends = _ends(made.run, 4)
+    ends = ends_of(motion, made.run, 4)
     rows = [
         fields(**_bounds(one), geoJerkStart=one.first[3], camProfileType=ADD_POLY, polynomialMode=START_JERK)
         for one in ends
@@ -51,20 +50,6 @@ def _write_polynomials(motion: Motion, request: Request) -> Written:
     return Written(
         text, run, "polynomials of degree 6 by their ends and start jerk", len(rows), "segments", notes=notes
     )
-
-
-class Ends(NamedTuple):
-    """A piece by its ends: leading values, and y, V, A, ... just inside each."""
-
-    x: tuple[float, float]
-    first: tuple[float, ...]
-    last: tuple[float, ...]
-
-
-def _ends(run: PiecewiseMotion, orders: int) -> list[Ends]:
-    firsts, lasts = (np.array(side).T.tolist() for side in zip(*(run.ends(nu) for nu in range(orders)), strict=True))
-    places = zip(run.breaks, run.breaks[1:], strict=False)
-    return [Ends(x, tuple(a), tuple(b)) for x, a, b in zip(places, firsts, lasts, strict=True)]
 
 
 def _bounds(one: Ends) -> dict[str, object]:
@@ -102,7 +87,8 @@ def _sixth(one: Ends) -> list[float]:
 def _write_points(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "SIMATIC AX")
     made = _smooth(motion, asked(motion, request, 5, SEGMENTS, points=True))
-    values = np.array([np.append(first, last[-1:]) for first, last in (made.run.ends(nu) for nu in range(3))])
+    ends = ends_of(motion, made.run, 3)
+    values = np.array([*(one.first for one in ends), ends[-1].last]).T
     run = PiecewiseMotion(made.run.breaks, hermite_powers(np.array(made.run.breaks), values))
     rows = [
         fields(leadingValue=x, followingValue=y, velocityRatio=v, accelerationRatio=a)

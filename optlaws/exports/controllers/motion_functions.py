@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.exports.controllers.polynomials_of import asked, fields, iec_heading, leaping
+from optlaws.exports.controllers.polynomials_of import asked, ends_of, fields, iec_heading, leaping
 from optlaws.exports.format import MOST_POINTS, Format, Request, Written, declared
 from optlaws.exports.identifiers import iec_name
 from optlaws.exports.interpolation import hermite_powers
@@ -24,7 +24,8 @@ def _write(motion: Motion, request: Request, *, third: bool) -> Written:
     name = iec_name(request.name, "TwinCAT")
     made = _shared(motion, request)
     degrees = [5 if len(row) <= 6 or not any(row[6:]) else 7 for row in made.run.coefficients]
-    values = np.array([np.append(first, last[-1:]) for first, last in (made.run.ends(nu) for nu in range(4))])
+    ends = ends_of(motion, made.run, 4)
+    values = np.array([*(one.first for one in ends), ends[-1].last]).T
     run = _run(made.run.breaks, values, degrees)
     rows = [
         (_of_mc3 if third else _of_nc2)(i, x, values[:, i].tolist(), degree)

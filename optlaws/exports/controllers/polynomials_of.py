@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
+from typing import NamedTuple
+
+import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.exports.code.error_bounds import SINGLE, error_bounds
@@ -88,12 +91,41 @@ def said_of_leaps(motion: Motion, leaps: tuple[float, ...]) -> str:
     return f"leaps at joints by at most {said} are roundings of REAL32"
 
 
-def leaping(run: PiecewiseMotion, nu: int) -> float | None:
-    """The first break where the derivative of order nu leaps by more than rounding; None where there is none."""
+class Ends(NamedTuple):
+    """A piece by its ends: places of the master, and y, V, A, ... just inside each."""
+
+    x: tuple[float, float]
+    first: tuple[float, ...]
+    last: tuple[float, ...]
+
+
+def ends_of(motion: Motion, run: PiecewiseMotion, orders: int) -> list[Ends]:
+    """Pieces by their ends; where nothing but rounding leaps both sides of a joint have the same values.
+
+    Positions that powers end at miss by their roundings; what the next piece begins with, and the motion's own end,
+    do not.
+    """
+    firsts, lasts = [], []
+    for nu in range(orders):
+        first, own = run.ends(nu)
+        known = np.append(first[1:], motion.ends(nu)[1])
+        lasts.append(np.where(np.abs(known - own) <= rounding(run, nu), known, own).tolist())
+        firsts.append(first.tolist())
+    places = zip(run.breaks, run.breaks[1:], strict=False)
+    return [Ends(*one) for one in zip(places, zip(*firsts, strict=True), zip(*lasts, strict=True), strict=True)]
+
+
+def rounding(run: PiecewiseMotion, nu: int) -> float:
+    """The greatest leap of the derivative of order nu that is no more than rounding."""
     size = max(abs(one.value) for one in run.extremes(nu))
     # positions are rounded, and what is left of that in a derivative grows as pieces get shorter
-    rounding = 2.0**-44 * run.peak(0).value / float(run.lengths.min()) ** nu
+    return float(max(_ROUNDING * size, 2.0**-44 * run.peak(0).value / float(run.lengths.min()) ** nu))
+
+
+def leaping(run: PiecewiseMotion, nu: int) -> float | None:
+    """The first break where the derivative of order nu leaps by more than rounding; None where there is none."""
+    small = rounding(run, nu)
     for x, leap in zip(run.breaks[1:], run.jumps(nu).tolist(), strict=False):
-        if abs(leap) > max(_ROUNDING * size, rounding):
+        if abs(leap) > small:
             return x
     return None

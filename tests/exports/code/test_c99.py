@@ -124,6 +124,14 @@ def test_the_bound_holds_for_horner_in_floating_point(number: int, degree: int, 
             assert abs(found - exact_value(motion, piece, Fraction(float(x)), nu)) <= Fraction(bounds[nu])
 
 
+def test_the_bound_is_near_what_numbers_hold_however_long_a_piece_is() -> None:
+    for length in (1e-3, 120.0, 1e5):
+        motion = polynomials_of_law(smoothstep(3), 35.0, length)
+        for arithmetic in (DOUBLE, SINGLE):
+            for nu, bound in enumerate(error_bounds(motion, arithmetic)):
+                assert bound <= 3000.0 * float(arithmetic.unit) * max(motion.peak(nu).value, 35.0 / length**nu)
+
+
 def test_the_header_says_units_peaks_proof_and_bounds_and_nothing_ends_its_comment() -> None:
     motion = PiecewiseMotion([0, 0.1], [[0, 0, 0, 35000]])
     labels = Labels("s", "mm", ("status optimal, bound 4.41 */ int x; /*", "second\nline"))

@@ -161,6 +161,16 @@ def test_function_blocks_and_headers_run_what_their_report_says(tmp_path: Path) 
     assert float(said) == pytest.approx(17.5, abs=1e-13)
 
 
+def test_ends_are_those_of_the_motion_and_joints_close() -> None:
+    motion = motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg", time="0.1 s")
+    for name in ("twincat-nc2", "siemens-points", "siemens-elements", "siemens-polynomials"):
+        assert " := 35.0, " in export_motion(motion, name).text
+        cyclic = export_motion(repeating(), name)
+        assert not cyclic.run.jumps(0).any() or np.abs(cyclic.run.jumps(0)).max() <= 1e-13
+    leaps = export_motion(motion, "br-acp10").written.roundings
+    assert leaps[1] <= 1e-3 * motion.peak(2)
+
+
 def test_points_that_hold_one_value_refuse_leaps_and_pieces_do_not() -> None:
     motion = one_shot("constant acceleration")
     for name in ("twincat-nc2", "twincat-mc3", "siemens-points"):
