@@ -8,6 +8,7 @@ from optlaws.lazy import declare, face
 _load, __dir__, __all__ = face(
     __name__,
     {
+        "optlaws.cams.best_laws": "best_base_circle best_cam",
         "optlaws.cams.curves.motion_by_angle": "CamMotion",
         "optlaws.cams.disc": "DiscCam",
         "optlaws.cams.followers.oscillating_flat": "OscillatingFlat",

@@ -2,6 +2,8 @@
 from optlaws import laws as laws
 from optlaws import mechanisms as mechanisms
 from optlaws import synthesis as synthesis
+from optlaws.cams.best_laws import best_base_circle as best_base_circle
+from optlaws.cams.best_laws import best_cam as best_cam
 from optlaws.cams.curves.motion_by_angle import CamMotion as CamMotion
 from optlaws.cams.disc import DiscCam as DiscCam
 from optlaws.cams.followers.oscillating_flat import OscillatingFlat as OscillatingFlat
@@ -210,6 +212,8 @@ __all__ = [
     "at_least",
     "at_most",
     "balanced_law",
+    "best_base_circle",
+    "best_cam",
     "between",
     "cam_constant",
     "catalogue",

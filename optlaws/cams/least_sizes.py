@@ -31,6 +31,7 @@ Kind = TypeVar("Kind", bound=Contact)
 PRESSURE, CURVATURE = "pressure angle", "radius of curvature"
 WIDTH = 1e-8  # of the bracket, relative
 _KEPT = 1e-10  # by how much more than needed the radius grows at last
+_NUDGES, _NUDGE = 6, 1e-9
 _STEPS, _LOOKS, _DEPTH = 60, 150, 60
 _LEAST, _LARGEST = 1e-6, 1e3  # of base circles that are looked at, times the greatest length of the mechanism
 
@@ -105,7 +106,7 @@ def least_base_circle(
     >>> round(1e3 * least.radius, 6), least.proven, least.limit
     (36.32799, True, 'radius of curvature')
     """
-    limits = _limits(pressure_angle, radius_of_curvature)
+    limits = read_cam_limits(pressure_angle, radius_of_curvature)
     sizes = _Sizes(as_motion(motion, follower.axis), follower, TURNINGS[turning], limits)
     radius = start = sizes.least
     witnesses: list[Witness] = []
@@ -115,9 +116,13 @@ def least_base_circle(
             break
         witnesses += broken
         radius = max(radius, *(sizes.kept_from(one, radius) for one in broken)) * (1.0 + _KEPT)
-    cam = DiscCam(motion, f"{radius!r} m", follower, turning=turning)
-    if sizes.witnesses(radius, proven=True):
+    for _ in range(_NUDGES):  # to where it is not only not broken but proven to be kept
+        if not sizes.witnesses(radius, proven=True):
+            break
+        radius *= 1.0 + _NUDGE
+    else:
         raise InfeasibleProblem(f"no base circle was found that keeps {_told(limits)}: give wider limits")
+    cam = DiscCam(motion, f"{radius!r} m", follower, turning=turning)
     last = witnesses[-1] if witnesses else Witness("mechanism", 0.0, 1.0, before=False)
     below = radius * (1.0 - WIDTH)
     proven = not witnesses or below <= start or sizes.breaks_between(start, below, witnesses[::-1])
@@ -178,7 +183,19 @@ def greatest_roller(cam: DiscCam, *, radius_of_curvature: Any = "0 mm") -> Great
     return GreatestRoller(low - slack, high + slack, greatest.angle)
 
 
-def _limits(pressure_angle: Any, radius: Any) -> dict[str, float]:  # noqa: ANN401
+def read_cam_limits(pressure_angle: Any, radius: Any) -> dict[str, float]:  # noqa: ANN401 - quantities
+    """The limits of a cam: the tangent of the greatest pressure angle, and the least radius of curvature in metres.
+
+    Raises
+    ------
+    InputError
+        If there is neither, or one is out of range.
+
+    Examples
+    --------
+    >>> {name: round(value, 6) for name, value in read_cam_limits("45 deg", "5 mm").items()}
+    {'pressure angle': 1.0, 'radius of curvature': 0.005}
+    """
     found = {}
     if pressure_angle is not None:
         angle = quantity(pressure_angle, "angle", "pressure_angle")
@@ -190,7 +207,7 @@ def _limits(pressure_angle: Any, radius: Any) -> dict[str, float]:  # noqa: ANN4
         if found[CURVATURE] < 0.0:
             raise InputError(f"radius_of_curvature must be at least 0, got {shortened(radius)}")
     if not found:
-        raise InputError("a least base circle needs pressure_angle='30 deg', radius_of_curvature='5 mm', or both")
+        raise InputError("give a limit of the cam: pressure_angle='30 deg', radius_of_curvature='5 mm', or both")
     return found
 
 

@@ -120,9 +120,14 @@ class CamMotion:
                 f"motion: the cycle ends {in_small_units(moved, cycle.axis)} from where it starts, and a cam comes back"
                 " with every turn: end the cycle with a Return(), and give it no advance"
             )
-        scale = TURN / cycle.duration
+        return cls.of_pieces(pieces, cycle.duration, cycle.axis)
+
+    @classmethod
+    def of_pieces(cls, pieces: Sequence[Piece], period: float, axis: str) -> Self:
+        """The motion of laws in their places, in time, which together make a turn of the cam in a period."""
+        scale = TURN / period
         turns = [replace(piece, start=piece.start * scale, duration=piece.duration * scale) for piece in pieces]
-        return cls(tuple(part for piece in turns for part in _parts(piece)), cycle.axis, closed=True)
+        return cls(tuple(part for piece in turns for part in _parts(piece)), axis, closed=True)
 
     @classmethod
     def of_law(cls, law: str | MotionLaw, stroke: Any, angle: Any, direction: str = "rise") -> Self:  # noqa: ANN401

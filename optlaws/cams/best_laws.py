@@ -1,0 +1,327 @@
+"""Laws that are best for their cam: least acceleration under limits of the cam, and the least base circle of all laws.
+
+Under a slide with a roller a limit of the pressure angle, |s' - e| <= tan(alpha) (height + s), is linear in the law,
+and so is rho = r0 + s + s'' under a flat face: such laws are proven optimal as all others are. For an arm with a roller
+the limit is s' <= G(s) with a sine G: laws below lines under it are found, laws below lines over it give the bound.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import hypot, sqrt, tan
+from typing import Any, TypeAlias
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
+from optlaws.cams.disc import TURNINGS, DiscCam
+from optlaws.cams.followers.contact import Contact
+from optlaws.cams.followers.follower import Follower, Place, shown
+from optlaws.cams.followers.oscillating_roller import SwingingRoller
+from optlaws.cams.followers.translating_flat import SlidingFace, TranslatingFlat
+from optlaws.cams.followers.translating_roller import SlidingRoller, TranslatingRoller
+from optlaws.cams.law_lines import walls_of
+from optlaws.cams.least_sizes import CURVATURE, PRESSURE, LeastBaseCircle, least_base_circle, read_cam_limits
+from optlaws.cycles.asked.conversion import Piece
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.optimal import OBJECTIVES
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.problem.expression import maximum
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.solution import Solution, Status
+from optlaws.synthesis.solve import synthesize
+
+Array = NDArray[np.float64]
+Solved: TypeAlias = list[tuple[Piece, Solution | None]]
+
+_ROUNDS, _GAIN = 8, 1e-4
+_KEPT = 1e-7  # by how much limits of the cam may be broken by the law's rounding, relative
+
+
+@dataclass(frozen=True)
+class BestCam:
+    """The cam whose law is best under limits of the cam.
+
+    Attributes
+    ----------
+    cam
+        With the laws found.
+    objective
+        What is minimised over the whole cycle, as the cycle says; SI units.
+    lower_bound
+        What no other laws of the kind in the same times can beat.
+    status
+        "optimal" where the two meet.
+    solutions
+        The solutions of the single motions, with their proofs.
+    """
+
+    cam: DiscCam
+    objective: float
+    lower_bound: float
+    status: Status
+    solutions: tuple[Solution, ...]
+
+
+@dataclass(frozen=True)
+class BestBaseCircle:
+    """The least base circle of all laws.
+
+    Attributes
+    ----------
+    least
+        The least base circle of the laws found, proven for them.
+    lower_bound
+        What no laws of the kind in the same times can beat, m.
+    solutions
+        The solutions of the single motions, with their proofs.
+    """
+
+    least: LeastBaseCircle
+    lower_bound: float
+    solutions: tuple[Solution, ...]
+
+
+def best_cam(
+    cycle: Cycle,
+    base_radius: Any,  # noqa: ANN401 - quantities
+    follower: Follower,
+    *,
+    pressure_angle: Any = None,  # noqa: ANN401
+    radius_of_curvature: Any = None,  # noqa: ANN401
+    turning: str = "counterclockwise",
+) -> BestCam:
+    """The optimal laws of a cycle under limits of its cam, at a given base circle.
+
+    Displacements stay between those of the cycle's joints. A limit that is not convex in the law, such as that of the
+    curvature under a roller, is held against the laws found: where they keep it, they are the best with it, too.
+
+    Parameters
+    ----------
+    cycle
+        Its optimal motions are looked for again; what it minimises and its limits stay.
+    base_radius, follower, turning
+        As of a `DiscCam`.
+    pressure_angle, radius_of_curvature
+        The limits.
+
+    Raises
+    ------
+    InputError
+        If there is no such mechanism, no limit, or nothing is optimal in the cycle.
+    InfeasibleProblem
+        If no law keeps them; with proof, where they are linear in the law.
+    SolverFailure
+        If a limit that is not convex is broken by the best laws without it.
+
+    Examples
+    --------
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> from optlaws.cycles.asked.segments import Dwell, Return, Rise
+    >>> cycle = Cycle([Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()], speed="200 rpm")
+    >>> free = best_cam(cycle, "50 mm", TranslatingRoller("12 mm"), pressure_angle="60 deg")
+    >>> bound = best_cam(cycle, "50 mm", TranslatingRoller("12 mm"), pressure_angle="26 deg")
+    >>> round(free.objective, 4), bound.status.value, round(bound.objective, 4)
+    (21.8838, 'optimal', 23.5665)
+    """
+    limits = read_cam_limits(pressure_angle, radius_of_curvature)
+    given = DiscCam(cycle, base_radius, follower, turning=turning)
+    known = _with_solutions(cycle)
+    if _kept(given, limits):  # the best laws without the limits keep them
+        bound = _bound(cycle, known)
+        return BestCam(given, cycle.objective, bound, cycle.status, cycle.solutions)
+    inner = _solved(cycle, given, limits, below=True)
+    outer = _solved(cycle, given, limits, below=False) if isinstance(given.contact, SwingingRoller) else inner
+    pieces = tuple(piece for piece, _ in inner)
+    cam = replace(given, motion=CamMotion.of_pieces(pieces, cycle.duration, cycle.axis))
+    _check_kept(cam, limits)
+    objective, bound = _objective(cycle, inner), _bound(cycle, outer)
+    solutions = tuple(solution for _, solution in inner if solution is not None)
+    proven = all(one.status is Status.OPTIMAL for one in solutions) and objective - bound <= 1e-6 * objective
+    return BestCam(cam, objective, bound, Status.OPTIMAL if proven else Status.LOCAL, solutions)
+
+
+def best_base_circle(
+    cycle: Cycle,
+    follower: Follower,
+    *,
+    pressure_angle: Any = None,  # noqa: ANN401 - quantities
+    radius_of_curvature: Any = None,  # noqa: ANN401
+    turning: str = "counterclockwise",
+) -> BestBaseCircle:
+    """The least base circle that any laws of a cycle's optimal motions allow.
+
+    What a base circle needs at an angle is linear in the law, so that its greatest value is a convex objective.
+
+    Parameters
+    ----------
+    cycle
+        Its limits and its given laws stay; its optimal motions are looked for.
+    follower
+        A roller on a slide, with a limit of the pressure angle, or a flat face on a slide, with one of the radius.
+    pressure_angle, radius_of_curvature, turning
+        As of `least_base_circle`.
+
+    Raises
+    ------
+    InputError
+        If the follower is another, or the limit is not that of its kind.
+    InfeasibleProblem
+        If no law keeps the limits of the cycle.
+
+    Examples
+    --------
+    >>> from optlaws.cams.followers.translating_flat import TranslatingFlat
+    >>> from optlaws.cycles.asked.segments import Dwell, Return, Rise
+    >>> cycle = Cycle([Rise("10 mm", "70 deg"), Return("10 mm", "70 deg"), Dwell()], speed="3000 rpm")
+    >>> best = best_base_circle(cycle, TranslatingFlat(), radius_of_curvature="3 mm")
+    >>> round(1e3 * best.least.radius, 4), round(1e3 * best.lower_bound, 4)
+    (10.1341, 10.1341)
+    """
+    limits = read_cam_limits(pressure_angle, radius_of_curvature)
+    contact = _unit_contact(cycle, follower, TURNINGS[turning])
+    limit = PRESSURE if isinstance(contact, SlidingRoller) else CURVATURE
+    if set(limits) != {limit}:
+        raise InputError(f"the least base circle of all laws under this follower takes one limit: {_NAMED[limit]}")
+    needs, solutions, pieces = [], [], []
+    for piece, solution in _with_solutions(cycle):
+        walls = walls_of(piece, contact, limits, cycle.duration, below=True)
+        if solution is None:
+            needs += [abs(piece.stroke) * wall.needed().value(piece.law) for wall in walls]
+            pieces.append(piece)
+            continue
+        wanted = [wall.needed() for wall in walls]
+        found = synthesize(_problem(solution.problem, (), wanted))
+        needs.append(abs(piece.stroke) * found.lower_bound)
+        solutions.append(found)
+        pieces.append(replace(piece, law=found.law))
+    motion = CamMotion.of_pieces(tuple(pieces), cycle.duration, cycle.axis)
+    least = least_base_circle(
+        motion, follower, pressure_angle=pressure_angle, radius_of_curvature=radius_of_curvature, turning=turning
+    )
+    # the unit contact is 1 m high, and what is needed goes beyond that
+    height = 1.0 + max(needs)
+    bound = hypot(height, contact.offset) if isinstance(contact, SlidingRoller) else height
+    return BestBaseCircle(least, bound, tuple(solutions))
+
+
+_NAMED = {PRESSURE: "pressure_angle='30 deg'", CURVATURE: "radius_of_curvature='5 mm'"}
+
+
+def _unit_contact(cycle: Cycle, follower: Follower, turning: float) -> SlidingRoller | SlidingFace:
+    """The contact of a follower 1 m above the cam's centre."""
+    if not isinstance(follower, TranslatingRoller | TranslatingFlat):
+        raise InputError("follower: the least base circle of all laws is known of rollers and flat faces on slides")
+    motion = as_motion(cycle, follower.axis)
+    contact = follower.contact(Place(1.0, *motion.range, motion.slopes, turning))
+    assert isinstance(contact, SlidingRoller | SlidingFace)  # noqa: S101 - these followers have them
+    return replace(contact, height=1.0)
+
+
+def _with_solutions(cycle: Cycle) -> Solved:
+    """The pieces of a cycle, each with its solution where it is optimal."""
+    if not cycle.solutions:
+        raise InputError("cycle: none of its laws is looked for: leave the law of a move out, or give law='optimal'")
+    if OBJECTIVES[cycle.minimise][0] < 0:
+        raise InputError(f"cycle: minimise a peak or a root mean square of the motion, not the {cycle.minimise}")
+    known = {id(one.law): one for one in cycle.solutions}
+    return [(piece, known.get(id(piece.law))) for piece in cycle.pieces]
+
+
+def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool) -> Solved:
+    """The pieces with laws that keep lines below the limits, or above them."""
+    found: Solved = []
+    for piece, solution in _with_solutions(cycle):
+        if solution is None:
+            found.append((piece, None))
+            continue
+        best = _best(piece, solution.problem, cam.contact, limits, cycle.duration, below=below)
+        for _ in range(_ROUNDS if below and isinstance(cam.contact, SwingingRoller) else 0):
+            guide, last = replace(piece, law=best.law), best.objective
+            best = _best(guide, solution.problem, cam.contact, limits, cycle.duration, below=True)
+            if best.objective > last * (1.0 - _GAIN):
+                break
+        found.append((replace(piece, law=best.law), best))
+    return found
+
+
+def _best(
+    guide: Piece, problem: Problem, contact: Contact, limits: dict[str, float], period: float, *, below: bool
+) -> Solution:
+    """The best law between lines, which touch the limits where a guiding law is."""
+    windows = [wall.window() for wall in walls_of(guide, contact, limits, period, below=below)]
+    try:
+        return synthesize(_problem(problem, windows, ()))
+    except InfeasibleProblem as error:
+        where = f"from {guide.start:.6g} s on"
+        remedy = "make the base circle larger, the limits wider, or the motion longer"
+        if below and isinstance(contact, SwingingRoller):
+            raise SolverFailure(f"no law was found {where} that keeps the limits of the cam: {remedy}") from None
+        raise InfeasibleProblem(
+            f"no law {where} keeps the limits of the cam: {remedy}. {error.args[0]}",
+            problem=error.problem,
+            tried=error.tried,
+            proof=error.proof,
+        ) from None
+
+
+def _problem(problem: Problem, windows: Sequence[Window], wanted: Sequence[Functional]) -> Problem:
+    """A problem with the limits of a cam, whose law stays between its ends, or with an objective of its cam."""
+    minimise: Any = problem.minimise
+    if wanted:
+        minimise = maximum(*wanted) if len(wanted) > 1 else wanted[0]
+    inside = Window("a", 0.0, 1.0)
+    return replace(problem, symmetric=False, minimise=minimise, windows=(*problem.windows, *windows, inside))
+
+
+def _kept(cam: DiscCam, limits: dict[str, float]) -> bool:
+    """Whether limits are proven to be kept."""
+    found = cam.extremes
+    return (PRESSURE not in limits or tan(found.greatest_pressure_angle.high) <= limits[PRESSURE]) and (
+        CURVATURE not in limits or found.bulging_radius.low >= limits[CURVATURE]
+    )
+
+
+def _check_kept(cam: DiscCam, limits: dict[str, float]) -> None:
+    """Refuse laws that break a limit which is not convex in them."""
+    found = cam.extremes
+    if PRESSURE in limits and tan(found.greatest_pressure_angle.low) > limits[PRESSURE] * (1.0 + _KEPT):
+        raise SolverFailure(
+            f"the best laws have a pressure angle of {np.degrees(found.greatest_pressure_angle.value):.6g} deg"
+        )
+    if CURVATURE in limits and found.bulging_radius.high < limits[CURVATURE] * (1.0 - _KEPT):
+        raise SolverFailure(
+            f"the best laws under the other limits have a radius of curvature of {shown(found.bulging_radius.value)},"
+            " and under this follower its limit is not convex in the law: make the base circle larger or drop the limit"
+        )
+
+
+def _objective(cycle: Cycle, solved: Solved) -> float:
+    nu, mean = OBJECTIVES[cycle.minimise]
+    if mean:
+        return sqrt(sum(piece.duration * piece.mean_square(nu) for piece, _ in solved) / cycle.duration)
+    return max(abs(piece.stroke) / piece.duration**nu * piece.law.peak(nu).value for piece, _ in solved)
+
+
+def _bound(cycle: Cycle, solved: Solved) -> float:
+    nu, mean = OBJECTIVES[cycle.minimise]
+    sizes = [
+        (piece.duration, abs(piece.stroke) / piece.duration**nu * _least(piece, solution, nu, mean=mean))
+        for piece, solution in solved
+    ]
+    if mean:
+        return sqrt(sum(time * size**2 for time, size in sizes) / cycle.duration)
+    return max(size for _, size in sizes)
+
+
+def _least(piece: Piece, solution: Solution | None, nu: int, *, mean: bool) -> float:
+    """What the constant of a piece's law is at least; what it is where the law is given."""
+    if solution is not None:
+        return solution.lower_bound
+    if piece.stroke == 0.0:
+        return 0.0
+    return piece.law.rms(nu) if mean else piece.law.peak(nu).value

@@ -1,0 +1,133 @@
+"""Laws that are best for their cam: their limits, bounds from elsewhere, and what has no law."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+from scipy.optimize import linprog
+
+from optlaws.cams.best_laws import best_base_circle, best_cam
+from optlaws.cams.followers.oscillating_flat import OscillatingFlat
+from optlaws.cams.followers.oscillating_roller import OscillatingRoller, SwingingRoller
+from optlaws.cams.followers.translating_flat import TranslatingFlat
+from optlaws.cams.followers.translating_roller import TranslatingRoller
+from optlaws.cams.law_lines import walls_of
+from optlaws.cams.least_sizes import PRESSURE
+from optlaws.cycles.asked.conversion import Piece
+from optlaws.cycles.asked.segments import Dwell, Return, Rise
+from optlaws.cycles.cycle import Cycle
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.laws import smoothstep
+from optlaws.synthesis.solution import Status
+
+PRESS = Cycle([Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()], period="0.3 s")
+VALVE = Cycle([Rise("10 mm", "70 deg"), Return("10 mm", "70 deg"), Dwell()], speed="3000 rpm")
+ROCKER = Cycle([Rise("25 deg", "110 deg"), Dwell("60 deg"), Return("25 deg", "130 deg"), Dwell()], speed="120 rpm")
+ARM = OscillatingRoller("14 mm", "110 mm", "140 mm")
+
+
+def test_a_limit_of_the_pressure_angle_is_reached_and_proven_optimal() -> None:
+    best = best_cam(PRESS, "50 mm", TranslatingRoller("12 mm"), pressure_angle="25 deg")
+    assert best.status is Status.OPTIMAL
+    assert best.lower_bound == pytest.approx(best.objective, rel=1e-8)
+    assert best.objective > PRESS.objective * 1.05
+    assert np.degrees(best.cam.extremes.greatest_pressure_angle.value) == pytest.approx(25.0, abs=1e-6)
+    wide = best_cam(PRESS, "50 mm", TranslatingRoller("12 mm"), pressure_angle="60 deg")
+    assert wide.objective == pytest.approx(PRESS.objective, rel=1e-9)
+
+
+def test_least_acceleration_under_a_pressure_angle_is_that_of_a_linear_program_on_places() -> None:
+    """Polynomials of the same degree at 160 places: an independent program that can only be better, and hardly is."""
+    best = best_cam(PRESS, "50 mm", TranslatingRoller("12 mm"), pressure_angle="25 deg")
+    stroke, angle, limit = 0.035, np.radians(100.0), np.tan(np.radians(25.0))
+    terms, k = 16, 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 161))
+    cheb = [np.polynomial.Chebyshev.basis(n, domain=[0.0, 1.0]) for n in range(terms)]
+    a, b, c = (np.array([one.deriv(nu)(k) if nu else one(k) for one in cheb]).T for nu in range(3))
+    ones, zeros = np.ones((len(k), 1)), np.zeros((len(k), 1))
+    upper = np.vstack([
+        np.hstack([c, -ones]), np.hstack([-c, -ones]),
+        np.hstack([stroke * b / angle + limit * stroke * a, zeros]),
+        np.hstack([-stroke * b / angle + limit * stroke * a, zeros]),
+        np.hstack([a, zeros]), np.hstack([-a, zeros]),
+    ])  # fmt: skip
+    most = np.concatenate([np.zeros(2 * len(k)), np.full(2 * len(k), limit * 0.085), np.ones(len(k)), np.zeros(len(k))])
+    rows = [[one.deriv(nu)(x) if nu else one(x) for one in cheb] for nu in range(3) for x in (0.0, 1.0)]
+    ends = np.hstack([np.array(rows), np.zeros((6, 1))])
+    found = linprog(np.eye(terms + 1)[-1], upper, most, ends, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0], bounds=(None, None))
+    assert found.fun is not None
+    sized = found.fun * stroke / (0.3 * 100.0 / 360.0) ** 2
+    assert sized <= best.objective * (1 + 1e-7)
+    assert best.objective == pytest.approx(sized, rel=2e-2)
+
+
+def test_the_least_base_circle_of_all_laws_meets_its_bound() -> None:
+    roller = TranslatingRoller("12 mm", "6 mm")
+    best = best_base_circle(PRESS, roller, pressure_angle="30 deg")
+    assert best.least.proven
+    assert best.lower_bound <= best.least.radius
+    assert best.least.radius == pytest.approx(best.lower_bound, rel=1e-7)
+    assert best.least.radius < 0.6 * 0.0586  # that of the law of least acceleration
+    with pytest.raises(InfeasibleProblem, match="make the base circle larger") as refused:
+        best_cam(PRESS, f"{0.999 * best.least.radius!r} m", roller, pressure_angle="30 deg")
+    assert refused.value.proof is not None
+
+
+def test_a_flat_face_keeps_its_radius_by_a_law_made_for_it() -> None:
+    best = best_base_circle(VALVE, TranslatingFlat(), radius_of_curvature="3 mm")
+    assert best.least.radius == pytest.approx(best.lower_bound, rel=1e-7)
+    cam = best_cam(VALVE, "20 mm", TranslatingFlat(), radius_of_curvature="3 mm")
+    assert cam.status is Status.OPTIMAL
+    assert cam.cam.extremes.bulging_radius.value == pytest.approx(0.003, rel=1e-6)
+
+
+def test_an_arm_with_a_wide_limit_has_the_laws_without_it() -> None:
+    best = best_cam(ROCKER, "65 mm", ARM, pressure_angle="50 deg")
+    assert best.status is Status.OPTIMAL
+    assert best.objective == pytest.approx(ROCKER.objective, rel=1e-9)
+
+
+@pytest.mark.long
+def test_an_arm_has_laws_and_a_bound_near_them() -> None:
+    best = best_cam(ROCKER, "65 mm", ARM, pressure_angle="26 deg")
+    assert best.lower_bound <= best.objective <= 1.002 * best.lower_bound
+    assert np.degrees(best.cam.extremes.greatest_pressure_angle.high) <= 26.0 + 1e-6
+    with pytest.raises(SolverFailure, match=r"no law was found .* make the base circle larger"):
+        best_cam(ROCKER, "65 mm", ARM, pressure_angle="10 deg")
+
+
+def test_curvature_under_a_roller_is_held_against_the_laws() -> None:
+    sharp = Cycle([Rise("30 mm", "70 deg"), Return("30 mm", "70 deg"), Dwell()], period="1 s")
+    with pytest.raises(SolverFailure, match=r"its limit is not convex in the law: make the base circle larger"):
+        best_cam(sharp, "25 mm", TranslatingRoller("8 mm"), radius_of_curvature="20 mm")
+    kept = best_cam(PRESS, "60 mm", TranslatingRoller("8 mm"), radius_of_curvature="8 mm")
+    assert kept.objective == pytest.approx(PRESS.objective, rel=1e-9)
+
+
+def test_what_has_no_best_law_says_the_remedy() -> None:
+    given = Cycle([Rise("35 mm", "120 deg", law="cycloidal"), Return(law="cycloidal")], period="1 s")
+    with pytest.raises(InputError, match="leave the law of a move out"):
+        best_cam(given, "50 mm", TranslatingRoller("12 mm"), pressure_angle="30 deg")
+    with pytest.raises(InputError, match="pressure_angle='30 deg'"):
+        best_cam(PRESS, "50 mm", TranslatingRoller("12 mm"))
+    with pytest.raises(InputError, match=r"takes one limit: radius_of_curvature='5 mm'"):
+        best_base_circle(VALVE, TranslatingFlat(), pressure_angle="30 deg")
+    with pytest.raises(InputError, match="flat faces on slides"):
+        best_base_circle(ROCKER, OscillatingFlat("150 mm"), radius_of_curvature="3 mm")
+
+
+@pytest.mark.parametrize("share", [0.4, 0.9, 1.6])
+@pytest.mark.parametrize("sign", [1.0, -1.0])
+def test_lines_lie_where_an_arm_keeps_its_limit_or_breaks_it(share: float, sign: float) -> None:
+    contact = SwingingRoller(1.0, 0.0, 0.5, 0.11, 0.14, 0.014)
+    piece = Piece(0.0, 0.3, 0.0, 0.4, smoothstep(3))
+    angle, a = 2 * np.pi * 0.3, np.linspace(0.0, 1.0, 301)
+    psi = 0.5 + 0.4 * a
+    allowed = contact.distance / contact.arm * (share * np.sin(psi) + sign * np.cos(psi)) - sign
+    for below in (True, False):
+        walls = walls_of(piece, contact, {PRESSURE: share}, 1.0, below=below)
+        seen = [one for one in walls if one.factors[1] * sign > 0]
+        # the greatest sign s' that each line allows at a place
+        lines = np.array([(one.most - one.factors[0] * a) / abs(one.factors[1]) for one in seen]) * 0.4 / angle
+        most = lines.min(axis=0)
+        assert ((most <= allowed + 1e-12) if below else (most >= allowed - 1e-12)).all()
+        assert np.abs(lines - allowed).min(axis=1).max() < 1e-3
