@@ -20,6 +20,8 @@ _load, __dir__, __all__ = face(
         "optlaws.cycles.asked.segments": "ConstantVelocity Dwell Free Move Return Rise",
         "optlaws.cycles.machine_follower": "MachineFollower machine_follower",
         "optlaws.errors": "InfeasibleProblem InputError NotNormalised OptlawsError SolverFailure",
+        "optlaws.exports.pieces.best_breaks": "best_breaks",
+        "optlaws.exports.polynomials": "PiecewiseMotion",
         "optlaws.laws.catalogue.catalogue": "catalogue",
         "optlaws.laws.constants": "Constants",
         "optlaws.laws.law": "MotionLaw",

@@ -28,6 +28,8 @@ from optlaws.errors import InputError as InputError
 from optlaws.errors import NotNormalised as NotNormalised
 from optlaws.errors import OptlawsError as OptlawsError
 from optlaws.errors import SolverFailure as SolverFailure
+from optlaws.exports.pieces.best_breaks import best_breaks as best_breaks
+from optlaws.exports.polynomials import PiecewiseMotion as PiecewiseMotion
 from optlaws.laws.catalogue.catalogue import catalogue as catalogue
 from optlaws.laws.constants import Constants as Constants
 from optlaws.laws.law import MotionLaw as MotionLaw
@@ -187,6 +189,7 @@ __all__ = [
     "PeriodicPieces",
     "Pieces",
     "PiecewiseLaw",
+    "PiecewiseMotion",
     "PolynomialLaw",
     "PowerCertificate",
     "Powers",
@@ -213,6 +216,7 @@ __all__ = [
     "at_most",
     "balanced_law",
     "best_base_circle",
+    "best_breaks",
     "best_cam",
     "between",
     "cam_constant",
