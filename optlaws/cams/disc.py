@@ -118,7 +118,20 @@ class DiscCam:
         """
         return self.pitch_curve.offset(positive(cutter_radius, "cutter_radius") - self.contact.roller)
 
-    def export(self, file: str | Path, as_: str | None = None, **asked: Any) -> Path:  # noqa: ANN401 - of the file
+    def export(
+        self,
+        file: str | Path,
+        as_: str | None = None,
+        *,
+        curve: str | None = None,
+        cutter_radius: str | None = None,
+        tolerance: str | None = None,
+        decimals: int | None = None,
+        points: int | None = None,
+        degree: int | None = None,
+        feed: str | None = None,
+        about: str | None = None,
+    ) -> Path:
         """Write the profile, the pitch curve or the path of a cutter to a file, whole or not at all; return its path.
 
         Parameters
@@ -127,16 +140,38 @@ class DiscCam:
             Where; its ending (.dxf, .svg, .csv, .nc) says the format unless `as_` does.
         as_
             "dxf spline", "dxf polyline", "dxf arcs", "svg", "csv", "csv polar", "g-code" or "g-code arcs".
-        asked
-            `curve` ("profile", "pitch" or "cutter") with `cutter_radius`, and of the file: tolerance, decimals, points,
-            degree, feed, about.
+        curve, cutter_radius
+            "profile", "pitch", or "cutter" with the cutter's radius, such as "10 mm"; the profile unless given.
+        tolerance
+            How far chords and arcs may be off, "1 um" unless given.
+        decimals
+            Of a millimetre, 6 unless given.
+        points
+            Of splines and tables, 721 unless given.
+        degree
+            Of splines, 3 or 5; 3 unless given.
+        feed
+            Of a tool, such as "200 mm/min"; left to the machine unless given.
+        about
+            What the file says of itself.
 
         Raises
         ------
         InputError
             If an entry is unknown or out of its range, the motion is no whole turn, or the file cannot be written.
         """
-        written: Path = exported("cam", self, file, as_, **asked)
+        asked = {
+            "curve": curve,
+            "cutter_radius": cutter_radius,
+            "tolerance": tolerance,
+            "decimals": decimals,
+            "points": points,
+            "degree": degree,
+            "feed": feed,
+            "about": about,
+        }
+        given = {name: value for name, value in asked.items() if value is not None}
+        written: Path = exported("cam", self, file, as_, **given)
         return written
 
     def pressure_angle(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, arrays for arrays
