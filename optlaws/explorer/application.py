@@ -18,9 +18,10 @@ from starlette.routing import Route
 from optlaws import catalogue
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
-from optlaws.explorer.answers import cycle_view, front_view, handed, law_view, nearest, residual_view, saved
+from optlaws.explorer.answers import cam_view, cycle_view, front_view, handed, law_view, nearest, residual_view, saved
 from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, read, ready
 from optlaws.explorer.guard import Guard
+from optlaws.jobs.cam import wishes
 from optlaws.jobs.cycle.entries import Study
 
 #: no question of the page is longer
@@ -36,6 +37,7 @@ QUESTIONS: dict[str, tuple[type[msgspec.Struct], Answer]] = {
     "laws": (AskedLaws, law_view.answer),
     "front": (front_view.AskedFront, front_view.answer),
     "nearest": (AskedLaw, nearest.answer),
+    "cam": (cam_view.AskedCam, cam_view.answer),
     "cycle": (cycle_view.AskedCycle, cycle_view.answer),
     "cycle-nearest": (cycle_view.AskedCycle, cycle_view.nearest),
     "export": (handed.AskedExport, handed.answer),
@@ -50,11 +52,16 @@ def application(start: dict[str, Any]) -> Starlette:
     Examples
     --------
     >>> sorted(route.path for route in application({}).routes)[:3]
-    ['/', '/api/cycle', '/api/cycle-nearest']
+    ['/', '/api/cam', '/api/cycle']
     """
-    known = {"names": [*catalogue, *_MEMBERS], "cycle": cycle_view.example(), "formats": handed.formats()}
+    known = {
+        "names": [*catalogue, *_MEMBERS],
+        "cycle": cycle_view.example(),
+        "cam": cam_view.example(),
+        "formats": handed.formats(),
+    }
     first = msgspec.json.encode({"state": start, **known})
-    ready(*(kind for kind, _ in QUESTIONS.values()), Study)
+    ready(*(kind for kind, _ in QUESTIONS.values()), Study, wishes.Study)
     routes = [
         Route("/api/start", lambda _: _json(first)),
         *(Route(f"/api/{name}", _asking(*one), methods=["POST"]) for name, one in QUESTIONS.items()),

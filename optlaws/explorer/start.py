@@ -52,12 +52,13 @@ def _of_law_file(file: Path) -> dict[str, Any]:
 
 def _of_problem_file(file: Path) -> dict[str, Any]:
     data = reading.toml(file)
-    if data.get("job") == "cycle":
-        return {"view": "cycle", "cycle": data}
+    job = data.get("job")
+    if job in ("cycle", "cam"):
+        return {"view": job, job: data}
     entries = data.get("problem")
     if not isinstance(entries, dict):
         raise InputError(
-            f"{file} has neither a [problem] nor job = 'cycle': the explorer shows problems, cycles and laws"
+            f"{file} has neither a [problem] nor job = 'cycle' or 'cam': the explorer shows these and laws"
         )
     swept: Any = data.get("sweep")
     first = {name: values[0] for one in swept for name, values in one.items()} if _is_sweep(swept) else {}

@@ -3,15 +3,18 @@
 import json
 import tomllib
 from dataclasses import replace
+from math import degrees, hypot
 from pathlib import Path
 from typing import Any
 
 import pytest
 
 from optlaws import Problem, Range, Solution, at_most, between, synthesize
+from optlaws.cams.cutting import formats
 from optlaws.errors import InputError
-from optlaws.explorer.answers import cycle_view, front_view, law_view, nearest, saved
+from optlaws.explorer.answers import cam_view, cycle_view, front_view, law_view, nearest, saved
 from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, given_law, law_of, problem_of, solved
+from optlaws.explorer.answers.cam_view import AskedCam
 from optlaws.explorer.answers.cycle_view import AskedCycle, example
 from optlaws.explorer.answers.saved import AskedFile
 from optlaws.explorer.start import start
@@ -197,6 +200,51 @@ def test_toml_has_no_other_values() -> None:
         to_toml({"a": Range(1.0, 2.0)})
     assert to_toml({"a": None, "b": 1}) == "b = 1\n"
     assert between(1.0, 2.0) == Range(1.0, 2.0)
+
+
+# --- cams ---
+
+
+@pytest.mark.parametrize("file", ["cam_press", "cam_rocker", "cam_flat_face"])
+def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
+    study = start(str(ROOT / "problems" / f"{file}.toml"))["cam"]
+    view = cam_view.answer(AskedCam(study=study))
+    _, cam = cam_view.cam_of(AskedCam(study=study))
+    frames, roller = view["frames"], view["follower"]["roller"]
+    for centre, contact in zip(frames["centre"], frames["contact"], strict=True):
+        assert hypot(centre[0] - contact[0], centre[1] - contact[1]) == pytest.approx(roller or 0.0, abs=1e-3)
+    pivot, arm = view["follower"]["pivot"], study["follower"].get("arm")
+    if arm is not None:
+        lengths = [hypot(x - pivot, y) for x, y in frames["centre"]]
+        assert lengths == pytest.approx([float(arm.split()[0])] * len(lengths), abs=1e-3)
+    elif pivot is None and roller is not None:
+        offset = float(study["follower"].get("offset", "0 mm").split()[0])
+        assert [x for x, _ in frames["centre"]] == pytest.approx([offset] * 361, abs=1e-3)
+    worst = degrees(cam.extremes.greatest_pressure_angle.value)
+    assert abs(view["panels"][1]["peaks"][0]["value"]) == pytest.approx(worst)
+    assert max(abs(one) for one in view["panels"][1]["values"]) <= worst + 1e-6
+
+
+def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:
+    study = cam_view.example()
+    large = study["follower"] | {"radius": "59 mm"}
+    small = cam_view.answer(AskedCam(study=study | {"follower": large}))
+    assert small["trust"]["word"] == "undercut"
+    assert "base circle larger" in small["trust"]["advice"]
+    assert not small["panels"][1]["beyond"]
+    assert cam_view.answer(AskedCam(study=study | {"base_radius": "50 mm"}))["panels"][1]["beyond"]
+    for changed in ({"base_radius": "18 kg"}, {"follower": {"kind": "translating roller"}}, {"base": "18 mm"}):
+        assert cam_view.answer(AskedCam(study=study | changed))["refused"]["word"] == "no such cam"
+
+
+@pytest.mark.parametrize("name", sorted(formats.FORMATS))
+def test_a_cam_is_saved_in_every_format(name: str) -> None:
+    asked = AskedFile(kind="cut", view="cam", laws=[law(OPTIMAL)], cam=AskedCam(study=cam_view.example()), format=name)
+    made = saved.answer(asked)
+    assert len(made["text"]) > 1000
+    assert made["name"].startswith("cam.")
+    asked.kind = "problem"
+    assert tomllib.loads(saved.answer(asked)["text"]) == cam_view.example()
 
 
 # --- cycles ---

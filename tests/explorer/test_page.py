@@ -256,3 +256,29 @@ def test_an_export_says_what_the_controller_will_run(page: Page, served: Server)
     assert "stroke" in page.locator(".report").inner_text()
     assert page.locator(".report table").count() == 0
     page.wait_for_url("**machine=**")
+
+
+def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Server) -> None:
+    go(page, f"http://{served.host}/")
+    page.get_by_role("tab", name="Cam").click()
+    settle(page)
+    assert "no undercut" in page.locator("#cam-trust").inner_text()
+    assert page.locator("#cam-curves svg").count() == 3
+    lowest = float(page.locator(".roller").get_attribute("cy") or "nan")
+    page.get_by_label("Angle of the cam, degrees").fill("165")
+    assert float(page.locator(".roller").get_attribute("cy") or "nan") == pytest.approx(lowest + 35.0, abs=1e-3)
+    page.get_by_role("button", name="Play").click()
+    page.wait_for_timeout(150)
+    page.get_by_role("button", name="Pause").click()
+    assert float(page.get_by_label("Angle of the cam, degrees").input_value()) > 165
+    page.get_by_label("radius", exact=True).fill("59 mm")
+    settle(page)
+    assert "undercut at" in page.locator("#cam-trust").inner_text().lower()
+    page.get_by_label("base radius").fill("18 kg")
+    settle(page)
+    assert "base_radius" in page.locator("#cam-trust").inner_text()
+    assert page.locator("#cam-drawing svg, #cam-curves .line").count() == 0
+    page.get_by_label("base radius").fill("60 mm")
+    page.get_by_label("kind of follower").select_option("oscillating roller")
+    settle(page)
+    assert page.locator(".arm").count() == 1

@@ -65,12 +65,27 @@ def read(asked: AskedCycle) -> tuple[Study, Axis]:
 
     spec = convert(asked.study, Study, _WHERE)
     axis = spec.axis[min(asked.axis, len(spec.axis) - 1)]
+    check_axis(axis)
+    return spec, axis
+
+
+def check_axis(axis: Axis) -> None:
+    """Refuse what is larger than the explorer takes, and laws that are named by files.
+
+    Raises
+    ------
+    InputError
+        If one is.
+
+    Examples
+    --------
+    >>> check_axis(Axis(name="slide", segment=[], degree=9))
+    """
     if axis.order > MOST_ORDER or axis.degree > MOST_DEGREE:
         raise InputError(f"the explorer takes cycles of order up to {MOST_ORDER} and degree up to {MOST_DEGREE}")
     for one in axis.segment:
         if one.law is not None and reading.is_file(one.law):
             raise InputError(f"law: {one.law} names a file, and the page reads none: take a law of the catalogue")
-    return spec, axis
 
 
 def cycle(asked: AskedCycle) -> Cycle:
@@ -98,7 +113,7 @@ def _made(question: bytes) -> Cycle:
 
 def _view(shown: Cycle) -> dict[str, Any]:
     return {
-        "period": f"{digits(1e3 * shown.duration)} ms",
+        "across": f"master, deg ({digits(1e3 * shown.duration)} ms a turn)",
         "panels": [_panel(shown, nu) for nu in range(4)],
         "segments": list(_segments(shown)),
         "trust": _trust(shown),

@@ -12,8 +12,10 @@ import msgspec
 
 import optlaws
 from optlaws import Cycle, Problem, Solution
+from optlaws.cams.cutting import formats
+from optlaws.cams.cutting.wanted import Cutting
 from optlaws.errors import InputError
-from optlaws.explorer.answers import cycle_view
+from optlaws.explorer.answers import cam_view, cycle_view
 from optlaws.explorer.answers.asked import MOST_LAWS, AskedLaw, law_of, problem_of, solved
 from optlaws.explorer.answers.law_view import title
 from optlaws.files.toml_text import to_toml
@@ -21,6 +23,7 @@ from optlaws.files.writing import MARK
 from optlaws.jobs.cycle.cycle import table_of_motion
 from optlaws.jobs.cycle.entries import AskedFollower, cycle_of
 from optlaws.laws.values import table_of_values
+from optlaws.suggest import unknown_key
 
 _NAMES = "abcd"
 _ROWS = 361
@@ -33,11 +36,13 @@ File = dict[str, str]
 class AskedFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A file of what is seen."""
 
-    kind: Literal["python", "problem", "law", "table"]
-    view: Literal["laws", "cycle"] = "laws"
+    kind: Literal["python", "problem", "law", "table", "cut"]
+    view: Literal["laws", "cycle", "cam"] = "laws"
     laws: Annotated[list[AskedLaw], msgspec.Meta(min_length=1, max_length=MOST_LAWS)]
     active: Annotated[int, msgspec.Meta(ge=0, lt=MOST_LAWS)] = 0
     cycle: cycle_view.AskedCycle | None = None
+    cam: cam_view.AskedCam | None = None
+    format: Annotated[str, msgspec.Meta(max_length=40)] = "dxf spline"
 
 
 def answer(asked: AskedFile) -> File:
@@ -57,6 +62,8 @@ def answer(asked: AskedFile) -> File:
     """
     if asked.view == "cycle":
         return _of_cycle(asked)
+    if asked.view == "cam":
+        return _of_cam(asked)
     law = asked.laws[min(asked.active, len(asked.laws) - 1)]
     makers: Mapping[str, Callable[[], File]] = {
         "python": lambda: _file("study.py", "text/x-python", python(asked.laws)),
@@ -64,6 +71,8 @@ def answer(asked: AskedFile) -> File:
         "law": lambda: _file(f"{_stem(law)}.json", "application/json", stored(law)),
         "table": lambda: _file(f"{_stem(law)}.csv", "text/csv", table_of_values(law_of(law), _title(law))),
     }
+    if asked.kind not in makers:
+        raise InputError("a law is cut by no tool: make a cam of it")
     return makers[asked.kind]()
 
 
@@ -207,6 +216,20 @@ def _of_cycle(asked: AskedFile) -> File:
         free = msgspec.structs.replace(axis, follower=None)
         return _file("cycle.py", "text/x-python", cycle_python(cycle_of(free, spec.speed, spec.period), axis.follower))
     raise InputError("a cycle has several laws: save it as a problem file or a table")
+
+
+def _of_cam(asked: AskedFile) -> File:
+    if asked.cam is None:
+        raise InputError("there is no cam to save")
+    spec, cam = cam_view.cam_of(asked.cam)
+    if asked.kind == "problem":
+        return _file("cam.toml", "application/toml", to_toml(asked.cam.study))
+    if asked.kind != "cut":
+        raise InputError("a cam is saved as a problem file or as a file that cuts it")
+    if asked.format not in formats.FORMATS:
+        raise InputError(f"format: {unknown_key(asked.format, formats.FORMATS, 'format')}")
+    ending = next(end for end, name in formats.ENDINGS.items() if name.split()[0] == asked.format.split()[0])
+    return _file(f"cam{ending}", "text/plain", formats.text(cam.profile, asked.format, Cutting(about=spec.title)))
 
 
 def cycle_python(cycle: Cycle, follower: AskedFollower | None = None) -> str:

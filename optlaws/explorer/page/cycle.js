@@ -20,13 +20,13 @@ export class CycleView {
 
   constructor(study, failed) {
     this.#study = study;
-    this.#programme = new Programme(element("programme"), study);
+    this.#programme = new Programme(element("programme"), study, (state) => state.cycle);
     this.#cycles = new Latest("api/cycle", (answer, question) => this.#answered(answer, question), failed);
     this.#nearest = new Latest("api/cycle-nearest", ({ ways }) => this.#render(this.#answer, ways), failed);
   }
 
   show(state) {
-    this.#programme.show(state.cycle, state.axis);
+    this.#programme.show(state);
     this.#cycles.ask({ study: state.cycle, axis: state.axis });
   }
 

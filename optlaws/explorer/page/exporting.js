@@ -67,7 +67,8 @@ export class Exporting {
   }
 
   #ask(state) {
-    const { view, laws, active, cycle, axis } = state;
+    const { laws, active, cycle, axis } = state;
+    const view = state.view === "cycle" ? "cycle" : "laws";
     const { takes } = this.#formats.find(({ name }) => name === (state.machine?.format ?? MACHINE.format)) ?? { takes: [] };
     const machine = Object.fromEntries(Object.entries({ ...MACHINE, ...state.machine }).filter(([name]) => !(name in NUMBERS) || takes.includes(name)));
     this.#asked.ask({ ...machine, view, laws, active, cycle: cycle ? { study: cycle, axis } : null });

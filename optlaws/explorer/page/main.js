@@ -1,5 +1,6 @@
 // The page: state in, views out.
 
+import { CamView } from "./cam.js";
 import { CycleView } from "./cycle.js";
 import { Exporting } from "./exporting.js";
 import { tabs } from "./fields.js";
@@ -8,7 +9,7 @@ import { FIRST, Study, read } from "./state.js";
 import { restore } from "./theme.js";
 import { Tools } from "./tools.js";
 
-const VIEWS = { laws: "Laws", cycle: "Cycle" };
+const VIEWS = { laws: "Laws", cycle: "Cycle", cam: "Cam" };
 
 restore();
 
@@ -33,13 +34,14 @@ function painted() {
 }
 
 async function begin() {
-  const { state, names, cycle, formats } = await (await fetch("api/start")).json();
+  const { state, names, cycle, cam, formats } = await (await fetch("api/start")).json();
   const first = location.hash.length > 1 ? read(location.hash) : { ...structuredClone(FIRST), ...state };
   const views = {};
+  const examples = { cycle, cam };
   const study = new Study(first, render);
   const choose = tabs(document.getElementById("views"), VIEWS, (key) => study.change("view", (next) => {
     next.view = key;
-    if (key === "cycle") next.cycle ??= structuredClone(cycle);
+    if (key in examples) next[key] ??= structuredClone(examples[key]);
   }));
   const exporting = new Exporting(study, formats);
   const tools = new Tools(document.getElementById("tools"), study, notice, exporting);
@@ -56,7 +58,8 @@ async function begin() {
 
   views.laws = new Laws(study, names, failed, painted);
   views.cycle = new CycleView(study, failed);
-  if (first.view === "cycle") first.cycle ??= structuredClone(cycle);
+  views.cam = new CamView(study, failed);
+  if (first.view in examples) first[first.view] ??= structuredClone(examples[first.view]);
   addEventListener("hashchange", () => study.replace(read(location.hash)));
   for (const kind of ["input", "pointermove", "keydown"]) addEventListener(kind, () => performance.mark("input"), { capture: true, passive: true });
   render(first);

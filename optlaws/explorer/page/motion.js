@@ -47,14 +47,15 @@ export class Motion {
     const y = scale([low < 0 ? low - room : low, high + room], [box.bottom, box.top]);
     const drawing = svg("svg", { class: "curve", width, height: height + (last ? FOOT : 0), role: "img", "aria-label": told(panel) });
     const xs = [0, 45, 90, 135, 180, 225, 270, 315, 360];
-    drawing.append(frame(box, x, y, { xs, ys: ticks(low, high, 4), xlabels: last, xname: last ? `master, deg (${this.#shown.period} a turn)` : "" }));
+    drawing.append(frame(box, x, y, { xs, ys: ticks(low, high, 4), xlabels: last, xname: last ? this.#shown.across : "" }));
     drawing.append(svg("text", { class: "title", x: box.left, y: 13, text: `${panel.name}, ${panel.unit}` }));
     const places = panel.at.map((at, i) => (panel.values[i] === null ? null : [x(at), y(panel.values[i])]));
     const zones = this.#zones(panel, x, y, box);
-    const clip = svg("clipPath", { id: `beyond-${number}` }, ...zones.map((zone) => zone.cloneNode()));
+    const name = `beyond-${this.#root.id}-${number}`;
+    const clip = svg("clipPath", { id: name }, ...zones.map((zone) => zone.cloneNode()));
     drawing.append(clip, ...zones, ...this.#joints(x, box, number === 0));
     drawing.append(svg("path", { class: "line law-0 active", d: path(places) }));
-    if (number && this.#shown.segments.some(({ peaks }) => peaks[number - 1].beyond)) drawing.append(svg("path", { class: "beyond", d: path(places), "clip-path": `url(#beyond-${number})` }));
+    if (zones.length && (panel.beyond ?? this.#shown.segments.some(({ peaks }) => peaks[number - 1]?.beyond))) drawing.append(svg("path", { class: "beyond", d: path(places), "clip-path": `url(#${name})` }));
     for (const peak of panel.peaks) drawing.append(peakOf(peak, x, y, box));
     return drawing;
   }

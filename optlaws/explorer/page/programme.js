@@ -12,25 +12,33 @@ const PLACEHOLDERS = { by: "35 mm", to: "0 mm", velocity: "300 mm/s", duration: 
 export class Programme {
   #root;
   #study;
+  #held;
   #shape = "";
   #shows = [];
 
-  constructor(root, study) {
+  /** `held(state)` is what holds speed and period; its axes, or its motion, hold the segments. */
+  constructor(root, study, held) {
     this.#root = root;
     this.#study = study;
+    this.#held = held;
   }
 
-  show(cycle, index) {
-    const axis = cycle.axis?.[index] ?? cycle.axis?.[0];
+  show(state) {
+    const cycle = this.#held(state);
+    const index = state.axis;
+    const axis = axisOf(cycle, index);
     if (!axis) return;
-    const shape = JSON.stringify([index, cycle.axis.map((one) => one.name), (axis.segment ?? []).map((one) => one.kind), "period" in cycle]);
+    const shape = JSON.stringify([index, cycle.axis?.map((one) => one.name), (axis.segment ?? []).map((one) => one.kind), "period" in cycle]);
     if (shape !== this.#shape) this.#build(cycle, axis, index);
     this.#shape = shape;
     for (const show of this.#shows) show(cycle, axis);
   }
 
   #change(what, alter) {
-    this.#study.change(what, (state) => alter(state.cycle.axis[state.axis] ?? state.cycle.axis[0], state.cycle, state));
+    this.#study.change(what, (state) => {
+      const cycle = this.#held(state);
+      alter(axisOf(cycle, state.axis), cycle, state);
+    });
   }
 
   #build(cycle, axis, index) {
@@ -45,7 +53,7 @@ export class Programme {
       this.#text("timing value", timing, "200 rpm", (_axis, study) => study[timing], (_axis, study, value) => (study[timing] = value)),
       this.#select("minimise", "least", Object.fromEntries(OBJECTIVES.map((one) => [one, one])), (one) => one.minimise ?? "acceleration", (one, _study, value) => (one.minimise = value)),
     ];
-    if (cycle.axis.length > 1) head.unshift(this.#select("axis", "axis", Object.fromEntries(cycle.axis.map((one, i) => [i, one.name])), () => String(index), (_axis, _study, value, state) => (state.axis = Number(value))));
+    if (cycle.axis?.length > 1) head.unshift(this.#select("axis", "axis", Object.fromEntries(cycle.axis.map((one, i) => [i, one.name])), () => String(index), (_axis, _study, value, state) => (state.axis = Number(value))));
     const limits = Object.entries(LIMITS).map(([name, usual]) => this.#text(`limit ${name}`, name, `none, or ${usual}`, (one) => one.limits?.[name], (one, _study, value) => {
       one.limits = { ...one.limits, [name]: value };
       if (!value) delete one.limits[name];
@@ -93,3 +101,5 @@ export class Programme {
 }
 
 const listed = (value) => (Array.isArray(value) ? value.join(" to ") : value);
+
+const axisOf = (cycle, index) => cycle.motion ?? cycle.axis?.[index] ?? cycle.axis?.[0];

@@ -11,21 +11,29 @@ const CYCLE = [
   { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cycle" },
   { kind: "table", text: "Table of values (CSV)", about: "Angle, time, position, velocity, acceleration and jerk" },
 ];
+const CUT = ["dxf spline", "dxf polyline", "dxf arcs", "svg", "csv", "csv polar", "g-code", "g-code arcs"];
+const CAM = [
+  { kind: "problem", text: "Problem file (TOML)", about: "For optlaws cam" },
+  ...CUT.map((format) => ({ kind: "cut", format, text: `Profile (${format})`, about: "The cam's edge, within 1 µm" })),
+];
+const VIEWS = { laws: LAWS, cycle: CYCLE, cam: CAM };
+const DRAWINGS = { laws: "#curves svg", cycle: "#motion svg", cam: "#cam-curves svg" };
 const PICTURE = { kind: "picture", text: "Picture (SVG)", about: "The curves as they are seen" };
 const DRAWN = ["fill", "stroke", "stroke-width", "stroke-dasharray", "stroke-linejoin", "opacity", "font-family", "font-size", "font-weight"];
 
 export function savings(state) {
-  return [...(state.view === "cycle" ? CYCLE : LAWS), PICTURE];
+  return [...(VIEWS[state.view] ?? LAWS), PICTURE];
 }
 
-export async function save(kind, state) {
+export async function save(kind, state, format) {
   if (kind === "picture") return download("optlaws.svg", "image/svg+xml", picture(state));
   const { view, laws, active } = state;
   const cycle = state.cycle ? { study: state.cycle, axis: state.axis } : null;
+  const cam = state.cam ? { study: state.cam } : null;
   const response = await fetch("api/save", {
     method: "POST",
     headers: { "Content-Type": "application/json" },
-    body: JSON.stringify({ kind, view, laws, active, cycle }),
+    body: JSON.stringify({ kind, view, laws, active, cycle, cam, ...(format && { format }) }),
   });
   const answer = await response.json();
   if (answer.error) throw new Error(answer.error);
@@ -43,7 +51,7 @@ export function download(name, type, text) {
 
 /** The drawings of the view, one below the other, with what the style sheet says of them written into them. */
 function picture(state) {
-  const drawings = [...document.querySelectorAll(state.view === "cycle" ? "#motion svg" : "#curves svg")];
+  const drawings = [...document.querySelectorAll(DRAWINGS[state.view] ?? DRAWINGS.laws)];
   const whole = document.createElementNS("http://www.w3.org/2000/svg", "svg");
   let height = 0;
   for (const drawing of drawings) {

@@ -46,7 +46,7 @@ export function read(fragment) {
   if (!Number.isInteger(state.active) || state.active < 0 || state.active >= state.laws.length) state.active = 0;
   for (const name of ["nu", "damping", "axis"]) if (typeof state[name] !== "number") state[name] = FIRST[name];
   for (const name of ["view", "picture"]) if (typeof state[name] !== "string") state[name] = FIRST[name];
-  for (const name of ["cycle", "machine"]) if (typeof state[name] !== "object") delete state[name];
+  for (const name of ["cycle", "cam", "machine"]) if (typeof state[name] !== "object") delete state[name];
   return state;
 }
 

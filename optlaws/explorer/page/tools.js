@@ -44,11 +44,11 @@ function menu(study, notice) {
   const details = html("details", { class: "menu" }, html("summary", { text: "Save" }), list);
   details.addEventListener("toggle", () => {
     if (!details.open) return;
-    const items = savings(study.state).map(({ kind, text, about }) => html("button", {
+    const items = savings(study.state).map(({ kind, text, about, format }) => html("button", {
       type: "button", role: "menuitem", title: about, text, "data-kind": kind,
       onclick: () => {
         details.open = false;
-        save(kind, study.state).catch((error) => notice(error.message));
+        save(kind, study.state, format).catch((error) => notice(error.message));
       },
     }));
     list.replaceChildren(...items);
