@@ -147,20 +147,21 @@ def _chunks(problems: Iterable[Problem]) -> Iterator[ProblemArray]:
     """The problems, few at first and then many at a time."""
     if isinstance(problems, ProblemArray):
         begin = 0
-        for size in _sizes():
+        for size in _sizes(_CHUNKS[1:]):
             if begin >= problems.size:
                 return
             yield problems.taken(np.arange(begin, min(begin + size, problems.size)))
             begin += size
     waiting = iter(problems)
-    for size in _sizes():
+    # what is there already need not be waited for
+    for size in _sizes(_CHUNKS[1:] if isinstance(problems, Sequence) else _CHUNKS):
         some = list(islice(waiting, size))
         if not some:
             return
         yield ProblemArray.of(some)
 
 
-def _sizes() -> Iterator[int]:
-    yield from _CHUNKS
+def _sizes(chunks: tuple[int, ...]) -> Iterator[int]:
+    yield from chunks
     while True:
-        yield _CHUNKS[-1]
+        yield chunks[-1]

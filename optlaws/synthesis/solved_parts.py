@@ -117,9 +117,9 @@ class Part:
             "iterations": 0,
             "seconds": seconds,
             "starts": () if problem.convex else (objective,),
-            "active_set": self.found.active_set(row),
         }
         later: dict[str, Callable[[Solution], Any]] = {
+            "active_set": lambda _: self.found.active_set(row),
             "law": lambda one: model.law(one.active_set.x),
             "z_series": lambda one: tuple(model.space.z_series(model.coordinates(one.active_set.x)).tolist()),
             "certificate": proof,

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -105,7 +106,7 @@ class ProblemArray:
     @property
     def size(self) -> int:
         """The number of problems."""
-        return int(np.prod(self._shape))
+        return prod(self._shape)
 
     @property
     def entries(self) -> dict[str, Any]:
