@@ -5,7 +5,8 @@ changed by one vectorised call for each B. Every time counts all: the walk from 
 their verification and their bounds; nothing is kept from one run to the next.
 """
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from importlib import import_module
 from statistics import median
 from time import process_time
@@ -16,7 +17,16 @@ from numpy.typing import NDArray
 from rich.console import Console
 from rich.table import Table
 
-from optlaws import Chebyshev, Problem, ProblemArray, SolutionArray, synthesize_array
+from optlaws import (
+    Chebyshev,
+    Problem,
+    ProblemArray,
+    SolutionArray,
+    pareto_front,
+    proven_front,
+    synthesize_array,
+    synthesize_many,
+)
 from tests.bench.plain import POINTS, Rows
 
 Array = NDArray[np.float64]
@@ -27,6 +37,8 @@ ENDS = (1.42, 2.6)
 AIMS = {4_000: (50_000, 40_000, 18_000, 8_000), 40_000: (150_000, 100_000, 60_000, 25_000)}
 #: of the rival's time a law, for 4,000 laws
 SHARES = (1 / 8, 1 / 8, 1 / 5, 1 / 4)
+#: laws of least D a second, solutions a second of ready problems, and seconds of a front of 1,000 points; degree 9
+POWERS, SOLUTIONS, FRONT = 1_000, 15_000, 0.3
 REPEATS = 3
 RIVALS = 200
 
@@ -39,9 +51,9 @@ class Run:
     laws: SolutionArray
 
 
-def run(degree: int, count: int) -> Run:
+def run(degree: int, count: int, minimise: str = "C") -> Run:
     """The median of some runs over as many B."""
-    problems = ProblemArray(B=np.linspace(*ENDS, count), order=4, basis=Chebyshev(degree))
+    problems = ProblemArray(B=np.linspace(*ENDS, count), order=4, basis=Chebyshev(degree), minimise=minimise)
     times = []
     for _ in range(REPEATS):
         began = process_time()
@@ -98,6 +110,34 @@ def rival(degree: int) -> float:
     return (process_time() - began) / RIVALS
 
 
+def seconds(work: Callable[[], object]) -> float:
+    """The median of some runs, of the processor's time."""
+    times = []
+    for _ in range(REPEATS):
+        began = process_time()
+        work()
+        times.append(process_time() - began)
+    return median(times)
+
+
+def others(console: Console) -> None:
+    """What else is solved in arrays: least power, root mean squares, solutions one by one, fronts."""
+    table = Table("degree 9", "laws", "measured", "aim", title="other uses of arrays, one process")
+    for minimise, aim in (("D", f"{POWERS:,}/s"), ("rms_c", ""), ("J", "")):
+        found = run(9, 4_000, minimise)
+        table.add_row(f"least {minimise}", "4,000", f"{4_000 / found.seconds:,.0f}/s", aim)
+    problem = Problem(order=4, basis=Chebyshev(9))
+    ready = [replace(problem, B=B) for B in np.linspace(*ENDS, 4_000).tolist()]
+    many = seconds(lambda: [one.objective for one in synthesize_many(ready)])
+    table.add_row("synthesize_many", "4,000", f"{4_000 / many:,.0f}/s", f"{SOLUTIONS:,}/s")
+    table.add_row(
+        "pareto_front", "1,000", f"{seconds(lambda: pareto_front(problem, points=1_000)):.2f} s", f"{FRONT} s"
+    )
+    proven = seconds(lambda: proven_front(problem, between=ENDS))
+    table.add_row("proven_front to 1e-9", str(len(proven_front(problem, between=ENDS))), f"{proven:.2f} s", "")
+    console.print(table)
+
+
 def main(degrees: tuple[int, ...] = DEGREES) -> None:
     """Measure once and print."""
     headings = ("degree of Z", *(f"{count:,} laws" for count in AIMS), "alone", "us a law", "HiGHS us", "ratio")
@@ -122,7 +162,9 @@ def main(degrees: tuple[int, ...] = DEGREES) -> None:
             f"{share:.3f}{'' if share <= SHARES[place] else '*'}",
         ]
         table.add_row(str(degree), *cells)
-    Console(width=120).print(table)
+    console = Console(width=120)
+    console.print(table)
+    others(console)
 
 
 if __name__ == "__main__":

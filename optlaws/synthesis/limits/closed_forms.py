@@ -14,7 +14,13 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.numbers import MOST_ORDER, MOST_VELOCITY, real, whole
-from optlaws.synthesis.limits.rounding import not_above, root_rounded_down, rounded_down
+from optlaws.synthesis.limits.rounding import (
+    not_above,
+    ratio_rounded_down,
+    root_ratio_rounded_down,
+    root_rounded_down,
+    rounded_down,
+)
 
 CONSTANTS = ("C", "D", "J", "RMS")
 
@@ -47,12 +53,15 @@ def acceleration_limit(B: float, *, monotone: bool = False, order: int = 2) -> f
     9.0
     """
     peak_velocity(B)
-    b = Fraction(B)
+    b, unit = float(B).as_integer_ratio()
     if whole(order, "order", least=1, most=MOST_ORDER) == 1:
-        return rounded_down(b * b if monotone and B > 2.0 else 4 * (b - 1))
+        return ratio_rounded_down(*((b * b, unit * unit) if monotone and B > 2.0 else (4 * (b - unit), unit)))
     if B <= 2.0:
-        return rounded_down(b * b / (b - 1))
-    return rounded_down(b * b) if monotone else root_rounded_down(2 * (b - 2), Fraction(2), (b - 2) ** 2 + b * b)
+        return ratio_rounded_down(b * b, unit * (b - unit))
+    if monotone:
+        return ratio_rounded_down(b * b, unit * unit)
+    beyond = b - 2 * unit
+    return root_ratio_rounded_down(2 * beyond, 4 * (beyond * beyond + b * b), unit)
 
 
 def power_limit(B: float, *, monotone: bool = False) -> float:

@@ -30,6 +30,10 @@ def known_limit(problem: Problem) -> float | None:
     """
     if problem.boundary is not None:
         return None
+    (weight, term), *others = problem.objective.terms
+    if weight == 1.0 and not others:
+        part = _of_term(problem, term)
+        return None if part is None else rounded_down(part)
     total = _of_sum(problem, problem.objective)
     return None if total is None else rounded_down(total)
 
