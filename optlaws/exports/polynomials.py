@@ -23,7 +23,7 @@ Array = NDArray[np.float64]
 Motion = Callable[[Array, int], Array]
 
 _NODES = 10
-_RESOLVED, _SHARE = 2.0**-46, 1e-10
+_RESOLVED, _SHARE = 2.0**-42, 1e-10  # laws of high degree know their own accelerations to no more
 _CUTS = 30
 _REACH = 1e-3
 _STEPS = 3

@@ -24,6 +24,8 @@ _NEAR = 12
 _EACH = 64
 _AS_GOOD = 1e-3
 _DIGITS = 12
+_BETWEEN = 0.4  # share of a step; halfway, symmetric curves cross
+_OFF = 1e-4  # of the stroke: a run may be so far from the law for the sake of its peak
 
 
 class Tabled(Protocol):
@@ -36,6 +38,10 @@ class Tabled(Protocol):
     @property
     def powers(self) -> Array:
         """Ascending powers, a row for each piece."""
+
+    @property
+    def resolution(self) -> float:
+        """Step of positions."""
 
 
 Made = TypeVar("Made", bound=Tabled)
@@ -117,8 +123,9 @@ def chosen(motion: Motion, request: Request, make: Callable[[int], Made], least:
 def best(motion: Motion, make: Callable[[int], Made], least: int, most: int) -> Made:
     """What is made with the number of points whose run is best, tried up to 64 one by one, then over the range.
 
-    The best run has the least peak of the acceleration (where straight lines leap in velocity, the least leap); what is
-    below the law's own peak is no gain. Among numbers as good to a thousandth those count whose acceleration leaps
+    Runs count that are within 1e-4 of the stroke of the law, or within the resolution, or as near as any. The best of
+    them has the least peak of the acceleration (where straight lines leap in velocity, the least leap); what is below
+    the law's own peak is no gain. Among numbers as good to a thousandth those count whose acceleration leaps
     least further than the law's, at points and at the ends, to a thousandth of the peak, and of these the least.
     """
     judge, tried = Judge.of(motion), dict[int, tuple[Rank, Made]]()
@@ -126,56 +133,77 @@ def best(motion: Motion, make: Callable[[int], Made], least: int, most: int) -> 
     def attempt(counts: set[int]) -> None:
         for count in sorted(counts - tried.keys()):
             made = make(count)
-            tried[count] = (judge.rank(made.x, made.powers), made)
+            tried[count] = (judge.rank(made), made)
 
     rough = least * _RATIO ** np.arange(1 + int(np.log(most / least) / np.log(_RATIO)))
     attempt({*range(least, min(most, _EACH) + 1), *(int(one) for one in rough), most})
     top = min(tried, key=lambda count: tried[count][0])
     near = np.linspace(max(least, top / _RATIO), min(most, top * _RATIO), 2 * _NEAR + 1)
     attempt({int(one) for one in near})
-    lowest = min(rank.peak for rank, _ in tried.values())
-    as_good = {count: rank.leap for count, (rank, _) in tried.items() if rank.peak <= lowest * (1.0 + _AS_GOOD)}
-    smoothest = min(as_good.values())
-    return tried[min(count for count, leap in as_good.items() if leap <= smoothest + _AS_GOOD)][1]
+    return tried[_fewest({count: rank for count, (rank, _) in tried.items()})][1]
 
 
 class Rank(NamedTuple):
-    """How good a run is: its peak over the law's, at least 1, and what it leaps further, over the law's peak."""
+    """How good a run is, all at least what the law itself has.
 
+    How far it is off, over what it may be; its peak over the law's; what it leaps further, over the law's peak.
+    """
+
+    off: float
     peak: float
     leap: float
 
 
+def _fewest(ranks: dict[int, Rank]) -> int:
+    """The least number of points of those that are as good as any, one criterion after the other."""
+    nearest = min(rank.off for rank in ranks.values()) * (1.0 + _AS_GOOD)
+    near = {count: rank for count, rank in ranks.items() if rank.off <= nearest}
+    lowest = min(rank.peak for rank in near.values()) * (1.0 + _AS_GOOD)
+    low = {count: rank.leap for count, rank in near.items() if rank.peak <= lowest}
+    smoothest = min(low.values()) + _AS_GOOD
+    return min(count for count, leap in low.items() if leap <= smoothest)
+
+
 @dataclass(frozen=True)
 class Judge:
-    """What runs are held against: the law's peaks of velocity and acceleration, and its leaps of the latter."""
+    """What runs are held against: the motion, its peaks of velocity and acceleration, and its leaps of the latter."""
 
+    motion: Motion
     velocity: float
     acceleration: float
     leap: float
     leap_at_ends: float
-    repeats: bool
 
     @classmethod
     def of(cls, motion: Motion) -> Judge:
         """The judge of runs of a motion."""
         first, last = motion.ends(2)
         ends = abs(last - first) if motion.repeats else max(abs(first), abs(last))
-        return cls(motion.peak(1), motion.peak(2), motion.leap(2)[0], ends, motion.repeats)
+        return cls(motion, motion.peak(1), motion.peak(2), motion.leap(2)[0], ends)
 
-    def rank(self, x: Array, powers: Array) -> Rank:
+    def rank(self, made: Tabled) -> Rank:
         """How good polynomials are."""
+        x, powers, off = made.x, made.powers, self._off(made)
         steps = np.diff(x)
         if self.acceleration in {0.0, inf} or powers.shape[1] == 2:
             first, last = _ends(powers, steps, 1)
-            edges = np.array([first[0] - last[-1]] if self.repeats else [first[0], last[-1]])
+            edges = np.array([first[0] - last[-1]] if self.motion.repeats else [first[0], last[-1]])
             leaps = np.abs(np.concatenate([first[1:] - last[:-1], edges]))
-            return Rank(1.0 + float(leaps.max()) / self.velocity, 0.0)
+            return Rank(off, 1.0 + float(leaps.max()) / self.velocity, 0.0)
         first, last = _ends(powers, steps, 2)
-        ends = abs(last[-1] - first[0]) if self.repeats else max(abs(first[0]), abs(last[-1]))
+        ends = abs(last[-1] - first[0]) if self.motion.repeats else max(abs(first[0]), abs(last[-1]))
         leap = float(np.abs(first[1:] - last[:-1]).max(initial=0.0))
         beyond = max(leap - self.leap, 0.0) + max(float(ends) - self.leap_at_ends, 0.0)
-        return Rank(max(_peak(powers, steps, first, last) / self.acceleration, 1.0), beyond / self.acceleration)
+        peak = max(_peak(powers, steps, first, last) / self.acceleration, 1.0)
+        return Rank(off, peak, beyond / self.acceleration)
+
+    def _off(self, made: Tabled) -> float:
+        """How far the polynomials are from the motion between points, where they are about farthest."""
+        after = _BETWEEN * np.diff(made.x)
+        run = (made.powers * after[:, None] ** np.arange(made.powers.shape[1])).sum(axis=1)
+        places = np.clip(made.x[:-1] + after, self.motion.start, self.motion.stop)
+        apart = float(np.abs(run - self.motion(places)).max())
+        return max(apart / max(_OFF * self.motion.stroke, made.resolution), 1.0)
 
 
 def _ends(powers: Array, steps: Array, nu: int) -> tuple[Array, Array]:

@@ -3,7 +3,7 @@
 from functools import cache
 from typing import Any
 
-from optlaws import Chebyshev, Cycle, Dwell, MotionLaw, Problem, Return, Rise, synthesize
+from optlaws import Chebyshev, ConstantVelocity, Cycle, Dwell, MotionLaw, Problem, Return, Rise, synthesize
 from optlaws.exports.motion import Motion, motion_of_cycle, motion_of_law
 
 SAID: dict[str, Any] = {"stroke": "35 mm", "master": "120 deg", "time": "0.1 s"}
@@ -34,3 +34,15 @@ def press(law: str = "modified sine") -> Cycle:
 def repeating() -> Motion:
     """The cycle as a motion."""
     return motion_of_cycle(press())
+
+
+@cache
+def turning() -> Cycle:
+    """A table that goes on by 45 deg."""
+    return Cycle([Rise("45 deg", "400 ms", law="cycloidal"), Dwell("1600 ms")], period="2 s", advance="45 deg")
+
+
+@cache
+def shearing() -> Cycle:
+    """A shear that runs with its web and returns, whose end meets its start but for rounding."""
+    return Cycle([ConstantVelocity("1.5 m/s", "80 ms"), Return()], period="400 ms", degree=15)

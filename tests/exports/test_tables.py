@@ -2,6 +2,7 @@
 
 import json
 import re
+from collections.abc import Callable
 from dataclasses import replace
 from math import isinf
 
@@ -9,7 +10,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws import InputError, PolynomialLaw, catalogue, reversed_law, smoothstep
+from optlaws import Cycle, InputError, PolynomialLaw, catalogue, reversed_law, smoothstep
 from optlaws.cycles.asked.conversion import Piece
 from optlaws.exports.export import Export, export_motion
 from optlaws.exports.format import FORMATS
@@ -18,7 +19,7 @@ from optlaws.exports.motion import Motion, Units, motion_of_cycle, motion_of_law
 from optlaws.exports.tables.rockwell import profile_motion, profile_rows
 from optlaws.exports.tables.table import Held, splined
 from tests.exports import readers
-from tests.exports.samples import SAID, one_shot, optimal, press, repeating
+from tests.exports.samples import SAID, one_shot, optimal, press, repeating, shearing, turning
 
 Array = NDArray[np.float64]
 
@@ -247,3 +248,12 @@ def test_decimal_commas() -> None:
     for name, reader in (("sew", readers.sew), ("lenze", readers.lenze), ("kas", readers.kas)):
         _, y = reader(export_motion(one_shot(), name, points=31, decimal=",", digits=6).text, ",")
         np.testing.assert_allclose(y, columns[1], atol=1.1e-6)
+
+
+@pytest.mark.parametrize(("name", "made"), [("twincat-table", press), ("isg", turning), ("twincat-table", shearing)])
+def test_the_best_run_of_a_cycle_is_the_motion(name: str, made: Callable[[], Cycle]) -> None:
+    """A spline of five points would have a low peak, and three symmetric lines cross the law halfway."""
+    best = made().export(name)
+    assert best.report.deviation[0].value <= 1.6e-4 * best.motion.stroke
+    assert best.points > 50
+    assert name == "isg" or best.report.ratio(2) == pytest.approx(1.0, abs=5e-3)

@@ -88,7 +88,9 @@ class Table:
         return PiecewiseMotion(self.x, self.powers)
 
 
-def positions(motion: Motion, count: int, held: Held, *, even: bool = False) -> tuple[Array, Array]:
+def positions(
+    motion: Motion, count: int, held: Held, *, even: bool = False, lines: bool = False
+) -> tuple[Array, Array]:
     """x and y of so many points as they are held.
 
     Raises
@@ -96,7 +98,7 @@ def positions(motion: Motion, count: int, held: Held, *, even: bool = False) -> 
     InputError
         If points are the same as they are held.
     """
-    exact = np.linspace(motion.start, motion.stop, count) if even else places(motion, count)
+    exact = np.linspace(motion.start, motion.stop, count) if even else places(motion, count, straight=lines)
     x = held.numbers(exact)
     if (np.diff(x) <= 0.0).any():
         raise InputError(
@@ -107,16 +109,21 @@ def positions(motion: Motion, count: int, held: Held, *, even: bool = False) -> 
 
 
 def splined(motion: Motion, count: int, held: Held, *, ends: Ends = "clamped", even: bool = False) -> Table:
-    """Positions through which the controller lays the cubic spline; clamped to the velocities of the motion's ends."""
+    """Positions through which the controller lays the cubic spline; clamped to the velocities of the motion's ends.
+
+    A periodic one ends exactly where it begins, as the motion does but for rounding.
+    """
     x, y = positions(motion, count, held, even=even)
     slopes = held.numbers(np.array(motion.ends(1)))
+    if ends == "periodic":
+        y[-1] = y[0]
     powers = spline_powers(x, y, ends, (float(slopes[0]), float(slopes[1])))
     return Table(x, y[None], powers, held.resolution(motion), rounding_bound(motion, x, y, slopes))
 
 
 def straight(motion: Motion, count: int, held: Held, *, even: bool = False) -> Table:
     """Positions between which the controller goes straight."""
-    x, y = positions(motion, count, held, even=even)
+    x, y = positions(motion, count, held, even=even, lines=True)
     return Table(x, y[None], linear_powers(x, y), held.resolution(motion), 0.0)
 
 
@@ -128,7 +135,7 @@ def osculated(motion: Motion, count: int, held: Held, orders: int) -> Table:
     InputError
         If a derivative is infinite at a point.
     """
-    exact = places(motion, count, straight=orders > 2)
+    exact = places(motion, count, straight=True)
     values = _without_rounding(np.array([motion(exact, nu) for nu in range(orders)]))
     if not np.isfinite(values).all():
         raise InputError(
