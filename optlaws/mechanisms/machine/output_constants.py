@@ -17,9 +17,17 @@ from optlaws.laws import MotionLaw
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import Panel
 from optlaws.mechanisms.machine.output_curve import OutputCurve
-from optlaws.mechanisms.machine.over_time import BRIEF, MachineCycle, MachineResponse, around, steady
+from optlaws.mechanisms.machine.over_time import (
+    BRIEF,
+    MachineCycle,
+    MachineResponse,
+    RepeatedMotion,
+    around,
+    jumps,
+    steady,
+)
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.mechanisms.machine.texts import check_rest, machine_of, text_of
+from optlaws.mechanisms.machine.texts import check_repeats, check_rest, machine_of, text_of
 from optlaws.numbers import numbers
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily
 from optlaws.synthesis.problem.constants import MAKERS, Functional
@@ -32,6 +40,8 @@ _RADIANS = 40.0  # of the fastest vibration on one piece of the rows
 _LATEST = 100.0
 _SAMPLES = 4001
 _MOST_GAIN = 1e6
+_RANK = 1e-12
+_NEGLIGIBLE = 2.0**-54
 _ROOM = 1.01  # for what the sum over samples misses of an integral
 
 
@@ -47,15 +57,21 @@ class OutputConstant(Functional):
         The first and the last time that count, in durations of the rise; the law rests from 1 on.
     cycle
         The dwell and the rest of a cycle of rise, dwell, return and rest; None for one rise.
+    steady
+        Whether the law is itself a whole cycle that repeats; its duration is then the unit of time.
     """
 
     machine: StateSpace = field(compare=False)
     output: str = field(compare=False)
     within: tuple[float, float]
     cycle: tuple[float, float] | None
+    steady: bool = False
 
     def curve(self, law: MotionLaw) -> OutputCurve:
         """The output under a law, over all that counts and what is before it."""
+        if self.steady:
+            check_repeats(self.name, self.machine, float(law.a(1.0)) - float(law.a(0.0)))
+            return RepeatedMotion(self.machine, tuple(drives.of_law(law)), tuple(jumps(law)))[self.output]
         if self.cycle is not None:
             return MachineCycle(self.machine, law, law, self.cycle[0], 1.0, self.cycle[1])[self.output]
         return MachineResponse(self.machine, law, max(0.0, self.within[1] - 1.0))[self.output]
@@ -71,7 +87,8 @@ class OutputConstant(Functional):
 
     def curbs(self) -> tuple[tuple[int, float], ...]:
         """The derivative that enters the output directly is the response of the inverse machine to it."""
-        return self._curbs if self.cycle is None and self.within[0] == 0.0 and self.within[1] >= 1.0 else ()
+        alone = self.cycle is None and not self.steady
+        return self._curbs if alone and self.within[0] == 0.0 and self.within[1] >= 1.0 else ()
 
     @kept_property
     def _curbs(self) -> tuple[tuple[int, float], ...]:
@@ -79,9 +96,16 @@ class OutputConstant(Functional):
         # of a part [0, 1] of the time, whose mean is at most so much more
         return ((order, gain * self.duration),) if gain < _MOST_GAIN else ()
 
+    def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:
+        """Of a law that repeats: its acceleration is bounded by the output, for it determines the law in the space."""
+        return steady_sizes(self, space) if self.steady else super().sizes(space)
+
     def panels(self, space: LawSpace) -> list[tuple[float, float, Array]]:
         """Start, length and series of the output on short stretches, a column for each function of a space."""
-        check_rest(self.name, space)
+        if self.steady:
+            check_repeats(self.name, self.machine, space.stroke)
+        else:
+            check_rest(self.name, space)
         if self.machine.output_rows(self.output)[1][2] and getattr(space, "continuity", 2) < 1:
             raise InputError(f"{self.output!r} is beyond every bound where the velocity jumps: ask a continuity of 1")
         states, direct = self.machine.output_rows(self.output)
@@ -89,6 +113,8 @@ class OutputConstant(Functional):
 
     def _moved(self, space: LawSpace) -> list[Panel]:
         rise = drives.of_space(space)
+        if self.steady:
+            return steady(self.machine, rise, _RADIANS)
         low, high = rise[0].ends[0][0], rise[-1].ends[1][0]
         if self.cycle is not None:
             dwell, rest = self.cycle
@@ -98,6 +124,18 @@ class OutputConstant(Functional):
             rise.append(drives.rest(1.0, self.within[1] - 1.0, high))
         initial = self.machine.settled(low)
         return self.machine.dynamics.moved(rise, initial, radians=_RADIANS)[0]
+
+    def rows_of_output(self, space: LawSpace) -> Array:
+        """A column for each function of a space: the RMS of the output is the norm of their sum."""
+        panels = self.panels(space)
+        total = sum(length for _, length, _ in panels)
+        rows = []
+        for _, length, series in panels:
+            x, weights = legendre.leggauss(len(series))
+            values = np.polynomial.chebyshev.chebvander(x, len(series) - 1) @ series
+            rows.append(np.sqrt(0.5 * weights * length / total)[:, None] * values)
+        # a norm is that of the triangle alone
+        return np.ascontiguousarray(np.linalg.qr(np.vstack(rows), mode="r"))
 
     def _kept(self, space: LawSpace, make: Callable[[], Array]) -> Array:
         return space.cached((type(self).__name__, self.name), make)
@@ -135,7 +173,7 @@ class OutputPeak(OutputConstant):
     def unit(self, space: LawSpace) -> float:
         """The size of the rows: what the base law's output is, nearly."""
         rows = self._kept(space, lambda: self._rows(space))
-        return float(np.abs(rows[:, 1:, -1]).max()) or 1.0
+        return float(np.abs(rows[:, 1:, -1]).max()) or float(np.abs(rows[:, 1:]).max()) or 1.0
 
     def _jumps(self, space: LawSpace) -> bool:
         """Whether the output jumps where the acceleration does: at breaks, or where the motion ends."""
@@ -150,7 +188,14 @@ class OutputPeak(OutputConstant):
         for i, (start, _, series) in enumerate(panels):
             found[i, 0] = start
             found[i, 1 : 1 + len(series)] = series * np.where(np.arange(len(series)) % 2, -1.0, 1.0)[:, None]
-        return found
+        return np.ascontiguousarray(found[:, : 1 + _terms(found[:, 1:])])
+
+
+def _terms(series: Array) -> int:
+    """How many coefficients count: short panels have more than are needed, and places are looked for by them all."""
+    sizes = np.abs(series).max(axis=0)
+    kept = np.flatnonzero((sizes > _NEGLIGIBLE * sizes.max(axis=0)).any(axis=1))
+    return int(kept[-1]) + 1 if len(kept) else 1
 
 
 @dataclass(frozen=True, repr=False)
@@ -163,21 +208,10 @@ class OutputRms(OutputConstant):
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """A norm of the coordinates."""
-        matrix = self._kept(space, lambda: self._matrix(space))
-        unit = float(np.linalg.norm(matrix[:, -1])) or 1.0
+        matrix = self._kept(space, lambda: self.rows_of_output(space))
+        unit = float(np.linalg.norm(matrix[:, -1])) or float(np.linalg.norm(matrix, axis=0).max()) or 1.0
         wide = space.widened(matrix, len(slack)) / unit
         return (NormFamily(self.name, slack / unit, bound / unit, matrix=wide),)
-
-    def _matrix(self, space: LawSpace) -> Array:
-        panels = self.panels(space)
-        total = sum(length for _, length, _ in panels)
-        rows = []
-        for _, length, series in panels:
-            x, weights = legendre.leggauss(len(series))
-            values = np.polynomial.chebyshev.chebvander(x, len(series) - 1) @ series
-            rows.append(np.sqrt(0.5 * weights * length / total)[:, None] * values)
-        # a norm is that of the triangle alone
-        return np.ascontiguousarray(np.linalg.qr(np.vstack(rows), mode="r"))
 
 
 def inverse_gain(machine: StateSpace, output: str) -> tuple[int, float]:
@@ -224,12 +258,37 @@ def _impulse(matrix: Array, entry: Array, row: Array) -> float:
     return total if np.isfinite(total) else inf
 
 
+def steady_sizes(constant: OutputConstant, space: LawSpace) -> tuple[tuple[int, float, float], ...]:
+    """What the RMS of c is at most in laws of a space with such an output: by the least singular value of the way back.
+
+    Nothing where the output does not determine the law.
+    """
+    rows = constant.rows_of_output(space)
+    rule = space.quadrature(2)
+    bent = np.sqrt(rule.weights)[:, None] * rule.values
+    asked = space.equations()
+    matrix = np.array([one.row for one in asked]).reshape(-1, space.terms)
+    right = np.array([one.right for one in asked])
+    kept = np.append(np.linalg.lstsq(matrix, right, rcond=None)[0], 1.0)
+    _, sizes, turn = np.linalg.svd(matrix)
+    free = turn[int((sizes > _RANK * sizes.max(initial=1.0)).sum()) :].T
+    way = np.linalg.qr(bent[:, :-1] @ free, mode="r")
+    if np.linalg.matrix_rank(way) < way.shape[1]:
+        return ()
+    least = float(np.linalg.svd(rows[:, :-1] @ free @ np.linalg.inv(way), compute_uv=False)[-1])
+    if least * _MOST_GAIN < float(np.linalg.norm(rows)) / max(float(np.linalg.norm(bent)), 1.0):
+        return ()
+    factor = _ROOM / least
+    return ((2, factor, _ROOM * float(np.linalg.norm(bent @ kept)) + factor * float(np.linalg.norm(rows @ kept))),)
+
+
 def output_peak(
     *,
     of: str | StateSpace,
     within: tuple[float, float] = (0.0, 1.0),
     cycle: tuple[float, float] | None = None,
     output: str | None = None,
+    steady: bool = False,
 ) -> OutputPeak:
     """The greatest magnitude of an output of a machine.
 
@@ -243,6 +302,8 @@ def output_peak(
         The dwell and the rest of a cycle that repeats; then the whole of it counts.
     output
         Which output; the first one unless given.
+    steady
+        Whether the law is itself a whole cycle that repeats, such as one of `PeriodicPieces`.
 
     Raises
     ------
@@ -257,8 +318,18 @@ def output_peak(
     (10.254029, 1.620669)
     """
     machine, name, times, pauses, said = _asked(of, within, cycle, output)
+    said += _steady(steady, times, pauses)
     text = f"output_peak({', '.join(said)})"
-    return OutputPeak(text, nan, convex=True, machine=machine, output=name, within=times, cycle=pauses)
+    return OutputPeak(text, nan, convex=True, machine=machine, output=name, within=times, cycle=pauses, steady=steady)
+
+
+def _steady(steady: object, times: tuple[float, float], pauses: tuple[float, float] | None) -> list[str]:
+    """How a text says that the law repeats."""
+    if not isinstance(steady, bool):
+        raise InputError(f"steady must be True or False, got {shortened(steady)}")
+    if steady and (pauses is not None or times != (0.0, 1.0)):
+        raise InputError("steady is of a law that is a whole cycle: leave within, dwell and cycle out")
+    return ["steady=True"] if steady else []
 
 
 def output_rms(
@@ -267,6 +338,7 @@ def output_rms(
     dwell: float = 0.0,
     cycle: tuple[float, float] | None = None,
     output: str | None = None,
+    steady: bool = False,
 ) -> OutputRms:
     """The root mean square of an output of a machine, over the rise and a dwell after it, or over a cycle.
 
@@ -280,6 +352,8 @@ def output_rms(
         The dwell and the rest of a cycle that repeats; then the whole of it counts.
     output
         Which output; the first one unless given.
+    steady
+        Whether the law is itself a whole cycle that repeats.
 
     Raises
     ------
@@ -296,8 +370,9 @@ def output_rms(
     machine, name, times, pauses, said = _asked(of, (0.0, 1.0 + _time(dwell, "dwell")), cycle, output)
     said = [one for one in said if not one.startswith("within")]
     said += [f"dwell={float(dwell)!r}"] if dwell and cycle is None else []
+    said += _steady(steady, times, pauses)
     text = f"output_rms({', '.join(said)})"
-    return OutputRms(text, nan, convex=True, machine=machine, output=name, within=times, cycle=pauses)
+    return OutputRms(text, nan, convex=True, machine=machine, output=name, within=times, cycle=pauses, steady=steady)
 
 
 def _asked(

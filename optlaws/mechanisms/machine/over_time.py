@@ -224,6 +224,43 @@ class MachineCycle(MachineMotion):
         return f"MachineCycle({self.machine!r}, period={self.period:g})"
 
 
+@dataclass(frozen=True, eq=False, repr=False)
+class RepeatedMotion(MachineMotion):
+    """The steady outputs of a machine under a motion that repeats, whatever it is made of; made by a whole cycle.
+
+    Attributes
+    ----------
+    drives
+        The motion, stretch after stretch, in the machine's unit of time.
+    jumps
+        Where its velocity jumps inside of a stretch, and by how much.
+
+    Examples
+    --------
+    >>> from optlaws import Machine, smoothstep
+    >>> mass = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
+    >>> there, back = drives.of_law(smoothstep(4)), drives.of_law(smoothstep(4), 1.0, 1.0, 1.0, -1.0)
+    >>> found, own = RepeatedMotion(mass, (*there, *back), ()), mass.cycle(smoothstep(4), dwell=0, rest=0)
+    >>> bool(abs(found.peak("position").value - own.peak("position").value) < 1e-12)
+    True
+    """
+
+    drives: tuple[Drive, ...]
+    jumps: tuple[tuple[float, float], ...]
+
+    @kept_property
+    def _panels(self) -> list[Panel]:
+        return steady(self.machine, self.drives)
+
+    @property
+    def _velocity_jumps(self) -> list[tuple[float, float]]:
+        return list(self.jumps)
+
+    def __repr__(self) -> str:
+        last = self.drives[-1]
+        return f"RepeatedMotion({self.machine!r}, period={last.start + last.length - self.drives[0].start:g})"
+
+
 def around(
     rise: Sequence[Drive], fall: Sequence[Drive], levels: tuple[Array, Array], durations: tuple[float, float, float]
 ) -> list[Drive]:

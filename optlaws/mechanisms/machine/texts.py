@@ -10,6 +10,8 @@ from optlaws.errors import InputError
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.synthesis.spaces.space import LawSpace
 
+_CLOSED = 1e-9
+
 
 def text_of(machine: StateSpace, output: str) -> str:
     """A machine with one of its outputs as JSON in quotes.
@@ -47,6 +49,22 @@ def machine_of(given: Any) -> StateSpace:  # noqa: ANN401 - a machine, or what t
     except (ValueError, RecursionError):
         raise InputError(f"of must be a machine as JSON text, {{...}}, got {shortened(given)}") from None
     return StateSpace.from_dict(data)
+
+
+def check_repeats(name: str, machine: StateSpace, stroke: float) -> None:
+    """Refuse a law that ends elsewhere than it begins where the machine is driven by displacements.
+
+    Raises
+    ------
+    InputError
+        If it does.
+    """
+    if "a" in machine.inputs and abs(stroke) > _CLOSED:
+        short = name.partition("(")[0]
+        raise InputError(
+            f"{short}: steady is of a law that ends where it begins, but its stroke is {stroke:g}: a machine whose "
+            "motion goes on is driven by b and c alone"
+        )
 
 
 def check_rest(name: str, space: LawSpace) -> None:
