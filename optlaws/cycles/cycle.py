@@ -20,14 +20,24 @@ from optlaws.cycles.asked.segments import CycleSegment, Dwell, Move
 from optlaws.cycles.drive import Drive, read_drive
 from optlaws.cycles.durations import durations
 from optlaws.cycles.effort import Effort, effort
-from optlaws.cycles.optimal import OBJECTIVES, Wanted, limits_of_stretch, read_limits, solve
+from optlaws.cycles.load import LOAD, Load, read_load
+from optlaws.cycles.optimal import (
+    LOADED,
+    Wanted,
+    check_objective,
+    kind_of,
+    limits_of_stretch,
+    read_limits,
+    read_load_limits,
+    solve,
+)
 from optlaws.errors import InputError
 from optlaws.exporting import exported
 from optlaws.kept import kept_property
 from optlaws.mechanisms.cam.polydyne import polydyne
+from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.numbers import MOST_DEGREE, derivative, real_times, whole
 from optlaws.plotting import plotted
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.solution import Solution, Status
 
 Array = NDArray[np.float64]
@@ -73,6 +83,10 @@ class Cycle:
     drive
         What the motion drives: `{"mass": "2 kg", "stiffness": "3 N/mm", "viscous": ..., "dry": ..., "gravity": ...}`,
         with inertia in place of mass for tables.
+    load
+        What the motion drives elastically, over the whole cycle: `{"period": "20 ms", "damping": 0.05, "mass": "2 kg"}`
+        for a follower's mass on its spring, or a `Machine` in seconds and SI units. Its outputs may be minimised and
+        bounded: "load acceleration", "rms load deflection", "load force"; the cycle is then one problem.
     order, degree
         Number of end conditions of optimal laws, and the degree of their Z.
 
@@ -98,6 +112,7 @@ class Cycle:
     start: Any = field(default=None, kw_only=True)
     advance: Any = field(default=None, kw_only=True)
     drive: Mapping[str, Any] | None = field(default=None, kw_only=True)
+    load: Any = field(default=None, kw_only=True)
     order: int = field(default=3, kw_only=True)
     degree: int = field(default=9, kw_only=True)
 
@@ -105,8 +120,7 @@ class Cycle:
         if not isinstance(self.segments, list | tuple) or not self.segments:
             raise InputError("a cycle is a list of segments such as [Rise('35 mm', '120 deg'), Dwell(), ...]")
         object.__setattr__(self, "segments", tuple(self.segments))
-        if self.minimise not in OBJECTIVES:
-            raise InputError(f"minimise: {unknown_key(self.minimise, OBJECTIVES, 'objective')}")
+        check_objective(self.minimise, self._load)
         if all(one.fixed for one in self.programme.stretches):
             self._layout  # noqa: B018 - velocities that do not meet are refused at once
         self.limits_of_segments  # noqa: B018 - and so are limits and drives
@@ -151,7 +165,10 @@ class Cycle:
     @kept_property
     def objective(self) -> float:
         """What is minimised, over the whole cycle, in SI units; recomputed from the laws."""
-        nu, mean = OBJECTIVES[self.minimise]
+        nu, mean = kind_of(self.minimise)
+        if nu == LOADED:
+            output = self.minimise.removeprefix("rms ").removeprefix(LOAD)
+            return self.load_motion.rms(output) if mean else self.load_motion.peak(output).value
         if nu < 0:
             return self.effort.rms_force if mean else self.effort.peak_force
         if mean:
@@ -162,7 +179,10 @@ class Cycle:
     @kept_property
     def lower_bound(self) -> float | None:
         """What no other optimal laws in the same times can beat; None for forces, whose solutions have their own."""
-        nu, mean = OBJECTIVES[self.minimise]
+        nu, mean = kind_of(self.minimise)
+        if nu == LOADED:
+            ((piece, solution),) = self._solved
+            return solution.lower_bound * abs(piece.stroke)
         if nu < 0:
             return None
         sizes = [(piece.duration, self._bound(piece, solution, nu)) for piece, solution in self._solved]
@@ -202,6 +222,27 @@ class Cycle:
             if piece.start == start:
                 return piece.end(nu, 0) - self.pieces[i - 1].end(nu, 1)
         return next(piece.leap(start, nu) for piece in self.pieces if piece.start < start < piece.stop)
+
+    @kept_property
+    def load_motion(self) -> RepeatedMotion:
+        """What the load does steadily, over time in seconds: its outputs by their names, in SI units.
+
+        Raises
+        ------
+        InputError
+            If the cycle has no load, or it is in resonance with the cycle.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.asked.segments import Dwell, Return, Rise
+        >>> segments = [Rise("30 mm", "120 deg", law="modified sine"), Dwell("60 deg"), Return(law="modified sine")]
+        >>> cycle = Cycle(segments, speed="300 rpm", load={"period": "20 ms", "damping": 0.05})
+        >>> cycle.load_motion.peak("acceleration").value, cycle.peak(2)
+        (70.889663, 37.313710)
+        """
+        if self._load is None:
+            raise InputError("the cycle has no load: give one, such as load={'period': '20 ms', 'damping': 0.05}")
+        return self._load.motion(self.pieces)
 
     @kept_property
     def effort(self) -> Effort:
@@ -412,11 +453,18 @@ class Cycle:
             whole(self.order, "order", least=2, most=10),
             whole(self.degree, "degree", most=MOST_DEGREE),
             self._drive,
+            self._load,
+            read_load_limits(self.limits, self._load),
         )
 
     @kept_property
+    def _load(self) -> Load | None:
+        return None if self.load is None else read_load(self.load, self.axis)
+
+    @kept_property
     def _layout(self) -> Layout:
-        return layout(self.programme, self.durations)
+        absolute = self._load is not None and self._load.absolute
+        return layout(self.programme, self.durations, whole=self._wanted.of_load, absolute=absolute)
 
     @kept_property
     def _solved(self) -> tuple[tuple[Piece, Solution], ...]:

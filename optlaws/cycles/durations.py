@@ -21,7 +21,7 @@ from optlaws.cycles.asked.joints import Span, State
 from optlaws.cycles.asked.named import named_law
 from optlaws.cycles.asked.programme import Programme, Stretch, is_optimal
 from optlaws.cycles.asked.segments import ConstantVelocity, Dwell, Free, Move
-from optlaws.cycles.optimal import OBJECTIVES, Wanted, limits_of_stretch, span_problem
+from optlaws.cycles.optimal import FORCE, Wanted, kind_of, limits_of_stretch, span_problem
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.problem.ranges import Range
@@ -71,9 +71,11 @@ def durations(asked: Programme, wanted: Wanted) -> tuple[float, ...]:
     left = asked.period - sum(one.least for one in asked.stretches if one.fixed)
     for i in free:
         _check_rest(asked, i)
-    nu, mean = OBJECTIVES[wanted.minimise]
-    if nu < 0:
-        raise InputError("free durations are shared by velocity, acceleration or jerk, not by force: give durations")
+    nu, mean = kind_of(wanted.minimise)
+    if nu < 0 or FORCE in wanted.limits or wanted.loaded:
+        raise InputError(
+            "free durations are shared by velocity, acceleration or jerk, not by a force or a load: give durations"
+        )
     shares = [
         Share(asked.stretches[i], _cost(asked, i, wanted, nu, mean=mean), _quickest(asked, i, wanted)) for i in free
     ]

@@ -14,14 +14,15 @@ from optlaws.synthesis.spaces.bases import Pieces
 from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces
 
 _MOST = 600  # pieces of a law
-_VELOCITY = 5  # pieces of a stretch where the velocity is minimised, whose peaks are inside of pieces
+#: pieces of a stretch where what is minimised has its peaks inside of pieces: the velocity, what a load does
+_FEW = {1: 6, -2: 4}
 
 
 def joined_basis(span: Span, order: int, degree: int, minimised: int) -> Pieces:
     """Splines with twice as many pieces in a stretch as a law with Z of a degree has coefficients and end conditions.
 
     Their acceleration is linear between breaks where the order is 3, so that its peaks, and those of the jerk, are at
-    breaks: a linear program on known places. `minimised` is the order of the derivative that is minimised.
+    breaks: a linear program on known places. `minimised` is the order of the derivative minimised, -2 of a load.
 
     Examples
     --------
@@ -33,7 +34,9 @@ def joined_basis(span: Span, order: int, degree: int, minimised: int) -> Pieces:
     """
     curved = sum(is_optimal(one.given) for one in span.stretches) + len(span.via)
     each = min(2 * (degree + order), _MOST // curved)
-    each = max(1, min(each, _VELOCITY) if minimised == 1 else each)
+    if minimised in _FEW:
+        each = min(each, _FEW[minimised] * (degree + order) // 12)
+    each = max(1, each)
     breaks, straight = [0.0], list[int]()
     for one, start, stop in zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True):
         if not is_optimal(one.given):
@@ -45,9 +48,10 @@ def joined_basis(span: Span, order: int, degree: int, minimised: int) -> Pieces:
         for low, high in pairwise(place(span, time) for time in marks):
             breaks += [low + (high - low) * i / parts for i in range(1, parts)] + [high]
     smoothness = max(order - 1, 2 if minimised == 3 else 1)
+    power = max(3, 2 * order - 1 if minimised < -1 else order)
     if span.turns:
-        return PeriodicPieces(breaks, max(3, order), smoothness, straight)
-    return Pieces(breaks, max(3, order), smoothness)
+        return PeriodicPieces(breaks, power, smoothness, straight)
+    return Pieces(breaks, power, smoothness)
 
 
 def place(span: Span, time: float) -> float:
@@ -58,7 +62,7 @@ def place(span: Span, time: float) -> float:
 def joint_windows(span: Span, order: int, stroke: float) -> Iterator[Window]:
     """Positions at joints and on the way, and what is known of velocities and accelerations at joints of a cycle."""
     for time, position in span.via:
-        yield via("a", (position - span.offset) / stroke, at=place(span, time))
+        yield via("a", (position - span.origin) / stroke, at=place(span, time))
     for i, state in enumerate(span.states):
         if state is not None:
             yield from _state_windows(span, order, stroke, i, state)

@@ -7,7 +7,7 @@ peaks is the least of the greatest ones, and the least sum of squares is the sum
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import groupby
 from math import inf
 from operator import itemgetter
@@ -20,9 +20,11 @@ from optlaws.cycles.asked.quantities import quantity
 from optlaws.cycles.asked.segments import Free, Move
 from optlaws.cycles.drive import Drive
 from optlaws.cycles.joined import joined_basis, joint_windows, place
+from optlaws.cycles.load import LOAD, Load, load_output
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.makers import peak, rms
+from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
@@ -41,8 +43,10 @@ OBJECTIVES = {
     "force": (-1, False),
     "rms force": (-1, True),
 }
-LIMITS = {"velocity": 1, "acceleration": 2, "jerk": 3}
+LIMITS = {"velocity": 1, "acceleration": 2, "jerk": 3, "force": -1, "torque": -1}
+FORCE, LOADED = -1, -2
 _PEAKS = {1: "B", 2: "C", 3: "J"}
+_FORCES = {"length": "force", "angle": "torque"}
 _ROUGH = 15  # degree of Z where points on the way or velocities bend the law
 
 
@@ -55,11 +59,15 @@ class Wanted:
     minimise
         One of `OBJECTIVES`.
     limits
-        Greatest velocity, acceleration and jerk, in SI units, by order.
+        Greatest velocity, acceleration and jerk, in SI units, by order; of force or torque by -1.
     order, degree
         End conditions of laws, and the degree of Z.
     drive
-        What the force is of, where it is minimised.
+        What the force is of, where it is minimised or bounded.
+    load
+        What is driven elastically.
+    loaded
+        Greatest values of the load's outputs, in SI units, by output and whether they are root mean squares.
     """
 
     minimise: str
@@ -67,6 +75,58 @@ class Wanted:
     order: int
     degree: int
     drive: Drive | None
+    load: Load | None = None
+    loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
+
+    @property
+    def of_load(self) -> bool:
+        """Whether the load is spoken of, so that the cycle is one problem."""
+        return bool(self.loaded) or kind_of(self.minimise)[0] == LOADED
+
+
+def kind_of(minimise: str) -> tuple[int, bool]:
+    """The order of the derivative that is minimised (-1 a force, -2 of the load), and whether its root mean square.
+
+    Examples
+    --------
+    >>> kind_of("rms jerk"), kind_of("load acceleration")
+    ((3, True), (-2, False))
+    """
+    return OBJECTIVES.get(minimise, (LOADED, minimise.startswith("rms ")))
+
+
+def check_objective(minimise: Any, load: Load | None) -> None:  # noqa: ANN401 - it is checked here
+    """Refuse what cannot be minimised.
+
+    Raises
+    ------
+    InputError
+        If it is no objective, or the load has no such output.
+    """
+    if not isinstance(minimise, str) or (minimise not in OBJECTIVES and load_output(minimise, load) is None):
+        raise InputError(f"minimise: {unknown_key(minimise, (*OBJECTIVES, 'load acceleration'), 'objective')}")
+
+
+def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tuple[str, bool], float]:
+    """Those of limits that are of the load, in SI units, by output and whether they are root mean squares.
+
+    Raises
+    ------
+    InputError
+        If the load has no such output, or a limit is not above 0 or of another dimension.
+
+    Examples
+    --------
+    >>> from optlaws.cycles.load import read_load
+    >>> read_load_limits({"load deflection": "2 mm"}, read_load({"period": "20 ms"}, "length"))
+    {('deflection', False): 0.002}
+    """
+    found = {}
+    for name, value in entries.items():
+        asked = load_output(name, load)
+        if asked is not None and load is not None:
+            found[asked] = load.limit(value, asked[0], f"limits, {name}")
+    return found
 
 
 def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, float]:
@@ -85,8 +145,11 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, 
     found = {}
     for name, value in entries.items():
         if name not in LIMITS:
+            if where == "limits" and name.removeprefix("rms ").startswith(LOAD):
+                continue
             raise InputError(f"{where}: {unknown_key(name, LIMITS, 'limit')}")
-        found[LIMITS[name]] = quantity(value, AXES[axis][LIMITS[name]], f"{where}, {name}")
+        dimension = _FORCES[axis] if LIMITS[name] == FORCE else AXES[axis][LIMITS[name]]
+        found[LIMITS[name]] = quantity(value, dimension, f"{where}, {name}")
         if found[LIMITS[name]] <= 0.0:
             raise InputError(f"{where}, {name} must be above 0, got {value!r}")
     return found
@@ -149,7 +212,7 @@ def span_problem(span: Span, wanted: Wanted, axis: str, stroke: float) -> Proble
     ends = _ends(span, stroke, wanted.order)
     plain = not any(any(one[1:]) for one in (ends.start, ends.end))
     bounds, parts = _limits(span, wanted, axis, stroke)
-    forced = OBJECTIVES[wanted.minimise][0] < 0
+    forced = kind_of(wanted.minimise)[0] == FORCE or any(constant not in _PEAKS.values() for constant in bounds)
     return Problem(
         order=wanted.order,
         basis=Chebyshev(wanted.degree if plain else max(wanted.degree, _ROUGH)),
@@ -165,8 +228,11 @@ def span_problem(span: Span, wanted: Wanted, axis: str, stroke: float) -> Proble
 def _problem_of_several(span: Span, wanted: Wanted, axis: str, stroke: float) -> Problem:
     """One law for several stretches, or through points on the way."""
     bounds, parts = _limits(span, wanted, axis, stroke)
-    minimised = max(OBJECTIVES[wanted.minimise][0], 3 if 3 in wanted.limits else 0)
-    plain = BoundaryConditions((0.0,), (span.displacement / stroke,))
+    minimised = max(kind_of(wanted.minimise)[0], 3 if 3 in wanted.limits else 0)
+    minimised = LOADED if wanted.of_load else minimised
+    bounds |= {_of_load(wanted, *asked, span): Range(0.0, most / abs(stroke)) for asked, most in wanted.loaded.items()}
+    first = (span.offset - span.origin) / stroke
+    plain = BoundaryConditions((first,), (first + span.displacement / stroke,))
     return Problem(
         order=1 if span.turns else wanted.order,
         basis=joined_basis(span, wanted.order, wanted.degree, minimised),
@@ -188,19 +254,36 @@ def _end(state: State, duration: float, stroke: float, order: int) -> tuple[floa
     return tuple((values + [0.0] * order)[: order - 1])
 
 
-def _limits(span: Span, wanted: Wanted, axis: str, stroke: float) -> tuple[dict[str, Range], tuple[Window, ...]]:
+def _limits(span: Span, wanted: Wanted, axis: str, stroke: float) -> tuple[dict[Any, Range], tuple[Window, ...]]:
     """Limits of the whole span as bounds of its constants, those of parts of it as windows."""
     _check_mean(span, wanted, axis)
     of_each = [limits_of_stretch(one, wanted, axis) if is_optimal(one.given) else None for one in span.stretches]
     sought = [one for one in of_each if one is not None]
     if all(one == sought[0] for one in sought) and _straight_within(span, sought[0].get(1, inf)):
-        return {_PEAKS[nu]: Range(0.0, _law_limit(span, stroke, nu, most)) for nu, most in sought[0].items()}, ()
+        return dict(_bound(span, wanted, stroke, nu, most) for nu, most in sought[0].items()), ()
     windows = []
     for own, start, stop in _alike(of_each, (*span.starts, span.stop)):
         for nu, most in own.items():
-            high = _law_limit(span, stroke, nu, most)
-            windows.append(Window("abcj"[nu], -high, high, place(span, start), place(span, stop)))
+            name, high = "abcj"[nu], _law_limit(span, stroke, nu, most)
+            if nu == FORCE:
+                name, unit = _force(span, wanted, stroke)
+                high = most / unit
+            windows.append(Window(name, -high, high, place(span, start), place(span, stop)))
     return {}, tuple(windows)
+
+
+def _bound(span: Span, wanted: Wanted, stroke: float, nu: int, most: float) -> tuple[Any, Range]:
+    """A limit of a whole span as a bound of one of its constants."""
+    if nu == FORCE:
+        formula, unit = _force(span, wanted, stroke)
+        return peak(formula), Range(0.0, most / unit)
+    return _PEAKS[nu], Range(0.0, _law_limit(span, stroke, nu, most))
+
+
+def _of_load(wanted: Wanted, output: str, mean: bool, span: Span) -> Functional:  # noqa: FBT001 - the second of a pair
+    if wanted.load is None:
+        raise AssertionError  # what is asked of a load is read with it
+    return wanted.load.constant(output, span.duration, mean=mean)
 
 
 def _straight_within(span: Span, most: float) -> bool:
@@ -237,14 +320,28 @@ def _law_limit(span: Span, stroke: float, nu: int, most: float) -> float:
 
 
 def _objective(span: Span, wanted: Wanted, stroke: float) -> Any:  # noqa: ANN401 - a name or a constant
-    nu, mean = OBJECTIVES[wanted.minimise]
+    nu, mean = kind_of(wanted.minimise)
     if nu > 0:
         return {2: "rms_c", 3: "rms_j"}[nu] if mean else _PEAKS[nu]
+    asked = load_output(wanted.minimise, wanted.load) if nu == LOADED else None
+    if asked is not None:
+        return _of_load(wanted, *asked, span)
+    formula, _ = _force(span, wanted, stroke)
+    return rms(formula) if mean else peak(formula)
+
+
+def _force(span: Span, wanted: Wanted, stroke: float) -> tuple[str, float]:
+    """The force along a span's law as a formula, and its unit."""
     if wanted.drive is None:
-        raise InputError(f"{wanted.minimise} is of a drive: give one, such as drive={{'mass': '2 kg'}}")
+        raise InputError("force and torque are of a drive: give one, such as drive={'mass': '2 kg'}")
+    if wanted.drive.dry > 0.0 and (span.turns or len(span.stretches) > 1 or span.via):
+        raise InputError(
+            f"drive: dry: {span.where} may turn back, where dry friction leaps and nothing is proven: leave it out of "
+            "what is minimised or bounded, or take moves between rests"
+        )
     direction = 1.0 if span.displacement > 0.0 else -1.0
-    unit = wanted.drive.size(stroke, span.duration, span.offset)
+    origin = span.origin if span.turns else span.offset
+    unit = wanted.drive.size(stroke, span.duration, origin)
     if unit == 0.0:
         raise InputError("drive: nothing resists the motion: give it a mass, an inertia, a spring or friction")
-    formula = wanted.drive.formula(stroke, span.duration, span.offset, direction, unit)
-    return rms(formula) if mean else peak(formula)
+    return wanted.drive.formula(stroke, span.duration, origin, direction, unit), unit

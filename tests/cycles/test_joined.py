@@ -30,7 +30,7 @@ def test_the_least_rms_of_the_acceleration_is_the_periodic_spline_of_the_joints(
 
 def test_no_law_on_a_fine_grid_has_a_smaller_peak_acceleration() -> None:
     """Linear programming over accelerations that are constant in 200 steps."""
-    cycle = Cycle(WAYS, period="1 s", degree=24)
+    cycle = Cycle(WAYS, period="1 s", degree=15)
     count = 200
     step = 1.0 / count
     moved = np.tril(np.ones((count, count)), -1)  # velocity at the start of each step, in steps of acceleration

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import NamedTuple
 
@@ -43,6 +43,8 @@ class Span:
         Pairs of time and position on the way.
     states
         What is known where each stretch begins, of a whole cycle in one; None where nothing is.
+    absolute
+        Whether its law is to be one of positions, not of displacements.
     """
 
     stretches: tuple[Stretch, ...]
@@ -54,6 +56,12 @@ class Span:
     last: State
     via: tuple[tuple[float, float], ...]
     states: tuple[State | None, ...] = ()
+    absolute: bool = False
+
+    @property
+    def origin(self) -> float:
+        """The position at which its law is 0: its start, unless the law of a whole cycle is to be one of positions."""
+        return 0.0 if self.absolute else self.offset
 
     @property
     def turns(self) -> bool:
@@ -85,10 +93,11 @@ class Layout:
     spans: tuple[Span, ...]
 
 
-def layout(asked: Programme, durations: Sequence[float], *, whole: bool = False) -> Layout:
+def layout(asked: Programme, durations: Sequence[float], *, whole: bool = False, absolute: bool = False) -> Layout:
     """Which laws are known and which are looked for.
 
-    Where nothing is known at the start of the cycle, or `whole` asks for it, its motions are one law that repeats.
+    Where nothing is known at the start of the cycle, or `whole` asks for it, its motions are one law that repeats; of
+    positions if it is to be `absolute`.
 
     Raises
     ------
@@ -104,7 +113,7 @@ def layout(asked: Programme, durations: Sequence[float], *, whole: bool = False)
     }
     joints = [_joint(asked, pieces, i) for i in range(len(asked.stretches))]
     if whole or joints[0] is None:
-        return Layout(starts, (), (_whole(asked, starts, offsets, joints),))
+        return Layout(starts, (), (replace(_whole(asked, starts, offsets, joints), absolute=absolute),))
     return Layout(starts, tuple(pieces.values()), _spans(asked, starts, offsets, joints))
 
 
@@ -176,8 +185,14 @@ def _whole(asked: Programme, starts: Sequence[float], offsets: Sequence[float], 
     own = [point for j in range(last + 1) for point in _via(asked, j, starts[j], starts[j + 1])]
     rest = State(0.0, 0.0)
     via = tuple(sorted(passed + own))
-    return Span(asked.stretches, tuple(starts[:-1]), starts[-1], offsets[0], offsets[-1] - offsets[0], rest, rest, via,
+    return Span(asked.stretches, tuple(starts[:-1]), starts[-1], offsets[0], _forward(offsets), rest, rest, via,
                 tuple(joints))  # fmt: skip
+
+
+def _forward(offsets: Sequence[float]) -> float:
+    """How far a cycle goes on: positions are sums, which come back but for rounding."""
+    moved = offsets[-1] - offsets[0]
+    return moved if abs(moved) > CLOSE * max(abs(one - offsets[0]) for one in offsets) else 0.0
 
 
 def _spans(

@@ -12,7 +12,7 @@ import numpy as np
 
 from optlaws import drawing
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.optimal import OBJECTIVES
+from optlaws.cycles.optimal import FORCE, LOADED, kind_of
 from optlaws.files import tables, writing
 from optlaws.jobs.cycle.entries import Study, read
 from optlaws.jobs.cycle.machine_files import Exports, add_exports, exports_of
@@ -107,14 +107,22 @@ def _told(cycle: Cycle) -> list[list[tables.Cell]]:
             ["mean of power", effort.mean_power, power],
             ["peak torque at the master's shaft", effort.shaft_torque(2.0 * pi / cycle.duration), "N m"],
         ]
+    if cycle.load is not None:
+        rows += [[f"peak of the load's {name}", cycle.load_motion.peak(name).value, "SI"] for name in _outputs(cycle)]
     leaps = {name: max(abs(joint[name]) for joint in cycle.joints) for name in ("velocity", "acceleration")}
     return [*rows, *([f"greatest leap of the {name} at a joint", leap, "SI"] for name, leap in leaps.items())]
 
 
+def _outputs(cycle: Cycle) -> tuple[str, ...]:
+    return cycle.load_motion.machine.outputs
+
+
 def objective_unit(cycle: Cycle) -> str:
     """The unit of what a cycle minimises."""
-    nu, _ = OBJECTIVES[cycle.minimise]
-    if nu < 0:
+    nu, _ = kind_of(cycle.minimise)
+    if nu == LOADED:
+        return "SI"
+    if nu == FORCE:
         return "N" if cycle.axis == "length" else "N m"
     return {"length": "m", "angle": "rad"}[cycle.axis] + ("/s", "/s²", "/s³")[nu - 1]
 
@@ -153,7 +161,9 @@ def _stored(cycles: Mapping[str, Cycle], about: str) -> str:
 
 
 def _facts(cycle: Cycle) -> dict[str, Any]:
-    drive = {} if cycle.drive is None else {"effort": cycle.effort.to_dict()}
+    drive: dict[str, Any] = {} if cycle.drive is None else {"effort": cycle.effort.to_dict()}
+    if cycle.load is not None:
+        drive["load"] = {name: cycle.load_motion.peak(name).value for name in _outputs(cycle)}
     return {
         "period": cycle.duration,
         "status": cycle.status.value,

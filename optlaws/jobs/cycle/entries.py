@@ -62,6 +62,15 @@ class AskedExport(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     name: str | None = None
 
 
+class AskedLoad(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A mass on a spring that the motion drives."""
+
+    period: str
+    damping: float = 0.0
+    mass: str | None = None
+    inertia: str | None = None
+
+
 class Axis(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """One axis of the machine."""
 
@@ -72,6 +81,7 @@ class Axis(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     start: str | None = None
     advance: str | None = None
     drive: dict[str, str] | None = None
+    load: AskedLoad | None = None
     follower: AskedFollower | None = None
     export: Annotated[list[AskedExport], msgspec.Meta(max_length=20)] = []
     order: int = 3
@@ -127,10 +137,16 @@ def cycle_of(axis: Axis, speed: str | None, period: str | None) -> Cycle:
         start=axis.start,
         advance=axis.advance,
         drive=axis.drive,
+        load=None if axis.load is None else _given(axis.load),
         order=axis.order,
         degree=axis.degree,
     )
     return found if axis.follower is None else found.cam(axis.follower.period, axis.follower.damping)
+
+
+def _given(asked: msgspec.Struct) -> dict[str, Any]:
+    """Entries that were given."""
+    return {name: value for name, value in msgspec.structs.asdict(asked).items() if value is not None}
 
 
 def segment_of(asked: AskedSegment, number: int) -> CycleSegment:
@@ -147,7 +163,7 @@ def segment_of(asked: AskedSegment, number: int) -> CycleSegment:
     Dwell(duration='90 deg', name='')
     """
     kind = KINDS[asked.kind]
-    given = {name: value for name, value in msgspec.structs.asdict(asked).items() if value is not None}
+    given = _given(asked)
     del given["kind"]
     taken = kind.__dataclass_fields__
     for name in given:
