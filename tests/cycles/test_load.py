@@ -15,7 +15,8 @@ def strokes(law: str = "optimal") -> list[Any]:
 
 
 def cycle(law: str = "optimal", **others: Any) -> Cycle:  # noqa: ANN401 - whatever a cycle takes
-    return Cycle(strokes(law), **({"speed": "300 rpm", "load": LOAD, "degree": 6} | others))
+    given: dict[str, Any] = {"speed": "300 rpm", "load": LOAD, "degree": 6} | others
+    return Cycle(strokes(law), **given)
 
 
 @pytest.mark.parametrize("law", ["modified sine", "optimal"])

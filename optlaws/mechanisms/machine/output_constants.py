@@ -272,7 +272,7 @@ def steady_sizes(constant: OutputConstant, space: LawSpace) -> tuple[tuple[int, 
     kept = np.append(np.linalg.lstsq(matrix, right, rcond=None)[0], 1.0)
     _, sizes, turn = np.linalg.svd(matrix)
     free = turn[int((sizes > _RANK * sizes.max(initial=1.0)).sum()) :].T
-    way = np.linalg.qr(bent[:, :-1] @ free, mode="r")
+    way: Array = np.asarray(np.linalg.qr(bent[:, :-1] @ free, mode="r"))
     if np.linalg.matrix_rank(way) < way.shape[1]:
         return ()
     least = float(np.linalg.svd(rows[:, :-1] @ free @ np.linalg.inv(way), compute_uv=False)[-1])
