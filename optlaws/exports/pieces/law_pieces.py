@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from fractions import Fraction
 from itertools import pairwise
+from math import comb, inf
 
 from optlaws.errors import InputError
 from optlaws.exports.polynomials import PiecewiseMotion, from_exact
@@ -17,6 +18,8 @@ from optlaws.series import exact
 
 #: a stretch of a law: its first and its last k, and powers of k less the first
 Stretch = tuple[Fraction, Fraction, Sequence[Fraction]]
+
+_SHORTEST = Fraction(1, 4096)
 
 
 def is_polynomial(law: MotionLaw) -> bool:
@@ -33,8 +36,20 @@ def is_polynomial(law: MotionLaw) -> bool:
     return isinstance(law, PolynomialLaw)
 
 
-def polynomials_of_law(law: MotionLaw, stroke: float = 1.0, time: float = 1.0) -> PiecewiseMotion:
+def polynomials_of_law(
+    law: MotionLaw, stroke: float = 1.0, time: float = 1.0, *, cancelled: float = inf
+) -> PiecewiseMotion:
     """A law of polynomials with its stroke and duration: the same pieces, every coefficient rounded once.
+
+    Parameters
+    ----------
+    law
+        The law.
+    stroke, time
+        What multiplies its displacement and its time.
+    cancelled
+        How large the terms of a piece may be in sum, over the stroke: high powers cancel each other, and with them
+        the digits of whoever evaluates them. Pieces whose terms are larger are halved, which changes no value.
 
     Raises
     ------
@@ -48,9 +63,27 @@ def polynomials_of_law(law: MotionLaw, stroke: float = 1.0, time: float = 1.0) -
     ((0.0, 0.0, 0.375, -0.125),)
     """
     height, duration = Fraction(finite(stroke, "stroke")), Fraction(positive(time, "time"))
-    found = list(stretches(law))
+    found = [part for one in stretches(law) for part in _tame(one, cancelled)]
     rows = [[height * a / duration**n for n, a in enumerate(powers)] for _, _, powers in found]
     return from_exact([duration * k for k in (found[0][0], *(last for _, last, _ in found))], rows)
+
+
+def _tame(stretch: Stretch, cancelled: float) -> Iterator[Stretch]:
+    """The stretch in parts whose terms are no larger in sum."""
+    low, high, powers = stretch
+    length = high - low
+    if high - low <= _SHORTEST or sum(abs(float(a * length**n)) for n, a in enumerate(powers)) <= cancelled:
+        yield stretch
+        return
+    middle = (low + high) / 2
+    yield from _tame((low, middle, powers), cancelled)
+    yield from _tame((middle, high, _moved(powers, middle - low)), cancelled)
+
+
+def _moved(powers: Sequence[Fraction], by: Fraction) -> list[Fraction]:
+    """Powers about a later place."""
+    count = len(powers)
+    return [sum((powers[m] * comb(m, n) * by ** (m - n) for m in range(n, count)), Fraction(0)) for n in range(count)]
 
 
 def stretches(law: MotionLaw) -> Iterator[Stretch]:

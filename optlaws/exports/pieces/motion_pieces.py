@@ -26,6 +26,7 @@ TOLERANCE = 1e-9
 _ORDERS = 4  # derivatives at both ends, so that pieces have the degree 7
 _MOST = 4096
 _ROUNDING = 2.0**-50
+_LEAST = 16.0  # terms that sum up to so many strokes are no cause to halve pieces
 
 
 def pieces_of_motion(motion: Motion, tolerance: float = TOLERANCE) -> PiecewiseMotion:
@@ -36,8 +37,9 @@ def pieces_of_motion(motion: Motion, tolerance: float = TOLERANCE) -> PiecewiseM
     motion
         The motion.
     tolerance
-        How far the position may be from the law's, as a share of the stroke, where laws are not made of polynomials
-        or of ones whose powers lose more digits than that: over the whole interval, no grid.
+        How far the position may be from the law's, as a share of the stroke, where laws are not made of polynomials:
+        over the whole interval, no grid. Polynomials whose powers lose more digits than that are halved, which
+        changes no value.
 
     Raises
     ------
@@ -73,10 +75,8 @@ def _of_piece(piece: Piece, tolerance: float) -> PiecewiseMotion:
     if piece.stroke == 0.0:
         return PiecewiseMotion([piece.start, piece.stop], [[piece.offset]])
     if is_polynomial(piece.law):
-        exact = polynomials_of_law(piece.law, piece.stroke, piece.duration)
-        sizes = np.abs(exact.powers()) * exact.lengths[:, None] ** np.arange(exact.degree + 1)
-        if _ROUNDING * float(sizes.sum(axis=1).max()) <= tolerance:
-            return _moved(exact, piece)
+        cancelled = max(tolerance / (_ROUNDING * abs(piece.stroke)), _LEAST)
+        return _moved(polynomials_of_law(piece.law, piece.stroke, piece.duration, cancelled=cancelled), piece)
     stretches = [Stretch(piece.law, ends) for ends in pairwise(piece.law.breaks)]
     near = reduce(PiecewiseMotion.then, (_near(one, tolerance / abs(piece.stroke)) for one in stretches))
     return _moved(near.in_units(piece.duration, piece.stroke), piece)
