@@ -8,7 +8,9 @@ from optlaws.lazy import declare, face
 _load, __dir__, __all__ = face(
     __name__,
     {
+        "optlaws.cams.barrel": "BarrelCam",
         "optlaws.cams.best_laws": "best_base_circle best_cam",
+        "optlaws.cams.conjugate": "conjugate_cam",
         "optlaws.cams.curves.motion_by_angle": "CamMotion",
         "optlaws.cams.disc": "DiscCam",
         "optlaws.cams.followers.oscillating_flat": "OscillatingFlat",

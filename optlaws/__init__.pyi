@@ -2,8 +2,10 @@
 from optlaws import laws as laws
 from optlaws import mechanisms as mechanisms
 from optlaws import synthesis as synthesis
+from optlaws.cams.barrel import BarrelCam as BarrelCam
 from optlaws.cams.best_laws import best_base_circle as best_base_circle
 from optlaws.cams.best_laws import best_cam as best_cam
+from optlaws.cams.conjugate import conjugate_cam as conjugate_cam
 from optlaws.cams.curves.motion_by_angle import CamMotion as CamMotion
 from optlaws.cams.disc import DiscCam as DiscCam
 from optlaws.cams.followers.oscillating_flat import OscillatingFlat as OscillatingFlat
@@ -144,6 +146,7 @@ __all__ = [
     "B",
     "BSplines",
     "BalancedLaw",
+    "BarrelCam",
     "Basis",
     "Bernstein",
     "BoundaryConditions",
@@ -223,6 +226,7 @@ __all__ = [
     "catalogue",
     "compare",
     "compare_dwell_mechanisms",
+    "conjugate_cam",
     "construct",
     "deg",
     "drive_torque",

@@ -47,6 +47,9 @@ class DiscCam:
         "counterclockwise" or "clockwise", seen with a slide's way pointing up or a pivot to the right of the cam.
     phase
         By how much the coordinates of the cam are turned, counterclockwise; for cams on one shaft.
+    mirrored
+        Whether the coordinates of the cam are mirrored at the line through its centre and a pivot to the right, for the
+        second follower of a pair, on the other side; `turning` is as it is seen in the mirror.
 
     Raises
     ------
@@ -68,6 +71,7 @@ class DiscCam:
     follower: Follower
     turning: str = field(default="counterclockwise", kw_only=True)
     phase: Any = field(default="0 deg", kw_only=True)
+    mirrored: bool = field(default=False, kw_only=True)
 
     def __post_init__(self) -> None:
         if not isinstance(self.follower, Follower):
@@ -101,7 +105,8 @@ class DiscCam:
     @kept_property
     def pitch_curve(self) -> PlaneCurve:
         """The way of the roller's centre around the cam; under a flat face the profile itself."""
-        return FollowerCurve(self.displacement, self.contact, quantity(self.phase, "angle", "phase"))
+        phase = quantity(self.phase, "angle", "phase")
+        return FollowerCurve(self.displacement, self.contact, phase, mirrored=bool(self.mirrored))
 
     @kept_property
     def profile(self) -> PlaneCurve:
@@ -209,6 +214,7 @@ class FollowerCurve(PlaneCurve):
     motion: CamMotion
     contact: Contact
     phase: float
+    mirrored: bool = False
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -223,7 +229,7 @@ class FollowerCurve(PlaneCurve):
     @property
     def turning(self) -> float:
         """As the cam."""
-        return self.contact.turning
+        return -self.contact.turning if self.mirrored else self.contact.turning
 
     def jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:  # noqa: D102
         s = self.motion.jet(angle, order + self.contact.lost, before=before)
@@ -236,7 +242,8 @@ class FollowerCurve(PlaneCurve):
         )
 
     def _in_cam(self, pair: Pair, angle: Array, order: int) -> Pair:
-        return turned(pair, variable(self.motion.within(angle), order) * -self.turning + self.phase)
+        x, y = turned(pair, variable(self.motion.within(angle), order) * -self.contact.turning + self.phase)
+        return (x, -y) if self.mirrored else (x, y)
 
 
 def _check_smooth(motion: CamMotion) -> None:

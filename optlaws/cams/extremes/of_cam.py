@@ -113,7 +113,7 @@ def pressure_angles(motion: CamMotion, contact: Contact) -> tuple[Extreme, Extre
     [True, True]
     """
     low, high = enclosed_extremes(motion, contact.pressure, 1)
-    return _angle(low), _angle(high)
+    return angle_of_tangent(low), angle_of_tangent(high)
 
 
 def pitch_curvatures(motion: CamMotion, contact: RollerContact) -> tuple[Extreme, Extreme]:
@@ -190,7 +190,14 @@ def _status(margin: Extreme) -> str:
     return UNDERCUT if margin.high < 0.0 else UNDECIDED
 
 
-def _angle(tangent: Extreme) -> Extreme:
+def angle_of_tangent(tangent: Extreme) -> Extreme:
+    """The enclosed angle of an enclosed tangent, rad.
+
+    Examples
+    --------
+    >>> round(angle_of_tangent(Extreme(1.0, 1.0, 0.0)).value, 9)
+    0.785398163
+    """
     return _outward(atan(tangent.low), atan(tangent.high), tangent.angle, 1.0)
 
 

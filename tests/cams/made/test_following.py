@@ -1,3 +1,5 @@
+from typing import Any
+
 import numpy as np
 import pytest
 
@@ -19,7 +21,7 @@ FOLLOWERS: list[tuple[Follower, str]] = [
 PLACES = np.linspace(0.01, 6.27, 301)
 
 
-def cam(follower: Follower, stroke: str, **others: str) -> DiscCam:
+def cam(follower: Follower, stroke: str, **others: Any) -> DiscCam:  # noqa: ANN401 - as DiscCam takes them
     moves = [Rise(stroke, "120 deg", law="3-4-5"), Dwell("60 deg"), Return(None, "120 deg", law="cycloidal"), Dwell()]
     return DiscCam(Cycle(moves, speed="200 rpm"), base_radius="70 mm", follower=follower, **others)
 

@@ -1,0 +1,249 @@
+"""Barrel cams: a groove around a cylinder that moves a roller along the axis, with exact flanks in space.
+
+The roller turns about a radial axis. Seen from the cam, at the distance r from the axis of the shaft, the roller's axis
+goes s' along the shaft and r around it, so that tan(alpha) = s'/r; the flanks are R to both sides, square to that.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import nextafter
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.curves.jets import Jet, variable
+from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
+from optlaws.cams.disc import TURNINGS
+from optlaws.cams.extremes.bounding import Extreme, enclosed_extremes
+from optlaws.cams.extremes.of_cam import FREE, UNDECIDED, UNDERCUT, angle_of_tangent
+from optlaws.cams.followers.follower import positive, shown
+from optlaws.cycles.cycle import Cycle
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.numbers import derivative, real_times
+from optlaws.suggest import unknown_key
+
+Array = NDArray[np.float64]
+Triple = tuple[Jet, Jet, Jet]
+
+SIDES = {"upper": 1.0, "lower": -1.0}
+
+
+@dataclass(frozen=True)
+class BarrelCam:
+    """A groove around a cylinder with a cylindrical roller; metres and radians, derivatives by the cam's angle.
+
+    Parameters
+    ----------
+    motion
+        A `Cycle`, which is a turn of the cam, or the law of a part of the turn.
+    outer_radius, depth
+        Of the cylinder, and how deep the groove is, such as "60 mm" and "12 mm".
+    roller_radius
+        Such as "8 mm".
+    turning
+        "counterclockwise" or "clockwise", seen against the axis along which the roller moves forth.
+
+    Raises
+    ------
+    InputError
+        If there is no such groove; the error says the remedy.
+
+    Examples
+    --------
+    >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
+    >>> cam = BarrelCam(rise, outer_radius="60 mm", depth="12 mm", roller_radius="8 mm")
+    >>> round(float(np.degrees(cam.pressure_angle(1.0))), 6), cam.flank("upper")(1.0).shape, cam.undercut
+    (38.37193, (3,), 'free')
+    """
+
+    motion: Cycle | CamMotion
+    outer_radius: Any
+    depth: Any
+    roller_radius: Any
+    turning: str = field(default="counterclockwise", kw_only=True)
+
+    def __post_init__(self) -> None:
+        if self.turning not in tuple(TURNINGS):
+            raise InputError(unknown_key(self.turning, TURNINGS, "turning"))
+        outer, inner = self.radii
+        if inner <= 0.0:
+            raise InputError(
+                f"depth must be less than the radius of the cylinder, {shown(outer)}, got {shown(outer - inner)}:"
+                " make the groove shallower or the cylinder larger"
+            )
+        if self.roller >= inner:
+            raise InputError(
+                f"roller_radius {shown(self.roller)} is not less than the radius at the bottom of the groove,"
+                f" {shown(inner)}: make the roller smaller or the cylinder larger"
+            )
+        self.displacement  # noqa: B018 - a motion of another kind is refused at once
+
+    @kept_property
+    def displacement(self) -> CamMotion:
+        """What the roller does along the axis, by the cam's angle."""
+        return as_motion(self.motion, "length")
+
+    @kept_property
+    def radii(self) -> tuple[float, float]:
+        """Radius of the cylinder, and of the bottom of the groove."""
+        outer = positive(self.outer_radius, "outer_radius")
+        return outer, outer - positive(self.depth, "depth")
+
+    @kept_property
+    def roller(self) -> float:
+        """The roller's radius."""
+        return positive(self.roller_radius, "roller_radius")
+
+    @property
+    def pitch_curve(self) -> SpaceCurve:
+        """The way of the roller's axis on the cylinder."""
+        return SpaceCurve(self.displacement, self.radii[0], 0.0, TURNINGS[self.turning])
+
+    def flank(self, side: str, radius: float | None = None) -> SpaceCurve:
+        """Where the roller touches a flank, at a distance along its axis from the shaft's.
+
+        Parameters
+        ----------
+        side
+            "upper", which pushes the roller back, or "lower", which pushes it forth.
+        radius
+            The distance in metres; that of the cylinder unless given.
+
+        Raises
+        ------
+        InputError
+            If there is no such side, or the distance is not within the groove.
+        """
+        if side not in tuple(SIDES):
+            raise InputError(unknown_key(side, SIDES, "side"))
+        return SpaceCurve(self.displacement, self._within(radius), SIDES[side] * self.roller, TURNINGS[self.turning])
+
+    def cutter_path(self, cutter_radius: Any, side: str = "upper", radius: float | None = None) -> SpaceCurve:  # noqa: ANN401
+        """The way of the axis of a cutter, radial as the roller's, that makes a flank; exact at one radius.
+
+        A cutter as large as the roller makes both flanks all over; a smaller one leaves them exact at the radius given.
+
+        Raises
+        ------
+        InputError
+            If the cutter is larger than the roller, or there is no such side or radius.
+        """
+        cutter, curve = positive(cutter_radius, "cutter_radius"), self.flank(side, radius)
+        if cutter > self.roller:
+            raise InputError(
+                f"cutter_radius {shown(cutter)} is more than that of the roller, {shown(self.roller)}: take a smaller"
+                " one"
+            )
+        return SpaceCurve(curve.motion, curve.radius, SIDES[side] * (self.roller - cutter), curve.turning)
+
+    def pressure_angle(self, angle: Any, nu: int = 0, radius: float | None = None) -> Any:  # noqa: ANN401
+        """The pressure angle at a distance from the shaft's axis, the bottom of the groove unless given, rad.
+
+        Raises
+        ------
+        InputError
+            If an angle is no finite number, or the distance not within the groove.
+        """
+        order = derivative(nu)
+        at = self.radii[1] if radius is None else self._within(radius)
+        slope = self.displacement.jet(real_times(angle), order + 1).slope()
+        values = (slope * (1.0 / at)).arctangent().derivative(order)
+        return values if np.ndim(values) else float(values)
+
+    @kept_property
+    def pressure_angles(self) -> tuple[Extreme, Extreme]:
+        """The least and the greatest pressure angle, at the bottom of the groove, where it is greatest; enclosed."""
+        least, greatest = enclosed_extremes(self.displacement, lambda s: s.slope() * (1.0 / self.radii[1]), 1)
+        return angle_of_tangent(least), angle_of_tangent(greatest)
+
+    @kept_property
+    def margin(self) -> Extreme:
+        """The least of v - R r |s''|/v² - R² s'²/v³ at the bottom of the groove, v² = r² + s'², in m; enclosed.
+
+        By so much a flank goes on with every radian; where it is not above 0, the flank has a cusp.
+        """
+        radius, roller = self.radii[1], self.roller
+
+        def rest(sign: float) -> Extreme:
+            def speed(s: Jet) -> Jet:
+                slope, bend = s.slope(), s.slope().slope()
+                square = slope * slope + radius * radius
+                way = square.root()
+                return way - bend / square * (sign * radius * roller) - slope * slope / (square * way) * roller**2
+
+            return enclosed_extremes(self.displacement, speed, 2)[0]
+
+        return min(rest(1.0), rest(-1.0), key=lambda one: one.low)
+
+    @property
+    def undercut(self) -> str:
+        """Whether flanks are proven to have no cusp at any depth, "free", or one, "undercut"; or "undecided"."""
+        steepest = max(abs(one) for extreme in self.pressure_angles for one in (extreme.low, extreme.high))
+        if self.margin.high < 0.0:
+            return UNDERCUT
+        # below 45 deg what is at the bottom of the groove is worst
+        return FREE if self.margin.low > 0.0 and steepest < nextafter(0.25 * np.pi, 0.0) else UNDECIDED
+
+    def _within(self, radius: float | None) -> float:
+        outer, inner = self.radii
+        at = outer if radius is None else float(real_times(radius))
+        if not inner * (1.0 - 1e-12) <= at <= outer * (1.0 + 1e-12):
+            raise InputError(f"radius must be within the groove, {inner:g} to {outer:g} m, got {at:g}")
+        return at
+
+
+@dataclass(frozen=True)
+class SpaceCurve:
+    """A curve on a barrel cam as a function of the cam's angle: x, y square to the shaft and z along it, m.
+
+    Parameters
+    ----------
+    motion
+        Of the roller along the shaft.
+    radius
+        Distance of the place on the roller's axis from that of the shaft.
+    beside
+        How far the curve is from the roller's axis, square to its way seen from the cam.
+    turning
+        1 where the cam turns counterclockwise, else -1.
+    """
+
+    motion: CamMotion
+    radius: float
+    beside: float
+    turning: float
+
+    @property
+    def breaks(self) -> tuple[float, ...]:
+        """Angles between which it is smooth, both ends included, rad."""
+        return self.motion.breaks
+
+    def __call__(self, angle: Any, nu: int = 0, *, before: bool = False) -> Array:  # noqa: ANN401 - checked here
+        """Points, or derivatives of order nu by the angle, shape of `angle` and three more.
+
+        Raises
+        ------
+        InputError
+            If an angle is no finite number, or out of the interval of a motion that is not closed.
+        """
+        order = derivative(nu)
+        parts = self.jets(real_times(angle), order, before=before)
+        return np.stack([one.derivative(order) for one in parts], axis=-1)
+
+    def jets(self, angle: Array, order: int, *, before: bool = False) -> Triple:
+        """The three coordinates with their derivatives up to an order."""
+        s = self.motion.jet(angle, order + 1, before=before)
+        slope = s.slope()
+        way = (slope * slope + self.radius**2).root()
+        around = slope / way * (-self.turning * self.beside)
+        along = s + (way * 0.0 + self.radius) / way * self.beside
+        sine, cosine = (variable(self.motion.within(angle), order) * self.turning).waves()
+        # the cam turns away under the roller, which is at the top at the angle 0
+        return (
+            sine * self.radius + cosine * around,
+            cosine * self.radius - sine * around,
+            along.cut(order),
+        )
