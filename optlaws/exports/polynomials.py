@@ -16,15 +16,13 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import derivative, listed, numbers, real_times
-from optlaws.series import bernstein, chebyshev
+from optlaws.series import bernstein
+from optlaws.series.difference import greatest_difference
 
 Array = NDArray[np.float64]
 #: a motion by its derivatives: of places and of the order nu of the derivative
 Motion = Callable[[Array, int], Array]
 
-_NODES = 10
-_RESOLVED, _SHARE = 2.0**-42, 1e-10  # laws of high degree know their own accelerations to no more
-_CUTS = 30
 _REACH = 1e-3
 _STEPS = 3
 _SAME = 1e-12
@@ -246,7 +244,8 @@ class PiecewiseMotion:
         order = derivative(nu)
         if isinstance(motion, PiecewiseMotion):
             return self.minus(motion).peak(order)
-        return _greatest(self, motion, order, self._with(breaks))
+        found = greatest_difference(lambda x: self._values(x, order), lambda x: motion(x, order), self._with(breaks))
+        return Extreme(*found)
 
     def minus(self, other: PiecewiseMotion) -> PiecewiseMotion:
         """The difference, between the breaks of both.
@@ -358,42 +357,6 @@ def from_exact(breaks: Sequence[Fraction], rows: Sequence[Sequence[Fraction]]) -
     ((0.3333333333333333,),)
     """
     return PiecewiseMotion([float(one) for one in breaks], [[float(c) for c in row] for row in rows])
-
-
-def _greatest(run: PiecewiseMotion, motion: Motion, nu: int, places: Array) -> Extreme:
-    """The greatest |run - motion|: series of the difference on parts that are halved until they resolve it."""
-    low, high = places[:-1], places[1:]
-    control, lows, highs = [], [], []
-    size, greatest = 0.0, 0.0  # of all that has been met: what is rounding beside them is resolved
-    for _ in range(_CUTS):
-        values, met = _differences(run, motion, nu, low, high)
-        size, greatest = max(size, met), max(greatest, float(np.abs(values).max()))
-        tail = np.abs(chebyshev.from_values(values.T)[-2:]).max(axis=0)
-        done = tail <= max(_RESOLVED * size, _SHARE * greatest)
-        control.append(bernstein.from_values(values[done]))
-        lows.append(low[done])
-        highs.append(high[done])
-        if done.all():
-            break
-        low, high = low[~done], high[~done]
-        middle = (low + high) / 2.0
-        low, high = np.concatenate([low, middle]), np.concatenate([middle, high])
-    else:
-        raise InputError(f"the motion is not smooth near x = {float(low[0])!r}: name its breaks")
-    table, start, stop = np.concatenate(control), np.concatenate(lows), np.concatenate(highs)
-    order = np.argsort(start)
-    found = bernstein.top(np.stack([table[order], -table[order]], axis=1).reshape(-1, table.shape[1]))
-    row = order[found.row // 2]
-    return Extreme(found.value, float(start[row] + (stop[row] - start[row]) * found.u))
-
-
-def _differences(run: PiecewiseMotion, motion: Motion, nu: int, low: Array, high: Array) -> tuple[Array, float]:
-    """The difference at the nodes of parts, a row each, and the size of what the run is compared with."""
-    x = low[:, None] + (high - low)[:, None] * (chebyshev.nodes(_NODES) + 1.0) / 2.0
-    theirs = np.asarray(motion(x.ravel(), nu), dtype=np.float64).reshape(x.shape)
-    if not np.isfinite(theirs).all():
-        raise InputError("the motion to compare with must have finite values on the whole interval")
-    return run._values(x, nu) - theirs, float(np.abs(theirs).max())  # noqa: SLF001 - places are inside
 
 
 def _horner(table: Array, x: Any) -> Any:  # noqa: ANN401 - numbers or arrays

@@ -160,6 +160,7 @@ class MotionLaw(Curve, Stored):
             Position at the start; 0 unless given.
         points
             How many points, or "best", as it is unless given: the fewest whose run is as good as that of any number.
+            Formats of polynomials take as few pieces as will do unless given; "best" looks for their breaks too.
         counts
             Steps of the slave's encoder over the stroke, to which positions are rounded.
         digits, decimal

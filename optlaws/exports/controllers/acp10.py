@@ -52,9 +52,9 @@ def _write(motion: Motion, request: Request) -> Written:
 def _period(value: float, of: str, unit: str, least: int) -> int:
     whole = round(value)
     if abs(value - whole) > _WHOLE * max(1.0, abs(value)) or not least <= whole <= LARGEST:
-        remedy = "master='360 deg' or 3600" if of == "master" else "another unit or stroke, or counts=..."
+        remedies = {"master": "master='360 deg'", "slave": "another unit or stroke, or counts=..."}
         raise InputError(
-            f"B&R takes whole-number periods (DINT), and that of the {of} is {value:.9g} {unit}: choose {remedy}"
+            f"B&R takes whole-number periods (DINT), and that of the {of} is {value:.9g} {unit}: choose {remedies[of]}"
         )
     return whole
 
