@@ -34,11 +34,14 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
 
 
 class SharingScheduling(LoadScopeScheduling):  # type: ignore[misc]  # xdist is untyped
-    """Keeps in one process the blocks of a document, which use each other's names, and what shares work."""
+    """Keeps in one process the blocks of a document, which use each other's names, and what shares a whole run.
+
+    Cases of one test go together too: the scheduler looks through all that was handed out whenever one ends.
+    """
 
     def _split_scope(self, nodeid: str) -> str:
         path = nodeid.partition("::")[0]
-        return path if path.endswith(".md") or path.startswith(_SHARING) else nodeid
+        return path if path.endswith(".md") or path.startswith(_SHARING) else nodeid.partition("[")[0]
 
 
 @pytest.hookimpl(optionalhook=True)
