@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import socket
 import webbrowser
 from threading import Thread
@@ -38,7 +39,9 @@ def opened(port: int | None) -> socket.socket:
         return socket.create_server((ADDRESS, PORT if port is None else port))
     except OSError as error:
         if port is not None:
-            raise InputError(f"--port {port}: {error.strerror}; take another, or 0 for any free one") from None
+            raise InputError(
+                f"--port {port}: {os.strerror(error.errno or 0)}; take another, or 0 for any free one"
+            ) from None
         return socket.create_server((ADDRESS, 0))
 
 

@@ -10,16 +10,13 @@ from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
 import msgspec
 
 from optlaws.errors import InputError
-from optlaws.locks import process_lock
+from optlaws.files.typed import typed
 from optlaws.suggest import unknown_key
 
 #: entries that many jobs have; degrees are those of a whole turn
 Text = Annotated[str, msgspec.Meta(min_length=1)]
 Positive = Annotated[float, msgspec.Meta(gt=0)]
 Degrees = Annotated[float, msgspec.Meta(gt=0, lt=360)]
-
-# two threads that met a kind for the first time have crashed in msgspec (0.22)
-_ONE_AT_A_TIME = process_lock()
 
 Spec = TypeVar("Spec", bound=msgspec.Struct)
 
@@ -34,8 +31,7 @@ def convert(data: Mapping[str, Any], spec: type[Spec], file: Path) -> Spec:
     """
     _check_keys(data, spec, str(file))
     try:
-        with _ONE_AT_A_TIME:
-            return msgspec.convert(data, spec)
+        return typed(data, spec)
     except msgspec.ValidationError as error:
         raise InputError(f"{file}: {error}") from None
 

@@ -14,6 +14,7 @@ from typing import Any, Literal
 import msgspec
 
 from optlaws.errors import InputError
+from optlaws.files.typed import typed
 from optlaws.synthesis.proof.data import problem_of
 
 Data = Mapping[str, Any]
@@ -159,7 +160,7 @@ def check_keys(data: Data) -> None:
 
 def _stated(data: object, kind: type[Any], name: str) -> Any:  # noqa: ANN401 - of that kind
     try:
-        return msgspec.convert(data, kind)
+        return typed(data, kind)
     except msgspec.ValidationError as error:
         raise InputError(f"{name}: {error}; leave out what is not checked") from None
 

@@ -24,6 +24,8 @@ from tests.explorer.talk import OPTIMAL
 
 STORED = {"law": given_law(AskedLaw(name="cubic")).to_dict()}
 FORMULA = {"problem": {"order": 3, "B": 1.8, "degree": 7, "minimise": "max(C/4, J/32)", "bounds": {"rms_c": [0, 4.5]}}}
+WINDOWS_ASKED = ["b <= 1.2 @ 0.1..0.3", "c + 2*b <= 7 @ 0.6..0.9"]
+WINDOWS = {"problem": {"order": 4, "B": 1.7, "windows": WINDOWS_ASKED, "symmetric": False}}
 ENDS = {"problem": {"start": [0, 0], "end": [1, 0.5], "degree": 7, "symmetric": False}}
 
 
@@ -163,6 +165,15 @@ def test_python_makes_the_same_laws_again(tmp_path: Path, monkeypatch: pytest.Mo
     made = run(code, tmp_path, monkeypatch)["comparison"]
     assert list(made.laws.values()) == [law_of(one) for one in laws]
     assert (tmp_path / "laws.png").stat().st_size > 1000
+
+
+@pytest.mark.parametrize("entries", [OPTIMAL, FORMULA, ENDS, WINDOWS])
+def test_a_problem_is_written_as_python_that_is_the_same_problem(entries: dict[str, Any]) -> None:
+    text = saved.python([law(entries)])
+    (line,) = (one for one in text.splitlines() if one.startswith("a = synthesize("))
+    names: dict[str, Any] = {}
+    exec(f"{text.splitlines()[0]}\nproblem = {line[len('a = synthesize(') : -1]}", names)  # noqa: S102 - our own
+    assert names["problem"] == problem_of(law(entries))
 
 
 @pytest.mark.parametrize("entries", [OPTIMAL, FORMULA, ENDS])

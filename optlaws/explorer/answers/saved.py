@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import ast
 import json
 import re
 from collections.abc import Callable, Mapping
@@ -29,6 +30,12 @@ _NAMES = "abcd"
 _ROWS = 361
 _WIDTH = 116
 _CALLED = re.compile(r"\b([A-Za-z_]\w*)\(")
+
+#: what the text of a problem is made of, where it is Python
+_PLAIN = (
+    ast.Expression, ast.Call, ast.keyword, ast.Name, ast.Load, ast.Constant, ast.Tuple, ast.List, ast.Dict,
+    ast.UnaryOp, ast.USub,
+)  # fmt: skip
 
 File = dict[str, str]
 
@@ -128,14 +135,14 @@ def _expression(law: AskedLaw) -> str:
 
 
 def _problem_text(problem: Problem) -> str:
-    """A problem as Python; from its entries where its own text is not Python."""
+    """A problem as Python: as it shows itself where that is plain calls and values, else from its entries."""
     text = repr(problem)
-    known = {name: getattr(optlaws, name) for name in _called(text)}
     try:
-        same = eval(text, {"__builtins__": {}}, known) == problem  # noqa: S307 - our own text, to see that it is Python
-    except (NameError, SyntaxError, TypeError, ValueError):
-        same = False
-    return text if same else f"Problem.from_dict({problem.to_dict()!r})"
+        plain = all(isinstance(node, _PLAIN) for node in ast.walk(ast.parse(text, mode="eval")))
+    except SyntaxError:
+        plain = False
+    known = plain and set(_CALLED.findall(text)) <= set(optlaws.__all__)
+    return text if known else f"Problem.from_dict({problem.to_dict()!r})"
 
 
 def _called(text: str) -> list[str]:

@@ -15,6 +15,7 @@ from typing import Any
 import msgspec
 
 from optlaws.errors import SolverFailure
+from optlaws.files.typed import typed
 from optlaws.studies.solving.solving import DIED, TIME_LIMIT, Task, failed
 from optlaws.studies.solving.worker import Died, SolverProcess, TookTooLong
 
@@ -51,7 +52,7 @@ class Processes:
         SolverFailure
             If no process can be started, or a module to be imported is not there.
         """
-        task = msgspec.convert(data, Task)
+        task = typed(data, Task)
         found: list[bytes] = []
         strikes: Counter[int] = Counter()
         begin = 0

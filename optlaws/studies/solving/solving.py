@@ -12,6 +12,7 @@ import msgspec
 
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
+from optlaws.files.typed import typed
 from optlaws.numbers import bounded
 from optlaws.studies.points.points import key, keys_along
 from optlaws.studies.points.study_file import entries
@@ -43,7 +44,7 @@ class Task(msgspec.Struct, kw_only=True):
 
 def in_process(task: Mapping[str, Any]) -> list[bytes]:
     """The rows of a chunk, solved here: for executors that need no watch over them, such as a serial one."""
-    return list(rows(msgspec.convert(task, Task)))
+    return list(rows(typed(task, Task)))
 
 
 def rows(task: Task, begin: int = 0) -> Iterator[bytes]:

@@ -15,6 +15,7 @@ import msgspec
 
 from optlaws.errors import InputError
 from optlaws.files import writing
+from optlaws.files.typed import typed
 from optlaws.studies.points.points import Points
 from optlaws.studies.points.study_file import StudyFile, read_study
 
@@ -63,7 +64,7 @@ class StudyDirectory:
         if isinstance(about, dict) and about.get("format") != FORMAT:
             raise InputError(f"{self.about}: the format is {about.get('format')!r}, this version reads {FORMAT}")
         try:
-            msgspec.convert(about, _About)
+            typed(about, _About)
         except msgspec.ValidationError as error:
             raise InputError(f"{self.about} is damaged: {error}; put a whole copy in its place") from None
         return about, read_study(about["study"])

@@ -8,6 +8,7 @@ from typing import Any, TypeVar
 import msgspec
 
 from optlaws.errors import InputError
+from optlaws.files.typed import typed
 from optlaws.synthesis.problem.problem import Problem
 
 Stated = TypeVar("Stated")
@@ -95,7 +96,7 @@ def stated(data: object, kind: type[Stated], name: str) -> Stated:
     optlaws.errors.InputError: this is not a contact: Expected `float`, got `str` - at `$.k`
     """
     try:
-        return msgspec.convert(as_json(data), kind)
+        return typed(as_json(data), kind)
     except (TypeError, ValueError, RecursionError) as error:
         raise InputError(f"this is not a {name}: {error}") from None
 
