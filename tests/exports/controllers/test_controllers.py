@@ -113,7 +113,7 @@ def test_a_whole_cycle_with_dwells_goes_through_every_format(name: str) -> None:
     assert made.report.ratio(2) == pytest.approx(1.0, abs=2e-3)
 
 
-@pytest.mark.parametrize("name", ["codesys-cambuilder", "iec-st", "twincat-nc2"])
+@pytest.mark.parametrize("name", ["codesys-cambuilder", "twincat-nc2"])
 def test_the_grammar_takes_every_program(name: str) -> None:
     made = export_motion(motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg"), name, name="Press")
     [item] = parsed(made.text).items
