@@ -38,6 +38,8 @@ _NEAR = 4
 #: states that are nearer to each other than this share of the way to where one is guessed are as one
 _APART = 0.2
 _MOST = 400
+#: of a segment: states that are nearer to each other are one of those between which others are interpolated
+_AS_ONE = 1e-5
 #: contacts that are nearer to each other may be two of one
 _SAME = 0.02
 _AT_END = 1e-8
@@ -90,9 +92,10 @@ class Segment:
 
     def interpolated(self, t: Array) -> States:
         """States between those that are known, by the polynomial through the nearest on both sides."""
-        near = min(_NEAR, len(self.t))
-        begin = np.clip(np.searchsorted(self.t, t) - near // 2, 0, len(self.t) - near)
-        chosen = begin[:, None] + np.arange(near)
+        kept = np.flatnonzero(np.diff(self.t, prepend=-np.inf) > _AS_ONE * (self.end - self.begin))
+        near = min(_NEAR, len(kept))
+        begin = np.clip(np.searchsorted(self.t[kept], t) - near // 2, 0, len(kept) - near)
+        chosen = kept[begin[:, None] + np.arange(near)]
         places = self.t[chosen]
         apart = places[:, :, None] - places[:, None, :]
         apart[:, np.arange(near), np.arange(near)] = 1.0

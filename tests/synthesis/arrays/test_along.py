@@ -21,6 +21,7 @@ from optlaws import (
     synthesize_array,
 )
 from optlaws.synthesis.arrays.along import laws_along
+from optlaws.synthesis.arrays.newton_steps import converged
 from optlaws.synthesis.arrays.programs import Path, between
 from optlaws.synthesis.arrays.walk import Segment, Walk
 from optlaws.synthesis.solution_array import SolutionArray
@@ -64,6 +65,20 @@ def test_structures_follow_each_other_without_a_gap(degree: int, changes: int) -
     for one, other in pairwise(segments):
         assert one.structure.signature != other.structure.signature
         assert abs(other.begin - one.end) < 1e-7
+
+
+def test_states_that_are_nearly_one_do_not_spoil_what_is_interpolated() -> None:
+    path = path_of(9)
+    segment = max(walked(path), key=lambda one: one.end - one.begin)
+    middle = (segment.begin + segment.end) / 2.0
+    beside = np.asarray(middle + 1e-10 * np.arange(3), dtype=np.float64)
+    states, done = converged(segment.structure, path.numbers(beside), segment.interpolated(beside))
+    assert done.all()
+    segment.joined(beside, np.asarray(states.packed + 1e-9 * np.arange(3)[:, None]))
+    asked = np.array([middle + 1e-4])
+    exact, done = converged(segment.structure, path.numbers(asked), segment.guessed(asked))
+    assert done.all()
+    np.testing.assert_allclose(segment.interpolated(asked).packed, exact.packed, rtol=1e-5, atol=1e-5)
 
 
 @pytest.mark.parametrize("degree", [5, 9, 19])
