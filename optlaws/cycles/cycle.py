@@ -356,6 +356,7 @@ class Cycle:
         digits: int | None = None,
         decimal: str | None = None,
         interpolation: str | None = None,
+        task: str | None = None,
         name: str | None = None,
     ) -> Any:  # noqa: ANN401 - made a layer above
         """The cycle in the format of a controller, with what the controller will run.
@@ -368,7 +369,7 @@ class Cycle:
             How far the master goes in a cycle; None for a master that is time in seconds.
         unit
             Of positions; "mm" for lengths and "deg" for angles unless given.
-        points, counts, digits, decimal, interpolation, name
+        points, counts, digits, decimal, interpolation, task, name
             As in `MotionLaw.export`.
 
         Returns
@@ -390,7 +391,7 @@ class Cycle:
         """
         said = {"master": master, "unit": unit}
         asked = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
-        return exported("cycle", self, to, said, **asked, interpolation=interpolation, name=name)
+        return exported("cycle", self, to, said, **asked, interpolation=interpolation, task=task, name=name)
 
     def polynomials(self, *, master: Any = None, unit: str | None = None, tolerance: float = 1e-9) -> Any:  # noqa: ANN401
         """Times and polynomial coefficients of the cycle, as a `PiecewiseMotion`: `breaks` and `coefficients`.

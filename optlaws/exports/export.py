@@ -9,6 +9,7 @@ from typing import Any
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.exporting import exports
+from optlaws.exports.at_task import AtTask, at_task
 from optlaws.exports.format import Format, Written, format_of
 from optlaws.exports.motion import Motion, motion_of_cycle, motion_of_law
 from optlaws.exports.polynomials import PiecewiseMotion
@@ -36,6 +37,8 @@ class Export:
         The text, and the motion as the controller interpolates it.
     report
         Peaks, leaps and deviation of that motion, beside the law's.
+    task
+        What a drive hears of it once in a task, where one is given.
 
     Examples
     --------
@@ -51,6 +54,7 @@ class Export:
     motion: Motion
     written: Written
     report: Report
+    task: AtTask | None = None
 
     @property
     def text(self) -> str:
@@ -90,6 +94,9 @@ class Export:
             "units": {"master": self.motion.units.master, "slave": self.motion.units.slave},
             "IsPeriodic": self.motion.repeats,
             **self.report.to_dict(),
+            "task": None
+            if self.task is None
+            else {"seconds": self.task.seconds, "acceleration": self.task.acceleration},
         }
 
     def rows(self) -> list[Row]:
@@ -121,6 +128,16 @@ class Export:
         ]
         if self.report.bound:
             rows.append((f"roundings may add, {units[2]}", self.report.bound, None, None))
+        if self.task is not None:
+            heard, whole = self.task.acceleration, law.peak(2)
+            rows.append(
+                (
+                    f"acceleration heard every {1e3 * self.task.seconds:g} ms, {units[2]}",
+                    heard,
+                    whole,
+                    _ratio(heard, whole),
+                )
+            )
         return [(name, _finite(of_run), _finite(of_law), _finite(ratio)) for name, of_run, of_law, ratio in rows]
 
     def _units(self) -> list[str]:
@@ -144,8 +161,8 @@ class Export:
 
 
 @exports("motion")
-def export_motion(motion: Motion, to: Any, **asked: Any) -> Export:  # noqa: ANN401 - checked by the format
-    """A motion in a format.
+def export_motion(motion: Motion, to: Any, *, task: Any = None, **asked: Any) -> Export:  # noqa: ANN401
+    """A motion in a format, which checks what is asked; `task` is the time of a drive's task, such as "1 ms".
 
     Raises
     ------
@@ -154,7 +171,8 @@ def export_motion(motion: Motion, to: Any, **asked: Any) -> Export:  # noqa: ANN
     """
     chosen = format_of(to)
     written = chosen.write(motion, chosen.request(**asked))
-    return Export(chosen, motion, written, as_run(written.run, motion, written.bound, written.roundings))
+    heard = None if task is None else at_task(written.run, motion, task)
+    return Export(chosen, motion, written, as_run(written.run, motion, written.bound, written.roundings), heard)
 
 
 @exports("law")

@@ -143,6 +143,7 @@ class MotionLaw(Curve, Stored):
         digits: int | None = None,
         decimal: str | None = None,
         interpolation: str | None = None,
+        task: str | None = None,
         name: str | None = None,
     ) -> Any:  # noqa: ANN401 - made two layers above
         """The law in the format of a controller, with what the controller will run.
@@ -167,6 +168,8 @@ class MotionLaw(Curve, Stored):
             Digits behind the decimal sign, and the sign, "." or ",", of tables as text.
         interpolation
             How the controller is told to interpolate, where it can be told.
+        task
+            Time of the drive's task, such as "1 ms": the report then says what it hears once in each.
         name
             Of the variable, the table or the joint; "Cam" unless given.
 
@@ -188,7 +191,7 @@ class MotionLaw(Curve, Stored):
         """
         said = {"stroke": stroke, "time": time, "master": master, "start": start}
         asked = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
-        return exported("law", self, to, said, **asked, interpolation=interpolation, name=name)
+        return exported("law", self, to, said, **asked, interpolation=interpolation, task=task, name=name)
 
     def pieces(
         self,

@@ -184,6 +184,7 @@ class Solution:
         digits: int | None = None,
         decimal: str | None = None,
         interpolation: str | None = None,
+        task: str | None = None,
         name: str | None = None,
     ) -> Any:  # noqa: ANN401 - made a layer above
         """The law in the format of a controller, whose file and report say what is proven of it.
@@ -194,7 +195,7 @@ class Solution:
             The format: `optlaws export --list` names them.
         stroke, time, master, start
             As of `MotionLaw.export`: "35 mm", "0.1 s", "120 deg".
-        points, counts, digits, decimal, interpolation, name
+        points, counts, digits, decimal, interpolation, task, name
             As there.
 
         Raises
@@ -212,7 +213,7 @@ class Solution:
         """
         said = {"stroke": stroke, "time": time, "master": master, "start": start}
         asked = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
-        return exported("solution", self, to, said, **asked, interpolation=interpolation, name=name)
+        return exported("solution", self, to, said, **asked, interpolation=interpolation, task=task, name=name)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: the command line's `--json`, with the problem and the certificate beside it."""

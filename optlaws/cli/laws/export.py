@@ -35,6 +35,7 @@ def export(
     digits: Whole | None = None,
     decimal: str | None = None,
     interpolation: str | None = None,
+    task: str | None = None,
     name: str | None = None,
     output: Path | None = None,
     as_json: AsJson = False,
@@ -71,6 +72,8 @@ def export(
         The decimal sign of tables as text: "." or ",".
     interpolation
         How the controller is told to interpolate, where it can be told.
+    task
+        Time of the drive's task, such as "1 ms": the report then says what it hears once in each.
     name
         Of the variable, the table or the joint.
     output
@@ -92,7 +95,7 @@ def export(
     request = {**asked, "points": _points(points)}
     chosen.request(**request)
     said = {"stroke": stroke, "time": time, "master": master, "start": start}
-    made = export_motion(_motion(law, axis, said), to, **request)
+    made = export_motion(_motion(law, axis, said), to, task=task, **request)
     _answer(made, output, as_json=as_json)
 
 

@@ -59,6 +59,7 @@ class AskedExport(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     digits: int | None = None
     decimal: str | None = None
     interpolation: str | None = None
+    task: str | None = None
     name: str | None = None
 
 
