@@ -38,6 +38,7 @@ QUESTIONS: dict[str, tuple[type[msgspec.Struct], Answer]] = {
     "front": (front_view.AskedFront, front_view.answer),
     "nearest": (AskedLaw, nearest.answer),
     "cam": (cam_view.AskedCam, cam_view.answer),
+    "cam-sizes": (cam_view.AskedCam, cam_view.sizes),
     "cycle": (cycle_view.AskedCycle, cycle_view.answer),
     "cycle-nearest": (cycle_view.AskedCycle, cycle_view.nearest),
     "export": (handed.AskedExport, handed.answer),
@@ -52,7 +53,7 @@ def application(start: dict[str, Any]) -> Starlette:
     Examples
     --------
     >>> sorted(route.path for route in application({}).routes)[:3]
-    ['/', '/api/cam', '/api/cycle']
+    ['/', '/api/cam', '/api/cam-sizes']
     """
     known = {
         "names": [*catalogue, *_MEMBERS],

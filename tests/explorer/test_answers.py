@@ -238,6 +238,11 @@ def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
 
 def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:
     study = cam_view.example()
+    (told,) = cam_view.sizes(AskedCam(study=study))["facts"]
+    least = float(told.split(": ")[1].split()[0])
+    for radius, beyond in ((least, False), (least * 0.999, True)):
+        view = cam_view.answer(AskedCam(study=study | {"base_radius": f"{radius + 1e-5} mm"}))
+        assert view["panels"][1]["beyond"] == beyond
     large = study["follower"] | {"radius": "59 mm"}
     small = cam_view.answer(AskedCam(study=study | {"follower": large}))
     assert small["trust"]["word"] == "undercut"

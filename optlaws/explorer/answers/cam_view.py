@@ -82,7 +82,6 @@ def _view(spec: wishes.Study, cam: DiscCam) -> dict[str, Any]:
         "across": "angle of the cam, deg",
         "segments": [],
         "trust": _trust(cam),
-        "facts": _sizes(spec, cam),
     }
 
 
@@ -165,16 +164,29 @@ def _told(one: Extreme, factor: float, unit: str) -> str:
     return f"{digits(one.value * factor)} {unit} at {digits(degrees(one.angle), 5)} deg"
 
 
-def _sizes(spec: wishes.Study, cam: DiscCam) -> list[str]:
-    """The least base circle that keeps the limits, where some are given."""
+def sizes(asked: AskedCam) -> dict[str, Any]:
+    """The least base circle that keeps the limits, where some are given: it takes longer than the view.
+
+    Examples
+    --------
+    >>> sizes(AskedCam(study=example()))["facts"]
+    ['least base circle that keeps these limits: 58.60757 mm, by the pressure angle']
+    """
+    others = {name: one for name, one in asked.study.items() if name not in {"cutter_radius", "title", "text"}}
+    return {"facts": list(_least(json.dumps(others | {"title": "a cam"}, sort_keys=True)))}
+
+
+@lru_cache(maxsize=32)
+def _least(question: str) -> tuple[str, ...]:
+    spec, cam = _made(question)
     if spec.pressure_angle is None and spec.radius_of_curvature is None:
-        return []
+        return ()
     wanted = {"pressure_angle": spec.pressure_angle, "radius_of_curvature": spec.radius_of_curvature}
     try:
         least = least_base_circle(cam.motion, cam.follower, **wanted, turning=spec.turning)
     except InfeasibleProblem as error:
-        return [str(error.args[0])]
-    return [f"least base circle that keeps these limits {digits(_MILLI * least.radius)} mm, by the {least.limit}"]
+        return (str(error.args[0]),)
+    return (f"least base circle that keeps these limits: {digits(_MILLI * least.radius)} mm, by the {least.limit}",)
 
 
 #: what the page shows where no cam was given

@@ -8,6 +8,7 @@ import { Programme } from "./programme.js";
 import { html } from "./svg.js";
 import { showTrust } from "./trust.js";
 
+const told = (value) => JSON.stringify(value);
 const element = (id) => document.getElementById(id);
 const FIELDS = {
   "translating roller": { radius: "12 mm", offset: "0 mm" },
@@ -25,6 +26,7 @@ export class CamView {
   #mechanism = new Mechanism(element("cam-drawing"));
   #motion = new Motion(element("cam-curves"));
   #cams;
+  #sizes;
   #kind = "";
   #shows = [];
   #playing = null;
@@ -34,7 +36,11 @@ export class CamView {
   constructor(study, failed) {
     this.#study = study;
     this.#programme = new Programme(element("cam-programme"), study, (state) => state.cam);
-    this.#cams = new Latest("api/cam", (answer) => this.#render(answer), failed);
+    this.#cams = new Latest("api/cam", (answer, question) => {
+      this.#render(answer);
+      if (!answer.refused) this.#sizes.ask(question);
+    }, failed);
+    this.#sizes = new Latest("api/cam-sizes", ({ facts }, asked) => told(asked.study) === told(this.#study.state.cam) && this.#fact(facts), failed);
     this.#turning();
   }
 
@@ -48,9 +54,15 @@ export class CamView {
 
   #render(answer) {
     showTrust(element("cam-trust"), answer, [], () => {});
-    if (answer.facts?.length) element("cam-trust").append(html("p", { class: "facts", text: answer.facts.join(" · ") }));
+    if (!answer.refused) this.#fact(null);
     this.#motion.show(answer);
     this.#mechanism.show(answer);
+  }
+
+  /** What is known of the sizes stands below the words of trust; until it is, the space is kept. */
+  #fact(facts) {
+    element("cam-trust").querySelector(".sizes")?.remove();
+    element("cam-trust").append(html("p", { class: "facts sizes", text: facts?.join(" · ") ?? "…" }));
   }
 
   #build(kind) {

@@ -84,11 +84,13 @@ export class Laws {
     if (told(question) === told(this.#front)) return;
     this.#front = question;
     this.#words = "computing the front …";
+    element("plane").classList.add("behind");
     this.#fronts.ask(question);
   }
 
   #showFront(front) {
     this.#words = front.words;
+    element("plane").classList.remove("behind");
     this.#plane.showFront(front);
     this.#render();
   }
