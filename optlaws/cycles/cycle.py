@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from functools import reduce
 from itertools import pairwise
@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 
 from optlaws.cycles.asked.conversion import Piece
 from optlaws.cycles.asked.joints import Layout, layout
-from optlaws.cycles.asked.programme import TURN, Programme, is_optimal, period_of, programme
+from optlaws.cycles.asked.programme import TURN, Programme, Stretch, is_optimal, period_of, programme
 from optlaws.cycles.asked.quantities import quantity
-from optlaws.cycles.asked.segments import CycleSegment, Dwell, Move
+from optlaws.cycles.asked.segments import ConstantVelocity, CycleSegment, Dwell, Move
 from optlaws.cycles.drive import Drive, read_drive
 from optlaws.cycles.durations import durations
 from optlaws.cycles.effort import Effort, effort
@@ -31,6 +31,7 @@ from optlaws.cycles.optimal import (
     read_load_limits,
     solve,
 )
+from optlaws.cycles.stored import Stated
 from optlaws.errors import InputError
 from optlaws.exporting import exported
 from optlaws.kept import kept_property
@@ -59,8 +60,8 @@ class SegmentPeaks:
         return max(abs(value) for value, _ in self.extremes[nu])
 
 
-@dataclass(frozen=True)
-class Cycle:
+@dataclass(frozen=True, repr=False)
+class Cycle(Stated):
     """A cycle that repeats: segments, and how fast the master turns; call it for motion in SI units over time.
 
     Positions are lengths or angles, whichever the first displacement is. Laws that are to be optimal are looked for
@@ -279,8 +280,45 @@ class Cycle:
         return values if np.ndim(values) else float(values)
 
     def at_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
-        """The same at an angle of the master in degrees; derivatives are by time."""
-        return self(real_times(degrees) * self.duration / 360.0, nu)
+        """The same at an angle of the master, in degrees or a text such as "0.5 rad"; derivatives are by time."""
+        turns = quantity(degrees, "angle", "angle") / TURN if isinstance(degrees, str) else real_times(degrees) / 360.0
+        return self(turns * self.duration, nu)
+
+    def at(self, speed: Any) -> Cycle:  # noqa: ANN401 - a quantity
+        """The same motion at another speed of the master: every law as it is, every duration in proportion.
+
+        Raises
+        ------
+        InputError
+            If the speed is not above 0, or no angular velocity.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.asked.segments import Return, Rise
+        >>> cycle = Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm")
+        >>> fast = cycle.at("400 rpm")
+        >>> fast.duration, round(fast.peak(2) / cycle.peak(2), 9)
+        (0.15, 4.0)
+        """
+        share = period_of(speed, None) / self.duration
+        made: list[CycleSegment] = []
+        for one, given, piece in self._by_segment("another speed is given to laws of single segments"):
+            time, name = f"{piece.duration * share!r} s", given.label
+            if isinstance(given, ConstantVelocity):
+                made.append(ConstantVelocity(self._shown(piece.end(1, 0) / share) + "/s", time, name=name))
+            elif piece.stroke == 0.0:
+                made.append(Dwell(time, name=name))
+            elif piece.stroke == one.displacement:
+                made.append(Move(self._shown(piece.stroke), time, law=piece.law, name=name))
+            else:
+                raise InputError(f"{one.where} ends where it begins: give it to a Cycle of its own at the other speed")
+        return replace(self, segments=made, speed=None, period=f"{self.duration * share!r} s", limits={})
+
+    def _by_segment(self, why: str) -> Iterator[tuple[Stretch, CycleSegment, Piece]]:
+        """Segments with their pieces, where each has one."""
+        if len(self.pieces) != len(self.segments):
+            raise InputError(f"{why}: take moves in place of free motions that meet")
+        return zip(self.programme.stretches, self.segments, self.pieces, strict=True)
 
     def per_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
         """Derivatives by the master's angle in radians, as cams and controllers take them."""
@@ -314,10 +352,8 @@ class Cycle:
         natural = quantity(period, "time", "follower: period")
         if natural <= 0.0:
             raise InputError(f"follower: period must be above 0, got {period!r}")
-        if len(self.pieces) != len(self.segments):
-            raise InputError("the cam of an elastic follower is made move by move: take moves in place of free motions")
         made: list[CycleSegment] = []
-        for one, given, piece in zip(self.programme.stretches, self.segments, self.pieces, strict=True):
+        for one, given, piece in self._by_segment("the cam of an elastic follower is made move by move"):
             time = f"{piece.duration!r} s"
             if piece.stroke == 0.0:
                 made.append(Dwell(time, name=given.label))
@@ -420,7 +456,7 @@ class Cycle:
         Parameters
         ----------
         ax
-            Four axes; a new figure unless given.
+            Four axes, or one for all, where every curve is divided by its peak; a new figure unless given.
         style
             What `Axes.plot` takes, for the curves.
 
@@ -431,7 +467,7 @@ class Cycle:
         Raises
         ------
         InputError
-            If there are not four axes.
+            If there are neither one nor four axes.
 
         Examples
         --------

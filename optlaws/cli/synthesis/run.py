@@ -19,6 +19,7 @@ def run(*files: Path, out: Path | None = None) -> None:
         Folder for the results of a single file; otherwise results/NAME beside the folder of the problem file, and of a
         name results/NAME where you are.
     """
+    from optlaws.files import writing
     from optlaws.files.packaged import problem_file, problem_names
     from optlaws.jobs import job
 
@@ -26,7 +27,11 @@ def run(*files: Path, out: Path | None = None) -> None:
         raise InputError(f"name at least one problem file, or one of those packaged: {', '.join(problem_names())}")
     if out is not None and len(files) > 1:
         raise InputError("--out takes the results of one problem file; several were named")
-    for file, own in [problem_file(file) for file in files]:
+    asked = [problem_file(file) for file in files]
+    for _, own in asked:
+        if (folder := out or own) is not None:
+            writing.check_place(folder / "results.md")
+    for file, own in asked:
         with busy(f"{file}"):
             written = job.run(file, out or own)
         for text in (w for w in written if w.suffix == ".md"):

@@ -50,9 +50,12 @@ def study(
         return
     if file is None:
         raise InputError("name a study file, or a directory by --status DIR")
+    from optlaws.files import writing
     from optlaws.studies.progress import Bar, Lines
 
     target = out if out is not None else file.resolve().parent.parent / "studies" / file.stem
+    if not target.exists():
+        writing.check_place(target / "rows.parquet")
     console = progress()
     watch = Bar(console) if console.is_terminal else Lines(console)
     with _cluster(dask) as (executor, threads):

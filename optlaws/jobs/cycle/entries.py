@@ -8,20 +8,13 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 
-from optlaws.cycles.asked.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move, Return, Rise
+from optlaws.cycles.asked.segments import CycleSegment
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.stored import KINDS
 from optlaws.errors import InputError
 from optlaws.files.problem_file import Text, convert
 
 Kind = Literal["dwell", "constant velocity", "move", "rise", "return", "free"]
-KINDS: dict[str, type[Any]] = {
-    "dwell": Dwell,
-    "constant velocity": ConstantVelocity,
-    "move": Move,
-    "rise": Rise,
-    "return": Return,
-    "free": Free,
-}
 
 
 class AskedSegment(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):

@@ -44,8 +44,10 @@ def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:  #
     Raises
     ------
     InputError
-        If there are not four axes.
+        If there are neither one nor four axes.
     """
+    if hasattr(axes, "plot"):
+        return _draw_together(cycle, axes, style)
     if axes is None:
         with drawing.style():
             axes = list(drawing.new_figure(8.6, 8.2).subplots(4, 1, sharex=True))
@@ -61,6 +63,21 @@ def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:  #
     return artists
 
 
+def _draw_together(cycle: Cycle, axes: Axes, style: dict[str, Any]) -> list[Artist]:
+    """All four, each divided by its peak, with the limits that are near."""
+    artists: list[Artist] = []
+    for nu, colour in enumerate((drawing.GREY, drawing.GREEN, drawing.BLUES[3], drawing.WARM)):
+        unit, size = UNITS[cycle.axis][nu]
+        peak = cycle.peak(nu) or 1.0
+        name = {"label": f"{QUANTITIES[nu]} / {peak * size:.6g} {unit}", "color": colour} | style
+        artists += _draw_curve(cycle, axes, nu, name, share=1.0 / (peak * size))
+        artists += _mark_limits(cycle, axes, nu, share=1.0 / (peak * size))
+    _mark_segments(cycle, axes)
+    axes.set(xlabel="time, ms", xlim=(0.0, 1e3 * cycle.duration), ylabel="share of the peak")
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.0)
+    return artists
+
+
 def _name_segment(axes: Axes, name: str, place: float) -> None:
     above: Any = {"xycoords": ("data", "axes fraction"), "ha": "center", "va": "bottom", "fontsize": 8.0}
     axes.annotate(name, (place, 1.02), color=drawing.GREY, **above)
@@ -70,7 +87,7 @@ def _starts(cycle: Cycle) -> list[float]:
     return [peaks.start for peaks in cycle.peaks]
 
 
-def _draw_curve(cycle: Cycle, axes: Axes, nu: int, style: dict[str, Any]) -> list[Artist]:
+def _draw_curve(cycle: Cycle, axes: Axes, nu: int, style: dict[str, Any], share: float = 1.0) -> list[Artist]:
     unit, factor = UNITS[cycle.axis][nu]
     times, values = [], []
     for piece in cycle.pieces:
@@ -78,7 +95,7 @@ def _draw_curve(cycle: Cycle, axes: Axes, nu: int, style: dict[str, Any]) -> lis
         inside = np.unique(np.concatenate([np.linspace(piece.start, piece.stop, _EACH), breaks]))
         # a leap is drawn upright: the last value before the end of the piece, then the first of the next
         times.append(inside)
-        values.append(factor * piece.values(inside, nu))
+        values.append(share * factor * piece.values(inside, nu))
     axes.set_ylabel(f"{QUANTITIES[nu]}, {unit}")
     return list(axes.plot(1e3 * np.concatenate(times), np.concatenate(values), **style))
 
@@ -88,9 +105,9 @@ def _mark_segments(cycle: Cycle, axes: Axes) -> None:
         axes.axvline(1e3 * start, color=drawing.GREY, linewidth=0.7, linestyle=":")
 
 
-def _mark_limits(cycle: Cycle, axes: Axes, nu: int) -> list[Artist]:
+def _mark_limits(cycle: Cycle, axes: Axes, nu: int, share: float = 1.0) -> list[Artist]:
     """The limits of each optimal segment, where they are within sight."""
-    factor = UNITS[cycle.axis][nu][1]
+    factor = share * UNITS[cycle.axis][nu][1]
     look: dict[str, Any] = {"color": drawing.WARM, "linewidth": 1.1, "linestyle": "--"}
     artists: list[Artist] = []
     for peaks, limits in zip(cycle.peaks, cycle.limits_of_segments, strict=True):
