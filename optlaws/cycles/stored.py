@@ -118,7 +118,7 @@ def _to_data(cycle: Any) -> dict[str, Any]:  # noqa: ANN401 - a Cycle
     return {"format": FORMAT, **kept, "segments": [_segment(one) for one in cycle.segments]}
 
 
-def _from_data(data: Mapping[str, Any]) -> dict[str, Any]:
+def _from_data(data: Any) -> dict[str, Any]:  # noqa: ANN401 - it is checked here
     """What `Cycle` takes."""
     if not isinstance(data, Mapping) or not isinstance(data.get("segments"), list):
         raise InputError("a stored cycle is a table with a list of segments, as Cycle.to_dict gives it")
