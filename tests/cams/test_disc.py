@@ -14,6 +14,8 @@ from optlaws.cams.followers.oscillating_flat import OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat
 from optlaws.cams.followers.translating_roller import TranslatingRoller
+from optlaws.cycles.asked.segments import Return, Rise
+from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
@@ -144,3 +146,16 @@ def test_wrong_motions_and_words_are_refused() -> None:
         CamMotion.of_law("cycloidal", "20 mm", "90 deg", "down")
     with pytest.raises(InputError, match="take a Cycle for the whole of it"):
         DiscCam(CamMotion.of_law("cycloidal", "20 mm", "90 deg"), "80 mm", roller).profile(3.0)
+
+
+def test_a_textbooks_harmonic_cam_is_an_eccentric_circle() -> None:
+    """A much used exercise: a flat face, 50 mm of simple harmonic motion out and back in a turn, least radius 25 mm.
+
+    Its contour is a circle of 50 mm about a point 25 mm off, and the face is touched up to 25 mm to both sides.
+    """
+    moves = [kind("50 mm", "180 deg", law="simple harmonic") for kind in (Rise, Return)]
+    cam = DiscCam(Cycle(moves, period="1 s"), "25 mm", TranslatingFlat())
+    assert np.allclose(np.abs(points(cam.profile(ANGLES)) + 0.025j), 0.05, atol=1e-15)
+    assert cam.extremes.bulging_radius.low <= 0.05 <= cam.extremes.bulging_radius.high
+    assert cam.extremes.undercut.simple
+    assert cam.displacement.slopes == pytest.approx((-0.025, 0.025), rel=1e-12)

@@ -168,7 +168,7 @@ class _Look:
         value, slope, bend = self.function(enclosed_jet(self.stretch, middles, halves, self.order)).terms
         count = len(places)
         self._reached(places, value[:count])
-        width = (high - low) * (self.stretch.stop - self.stretch.start) * (1.0 + 4.0 * ROUNDING)
+        width = (high - low) * self.stretch.duration * self.stretch.length * (1.0 + 8.0 * ROUNDING)
         ends = where[: len(low)], where[len(low) :]
         whole, curved = value[count:], bend[count:] * 2.0
         seen = [(value[end], slope[end] * sign) for end, sign in zip(ends, (1.0, -1.0), strict=True)]

@@ -137,7 +137,7 @@ def bulging_radius(motion: CamMotion, contact: Contact) -> Extreme:
     >>> from optlaws.cams.followers.translating_flat import SlidingFace
     >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
     >>> round(bulging_radius(rise, SlidingFace(1.0, 0.0, 0.08)).value, 6)
-    0.052694
+    0.058672
     """
     if isinstance(contact, RollerContact):
         return _inside(pitch_curvatures(motion, contact)[1], contact.roller)
