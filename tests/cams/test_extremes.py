@@ -212,3 +212,11 @@ def test_no_undercut_is_missed_in_a_thousand_random_cams() -> None:
 
 def test_an_extreme_with_the_other_sign_is_turned_over() -> None:
     assert -Extreme(-2.0, -1.0, 0.3) == Extreme(1.0, 2.0, 0.3)
+
+
+def test_a_part_of_the_turn_is_proven_locally_alone() -> None:
+    rise = DiscCam(CamMotion.of_law("cycloidal", "40 mm", "120 deg"), "60 mm", TranslatingRoller("5 mm"))
+    assert str(rise.extremes.undercut) == "no undercut, locally"
+    assert str(DiscCam(cycle_of("40 mm"), "60 mm", TranslatingRoller("5 mm")).extremes.undercut).endswith(
+        "cross itself"
+    )

@@ -27,7 +27,7 @@ class Undercut:
         cusp and no loop; "undercut" where it is proven not to; "undecided" where the enclosure holds the limit.
     simple
         Whether it is proven besides that the profile does not cross itself and that the follower, where it touches,
-        cuts it nowhere else.
+        cuts it nowhere else; never of a motion over a part of the turn.
     margin
         The least radius of curvature of the profile where it bulges, m; below 0 by how much the roller is too large.
     """
@@ -99,7 +99,7 @@ def cam_extremes(motion: CamMotion, contact: Contact) -> CamExtremes:
         return _under_roller(motion, contact, pressure)
     least = bulging_radius(motion, contact)
     # a face turns with the cam all the way, so that its envelope is convex where its radius is above 0
-    return CamExtremes(pressure, least, None, Undercut(_status(least), least.low > 0.0, least))
+    return CamExtremes(pressure, least, None, Undercut(_status(least), motion.closed and least.low > 0.0, least))
 
 
 def pressure_angles(motion: CamMotion, contact: Contact) -> tuple[Extreme, Extreme]:
@@ -160,9 +160,8 @@ def _under_roller(motion: CamMotion, contact: RollerContact, pressure: tuple[Ext
         farthest = -1.0 / least.high + roller if least.high < 0.0 else inf
         hollow = _outward(nearest, farthest, least.angle, nearest)
     status = _status(bulging)
-    return CamExtremes(
-        pressure, bulging, hollow, Undercut(status, status == FREE and _is_star(motion, contact), bulging)
-    )
+    simple = motion.closed and status == FREE and _is_star(motion, contact)
+    return CamExtremes(pressure, bulging, hollow, Undercut(status, simple, bulging))
 
 
 def _is_star(motion: CamMotion, contact: RollerContact) -> bool:
