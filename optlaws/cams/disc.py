@@ -23,6 +23,7 @@ from optlaws.errors import InputError
 from optlaws.exporting import exported
 from optlaws.kept import kept_property
 from optlaws.numbers import derivative, real_times
+from optlaws.plotting import plotted
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
@@ -178,6 +179,22 @@ class DiscCam:
         given = {name: value for name, value in asked.items() if value is not None}
         written: Path = exported("cam", self, file, as_, **given)
         return written
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the cam with its follower, pressure angle, curvature and displacement, by matplotlib.
+
+        Parameters
+        ----------
+        ax
+            One pair of axes, for the cam alone, or four; a new figure unless given.
+        style
+            What `Axes.plot` takes, for the curves.
+
+        Returns
+        -------
+        The artists; `[0].figure` is the figure.
+        """
+        return plotted("cam", self, ax, **style)
 
     def pressure_angle(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, arrays for arrays
         """The angle between the force on the follower and its way, rad, or a derivative of it by the cam's angle.

@@ -21,6 +21,7 @@ _PARTS = 4
 _DEEPEST = 40
 _MOST = 100_000
 _ROUNDING = 2.0**-44
+_TIE = 1e-10
 
 
 class Enclosure(NamedTuple):
@@ -203,12 +204,19 @@ def enclosed(function: Function, edges: Array, *, share: float = 1e-9, scale: fl
 
 def _with(known: Enclosure, values: Array, places: Array) -> Enclosure:
     """With values that the function has."""
-    first, last = int(values.argmin()), int(values.argmax())
-    if values.flat[first] < known.least:
-        known = known._replace(least=float(values.flat[first]), least_at=float(places.flat[first]))
-    if values.flat[last] > known.most:
-        known = known._replace(most=float(values.flat[last]), most_at=float(places.flat[last]))
-    return known
+    tie = _TIE * max(float(np.abs(values).max()), known.peak if np.isfinite(known.peak) else 0.0)
+    least, least_at = _first(values, places, tie, (known.least, known.least_at))
+    most, most_at = _first(-values, places, tie, (-known.most, known.most_at))
+    return known._replace(least=least, least_at=least_at, most=-most, most_at=most_at)
+
+
+def _first(values: Array, places: Array, tie: float, known: tuple[float, float]) -> tuple[float, float]:
+    """The least value, and the first place where it is, but for rounding."""
+    least = float(values.min())
+    place = float(places[values <= least + tie].min())
+    if least < known[0] - tie:
+        return least, place
+    return min(least, known[0]), min(place, known[1]) if least <= known[0] + tie else known[1]
 
 
 def _within(known: Enclosure, low: Array, high: Array) -> Enclosure:

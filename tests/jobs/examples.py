@@ -53,8 +53,22 @@ pressure_angle = "30 deg"
 kind = "translating roller"
 radius = "12 mm"
 offset = "6 mm"
+[forces]
+width = "20 mm"
+[spring]
+speeds = ["0 rpm", "300 rpm"]
+preload = "60 N"
+[as_made]
+points = [121]
+decimals = [3]
+[[file]]
+name = "profile.nc"
+cutter_radius = "10 mm"
+decimals = 3
+tolerance = "20 um"
 [motion]
 name = "slide"
+drive = { mass = "2 kg", stiffness = "2 N/mm", preload = "60 N" }
 [[motion.segment]]
 kind = "rise"
 by = "20 mm"
@@ -369,7 +383,13 @@ EXAMPLES = {
             ('offset = "6 mm"', 'arm = "6 mm"', "a translating roller takes no arm; it takes radius, offset"),
             ('radius = "12 mm"\n', "", "base_radius|a translating roller needs its radius"),
             ('"translating roller"', '"translating rollr"', "kind"),
-            ('by = "20 mm"', 'by = "20 deg"', "take an oscillating follower"),
+            ('by = "20 mm"', 'by = "20 deg"', "drive: unknown key 'mass'"),
+            ('"profile.nc"', '"profile.igs"', "says no format"),
+            ('"profile.nc"', '"../profile.nc"', "file: name must be that of a file in the folder"),
+            ('tolerance = "20 um"', 'tolerance = "20 s"', "tolerance must be a length"),
+            ("mass =", "inertia =", "drive: .*inertia"),
+            ('width = "20 mm"', 'width = "0 mm"', "width must be above 0"),
+            ("decimals = [3]", "decimal = [3]", "decimal.*decimals"),
             ('"50 mm"', '"50"', "base_radius must be a length"),
         ),
     ),

@@ -34,6 +34,10 @@ _SHIFTS = (0.0, 0.5 * pi, pi, 1.5 * pi)
 _MOST_WAVES = 100_000
 
 
+class UnreachedProfileError(InputError):
+    """The follower does not touch all of a cam as made, so that its motion is not that of the curve."""
+
+
 @dataclass(frozen=True)
 class AsMade:
     """What a follower does on a cam as it is made, over the whole turn.
@@ -64,7 +68,7 @@ class AsMade:
         return {name: bounded(value) for name, value in asdict(self).items()}
 
 
-def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0) -> AsMade:
+def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, leaps: bool = True) -> AsMade:
     """What a cam's follower does on a curve in place of its profile.
 
     Parameters
@@ -75,6 +79,8 @@ def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0) -> AsMade:
         A closed curve, as it was made; any parameter.
     outside
         How far outside of the profile the curve is, m: the radius of the cutter whose path it is.
+    leaps
+        Whether leaps of the acceleration make the jerk infinite; otherwise it is the greatest between them.
 
     Raises
     ------
@@ -94,7 +100,7 @@ def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0) -> AsMade:
     deviation = enclosed(off, edges, share=_SHARE).peak
     acceleration = _peak(following, edges, 2)
     leap = _leap(following, edges, acceleration)
-    jerk = inf if leap else _peak(following, edges, 3)
+    jerk = inf if leap and leaps else _peak(following, edges, 3)
     return AsMade(deviation, acceleration, jerk, leap, acceleration / _meant(cam, 2), jerk / _meant(cam, 3))
 
 
@@ -103,7 +109,7 @@ def _check_hollows(following: Following, edges: Array) -> None:
     places = edges[:-1, None] + np.multiply.outer(np.diff(edges), np.linspace(0.1, 0.9, 5))
     rates = np.asarray(following.jets(places, 1)[0].terms[1])
     if rates.min() * rates.max() <= 0.0:
-        raise InputError(
+        raise UnreachedProfileError(
             "the follower does not reach all of the cam as made: it has corners or hollows narrower than the roller; "
             "ask for more decimals, fewer points or waves, or a lesser error"
         )
@@ -172,7 +178,8 @@ def with_error(cam: DiscCam, error: Any, waves: Any) -> AsMade:  # noqa: ANN401 
     """What a cam's follower does if the profile is off by waves of an amplitude along its normals.
 
     Of four phases of the wave, the greatest values. A wave with n periods in a turn adds about n² times its amplitude
-    to the second derivative by the cam's angle, and n³ times to the third.
+    to the second derivative by the cam's angle, and n³ times to the third. The jerk is the greatest between places
+    where the cam's own leaps, at which the error makes the acceleration leap a little.
 
     Parameters
     ----------
@@ -191,7 +198,7 @@ def with_error(cam: DiscCam, error: Any, waves: Any) -> AsMade:  # noqa: ANN401 
     amplitude, count = quantity(error, "length", "error"), whole(waves, "waves", least=1, most=_MOST_WAVES)
     if amplitude <= 0.0:
         raise InputError(f"error must be above 0, got {shortened(error)}")
-    made = [run_against(cam, Wavy(cam.profile, amplitude, count, shift)) for shift in _SHIFTS]
+    made = [run_against(cam, Wavy(cam.profile, amplitude, count, shift), leaps=False) for shift in _SHIFTS]
     return AsMade(*(max(getattr(one, name) for one in made) for name in AsMade.__dataclass_fields__))
 
 

@@ -10,12 +10,14 @@ from typing import Any
 
 import numpy as np
 
+from optlaws import drawing
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.extremes.bounding import Extreme
 from optlaws.cams.followers.contact import RollerContact
 from optlaws.cams.least_sizes import GreatestRoller, LeastBaseCircle, greatest_roller, least_base_circle
 from optlaws.errors import InfeasibleProblem
 from optlaws.files import tables, writing
+from optlaws.jobs.cam.more import Found, add, figures, files
 from optlaws.jobs.cam.wishes import Study, read
 from optlaws.jobs.pages.page import Page
 
@@ -27,16 +29,21 @@ _NOTHING = 1e-100
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec, cam = read(data, file)
+    found = Found(spec, cam)
     about = f"{spec.title}; from {file.name}"
     texts = {
-        "cam.md": str(page(spec, cam)),
-        "cam.json": json.dumps({"about": f"{about}; {writing.MARK}", **answer(spec, cam)}, indent=1) + "\n",
+        "cam.md": str(page(spec, cam, found)),
+        "cam.json": json.dumps({"about": f"{about}; {writing.MARK}", **answer(spec, cam, found)}, indent=1) + "\n",
         "cam.csv": tables.to_csv(_columns(spec), _rows(spec, cam), about=about),
     }
-    return [writing.write(out / name, text) for name, text in texts.items()]
+    return [
+        *(writing.write(out / name, text) for name, text in texts.items()),
+        *drawing.save_pictures(figures(found, spec.title), out),
+        *files(found, out, about),
+    ]
 
 
-def answer(spec: Study, cam: DiscCam) -> dict[str, Any]:
+def answer(spec: Study, cam: DiscCam, found_beside: Found | None = None) -> dict[str, Any]:
     """What a program is told of the cam, in metres and radians: enclosures as pairs, with the angle of the cam."""
     found = cam.extremes
     undercut = found.undercut
@@ -59,19 +66,21 @@ def answer(spec: Study, cam: DiscCam) -> dict[str, Any]:
         told["least_base_circle"] = None
     if roller is not None:
         told["greatest_roller"] = {"radius": roller.radius, "too_large": roller.too_large, "angle": roller.angle}
-    return told
+    return told | (found_beside or Found(spec, cam)).told()
 
 
-def page(spec: Study, cam: DiscCam) -> Page:
+def page(spec: Study, cam: DiscCam, found_beside: Found | None = None) -> Page:
     """The page of results."""
-    made = Page(spec.title).text(spec.text)
+    made = Page(spec.title).text(spec.text).figure("cam", spec.title)
     made.text(f"Undercut: {cam.extremes.undercut}.")
     made.table(("what", "at least", "at most", "unit", "at, deg"), _extreme_rows(cam), digits=7)
     sizes = _size_rows(spec, cam)
     if sizes:
         made.heading("Sizes").table(("what", "kept with", "broken with", "unit", "at, deg"), sizes, digits=7)
     least = _least(spec, cam)
-    return made.text(f"No base circle: {least}.") if isinstance(least, str) else made
+    if isinstance(least, str):
+        made.text(f"No base circle: {least}.")
+    return add(made, found_beside or Found(spec, cam))
 
 
 def _extreme_rows(cam: DiscCam) -> list[list[tables.Cell]]:

@@ -16,6 +16,7 @@ from optlaws.cams.followers.translating_flat import TranslatingFlat
 from optlaws.cams.followers.translating_roller import TranslatingRoller
 from optlaws.errors import InputError
 from optlaws.files.problem_file import Text, convert
+from optlaws.jobs.cam.more import More, check
 from optlaws.jobs.cycle.entries import Axis, cycle_of
 
 Kind = Literal["translating roller", "translating flat", "oscillating roller", "oscillating flat"]
@@ -38,7 +39,7 @@ class AskedFollower(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     face_offset: str | None = None
 
 
-class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class Study(More, kw_only=True, forbid_unknown_fields=True):
     """The problem file."""
 
     job: str
@@ -70,6 +71,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, DiscCam]:
         cam = DiscCam(cycle, spec.base_radius, follower_of(spec.follower), turning=spec.turning)
         if spec.cutter_radius is not None:
             cam.cutter_path(spec.cutter_radius)
+        check(spec, cam)
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
     return spec, cam

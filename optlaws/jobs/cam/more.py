@@ -1,0 +1,248 @@
+"""What the job "cam" says beside the geometry: forces, a spring, peaks as made, and the files that cut the cam."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from functools import partial
+from math import degrees
+from pathlib import Path
+from typing import TYPE_CHECKING, Annotated, Any
+
+import msgspec
+
+from optlaws.cams.cutting.cam_files import curve_of
+from optlaws.cams.cutting.formats import format_of
+from optlaws.cams.cutting.wanted import Cutting
+from optlaws.cams.disc import DiscCam
+from optlaws.cams.loads.forces import CamForces
+from optlaws.cams.loads.springs import Spring, least_spring
+from optlaws.cams.made.as_made import AsMade, UnreachedProfileError, as_made, with_error
+from optlaws.errors import InputError
+from optlaws.files import tables, writing
+from optlaws.files.problem_file import Text
+from optlaws.jobs.cam.pictures import draw, draw_forces
+from optlaws.jobs.pages.page import Page
+from optlaws.kept import kept_property
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Several = Annotated[tuple[int, ...], msgspec.Meta(max_length=10)]
+
+_MICRO = 1e6
+_FORCE = {"length": "N", "angle": "N m"}
+_STIFFNESS = {"length": "N/m", "angle": "N m/rad"}
+
+
+class AskedForces(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """Forces of the cam under the drive of its motion."""
+
+    friction: dict[str, float | str] = {}
+    width: str | None = None
+    materials: tuple[str, str] = ("steel", "steel")
+
+
+class AskedSpring(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A spring that keeps the follower on the cam over a range of speeds."""
+
+    speeds: tuple[str, str]
+    force: str | None = None
+    stiffness: str | None = None
+    preload: str | None = None
+
+
+class AskedAsMade(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """Which files are run against the follower: tables of so many points and decimals, and errors of the profile."""
+
+    points: Several = (361, 721)
+    decimals: Several = (3, 4, 6)
+    curve: str = "profile"
+    error: str | None = None
+    waves: Several = (3, 12)
+
+
+class AskedFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """A file that cuts the cam; what is not given is as in `DiscCam.export`."""
+
+    name: Text
+    format: str | None = None
+    curve: str | None = None
+    cutter_radius: str | None = None
+    tolerance: str | None = None
+    decimals: int | None = None
+    points: int | None = None
+    degree: int | None = None
+    feed: str | None = None
+
+    def asked(self) -> dict[str, Any]:
+        """Entries of the export."""
+        given = msgspec.structs.asdict(self)
+        return {key: value for key, value in given.items() if key not in {"name", "format"} and value is not None}
+
+
+class More(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """Entries of the problem file beside the geometry's."""
+
+    forces: AskedForces | None = None
+    spring: AskedSpring | None = None
+    as_made: AskedAsMade | None = None
+    file: Annotated[list[AskedFile], msgspec.Meta(max_length=50)] = []
+
+
+def check(spec: More, cam: DiscCam) -> None:
+    """Refuse what would be refused only after the work was done.
+
+    Raises
+    ------
+    InputError
+        If an entry of a file is wrong, or forces have no drive.
+    """
+    for one in spec.file:
+        if Path(one.name).name != one.name:
+            raise InputError(f"file: name must be that of a file in the folder of results, got {one.name!r}")
+        writing.check_name(Path(one.name))
+        format_of(Path(one.name), one.format)
+        entries = one.asked()
+        curve_of(cam, entries.pop("curve", None), entries.pop("cutter_radius", None))
+        Cutting(**entries)
+    forces_of(spec, cam)
+
+
+def forces_of(spec: More, cam: DiscCam) -> CamForces | None:
+    """The cam's forces, if they were asked for."""
+    asked = spec.forces
+    if asked is None:
+        return None
+    return CamForces(cam, friction=asked.friction, width=asked.width, materials=asked.materials)
+
+
+@dataclass(frozen=True)
+class Found:
+    """What was asked beside the geometry, computed once."""
+
+    spec: More
+    cam: DiscCam
+
+    @kept_property
+    def forces(self) -> CamForces | None:
+        """The cam's forces."""
+        return forces_of(self.spec, self.cam)
+
+    @kept_property
+    def spring(self) -> Spring | None:
+        """The least spring; mass, gravity and friction are those of the motion's drive."""
+        if self.spec.spring is None:
+            return None
+        given = getattr(self.cam.motion, "drive", None) or {}
+        load = {key: value for key, value in given.items() if key not in {"stiffness", "preload"}}
+        return least_spring(self.cam, drive=load, **msgspec.structs.asdict(self.spec.spring))
+
+    @kept_property
+    def made(self) -> dict[str, AsMade | None]:
+        """Peaks of the cam as made; None where its follower does not reach all of it."""
+        asked, cam = self.spec.as_made, self.cam
+        if asked is None:
+            return {}
+        found: dict[str, AsMade | None] = {}
+        for points in asked.points:
+            for decimals in asked.decimals:
+                table: dict[str, Any] = {"curve": asked.curve, "points": points, "decimals": decimals}
+                name = f"{points} points of the {asked.curve}, {decimals} decimals of a mm"
+                found[name] = _tried(partial(as_made, cam, "csv", **table))
+        for waves in asked.waves if asked.error else ():
+            name = f"error of {asked.error}, {waves} waves a turn"
+            found[name] = _tried(partial(with_error, cam, asked.error, waves))
+        return found
+
+    def told(self) -> dict[str, Any]:
+        """What a program is told, in SI units."""
+        found: dict[str, Any] = {}
+        if self.forces is not None:
+            found["forces"] = self.forces.to_dict()
+        if self.spring is not None:
+            found["spring"] = self.spring.to_dict()
+        if self.made:
+            found["as_made"] = {name: None if one is None else one.to_dict() for name, one in self.made.items()}
+        return found
+
+
+def _tried(run: Callable[[], AsMade]) -> AsMade | None:
+    try:
+        return run()
+    except UnreachedProfileError:
+        return None
+
+
+def add(page: Page, found: Found) -> Page:
+    """The page with what was asked beside the geometry."""
+    forces, spring, cam = found.forces, found.spring, found.cam
+    if forces is not None:
+        page.heading("Forces").figure("forces", "Forces over the turn")
+        page.table(("what", "least", "at, deg", "greatest", "at, deg", "unit"), _force_rows(forces), digits=6)
+        page.text(
+            f"Torque at the shaft: root mean square {forces.rms_torque[1]:.6g} N m, mean "
+            f"{_rounded(0.5 * sum(forces.mean_torque), forces.torque.peak):.6g} N m. "
+            + ("The follower lifts off." if forces.lifts_off else "The follower stays on the cam.")
+        )
+    if spring is not None:
+        page.heading("Spring").table(("what", "value", "unit"), _spring_rows(spring, cam), digits=6)
+    if found.made:
+        unit = "um" if cam.displacement.axis == "length" else "urad"
+        headings = ("what", f"deviation, {unit}", "peak acceleration, ratio", "peak jerk, ratio")
+        page.heading("As made").table(headings, [_made_row(*one) for one in found.made.items()], digits=5)
+        if None in found.made.values():
+            page.text("Where nothing stands the follower does not reach all of the cam: it has hollows.")
+    if found.spec.file:
+        page.heading("Files").text("\n".join(f"- [{one.name}]({one.name})" for one in found.spec.file))
+    return page
+
+
+def figures(found: Found, title: str) -> dict[str, Figure]:
+    """Pictures by their names."""
+    drawn = {"cam": draw(found.cam, title)}
+    return drawn if found.forces is None else drawn | {"forces": draw_forces(found.forces, title)}
+
+
+def files(found: Found, out: Path, about: str) -> list[Path]:
+    """Write the files that cut the cam."""
+    return [found.cam.export(out / one.name, one.format, about=about, **one.asked()) for one in found.spec.file]
+
+
+def _force_rows(forces: CamForces) -> list[list[tables.Cell]]:
+    found = [("contact force", "N", 1.0, forces.contact), ("torque at the shaft", "N m", 1.0, forces.torque)]
+    if forces.width is not None:
+        found.append(("Hertz's pressure", "MPa", 1.0 / _MICRO, forces.pressure))
+    rows: list[list[tables.Cell]] = []
+    for name, unit, factor, one in found:
+        high = one.peak * factor
+        places = [_rounded(degrees(at), 360.0) for at in (one.least_at, one.most_at)]
+        rows.append(
+            [name, _rounded(one.least * factor, high), places[0], _rounded(one.most * factor, high), places[1], unit]
+        )
+    return rows
+
+
+def _spring_rows(spring: Spring, cam: DiscCam) -> list[list[tables.Cell]]:
+    force, stiffness = _FORCE[cam.displacement.axis], _STIFFNESS[cam.displacement.axis]
+    bound = stiffness if spring.objective == "stiffness" else force
+    sought = {"greatest": "greatest force on the follower"}.get(spring.objective, spring.objective)
+    return [
+        ["stiffness", spring.stiffness, stiffness],
+        ["preload", _rounded(spring.preload, spring.greatest), force],
+        ["greatest force on the follower, any speed", spring.greatest, force],
+        [f"lower bound of the {sought}", _rounded(spring.lower_bound, spring.greatest), bound],
+        ["least force left along the follower's way", _rounded(spring.margin, spring.greatest), force],
+        ["it is left at", _rounded(spring.critical[0], 360.0), "deg"],
+    ]
+
+
+def _made_row(name: str, one: AsMade | None) -> list[tables.Cell]:
+    if one is None:
+        return [name, None, None, None]
+    return [name, _MICRO * one.deviation, one.acceleration_ratio, one.jerk_ratio]
+
+
+def _rounded(value: float, size: float) -> float:
+    """The value, or 0 where it is next to nothing beside a size."""
+    return 0.0 if abs(value) <= 1e-7 * abs(size) else value
