@@ -63,6 +63,15 @@ nitpick_ignore_regex = [("py:.*", r"(?!optlaws\.).*"), ("py:.*", r"optlaws\.(.*\
 nitpick_ignore_regex.append(("py:class", r"optlaws\.(cams|cycles|exports)\..*"))
 # what a solution keeps for its neighbours, and the engine that constants are written over; not public
 nitpick_ignore = [
+    ("py:class", "optlaws.cams.curves.jets.Jet"),
+    ("py:class", "optlaws.cams.curves.motion_by_angle.Stretch"),
+    ("py:class", "optlaws.cams.followers.contact.Contact"),
+    ("py:class", "optlaws.cams.followers.contact.FaceContact"),
+    ("py:class", "optlaws.cams.followers.contact.RollerContact"),
+    ("py:class", "optlaws.cams.followers.follower.Place"),
+    ("py:class", "optlaws.cycles.cycle.Cycle"),
+    ("py:class", "optlaws.cycles.drive.Drive"),
+    ("py:class", "optlaws.series.enclosed.Enclosure"),
     ("py:class", "optlaws.cycles.asked.conversion.Piece"),
     ("py:class", "optlaws.formulas.of_motion.Motion"),
     ("py:class", "optlaws.mechanisms.machine.dynamics.Drive"),

@@ -14,6 +14,17 @@ from optlaws.cams.followers.translating_flat import TranslatingFlat as Translati
 from optlaws.cams.followers.translating_roller import TranslatingRoller as TranslatingRoller
 from optlaws.cams.least_sizes import greatest_roller as greatest_roller
 from optlaws.cams.least_sizes import least_base_circle as least_base_circle
+from optlaws.cams.loads.forces import CamForces as CamForces
+from optlaws.cams.loads.springs import Spring as Spring
+from optlaws.cams.loads.springs import least_spring as least_spring
+from optlaws.cams.made.as_made import AsMade as AsMade
+from optlaws.cams.made.as_made import as_made as as_made
+from optlaws.cams.made.as_made import with_error as with_error
+from optlaws.cams.of_mechanisms.balancing import Balancing as Balancing
+from optlaws.cams.of_mechanisms.dwell_machine import DwellMachine as DwellMachine
+from optlaws.cams.of_mechanisms.dwell_machine import dwell_machine as dwell_machine
+from optlaws.cams.of_mechanisms.lever_cam import LeverCam as LeverCam
+from optlaws.cams.of_mechanisms.lever_cam import rocker_law as rocker_law
 from optlaws.cycles.asked.segments import ConstantVelocity as ConstantVelocity
 from optlaws.cycles.asked.segments import Dwell as Dwell
 from optlaws.cycles.asked.segments import Free as Free
@@ -143,9 +154,11 @@ __version__: str
 
 __all__ = [
     "FUNCTIONALS",
+    "AsMade",
     "B",
     "BSplines",
     "BalancedLaw",
+    "Balancing",
     "BarrelCam",
     "Basis",
     "Bernstein",
@@ -153,6 +166,7 @@ __all__ = [
     "C",
     "C_minus",
     "C_plus",
+    "CamForces",
     "CamMotion",
     "Certificate",
     "Chebyshev",
@@ -167,6 +181,7 @@ __all__ = [
     "Deviation",
     "DiscCam",
     "Dwell",
+    "DwellMachine",
     "Expression",
     "Follower",
     "Free",
@@ -176,6 +191,7 @@ __all__ = [
     "InfeasibleProblem",
     "InputError",
     "J",
+    "LeverCam",
     "Link",
     "Loader",
     "Machine",
@@ -208,6 +224,7 @@ __all__ = [
     "Solution",
     "SolutionArray",
     "SolverFailure",
+    "Spring",
     "Status",
     "TorsionLever",
     "TranslatingFlat",
@@ -215,6 +232,7 @@ __all__ = [
     "TrapeziumSubstitute",
     "Window",
     "acceleration_limit",
+    "as_made",
     "at_least",
     "at_most",
     "balanced_law",
@@ -231,6 +249,7 @@ __all__ = [
     "deg",
     "drive_torque",
     "driving_law",
+    "dwell_machine",
     "dwell_mechanism",
     "each",
     "find_torsion_levers",
@@ -240,6 +259,7 @@ __all__ = [
     "integral",
     "jounce",
     "least_base_circle",
+    "least_spring",
     "limit",
     "limit_law",
     "loader",
@@ -264,6 +284,7 @@ __all__ = [
     "rms",
     "rms_c",
     "rms_j",
+    "rocker_law",
     "run_study",
     "savin",
     "scca",
@@ -278,4 +299,5 @@ __all__ = [
     "value",
     "via",
     "with_end_velocity",
+    "with_error",
 ]
