@@ -153,7 +153,7 @@ class DiscCam:
         decimals
             Of a millimetre, 6 unless given.
         points
-            Of splines and tables, 721 unless given.
+            Of tables, 721 unless given.
         degree
             Of splines, 3 or 5; 3 unless given.
         feed

@@ -45,6 +45,11 @@ class Spring:
         Proven: along the follower's way the cam presses with at least this force at every angle and speed.
     critical
         Where the force is least: the cam's angle in degrees, and the speed in rad/s.
+
+    Examples
+    --------
+    >>> Spring(3000.0, 20.0, 140.0, "stiffness", 3000.0, 0.0, (92.0, 31.4)).value
+    3000.0
     """
 
     stiffness: float

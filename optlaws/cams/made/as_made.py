@@ -54,6 +54,11 @@ class AsMade:
         Greatest leap of the second derivative, m or rad; 0 where it is continuous.
     acceleration_ratio, jerk_ratio
         Those of the second and third derivative over those of the motion that was meant.
+
+    Examples
+    --------
+    >>> AsMade(1e-6, 0.05, 0.4, 0.0, 1.25, 1.1).acceleration_ratio
+    1.25
     """
 
     deviation: float
@@ -131,7 +136,16 @@ def _meant(cam: DiscCam, nu: int) -> float:
     return max(abs(value) for one in cam.displacement.stretches for value in one.extremes(nu))
 
 
-def as_made(cam: DiscCam, form: str = "csv", *, curve: str = "profile", **asked: Any) -> AsMade:  # noqa: ANN401
+def as_made(
+    cam: DiscCam,
+    form: str = "csv",
+    *,
+    curve: str = "profile",
+    points: int = 721,
+    decimals: int = 6,
+    tolerance: str = "1 um",
+    degree: int = 3,
+) -> AsMade:
     """What a cam's follower does if the cam is made from a file with the digits and the tolerance of its entries.
 
     Points of a table are joined by the cubic spline with continuous curvature that drawing programs draw, radii of a
@@ -146,8 +160,10 @@ def as_made(cam: DiscCam, form: str = "csv", *, curve: str = "profile", **asked:
         The format: "csv", "csv polar", "dxf spline", "svg", "dxf arcs" or "g-code arcs".
     curve
         "profile", or "pitch", whose points a machine is given that offsets them itself.
-    asked
-        Entries of the file: decimals of a millimetre, points, tolerance, degree.
+    points, decimals
+        Of tables: how many points over the turn, and how many decimals of a millimetre.
+    tolerance, degree
+        Of splines and arcs, as in `DiscCam.export`.
 
     Raises
     ------
@@ -171,7 +187,7 @@ def as_made(cam: DiscCam, form: str = "csv", *, curve: str = "profile", **asked:
         )
     outline = cam.profile if curve == "profile" else cam.pitch_curve
     outside = 0.0 if curve == "profile" else cam.contact.roller
-    return run_against(cam, _MADE[form](outline, Cutting(**asked)), outside)
+    return run_against(cam, _MADE[form](outline, Cutting(tolerance, decimals, points, degree)), outside)
 
 
 def with_error(cam: DiscCam, error: Any, waves: Any) -> AsMade:  # noqa: ANN401 - a quantity and a number
@@ -194,6 +210,15 @@ def with_error(cam: DiscCam, error: Any, waves: Any) -> AsMade:  # noqa: ANN401 
     ------
     InputError
         If the error is no length above 0.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Dwell, Return, Rise
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> moves = [Rise("40 mm", "120 deg", law="3-4-5"), Dwell("60 deg"), Return(law="3-4-5")]
+    >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> round(with_error(cam, "0.01 mm", waves=3).acceleration_ratio, 3)
+    1.002
     """
     amplitude, count = quantity(error, "length", "error"), whole(waves, "waves", least=1, most=_MOST_WAVES)
     if amplitude <= 0.0:

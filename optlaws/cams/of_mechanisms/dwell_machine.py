@@ -37,6 +37,15 @@ class DwellMachine:
         Of everything the executive rocker moves, and of the loader's rocker alone, kg m².
     arm, base_radius
         Length of both rockers, and least radius of both pitch curves, m.
+
+    Examples
+    --------
+    >>> from optlaws import catalogue
+    >>> data = dict(dwell="90 deg", rise="90 deg", swing="20 deg", arm="100 mm", base_radius="35 mm", speed="100 rpm")
+    >>> inertias = dict(inertia="0.05 kg m^2", loader_inertia="0.005 kg m^2")
+    >>> type_1 = dwell_machine("I", law=catalogue["K"].law, **data, **inertias)
+    >>> round(type_1.balanced_torque, 6), type_1.residual_torque
+    (0.668101, 0.0)
     """
 
     mechanism: DwellMechanism
