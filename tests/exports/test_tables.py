@@ -240,6 +240,15 @@ def test_the_report_says_it_all() -> None:
     assert "peak of jerk, mm/deg³" in over_angle
 
 
+def test_what_a_file_does_not_tell_is_not_rounded() -> None:
+    """SEW's file holds positions alone: their digits say nothing of the slopes."""
+    made = export_motion(one_shot(), "sew", points=31, digits=2)
+    table = readers.sew(made.text)
+    read = readers.osculating(table[0], derivatives(made, table, 2))
+    inside = np.linspace(0.0, 120.0, 500)
+    np.testing.assert_allclose(made.run(inside, 1), read(inside, 1), atol=1e-12)
+
+
 def test_decimal_commas() -> None:
     made = export_motion(one_shot(), "csv", points=31, decimal=",", digits=6)
     heading, columns = readers.separated(made.text, ";", ",")

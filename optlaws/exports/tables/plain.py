@@ -61,7 +61,11 @@ def _sew(motion: Motion, request: Request) -> Written:
     held = Held(request.counts, request.digits)
 
     def make(count: int) -> Table:
-        return straight(motion, count, held) if interpolation == "linear" else osculated(motion, count, held, 2)
+        return (
+            straight(motion, count, held)
+            if interpolation == "linear"
+            else osculated(motion, count, held, 2, told=False)
+        )
 
     table = chosen(motion, request, make, least=2, most=MOST_POINTS)
     lines = [str(len(table.x)), *(";".join(_cells(pair, request)) for pair in _pairs(table))]

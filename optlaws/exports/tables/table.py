@@ -127,8 +127,10 @@ def straight(motion: Motion, count: int, held: Held, *, even: bool = False) -> T
     return Table(x, y[None], linear_powers(x, y), held.resolution(motion), 0.0)
 
 
-def osculated(motion: Motion, count: int, held: Held, orders: int) -> Table:
+def osculated(motion: Motion, count: int, held: Held, orders: int, *, told: bool = True) -> Table:
     """Positions with derivatives, so many in all, from which the controller makes Hermite's polynomials.
+
+    Derivatives that are not told, but found by the controller, are the law's.
 
     Raises
     ------
@@ -142,7 +144,8 @@ def osculated(motion: Motion, count: int, held: Held, orders: int) -> Table:
             "the law's acceleration or jerk is infinite at a point: export positions alone, or another law"
         )
     x = held.numbers(exact)
-    held_values = np.array([held.positions(values[0], motion), *(held.numbers(row) for row in values[1:])])
+    derivatives = held.numbers(values[1:]) if told else values[1:]
+    held_values = np.vstack([held.positions(values[0], motion)[None], derivatives])
     return Table(x, held_values, hermite_powers(x, held_values), held.resolution(motion), 0.0)
 
 
