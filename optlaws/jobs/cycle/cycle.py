@@ -15,7 +15,7 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.optimal import FORCE, LOADED, kind_of
 from optlaws.files import tables, writing
 from optlaws.jobs.cycle.entries import Study, read
-from optlaws.jobs.cycle.machine_files import Exports, add_exports, exports_of
+from optlaws.jobs.cycle.machine_files import Exports, add_exports, exports_of, plain_name
 from optlaws.jobs.cycle.picture import QUANTITIES, UNITS, draw
 from optlaws.jobs.pages.page import Page
 
@@ -30,8 +30,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     about = f"{spec.title}; from {file.name}"
     texts = {"cycle.md": str(page(spec, cycles, made)), "cycle.json": _stored(cycles, about)}
     for name, cycle in cycles.items():
-        texts[f"{_file_name(name)}.csv"] = table_of_motion(cycle, spec.rows, about)
-    figures = {_file_name(name): draw(cycle, f"{spec.title}: {name}") for name, cycle in cycles.items()}
+        texts[f"{plain_name(name)}.csv"] = table_of_motion(cycle, spec.rows, about)
+    figures = {plain_name(name): draw(cycle, f"{spec.title}: {name}") for name, cycle in cycles.items()}
     files = [writing.write(out / name, text) for name, text in texts.items()] + drawing.save_pictures(figures, out)
     return files + [one.write(out / name) for named in made.values() for name, one in named.items()]
 
@@ -50,15 +50,11 @@ def page(spec: Study, cycles: Mapping[str, Cycle], made_exports: Exports) -> Pag
     """The page of results."""
     made = Page(spec.title).text(spec.text)
     for name, cycle in cycles.items():
-        made.heading(name).figure(_file_name(name), f"{spec.title}: {name}")
+        made.heading(name).figure(plain_name(name), f"{spec.title}: {name}")
         made.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
         made.table(("what", "value", "unit"), _told(cycle), digits=9)
         add_exports(made, made_exports[name])
     return made
-
-
-def _file_name(axis: str) -> str:
-    return "".join(letter if letter.isalnum() else "_" for letter in axis.lower())
 
 
 def _headings(cycle: Cycle) -> list[str]:

@@ -30,13 +30,25 @@ def exports_of(spec: Study, cycles: Mapping[str, Cycle], file: Path) -> Exports:
         If one is wrong or cannot hold its axis, or two have the same file; the error names file and axis.
     """
     made: Exports = {}
-    taken: set[str] = set()
+    taken = {"cycle.md", "cycle.json"}
+    taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg", ".png")}
     for axis in spec.axis:
         try:
             made[axis.name] = _of_axis(axis, cycles[axis.name], taken)
         except InputError as error:
             raise InputError(f"{file}: axis {axis.name}: export {error}") from None
     return made
+
+
+def plain_name(axis: str) -> str:
+    """The name of an axis as files have it.
+
+    Examples
+    --------
+    >>> plain_name("Weld head")
+    'weld_head'
+    """
+    return "".join(letter if letter.isalnum() else "_" for letter in axis.lower())
 
 
 def add_exports(page: Page, made: Mapping[str, Export]) -> None:
@@ -51,7 +63,7 @@ def _of_axis(axis: Axis, cycle: Cycle, taken: set[str]) -> dict[str, Export]:
     for asked in axis.export:
         name = _file_name(axis.name, asked)
         if name in taken:
-            raise InputError(f"to {asked.to}: another export goes to {name}: give each a file of its own")
+            raise InputError(f"to {asked.to}: another file is called {name}: give each a name of its own")
         taken.add(name)
         try:
             made[name] = _export(cycle, asked)
@@ -69,8 +81,7 @@ def _export(cycle: Cycle, asked: AskedExport) -> Export:
 
 def _file_name(axis: str, asked: AskedExport) -> str:
     form = format_of(asked.to)
-    plain = "".join(letter if letter.isalnum() else "_" for letter in axis.lower())
-    name = asked.file or f"{plain}_{form.name}{FORMATS[form.name].extension}"
+    name = asked.file or f"{plain_name(axis)}_{form.name}{FORMATS[form.name].extension}"
     if Path(name).name != name:
         raise InputError(f"to {asked.to}: file must be a name without a folder, got {name}")
     writing.check_name(Path(name))
