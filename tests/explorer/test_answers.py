@@ -299,3 +299,13 @@ def test_python_and_files_make_the_same_cycle(file: str, tmp_path: Path, monkeyp
     assert made.peak(2) == cycle_view.cycle(asked).peak(2)
     one.kind = "table"
     assert len(saved.answer(one)["text"].splitlines()) == 363
+
+
+def test_how_far_a_law_is_above_the_limit_is_told() -> None:
+    view = law_view.answer(AskedLaws(laws=[law(OPTIMAL)]))["laws"][0]
+    solution = synthesize(Problem(order=4, B=1.7))
+    assert solution.limit is not None
+    told = view["trust"]["facts"][-1]
+    assert float(told.split(" % above")[0].rpartition(" ")[2]) == pytest.approx(
+        100.0 * (solution.objective / solution.limit - 1.0), abs=0.05
+    )

@@ -110,6 +110,9 @@ def test_a_link_is_a_study(page: Page, served: Server) -> None:
     go(page, served.link(laws=laws, active=1, picture="residual", nu=15.5, damping=0.02))
     assert page.locator("#table tbody tr").count() == 3
     assert texts(page, 1) == told(served, laws[1])
+    left = served.ask("residual", {"laws": laws, "nu": 15.5, "damping": 0.02})["laws"]
+    words = ", ".join(f"{name} {one['text']}" for name, one in zip("ABC", left, strict=True))
+    assert page.locator("#words").inner_text().endswith(words)
     assert page.get_by_label("Frequency nu of the follower, number").input_value() == "15.5"
     address = page.url
     page.goto("about:blank")
@@ -141,6 +144,7 @@ def test_a_standard_law_of_the_picture_is_compared(page: Page, served: Server) -
     page.keyboard.press("Enter")
     settle(page)
     assert texts(page, 1) == told(served, {"name": "modified sine"})
+    assert page.locator("#words").inner_text().startswith("least C at each B")
     assert page.locator("#curves svg").first.locator(".line").count() == 2
     page.get_by_role("button", name="least C at its peak velocity").click()
     settle(page)

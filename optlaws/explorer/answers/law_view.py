@@ -178,7 +178,7 @@ def trust(solution: Solution) -> dict[str, Any]:
     facts = [f"{name} = {digits(solution.objective)}", below]
     if solution.limit is not None:
         above = 100.0 * (solution.objective / solution.limit - 1.0)
-        facts.append(f"no law of any degree is below {digits(solution.limit)}, {digits(above, 3)} % less")
+        facts.append(f"no law of any degree is below {digits(solution.limit)}: this one is {digits(above, 3)} % above")
     return {
         "status": solution.status.value,
         "word": HEARD[solution.status],

@@ -25,6 +25,7 @@ export class Laws {
   #ways = null;
   #front = null;
   #words = "";
+  #left = "";
   #controls;
   #tray;
   #plane;
@@ -52,7 +53,7 @@ export class Laws {
     this.#laws = new Latest("api/laws", (answer, question) => this.#answered(answer, question), failed);
     this.#fronts = new Latest("api/front", (front) => this.#showFront(front), failed);
     this.#nearest = new Latest("api/nearest", (answer, question) => this.#near(answer, question), failed);
-    this.#residuals = new Latest("api/residual", (answer) => this.#residual.show(answer, this.#state.active), failed);
+    this.#residuals = new Latest("api/residual", (answer) => this.#showResidual(answer), failed);
   }
 
   show(state) {
@@ -76,7 +77,9 @@ export class Laws {
 
   #askFront(state) {
     const over = (PICTURES[state.picture] ? state.picture : "B-C").split("-");
-    const law = structuredClone(state.laws[state.active]);
+    // a law that is given has no front: that of the first problem stands beside it
+    const active = state.laws[state.active];
+    const law = structuredClone(active.problem ? active : state.laws.find(({ problem }) => problem) ?? active);
     delete law.title;
     // what runs along the front does not change it
     if (law.problem) delete law.problem[over[0]];
@@ -92,6 +95,12 @@ export class Laws {
     this.#words = front.words;
     element("plane").classList.remove("behind");
     this.#plane.showFront(front);
+    this.#render();
+  }
+
+  #showResidual(answer) {
+    this.#residual.show(answer, this.#state.active);
+    this.#left = `residual acceleration at ν = ${answer.at}: ${answer.laws.map((law, i) => `${"ABCD"[i]} ${law?.text ?? "—"}`).join(", ")}`;
     this.#render();
   }
 
@@ -121,7 +130,7 @@ export class Laws {
     this.#plane.showLaws(laws.map((law, i) => ({ view: views[i], asked: askedOf(law, x), movable: Boolean(law.problem) })), active);
     showTrust(element("trust"), views[active], this.#ways, (way) => this.#back(way));
     showTable(element("table"), views, active);
-    element("words").textContent = picture === "residual" ? "" : this.#words;
+    element("words").textContent = picture === "residual" ? this.#left : this.#words;
   }
 
   #value(name) {

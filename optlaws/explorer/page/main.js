@@ -24,11 +24,17 @@ function failed(error) {
   notice(gone ? "The server does not answer: start `optlaws explore` again; the address keeps the study." : error.message);
 }
 
+/** When something happened last. */
+function marked(name) {
+  performance.clearMarks(name);
+  performance.mark(name);
+}
+
 /** The time from an input to the paint that follows its answer, for benchmarks. */
 function painted() {
   requestAnimationFrame(() => {
     const channel = new MessageChannel();
-    channel.port1.onmessage = () => performance.mark("painted");
+    channel.port1.onmessage = () => marked("painted");
     channel.port2.postMessage(null);
   });
 }
@@ -61,7 +67,7 @@ async function begin() {
   views.cam = new CamView(study, failed);
   if (first.view in examples) first[first.view] ??= structuredClone(examples[first.view]);
   addEventListener("hashchange", () => study.replace(read(location.hash)));
-  for (const kind of ["input", "pointermove", "keydown"]) addEventListener(kind, () => performance.mark("input"), { capture: true, passive: true });
+  for (const kind of ["input", "pointermove", "keydown"]) addEventListener(kind, () => marked("input"), { capture: true, passive: true });
   render(first);
 }
 
