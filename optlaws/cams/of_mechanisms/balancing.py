@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
+from itertools import pairwise
 from math import sqrt
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.cams.curves.motion_by_angle import CamMotion, Stretch
 from optlaws.cycles.asked.conversion import Piece
 from optlaws.cycles.asked.programme import TURN
+from optlaws.cycles.asked.quantities import either
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.drive import Drive, read_drive
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.mechanisms.dwell.parts import PartSegment
 from optlaws.mechanisms.loader.loader import Loader
 from optlaws.numbers import finite, real_times
 from optlaws.series.enclosed import Enclosure, enclosed, integrated
@@ -103,6 +108,41 @@ class Balancing:
         times = np.mod(real_times(degrees), 360.0) * (self.cycle.duration / 360.0)
         values = self._executive(times) + (self._loader(times) if balanced else 0.0)
         return values if np.ndim(values) else float(values)
+
+    def loader_motion(self, stroke: str) -> CamMotion:
+        """The loader over the turn, for its own cam: forth and back with each move, as far as it goes each time.
+
+        Parameters
+        ----------
+        stroke
+            Of the loader between its extremes, such as "30 mm" or "25 deg"; its mass is that of `Loader.mass`.
+
+        Raises
+        ------
+        InputError
+            If the cycle dwells (take `dwell_machine`), its moves are not an even number of symmetric laws, or the
+            stroke is no quantity above 0.
+        """
+        axis, way = either(stroke, ("length", "angle"), "stroke")
+        if way <= 0.0:
+            raise InputError(f"stroke must be above 0, got {shortened(stroke)}")
+        moving = [(piece, one) for piece, one in zip(self.cycle.pieces, self._loaders, strict=True) if one is not None]
+        if len(moving) < len(self._loaders):
+            raise InputError("the loader of a cycle that dwells has a clutch or runs on: take dwell_machine")
+        if len(moving) % 2 or not all(one.symmetric for _, one in moving):
+            raise InputError("the loader comes back over an even number of moves by symmetric laws")
+        parts = [self._part(piece, one, way * (-1.0) ** i) for i, (piece, one) in enumerate(moving)]
+        return CamMotion(tuple(stretch for some in parts for stretch in some), axis, closed=True)
+
+    def _part(self, piece: Piece, one: Loader, way: float) -> list[Stretch]:
+        """The loader during one move: it goes out by half of its stroke and comes back."""
+        start, angle = piece.start * self.rate, piece.duration * self.rate
+        found = []
+        for low, high in pairwise(one.law.breaks):
+            segment = PartSegment(one.law, low, high, 1.0)
+            places = (start + low * angle, start + high * angle)
+            found.append(Stretch(*places, way * float(one.law.a(low)), way, angle, segment, high - low))
+        return found
 
     @kept_property
     def _loaders(self) -> tuple[Loader | None, ...]:

@@ -4,9 +4,13 @@ import numpy as np
 import pytest
 
 from optlaws import Cycle, Dwell, Return, Rise
+from optlaws.cams.disc import DiscCam
+from optlaws.cams.followers.translating_roller import TranslatingRoller
+from optlaws.cams.loads.forces import CamForces
 from optlaws.cams.of_mechanisms.balancing import Balancing
 from optlaws.cycles.effort import effort
 from optlaws.errors import InputError
+from optlaws.mechanisms.loader.loader import Loader
 
 
 def cycle(law: str, back: str = "90 deg", **drive: str) -> Cycle:
@@ -47,3 +51,24 @@ def test_what_cannot_be_balanced_says_why() -> None:
         Balancing(Cycle(cycle("K").segments, speed="120 rpm"))
     with pytest.raises(InputError, match="share must be at least 0"):
         Balancing(cycle("K"), share=-0.1)
+
+
+@pytest.mark.parametrize("law", ["K", "3-4-5"])
+def test_the_loader_s_own_cam_gives_the_torque_that_the_executive_takes(law: str) -> None:
+    moves = [Rise("40 mm", "180 deg", law=law), Return(law=law)]
+    one = Balancing(Cycle(moves, speed="120 rpm", drive={"mass": "3 kg"}))
+    roller = TranslatingRoller("12 mm")
+    cams = DiscCam(one.cycle, "60 mm", roller), DiscCam(one.loader_motion("30 mm"), "60 mm", roller)
+    assert cams[1].displacement.range == pytest.approx((-0.015, 0.015))
+    mass = Loader(one.cycle.pieces[0].law).mass(executive_mass=3.0, executive_stroke=0.04, stroke=0.03)
+    angles = np.linspace(0.01, 6.27, 101)
+    torques = [
+        CamForces(cam, speed="120 rpm", drive={"mass": f"{kilograms!r} kg"}).shaft_torque(angles)
+        for cam, kilograms in zip(cams, (3.0, mass), strict=True)
+    ]
+    assert np.abs(torques[0]).max() > 0.05
+    assert np.abs(torques[0] + torques[1]).max() < 1e-9
+    with pytest.raises(InputError, match="take dwell_machine"):
+        Balancing(cycle("K")).loader_motion("30 mm")
+    with pytest.raises(InputError, match="stroke must be above 0"):
+        one.loader_motion("0 mm")
