@@ -45,6 +45,7 @@ def least_power(problem: Problem) -> bool:
     return (
         [term for _, term in problem.objective.terms] == [D]
         and all(constant.convex or constant == D for constant in problem.constants)
+        and all(window.convex for window in problem.windows)
         and asked is None
     )
 

@@ -6,12 +6,12 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, Problem, ProblemArray, Solution, each, synthesize, synthesize_array
+from optlaws import Chebyshev, Problem, ProblemArray, Solution, at_most, each, synthesize, synthesize_array
 from optlaws.synthesis import solve_array
 from optlaws.synthesis.arrays.along import laws_along
 from optlaws.synthesis.arrays.found import Found
 from optlaws.synthesis.arrays.newton_steps import States, best_nearby
-from optlaws.synthesis.arrays.powers import unrivalled
+from optlaws.synthesis.arrays.powers import least_power, unrivalled
 from optlaws.synthesis.arrays.programs import Path, between
 from optlaws.synthesis.arrays.walk import Walk
 from optlaws.synthesis.search import Search
@@ -55,6 +55,26 @@ def test_laws_of_least_power_are_those_solved_alone(kind: str) -> None:
     assert (laws.status == "local").all()
     assert not laws.others
     check(laws, [2, 31, 58])
+
+
+def test_laws_of_least_power_depend_neither_on_their_order_nor_on_their_company() -> None:
+    B = np.linspace(*ENDS, 61)
+    whole, turned, half = (
+        synthesize_array(ProblemArray(B=some, order=3, basis=Chebyshev(5), minimise="D"))
+        for some in (B, B[::-1], B[::2])
+    )
+    assert not {**whole.others, **turned.others, **half.others}
+    np.testing.assert_allclose(turned.objective[::-1], whole.objective, rtol=1e-12)
+    np.testing.assert_allclose(half.objective, whole.objective[::2], rtol=1e-12)
+    np.testing.assert_allclose(half.z_series, whole.z_series[::2], rtol=1e-9, atol=1e-9)
+    np.testing.assert_allclose(half.lower_bound, whole.lower_bound[::2], rtol=1e-10)
+
+
+def test_power_among_laws_that_are_no_convex_set_is_not_solved_in_arrays() -> None:
+    assert least_power(Problem(B=1.7, order=4, minimise="D", C=at_most(9.0)))
+    for asked in ({"D": (None, 6.0)}, {"windows": ["b*c <= 3 @ 0.2..0.3"]}, {"minimise": "0.5*C/4 + 0.5*D/2.25"}):
+        entries: dict[str, Any] = {"B": 1.7, "order": 4, "minimise": "D"} | asked
+        assert not least_power(Problem.from_dict(entries))
 
 
 def path_of(degree: int) -> Path:
