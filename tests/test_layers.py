@@ -10,7 +10,19 @@ import pytest
 from tests.documents import ROOT
 from tests.imports import Import, cycles, imports, modules
 
-BASE = {"echo", "errors", "exporting", "files", "kept", "lazy", "locks", "numbers", "plotting", "showing", "suggest"}
+BASE = {
+    "echo",
+    "errors",
+    "exporting",
+    "files",
+    "kept",
+    "lazy",
+    "locks",
+    "numbers",
+    "plotting",
+    "shown",
+    "suggest",
+}
 KNOWN = BASE | {"series"}
 CORE = KNOWN | {"formulas", "laws", "synthesis", "mechanisms", "cycles", "exports", "cams", "verification"}
 MAY_IMPORT = {
@@ -24,7 +36,7 @@ MAY_IMPORT = {
     "locks": set[str](),
     "numbers": {"echo", "errors"},
     "plotting": {"lazy"},
-    "showing": set[str](),
+    "shown": set[str](),
     "suggest": {"echo"},
     "series": BASE,
     "laws": KNOWN,

@@ -26,7 +26,7 @@ from optlaws import (
     synthesize,
     synthesize_array,
 )
-from optlaws.showing import cell, drawing, facts, page, table
+from optlaws.shown.showing import cell, drawing, facts, page, table
 
 VOID = {"path", "line"}
 

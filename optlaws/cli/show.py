@@ -91,7 +91,9 @@ def busy(text: str) -> Iterator[None]:
     """Say what is under way while someone watches."""
     console = progress()
     if console.is_terminal:
-        with console.status(text):
+        from optlaws.shown.steps import said_otherwise
+
+        with console.status(text), said_otherwise():
             yield
     else:
         yield

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from optlaws.errors import OptlawsError
-from optlaws.showing import drawing, facts, page, table
+from optlaws.shown.showing import drawing, facts, page, table
 
 _SAMPLES = 241
 _UNITS = {"length": "m", "angle": "rad"}

@@ -90,7 +90,7 @@ class Comparison:
 
     def _repr_html_(self) -> str:
         from optlaws.laws.html import drawings
-        from optlaws.showing import Html, page, table
+        from optlaws.shown.showing import Html, page, table
 
         rows = [[*row.values(), Html(drawings(law))] for row, law in zip(self.rows, self.laws.values(), strict=True)]
         return page("Comparison", table((*self.rows[0], "a, b, c, j"), rows))

@@ -6,7 +6,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optlaws import showing
+from optlaws.shown import showing
 
 if TYPE_CHECKING:
     from optlaws.laws.curve import Curve

@@ -229,7 +229,7 @@ class MotionLaw(Curve, Stored):
 
     def _repr_html_(self) -> str:
         from optlaws.laws.html import drawings, table_of_constants
-        from optlaws.showing import page
+        from optlaws.shown.showing import page
 
         title = f"{type(self).__name__}, {self._summary()}"
         return page(title, table_of_constants(self.constants), drawings(self))

@@ -9,6 +9,8 @@ from typing import Protocol
 from rich.console import Console
 from rich.progress import BarColumn, MofNCompleteColumn, Progress, TextColumn, TimeRemainingColumn
 
+from optlaws.shown.steps import watched
+
 _SECONDS = 10.0
 
 
@@ -68,6 +70,11 @@ class Bar:
         """Leave it as it is."""
         self.advance(counts)
         self._progress.stop()
+
+
+def watching() -> Watch:
+    """A bar for whoever watches, on a terminal or in a notebook; nothing elsewhere."""
+    return Bar(Console(stderr=True)) if watched() else Silent()
 
 
 class Lines:

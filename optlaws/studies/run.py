@@ -16,7 +16,7 @@ from optlaws.errors import InputError, SolverFailure
 from optlaws.numbers import whole
 from optlaws.studies.points.points import Points
 from optlaws.studies.points.study_file import StudyFile, entries, read_study
-from optlaws.studies.progress import Silent, Watch
+from optlaws.studies.progress import Watch, watching
 from optlaws.studies.solving.executors import Crew
 from optlaws.studies.store import table
 from optlaws.studies.store.directory import StudyDirectory
@@ -51,7 +51,7 @@ def run_study(
     workers
         How many points are solved at a time; all cores, or what the executor has, unless given.
     watch
-        What is told of the progress.
+        What is told of the progress; a bar on a terminal or in a notebook unless given.
 
     Returns
     -------
@@ -82,7 +82,7 @@ def run_study(
     study = read_study(source)
     points = Points.of(study)
     check(study, points)
-    directory, seen = StudyDirectory(Path(out)), watch or Silent()
+    directory, seen = StudyDirectory(Path(out)), watch or watching()
     with directory.locked():
         points = Points.of(study, directory.claim(study, points))
         if not _finished(directory, points):

@@ -188,7 +188,7 @@ class Study:
         return dataset(self._rows(), self._points, self.about)
 
     def _repr_html_(self) -> str:
-        from optlaws.showing import facts, page, table
+        from optlaws.shown.showing import facts, page, table
 
         first = [[*row["inputs"].values(), row["status"], *(row[name] for name in CONSTANTS)] for row in self._first()]
         done = {"done": f"{sum(self.counts.values())} of {len(self)}", **self.counts}

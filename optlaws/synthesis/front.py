@@ -133,7 +133,7 @@ class Front:
         return f"Front(over={self.over!r}, {len(self)} points, {', '.join(ends)})"
 
     def _repr_html_(self) -> str:
-        from optlaws.showing import drawing, page, table
+        from optlaws.shown.showing import drawing, page, table
 
         rows = self.rows[:: 1 + len(self) // _SHOWN]
         curve = ""

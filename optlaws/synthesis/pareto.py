@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.numbers import real, whole
+from optlaws.shown.steps import Steps
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.front import SAME, Front, undominated, value_of
 from optlaws.synthesis.method.exchange import solve
@@ -117,19 +118,21 @@ class _Curve:
         dead: set[float] = set()
         if count >= _MANY and self._asked(self.points[0][0]).convex:
             self._grow_together(count)
-        while len(self.points) < count:
-            widths = [0.0 if self.points[i][0] in dead else width for i, width in enumerate(self._widths())]
-            i = int(np.argmax(widths))
-            if widths[i] < SAME:
-                break
-            (low, left), (high, right) = self.points[i : i + 2]
-            value = sqrt(low * high)
-            solution = self._solved(value, left, right)
-            if solution is None:
-                self.failed.append(value)
-                dead.add(low)
-            else:
-                self.points.insert(i + 1, (value, solution))
+        with Steps(f"least {self.over[1]} over {self.over[0]}", count) as steps:
+            while len(self.points) < count:
+                widths = [0.0 if self.points[i][0] in dead else width for i, width in enumerate(self._widths())]
+                i = int(np.argmax(widths))
+                if widths[i] < SAME:
+                    break
+                (low, left), (high, right) = self.points[i : i + 2]
+                value = sqrt(low * high)
+                solution = self._solved(value, left, right)
+                if solution is None:
+                    self.failed.append(value)
+                    dead.add(low)
+                else:
+                    self.points.insert(i + 1, (value, solution))
+                steps.reach(len(self.points))
         return Front(self.over, tuple(undominated([s for _, s in self.points], self.over)), tuple(sorted(self.failed)))
 
     def _grow_together(self, count: int) -> None:

@@ -238,7 +238,7 @@ class Solution:
 
     def _repr_html_(self) -> str:
         from optlaws.laws.html import drawings, table_of_constants
-        from optlaws.showing import facts, page
+        from optlaws.shown.showing import facts, page
 
         known = {
             "status": self.status.value,

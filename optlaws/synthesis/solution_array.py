@@ -305,7 +305,7 @@ class SolutionArray:
         return made
 
     def _repr_html_(self) -> str:
-        from optlaws.showing import drawing, facts, page
+        from optlaws.shown.showing import drawing, facts, page
 
         names, counts = np.unique(self.status, return_counts=True)
         shown = facts({"shape": str(self.shape), **dict(zip(names.tolist(), counts.tolist(), strict=True))})

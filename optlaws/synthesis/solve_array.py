@@ -17,6 +17,7 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError
 from optlaws.numbers import whole
+from optlaws.shown.steps import Steps
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.arrays.along import laws_along
 from optlaws.synthesis.arrays.found import Found
@@ -103,13 +104,17 @@ def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
     began = perf_counter()
     parts: list[Part] = []
     others: dict[int, Solution | OptlawsError] = {}
-    for line in _lines(problems):
-        found = _along(problems, line, bound)
-        rows = np.flatnonzero(found.solved)
-        if len(rows):
-            parts.append(Part(line.places[rows], line.path.model, found.taken(rows).frozen()))
-            for beyond in (line.places[: rows[0]][::-1], line.places[rows[-1] + 1 :]):
-                others.update(_beyond(problems, beyond, bound))
+    done = 0
+    with Steps("laws", problems.size) as steps:
+        for line in _lines(problems):
+            found = _along(problems, line, bound)
+            rows = np.flatnonzero(found.solved)
+            if len(rows):
+                parts.append(Part(line.places[rows], line.path.model, found.taken(rows).frozen()))
+                for beyond in (line.places[: rows[0]][::-1], line.places[rows[-1] + 1 :]):
+                    others.update(_beyond(problems, beyond, bound))
+            done += len(line.places)
+            steps.reach(done)
     return completed(problems, parts, others, began, bound=bound)
 
 
@@ -200,10 +205,12 @@ def _others(problems: ProblemArray, places: NDArray[np.intp], bound: str) -> dic
     """What is solved one by one, each begun at the law before it."""
     others: dict[int, Solution | OptlawsError] = {}
     previous: Solution | None = None
-    for place in places.tolist():
-        result = _alone(problems, place, previous, bound)
-        previous = result if isinstance(result, Solution) else previous
-        others[place] = result
+    with Steps("laws", len(places)) as steps:
+        for place in places.tolist():
+            result = _alone(problems, place, previous, bound)
+            previous = result if isinstance(result, Solution) else previous
+            others[place] = result
+            steps.reach(len(others))
     return others
 
 

@@ -50,12 +50,12 @@ def front(
     """
     check_files(csv, plot=plot)
     problem, names = optlaws.Problem.from_dict(entries), tuple(apart(over))
-    with busy("solving"):
-        found = (
-            optlaws.pareto_front(problem, names, points=points, between=between)
-            if gap is None
-            else optlaws.proven_front(problem, names, between=between, gap=gap)
-        )
+    found: optlaws.Front | optlaws.ProvenFront
+    if gap is None:  # which shows its steps itself
+        found = optlaws.pareto_front(problem, names, points=points, between=between)
+    else:
+        with busy("solving"):
+            found = optlaws.proven_front(problem, names, between=between, gap=gap)
     headings, rows = _table(found, whole(points, "points", least=2))
     if csv is not None:
         _save_table(found, csv, headings, rows)

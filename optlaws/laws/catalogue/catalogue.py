@@ -93,7 +93,7 @@ class Catalogue(Mapping[str, "Entry"]):
 
     def _repr_html_(self) -> str:
         from optlaws.laws.html import drawings
-        from optlaws.showing import Html, page, table
+        from optlaws.shown.showing import Html, page, table
 
         rows = []
         for name, entry in self._entries.items():

@@ -106,7 +106,7 @@ class Entry:
 
     def _repr_html_(self) -> str:
         from optlaws.laws.html import drawings, table_of_constants
-        from optlaws.showing import facts, page
+        from optlaws.shown.showing import facts, page
 
         known = {"also": ", ".join(self.aliases) or None, "built": self.formula, "source": self.source}
         return page(self.name, facts(known), table_of_constants(self.constants), drawings(self.law))

@@ -144,7 +144,7 @@ class Follower:
         return pi / 3.0 * angle / (self.nu * period)
 
     def _repr_html_(self) -> str:
-        from optlaws.showing import drawing, facts, page
+        from optlaws.shown.showing import drawing, facts, page
 
         nu, zeta = self.nu, self.damping
         known = {"nu": nu, "damping ratio": zeta, "n": self.n, "free vibrations in the rise": nu / tau}

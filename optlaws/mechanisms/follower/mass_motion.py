@@ -41,7 +41,7 @@ class MassMotion(Curve):
 
     def _repr_html_(self) -> str:
         from optlaws.laws.html import drawings
-        from optlaws.showing import page
+        from optlaws.shown.showing import page
 
         return page(repr(self), drawings(self))
 

@@ -225,7 +225,7 @@ class Problem:
         return cls(**from_entries(data))
 
     def _repr_html_(self) -> str:
-        from optlaws.showing import facts, page
+        from optlaws.shown.showing import facts, page
 
         asked = {f.name: getattr(self, f.name) for f in fields(self) if f.name in _ALWAYS or _given(self, f)}
         texts = {name: "free" if value is None else str(value) for name, value in asked.items()}
