@@ -25,6 +25,7 @@ from optlaws.cycles.optimal import (
     LOADED,
     Wanted,
     check_objective,
+    force_unit,
     kind_of,
     limits_of_stretch,
     read_limits,
@@ -179,18 +180,35 @@ class Cycle(Stated):
 
     @kept_property
     def lower_bound(self) -> float | None:
-        """What no other optimal laws in the same times can beat; None for forces, whose solutions have their own."""
+        """What no other optimal laws in the same times can beat; with dry friction, that never turn back."""
         nu, mean = kind_of(self.minimise)
         if nu == LOADED:
             ((piece, solution),) = self._solved
             return solution.lower_bound * abs(piece.stroke)
         if nu < 0:
-            return None
+            return self._force_bound(mean=mean)
         sizes = [(piece.duration, self._bound(piece, solution, nu)) for piece, solution in self._solved]
         known = [(piece.duration, self._size(piece, nu, mean=mean)) for piece in self._layout.pieces]
         if not mean:
             return max(bound for _, bound in sizes + known)
         return reduce(hypot, (bound * float(np.sqrt(time / self.duration)) for time, bound in sizes + known), 0.0)
+
+    def _force_bound(self, *, mean: bool) -> float:
+        """The same of forces: those of each law that was looked for, and what other pieces take."""
+        drive = self._drive
+        if drive is None:
+            return 0.0
+        spans = zip(self._layout.spans, self._solved, strict=True)
+        sizes = [
+            (piece.duration, solution.lower_bound * force_unit(span, drive, piece.stroke))
+            for span, (piece, solution) in spans
+        ]
+        for piece in self._layout.pieces:
+            taken = effort(drive, [piece], piece.duration)
+            sizes.append((piece.duration, taken.rms_force if mean else taken.peak_force))
+        if not mean:
+            return max(bound for _, bound in sizes)
+        return reduce(hypot, (bound * float(np.sqrt(time / self.duration)) for time, bound in sizes), 0.0)
 
     @kept_property
     def peaks(self) -> tuple[SegmentPeaks, ...]:

@@ -340,8 +340,12 @@ def _force(span: Span, wanted: Wanted, stroke: float) -> tuple[str, float]:
             "what is minimised or bounded, or take moves between rests"
         )
     direction = 1.0 if span.displacement > 0.0 else -1.0
-    origin = span.origin if span.turns else span.offset
-    unit = wanted.drive.size(stroke, span.duration, origin)
+    unit = force_unit(span, wanted.drive, stroke)
     if unit == 0.0:
         raise InputError("drive: nothing resists the motion: give it a mass, an inertia, a spring or friction")
-    return wanted.drive.formula(stroke, span.duration, origin, direction, unit), unit
+    return wanted.drive.formula(stroke, span.duration, span.origin, direction, unit), unit
+
+
+def force_unit(span: Span, drive: Drive, stroke: float) -> float:
+    """About how great the force along a span is: a unit in which it is near 1."""
+    return drive.size(stroke, span.duration, span.origin)

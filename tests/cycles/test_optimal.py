@@ -149,6 +149,7 @@ def test_forces_are_least_and_proven(minimise: str) -> None:
     best = Cycle(segments, speed="200 rpm", minimise=minimise, drive=drive)
     other = Cycle(segments, speed="200 rpm", drive=drive)
     assert best.status == "optimal"
+    assert best.lower_bound == pytest.approx(best.objective, rel=1e-7)
     assert best.objective < getattr(other.effort, minimise.replace(" ", "_") if "rms" in minimise else "peak_force")
 
 
