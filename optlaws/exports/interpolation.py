@@ -83,9 +83,7 @@ def akima(x: Array, y: Array) -> PiecewiseMotion:
     >>> round(akima(x, x**2)(0.5), 9)
     0.25
     """
-    from scipy.interpolate import Akima1DInterpolator
-
-    return PiecewiseMotion(x, Akima1DInterpolator(x, y).c.T[:, ::-1])
+    return PiecewiseMotion(x, akima_powers(x, y))
 
 
 def sampled(motion: PiecewiseMotion, ticks: int) -> PiecewiseMotion:
@@ -119,6 +117,13 @@ def spline_powers(x: Array, y: Array, ends: Ends, slopes: tuple[float, float]) -
         raise InputError("a periodic spline ends at the position where it begins; clamp one that advances")
     conditions: Any = ((1, slopes[0]), (1, slopes[1])) if ends == "clamped" else ends
     return np.asarray(CubicSpline(x, y, bc_type=conditions).c.T[:, ::-1])
+
+
+def akima_powers(x: Array, y: Array) -> Array:
+    """Ascending powers of `akima`, a row for each piece."""
+    from scipy.interpolate import Akima1DInterpolator
+
+    return np.asarray(Akima1DInterpolator(x, y).c.T[:, ::-1])
 
 
 def hermite_powers(x: Array, values: Array) -> Array:

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.interpolate import BPoly, CubicHermiteSpline, CubicSpline, PPoly
+from scipy.interpolate import Akima1DInterpolator, BPoly, CubicHermiteSpline, CubicSpline, PPoly
 
 Array = NDArray[np.float64]
 Curve = Callable[[Array, int], Array]
@@ -25,6 +25,11 @@ def spline(x: Array, y: Array, conditions: Any) -> Curve:  # noqa: ANN401 - scip
 
 def broken(x: Array, y: Array) -> Curve:
     curve = PPoly(np.array([np.diff(y) / np.diff(x), y[:-1]]), x)
+    return lambda places, nu: np.asarray(curve(places, nu))
+
+
+def akima(x: Array, y: Array) -> Curve:
+    curve = Akima1DInterpolator(x, y)
     return lambda places, nu: np.asarray(curve(places, nu))
 
 

@@ -249,6 +249,19 @@ def test_what_a_file_does_not_tell_is_not_rounded() -> None:
     np.testing.assert_allclose(made.run(inside, 1), read(inside, 1), atol=1e-12)
 
 
+@pytest.mark.parametrize(
+    ("interpolation", "columns"), [("linear", 2), ("akima", 2), ("c1", 3), ("quintic", 4), ("septic", 5)]
+)
+def test_csv_holds_what_its_interpolation_takes(interpolation: str, columns: int) -> None:
+    made = export_motion(one_shot(), "csv", points=25, interpolation=interpolation)
+    heading, table = readers.separated(made.text)
+    assert heading == ["x deg", "y mm", "V mm/deg", "A mm/deg^2", "J mm/deg^3"][:columns]
+    by_name = {"linear": readers.broken, "akima": readers.akima}
+    read = by_name[interpolation](*table) if interpolation in by_name else readers.osculating(table[0], table[1:])
+    inside = np.linspace(0.0, 120.0, 700)[1:-1]
+    np.testing.assert_allclose(read(inside, 0), made.run(inside), atol=35e-12)
+
+
 def test_decimal_commas() -> None:
     made = export_motion(one_shot(), "csv", points=31, decimal=",", digits=6)
     heading, columns = readers.separated(made.text, ";", ",")

@@ -21,6 +21,7 @@ from optlaws.files.writing import MARK
 MODELS = {
     "linear": "straight lines",
     "cubic": "C2 cubic spline clamped to the law's velocities at the ends",
+    "akima": "Akima's cubics, as in Modelica's tables",
     "c1": "cubic Hermite with the law's velocities at the points",
     "quintic": "quintic Hermite",
     "septic": "Hermite of degree 7",
@@ -38,7 +39,7 @@ def _interpolation(request: Request, known: Sequence[str]) -> str:
 
 
 def _csv(motion: Motion, request: Request) -> Written:
-    interpolation = _interpolation(request, ("cubic", "linear", "c1", "quintic", "septic"))
+    interpolation = _interpolation(request, ("cubic", "linear", "akima", "c1", "quintic", "septic"))
     held = Held(request.counts, request.digits)
 
     def make(count: int) -> Table:

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.exports.interpolation import Ends, hermite_powers, linear_powers, spline_powers
+from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
 from optlaws.exports.motion import Motion
 from optlaws.exports.polynomials import PiecewiseMotion
 from optlaws.exports.spacing import places
@@ -127,6 +127,12 @@ def straight(motion: Motion, count: int, held: Held, *, even: bool = False) -> T
     return Table(x, y[None], linear_powers(x, y), held.resolution(motion), 0.0)
 
 
+def by_akima(motion: Motion, count: int, held: Held) -> Table:
+    """Positions through which the controller lays Akima's cubics."""
+    x, y = positions(motion, count, held)
+    return Table(x, y[None], akima_powers(x, y), held.resolution(motion), 0.0)
+
+
 def osculated(motion: Motion, count: int, held: Held, orders: int, *, told: bool = True) -> Table:
     """Positions with derivatives, so many in all, from which the controller makes Hermite's polynomials.
 
@@ -150,10 +156,12 @@ def osculated(motion: Motion, count: int, held: Held, orders: int, *, told: bool
 
 
 def by_interpolation(motion: Motion, count: int, held: Held, interpolation: str) -> Table:
-    """A table for an interpolation by its name: linear, cubic, c1, quintic, septic."""
+    """A table for an interpolation by its name: linear, cubic, akima, c1, quintic, septic."""
     orders = {"c1": 2, "quintic": 3, "septic": 4}
     if interpolation in orders:
         return osculated(motion, count, held, orders[interpolation])
+    if interpolation == "akima":
+        return by_akima(motion, count, held)
     return straight(motion, count, held) if interpolation == "linear" else splined(motion, count, held)
 
 
