@@ -21,6 +21,7 @@ from optlaws.cams.made.as_made import AsMade, UnreachedProfileError, as_made, wi
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text
+from optlaws.jobs.cam.animation import animated
 from optlaws.jobs.cam.pictures import draw, draw_forces
 from optlaws.jobs.pages.page import Page
 from optlaws.kept import kept_property
@@ -88,6 +89,7 @@ class More(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     spring: AskedSpring | None = None
     as_made: AskedAsMade | None = None
     file: Annotated[list[AskedFile], msgspec.Meta(max_length=50)] = []
+    animation: bool = False
 
 
 def check(spec: More, cam: DiscCam) -> None:
@@ -193,6 +195,8 @@ def add(page: Page, found: Found) -> Page:
         page.heading("As made").table(headings, [_made_row(*one) for one in found.made.items()], digits=5)
         if None in found.made.values():
             page.text("Where nothing stands the follower does not reach all of the cam: it has hollows.")
+    if found.spec.animation:
+        page.heading("Turning").figure("animation", "The cam turns under its follower")
     if found.spec.file:
         page.heading("Files").text("\n".join(f"- [{one.name}]({one.name})" for one in found.spec.file))
     return page
@@ -205,8 +209,9 @@ def figures(found: Found, title: str) -> dict[str, Figure]:
 
 
 def files(found: Found, out: Path, about: str) -> list[Path]:
-    """Write the files that cut the cam."""
-    return [found.cam.export(out / one.name, one.format, about=about, **one.asked()) for one in found.spec.file]
+    """Write the files that cut the cam, and the one that shows it turn."""
+    cut = [found.cam.export(out / one.name, one.format, about=about, **one.asked()) for one in found.spec.file]
+    return [*cut, *([writing.write(out / "animation.svg", animated(found.cam))] if found.spec.animation else [])]
 
 
 def _force_rows(forces: CamForces) -> list[list[tables.Cell]]:

@@ -1,8 +1,11 @@
+import re
+
 import numpy as np
 import pytest
 
 from optlaws.cams.loads.forces import CamForces
 from optlaws.errors import InputError
+from optlaws.jobs.cam.animation import animated
 from optlaws.jobs.cam.pictures import draw_forces
 from tests.cams.placed import FOLLOWERS, cam_of
 
@@ -35,3 +38,31 @@ def test_forces_are_drawn_with_the_pressure_where_it_is_known() -> None:
     for width, panels in ((None, 2), ("20 mm", 3)):
         figure = draw_forces(CamForces(cam, speed="200 rpm", drive=drive, width=width), "Forces")
         assert len(figure.axes) == panels
+
+
+@pytest.mark.parametrize("kind", ["translating roller", "oscillating roller"])
+@pytest.mark.parametrize("turning", ["counterclockwise", "clockwise"])
+def test_in_an_animation_the_roller_touches_the_cam_in_every_frame(kind: str, turning: str) -> None:
+    cam = cam_of(kind, turning)
+    text = animated(cam)
+    x, y, radius = centre(text)
+    found = re.search(r'type="(translate|rotate)" values="([^"]*)"', text)
+    turn = re.search(r'to="(-?[.0-9]+)"', text)
+    assert found is not None
+    assert turn is not None
+    frames = [[float(one) for one in frame.split()] for frame in found[2].split(";")]
+    profile = 1e3 * cam.profile(np.linspace(0.0, 2 * np.pi, 4001)) @ np.array([1.0, -1j])
+    for i in range(0, len(frames), 24):
+        turned = profile * np.exp(1j * np.radians(float(turn[1]) * i / (len(frames) - 1)))
+        at = complex(x, y)
+        if found[1] == "translate":
+            at += complex(*frames[i])
+        else:
+            at = frames[i][1] + (at - frames[i][1]) * np.exp(1j * np.radians(frames[i][0]))
+        assert float(np.abs(turned - at).min()) == pytest.approx(radius, abs=0.02)
+
+
+def centre(text: str) -> list[float]:
+    found = re.search(r'cx="(-?[.0-9]+)" cy="(-?[.0-9]+)" r="([.0-9]+)"', text)
+    assert found is not None
+    return [float(one) for one in found.groups()]
