@@ -46,7 +46,7 @@ class Undercut:
             return (
                 f"undercut at {degrees(self.margin.angle):.6g} deg: the radius of curvature of the profile would be "
                 f"{1e3 * self.margin.value:.6g} mm there: make the base circle larger"
-                " or the roller smaller, or spread the motion over more of the turn"
+                " or a roller smaller, or spread the motion over more of the turn"
             )
         if self.status == UNDECIDED:
             width = 1e3 * (self.margin.high - self.margin.low)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
+from dataclasses import dataclass
 from math import degrees
 from pathlib import Path
 from typing import Any
@@ -20,6 +21,7 @@ from optlaws.files import tables, writing
 from optlaws.jobs.cam.more import Found, add, figures, files
 from optlaws.jobs.cam.wishes import Study, read
 from optlaws.jobs.pages.page import Page
+from optlaws.kept import kept_property
 
 _MILLI = 1e3
 _TURN = 360.0
@@ -29,11 +31,12 @@ _NOTHING = 1e-100
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec, cam = read(data, file)
-    found = Found(spec, cam)
+    found, sizes = Found(spec, cam), Sizes(spec, cam)
     about = f"{spec.title}; from {file.name}"
     texts = {
-        "cam.md": str(page(spec, cam, found)),
-        "cam.json": json.dumps({"about": f"{about}; {writing.MARK}", **answer(spec, cam, found)}, indent=1) + "\n",
+        "cam.md": str(page(spec, cam, found, sizes)),
+        "cam.json": json.dumps({"about": f"{about}; {writing.MARK}", **answer(spec, cam, found, sizes)}, indent=1)
+        + "\n",
         "cam.csv": tables.to_csv(_columns(spec), _rows(spec, cam), about=about),
     }
     return [
@@ -43,7 +46,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     ]
 
 
-def answer(spec: Study, cam: DiscCam, found_beside: Found | None = None) -> dict[str, Any]:
+def answer(spec: Study, cam: DiscCam, found_beside: Found | None = None, sizes: Sizes | None = None) -> dict[str, Any]:
     """What a program is told of the cam, in metres and radians: enclosures as pairs, with the angle of the cam."""
     found = cam.extremes
     undercut = found.undercut
@@ -56,7 +59,8 @@ def answer(spec: Study, cam: DiscCam, found_beside: Found | None = None) -> dict
         "hollow_radius": None if found.hollow_radius is None else _enclosure(found.hollow_radius),
         "undercut": {"status": undercut.status, "simple": undercut.simple},
     }
-    least, roller = _least(spec, cam), _roller(spec, cam)
+    proven = sizes or Sizes(spec, cam)
+    least, roller = proven.least, proven.roller
     if isinstance(least, LeastBaseCircle):
         told["least_base_circle"] = {
             "radius": least.radius, "too_small": least.too_small, "proven": least.proven, "limit": least.limit,
@@ -69,17 +73,17 @@ def answer(spec: Study, cam: DiscCam, found_beside: Found | None = None) -> dict
     return told | (found_beside or Found(spec, cam)).told()
 
 
-def page(spec: Study, cam: DiscCam, found_beside: Found | None = None) -> Page:
+def page(spec: Study, cam: DiscCam, found_beside: Found | None = None, sizes: Sizes | None = None) -> Page:
     """The page of results."""
     made = Page(spec.title).text(spec.text).figure("cam", spec.title)
     made.text(f"Undercut: {cam.extremes.undercut}.")
     made.table(("what", "at least", "at most", "unit", "at, deg"), _extreme_rows(cam), digits=7)
-    sizes = _size_rows(spec, cam)
-    if sizes:
-        made.heading("Sizes").table(("what", "kept with", "broken with", "unit", "at, deg"), sizes, digits=7)
-    least = _least(spec, cam)
-    if isinstance(least, str):
-        made.text(f"No base circle: {least}.")
+    proven = sizes or Sizes(spec, cam)
+    rows = _size_rows(proven)
+    if rows:
+        made.heading("Sizes").table(("what", "kept with", "broken with", "unit", "at, deg"), rows, digits=7)
+    if isinstance(proven.least, str):
+        made.text(f"{proven.least[0].upper()}{proven.least[1:]}.")
     return add(made, found_beside or Found(spec, cam))
 
 
@@ -103,8 +107,8 @@ def _row(name: str, one: Extreme, factor: float, unit: str) -> list[tables.Cell]
     return [name, low, high if np.isfinite(high) else None, unit, degrees(one.angle)]
 
 
-def _size_rows(spec: Study, cam: DiscCam) -> list[list[tables.Cell]]:
-    least, roller = _least(spec, cam), _roller(spec, cam)
+def _size_rows(sizes: Sizes) -> list[list[tables.Cell]]:
+    least, roller = sizes.least, sizes.roller
     rows: list[list[tables.Cell]] = []
     if isinstance(least, LeastBaseCircle):
         name = f"least base circle, by the {least.limit}"
@@ -114,26 +118,30 @@ def _size_rows(spec: Study, cam: DiscCam) -> list[list[tables.Cell]]:
     return rows
 
 
-def _least(spec: Study, cam: DiscCam) -> LeastBaseCircle | str | None:
-    """The least base circle, why there is none, or None where no limit is given."""
-    if spec.pressure_angle is None and spec.radius_of_curvature is None:
-        return None
-    try:
-        return least_base_circle(
-            cam.motion,
-            cam.follower,
-            pressure_angle=spec.pressure_angle,
-            radius_of_curvature=spec.radius_of_curvature,
-            turning=spec.turning,
-        )
-    except InfeasibleProblem as error:
-        return str(error)
+@dataclass(frozen=True)
+class Sizes:
+    """Least and greatest sizes of the cam, computed once."""
 
+    spec: Study
+    cam: DiscCam
 
-def _roller(spec: Study, cam: DiscCam) -> GreatestRoller | None:
-    if not isinstance(cam.contact, RollerContact):
-        return None
-    return greatest_roller(cam, radius_of_curvature=spec.radius_of_curvature or "0 mm")
+    @kept_property
+    def least(self) -> LeastBaseCircle | str | None:
+        """The least base circle, why there is none, or None where no limit is given."""
+        limits = {"pressure_angle": self.spec.pressure_angle, "radius_of_curvature": self.spec.radius_of_curvature}
+        if not any(limits.values()):
+            return None
+        try:
+            return least_base_circle(self.cam.motion, self.cam.follower, turning=self.spec.turning, **limits)
+        except InfeasibleProblem as error:
+            return str(error)
+
+    @kept_property
+    def roller(self) -> GreatestRoller | None:
+        """The greatest roller; None under a flat face."""
+        if not isinstance(self.cam.contact, RollerContact):
+            return None
+        return greatest_roller(self.cam, radius_of_curvature=self.spec.radius_of_curvature or "0 mm")
 
 
 def _enclosure(one: Extreme) -> dict[str, float | None]:
