@@ -16,7 +16,7 @@ from optlaws.cycles.asked.conversion import Piece
 from optlaws.cycles.asked.joints import Layout, layout
 from optlaws.cycles.asked.programme import TURN, Programme, Stretch, is_optimal, period_of, programme
 from optlaws.cycles.asked.quantities import quantity
-from optlaws.cycles.asked.segments import ConstantVelocity, CycleSegment, Dwell, Move
+from optlaws.cycles.asked.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move
 from optlaws.cycles.drive import Drive, read_drive
 from optlaws.cycles.durations import durations
 from optlaws.cycles.effort import Effort, effort
@@ -43,6 +43,7 @@ from optlaws.plotting import plotted
 from optlaws.synthesis.solution import Solution, Status
 
 Array = NDArray[np.float64]
+Place = tuple[float, float]
 
 JOINED = 1e-9  # a leap below this share of the derivative's greatest value is rounding
 
@@ -214,8 +215,8 @@ class Cycle(Stated):
     def peaks(self) -> tuple[SegmentPeaks, ...]:
         """Least and greatest values in every segment."""
         return tuple(
-            SegmentPeaks(one.label, start, stop - start, self._extremes(start, stop))
-            for one, (start, stop) in zip(self.segments, pairwise(self._layout.starts), strict=True)
+            SegmentPeaks(one.given.label, start, stop - start, self._extremes(one, start, stop))
+            for one, (start, stop) in zip(self.programme.stretches, pairwise(self._layout.starts), strict=True)
         )
 
     def peak(self, nu: int) -> float:
@@ -525,9 +526,14 @@ class Cycle(Stated):
     def _solved(self) -> tuple[tuple[Piece, Solution], ...]:
         return tuple(solve(span, self._wanted, self.axis) for span in self._layout.spans)
 
-    def _extremes(self, start: float, stop: float) -> tuple[tuple[tuple[float, float], tuple[float, float]], ...]:
+    def _extremes(self, one: Stretch, start: float, stop: float) -> tuple[tuple[Place, Place], ...]:
         piece = next(one for one in reversed(self.pieces) if one.start <= start)
-        return tuple(piece.extremes(nu, start, stop) for nu in range(4))
+        if isinstance(one.given, Move | Free):
+            return tuple(piece.extremes(nu, start, stop) for nu in range(4))
+        # straight: what its law has beside is rounding
+        low, high = sorted((float(piece.values(np.array([time]), 0)[0]), time) for time in (start, stop))
+        speed = (one.displacement / (stop - start), start)
+        return (low, high), (speed, speed), ((0.0, start),) * 2, ((0.0, start),) * 2
 
     def _bound(self, piece: Piece, solution: Solution, nu: int) -> float:
         return solution.lower_bound * self._factor(piece, nu)

@@ -66,7 +66,7 @@ def test_a_cycle_that_begins_within_a_motion_dwells_and_keeps_limits() -> None:
     free = Cycle([Free("30 mm", "0.2 s"), *ways[1:]], period="1 s")
     assert cycle([0.2, 0.3, 0.4]) == pytest.approx([0.03] * 3, abs=1e-12)
     assert cycle.peaks[0].peak(1) <= 0.25 * (1 + 1e-9) < free.peaks[0].peak(1)
-    assert max(cycle.peaks[1].peak(nu) for nu in (1, 2)) < 1e-11 * cycle.peak(2)
+    assert [cycle.peaks[1].peak(nu) for nu in (1, 2, 3)] == [0.0, 0.0, 0.0]
     assert cycle.status == free.status == "optimal"
     assert cycle.objective > free.objective
     steady = Cycle([Free("30 mm", "0.2 s"), ConstantVelocity("100 mm/s", "0.2 s"), Free("-50 mm")], period="1 s")

@@ -24,6 +24,7 @@ from optlaws.laws import MotionLaw
 
 Array = NDArray[np.float64]
 
+_LEAPS, _WITHIN = 2, 1e-13
 SAME = 1e-12  # share of a time within which it is another
 
 
@@ -83,6 +84,9 @@ class Piece:
     def extremes(self, nu: int, first: float, last: float) -> tuple[tuple[float, float], tuple[float, float]]:
         """Least and greatest value with their times, over the whole of the stretch from `first` to `last`."""
         low, high = (float(one) for one in self.places(np.array([first, last])))
+        if nu >= _LEAPS:
+            # what leaps where a segment ends has the value of the segment, not of its neighbour
+            low, high = low + _WITHIN * (low > 0.0), high - _WITHIN * (high < 1.0)
         found = self.law.extrema(nu, within=(low, high))
         base = self.offset - self.stroke * float(self.law.a(0.0)) if nu == 0 else 0.0
         sized = [
