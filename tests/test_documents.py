@@ -1,6 +1,7 @@
 import pkgutil
 import re
 import sys
+import tomllib
 from pathlib import Path
 
 import pytest
@@ -79,6 +80,21 @@ def sections(page: str) -> list[str]:
 def test_every_job_and_every_command_has_a_section() -> None:
     assert sections("problem-files.md") == sorted(JOBS)
     assert sections("command-line.md") == sorted(file.rpartition(".")[2] for file in COMMANDS)
+
+
+def test_the_contents_list_every_how_to_once_and_the_first_page_every_extra() -> None:
+    contents = (ROOT / "docs" / "index.md").read_text("utf-8")
+    for page in sorted((ROOT / "docs" / "how-to").glob("*.md")):
+        assert len(re.findall(rf"^how-to/{page.stem}$", contents, re.MULTILINE)) == 1, page.stem
+    extras = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["project"]["optional-dependencies"]
+    first = (ROOT / "README.md").read_text("utf-8")
+    assert [name for name in extras if f"`{name}`" not in first] == []
+
+
+def test_no_module_has_two_places_in_the_reference() -> None:
+    pages = (ROOT / "docs" / "reference" / "api").glob("*.md")
+    placed = [name for page in pages for name in re.findall(r"automodule:: (\S+)", page.read_text("utf-8"))]
+    assert sorted(placed) == sorted(set(placed))
 
 
 def test_a_console_block_is_split_into_commands_and_their_output() -> None:
