@@ -2,7 +2,6 @@
 
 import re
 from html.parser import HTMLParser
-from pathlib import Path
 from typing import Protocol
 
 import numpy as np
@@ -21,7 +20,6 @@ from optlaws import (
     catalogue,
     compare,
     pareto_front,
-    run_study,
     smoothstep,
     synthesize,
     synthesize_array,
@@ -112,17 +110,13 @@ def test_a_cycle_shows_its_segments_or_why_it_has_no_laws() -> None:
     assert "it more time or a wider limit" in text
 
 
-def test_fronts_arrays_and_studies(tmp_path: Path) -> None:
+def test_fronts_and_arrays() -> None:
     front = pareto_front(Problem(order=3), over=("B", "C"), points=3, between=(1.6, 1.8))
     assert checked(front)[0].count("<svg") == 1
     surface = pareto_front(Problem(order=3), over=("B", "C", "J"), points=4, between=(1.6, 1.8))
     assert checked(surface)[0].count("<svg") == 0
     laws = synthesize_array(ProblemArray(B=np.array([1.05, 1.7, 1.8]), order=4))
     assert "infeasible" in checked(laws)[1]
-    study = run_study({"title": "<b>", "problem": {"order": 4, "degree": 5}, "vary": {"B": [1.7, 1.8]}}, tmp_path / "s")
-    _, text = checked(study)
-    assert "2 of 2" in text
-    assert "<b>" in text
 
 
 def test_text_is_escaped_and_numbers_are_short() -> None:

@@ -24,6 +24,13 @@ def small(tmp_path_factory: pytest.TempPathFactory) -> Study:
     return serially(SMALL, tmp_path_factory.mktemp("studies") / "small")
 
 
+def test_a_notebook_shows_what_is_done(small: Study) -> None:
+    html = small._repr_html_()
+    assert "28 of 28" in html
+    assert html.count("<tr>") > 12
+    assert "<script" not in html
+
+
 def test_rows_are_what_synthesize_gives(small: Study) -> None:
     assert len(small) == 28
     assert [point.index for point in small] == list(range(28))
