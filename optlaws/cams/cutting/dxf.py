@@ -79,10 +79,7 @@ def _document(release: str, asked: Cutting, draw: Callable[[Modelspace], None]) 
     ezdxf = _ezdxf()
     stream = io.StringIO()
     with _without_date(ezdxf):
-        document = ezdxf.new(release)
-        if release != _OLD:
-            document.header["$INSUNITS"] = _MILLIMETRES
-        document.header["$MEASUREMENT"] = 1
+        document = ezdxf.new(release, units=0 if release == _OLD else _MILLIMETRES)
         for name in (LAYER, CENTRE):
             document.layers.add(name)
         draw(document.modelspace())

@@ -2,6 +2,7 @@ import sys
 from collections.abc import Sequence
 from pathlib import Path
 
+import ezdxf.filemanagement
 import numpy as np
 import pytest
 from scipy.interpolate import BPoly
@@ -23,6 +24,7 @@ def test_a_dxf_spline_is_read_back_with_all_its_digits(tmp_path: Path) -> None:
         file = export(ELLIPSE, tmp_path / "profile.dxf", tolerance="0.01 um", degree=degree)
         found = readers.dxf_spline(file)
         assert found.k == degree
+        assert ezdxf.filemanagement.readfile(file).header["$INSUNITS"] == 4
         assert float(np.linalg.norm(found(ANGLES) - POINTS, axis=1).max()) < 1.0001e-5
         assert np.abs(found(0.0, 1) - found(2 * np.pi - 1e-13, 1)).max() < 1e-6
 
@@ -37,8 +39,9 @@ def test_a_dxf_polyline_is_within_its_tolerance(tmp_path: Path) -> None:
     assert 1e-3 < nearest(chain) < NEAR
 
 
-def test_dxf_arcs_touch_and_are_within_their_tolerance(tmp_path: Path) -> None:
+def test_dxf_arcs_touch_and_are_within_their_tolerance(tmp_path: Path, caplog: pytest.LogCaptureFixture) -> None:
     chain = readers.dxf_arcs(export(ELLIPSE, tmp_path / "p.dxf", "dxf arcs", tolerance="2 um"))
+    assert caplog.messages == []
     assert nearest(chain) < NEAR
     for one, other in zip(chain, [*chain[1:], chain[0]], strict=True):
         assert isinstance(one, readers.Arc)
