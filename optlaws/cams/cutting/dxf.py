@@ -5,6 +5,7 @@ from __future__ import annotations
 import io
 from collections.abc import Callable, Iterator
 from contextlib import contextmanager
+from logging import ERROR, getLogger
 from math import atan2, degrees
 from typing import TYPE_CHECKING, Any
 
@@ -99,9 +100,13 @@ def _ezdxf() -> Any:  # noqa: ANN401 - a module
 @contextmanager
 def _without_date(ezdxf: Any) -> Iterator[None]:  # noqa: ANN401 - a module
     with _lock:
-        kept = ezdxf.options.write_fixed_meta_data_for_testing
+        # it warns of the units of release 12 even where there are none
+        logger = getLogger("ezdxf")
+        kept, level = ezdxf.options.write_fixed_meta_data_for_testing, logger.level
         ezdxf.options.write_fixed_meta_data_for_testing = True
+        logger.setLevel(ERROR)
         try:
             yield
         finally:
             ezdxf.options.write_fixed_meta_data_for_testing = kept
+            logger.setLevel(level)
