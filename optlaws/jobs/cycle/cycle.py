@@ -106,7 +106,9 @@ def _told(cycle: Cycle) -> list[list[tables.Cell]]:
     if cycle.load is not None:
         rows += [[f"peak of the load's {name}", cycle.load_motion.peak(name).value, "SI"] for name in _outputs(cycle)]
     leaps = {name: max(abs(joint[name]) for joint in cycle.joints) for name in ("velocity", "acceleration")}
-    return [*rows, *([f"greatest leap of the {name} at a joint", leap, "SI"] for name, leap in leaps.items())]
+    units = (_unit(cycle, order) for order in (1, 2))
+    named = zip(leaps.items(), units, strict=True)
+    return [*rows, *([f"greatest leap of the {name} at a joint", leap, unit] for (name, leap), unit in named)]
 
 
 def _outputs(cycle: Cycle) -> tuple[str, ...]:
@@ -120,7 +122,12 @@ def objective_unit(cycle: Cycle) -> str:
         return "SI"
     if nu == FORCE:
         return "N" if cycle.axis == "length" else "N m"
-    return {"length": "m", "angle": "rad"}[cycle.axis] + ("/s", "/s²", "/s³")[nu - 1]
+    return _unit(cycle, nu)
+
+
+def _unit(cycle: Cycle, order: int) -> str:
+    """The unit of a derivative by time."""
+    return {"length": "m", "angle": "rad"}[cycle.axis] + ("/s", "/s²", "/s³")[order - 1]
 
 
 def _columns(cycle: Cycle) -> list[str]:
