@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from pathlib import Path
 from types import UnionType
-from typing import Annotated, Any, TypeVar, get_args, get_origin, get_type_hints
+from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin, get_type_hints
 
 import msgspec
 
@@ -27,7 +27,7 @@ def convert(data: Mapping[str, Any], spec: type[Spec], file: Path) -> Spec:
     Raises
     ------
     InputError
-        If a key is unknown (the nearest right one is named), missing, or a value is of the wrong type.
+        If a key or a word is unknown (the nearest right one is named), missing, or a value is of the wrong type.
     """
     _check_keys(data, spec, str(file))
     try:
@@ -39,6 +39,8 @@ def convert(data: Mapping[str, Any], spec: type[Spec], file: Path) -> Spec:
 def _check_keys(data: Any, spec: Any, where: str) -> None:  # noqa: ANN401
     spec = next((part for part in get_args(spec) if part is not type(None)), spec) if _optional(spec) else spec
     origin, inner = get_origin(spec), get_args(spec)
+    if origin is Literal and isinstance(data, str) and data not in inner:
+        raise InputError(f"{where}: {unknown_key(data, map(str, inner), 'value')}")
     if origin is list and isinstance(data, list):
         for i, item in enumerate(data):
             _check_keys(item, inner[0], f"{where}[{i}]")

@@ -150,7 +150,9 @@ def _unit_size(unit: str, wanted: str, side: str) -> float:
     try:
         return quantity(f"1 {unit}", dimension, side) / quantity(f"1 {wanted}", dimension, side)
     except InputError:
-        raise InputError(f"the {side} must be in {wanted}, which the target counts, got {unit}") from None
+        example = f"{side}='120 deg'" if dimension == "angle" else f"a stroke such as '35 {wanted}'"
+        refused = f"the {side} must be in {wanted}, which the target counts, got {unit}"
+        raise InputError(f"{refused}: give {example}") from None
 
 
 def _pairs(table: Table) -> list[list[float]]:
