@@ -42,14 +42,23 @@ def table(*headings: str) -> Table:
 
 def show(*parts: Table | str) -> None:
     """Print tables, and text as it is: no number is ever cut, and nothing but a terminal gets blanks at line ends."""
-    from rich.console import Console
-
-    console = Console()
+    console = _answering()
     for part in parts:
         if isinstance(part, str):
             console.print(part, markup=False, highlight=False, soft_wrap=True)
         else:
             _show_table(part, console)
+
+
+def _answering() -> Console:
+    """A console that leaves a closed pipe to the command: rich would end with 1."""
+    from rich.console import Console
+
+    class Answering(Console):
+        def on_broken_pipe(self) -> None:
+            raise BrokenPipeError
+
+    return Answering()
 
 
 def _show_table(rows: Table, console: Console) -> None:
