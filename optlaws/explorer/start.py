@@ -9,10 +9,10 @@ from optlaws import Problem
 from optlaws.errors import InputError
 from optlaws.explorer.answers.asked import MOST_LAWS, AskedLaw, problem_of
 from optlaws.files import reading
+from optlaws.files.packaged import is_problem, problem_file
 from optlaws.laws.catalogue.reading import is_file, read_law
 
 _FIRST = {"order": 4, "degree": 9, "B": 1.7}
-_PROBLEM, _FILE = ".toml", ".json"
 
 
 def start(given: str | None) -> dict[str, Any]:
@@ -30,8 +30,8 @@ def start(given: str | None) -> dict[str, Any]:
     """
     if given is None:
         return _laws({"problem": dict(_FIRST), "weights": {"C": 1.0}})
-    if given.lower().endswith(_PROBLEM):
-        return _of_problem_file(Path(given))
+    if is_problem(given):
+        return _of_problem_file(problem_file(Path(given))[0])
     if is_file(given):
         return _of_law_file(Path(given))
     read_law(given)

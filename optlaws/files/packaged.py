@@ -3,8 +3,11 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any, NamedTuple
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files import reading
 from optlaws.suggest import unknown_key
 
 _PACKAGE = Path(__file__).resolve().parents[1]
@@ -43,7 +46,7 @@ def problem_names() -> list[str]:
 
 
 def problem_file(given: Path) -> tuple[Path, Path | None]:
-    """A problem file: the one given or, where that is a name alone and no file, the one of this name.
+    """A problem file: the one given or, where none is there, the one of this name or place that comes with optlaws.
 
     Returns
     -------
@@ -61,7 +64,8 @@ def problem_file(given: Path) -> tuple[Path, Path | None]:
     ('optimal_table.toml', 'results/optimal_table')
     """
     if given.suffix or len(given.parts) != 1 or given.exists():
-        return given, None
+        own = or_packaged(given)
+        return own, None if own == given else Path("results") / given.stem
     names = problem_names()
     if given.name not in names:
         raise InputError(
@@ -69,6 +73,57 @@ def problem_file(given: Path) -> tuple[Path, Path | None]:
             f"{', '.join(names)})"
         )
     return packaged(f"problems/{given.name}.toml"), Path("results") / given.name
+
+
+def is_problem(text: str) -> bool:
+    """Whether a text is taken for a problem file: it ends in .toml, or is the name of one that comes with optlaws.
+
+    Examples
+    --------
+    >>> is_problem("mine.toml"), is_problem("cam_press"), is_problem("modified sine")
+    (True, True, False)
+    """
+    return text.lower().endswith(".toml") or (text in problem_names() and not Path(text).exists())
+
+
+class GivenProblem(NamedTuple):
+    """A problem file as a command of its job takes it.
+
+    Attributes
+    ----------
+    file
+        The file.
+    results
+        The folder for its results, where that is not the file's own.
+    entries
+        What it holds.
+    """
+
+    file: Path
+    results: Path | None
+    entries: dict[str, Any]
+
+
+def problem_of_job(given: Path, job: str) -> GivenProblem:
+    """A problem file, as `problem_file` finds it, of one job.
+
+    Raises
+    ------
+    InputError
+        If it cannot be read or is of another job.
+
+    Examples
+    --------
+    >>> problem_of_job(Path("cam_press"), "cycle")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: cam_press is of the job 'cam', not 'cycle': `optlaws run cam_press` does it
+    """
+    file, results = problem_file(given)
+    entries = reading.toml(file)
+    named = entries.get("job", job)
+    if named != job:
+        raise InputError(f"{given} is of the job {shortened(named)}, not {job!r}: `optlaws run {given}` does it")
+    return GivenProblem(file, results, entries)
 
 
 def or_packaged(given: Path) -> Path:

@@ -1,13 +1,17 @@
 """Data that come with optlaws, in a checkout and in a wheel."""
 
+from io import StringIO
 from pathlib import Path
 
 import pytest
 from hatchling.builders.wheel import WheelBuilder
 
-from optlaws import InputError
+from optlaws import InputError, catalogue
 from optlaws.cli.app import exit_code
+from optlaws.cli.show import show
+from optlaws.explorer.start import start
 from optlaws.files import packaged
+from optlaws.jobs import job
 from tests.documents import ROOT
 
 
@@ -53,3 +57,47 @@ def test_a_packaged_problem_is_run_by_its_name(
     assert exit_code(["run", "savin_familys"]) == 2
     assert "did you mean 'savin_families'?" in capsys.readouterr().err
     assert exit_code(["atlas", "--order", "4", "--peak-velocity", "1.8"]) == 0
+
+
+def test_commands_of_a_job_take_packaged_problems_by_name_and_by_place(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capsys: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    for given in ("cycle_savin_design", "problems/cycle_savin_design.toml"):
+        assert exit_code(["cycle", given, "--json"]) == 0
+        assert exit_code(["export", given, "--to", "csv", "--points", "9"]) == 0
+    assert exit_code(["cycle", "problems/cycle_savin_design.toml"]) == 0
+    assert (tmp_path / "results" / "cycle_savin_design" / "cycle.md").is_file()
+    capsys.readouterr()
+    for command in (
+        ["cam", "cycle_press"],
+        ["cycle", "problems/cam_press.toml"],
+        ["export", "cam_press", "--to", "csv"],
+    ):
+        assert exit_code(command) == 2
+        assert f"`optlaws run {command[1]}` does it" in capsys.readouterr().err
+    assert [file.name for file in tmp_path.rglob("*.md")] == ["cycle.md"]
+    assert start("cam_press")["view"] == "cam"
+
+
+def test_no_packaged_problem_hides_a_law() -> None:
+    assert not set(packaged.problem_names()) & set(catalogue)
+
+
+def test_words_that_a_problem_file_may_not_hold_are_told_with_the_right_ones(tmp_path: Path) -> None:
+    file = tmp_path / "own.toml"
+    text = packaged.packaged("problems/cycle_savin_design.toml").read_text("utf-8")
+    file.write_text(text.replace('kind = "rise"', 'kind = "rize"', 1), "utf-8")
+    with pytest.raises(InputError, match=r"segment\[0\], kind: unknown value 'rize'; did you mean 'rise'\?"):
+        job.run(file, tmp_path / "results")
+    assert not (tmp_path / "results").exists()
+
+
+def test_what_answers_leaves_a_closed_pipe_to_the_command(monkeypatch: pytest.MonkeyPatch) -> None:
+    class Closed(StringIO):
+        def write(self, _: str) -> int:
+            raise BrokenPipeError
+
+    monkeypatch.setattr("sys.stdout", Closed())
+    with pytest.raises(BrokenPipeError):
+        show("an answer")

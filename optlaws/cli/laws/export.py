@@ -110,8 +110,9 @@ def _points(text: str | None) -> int | str | None:
 
 def _motion(law: str, axis: str | None, said: dict[str, str | None]) -> Motion:
     from optlaws.exports.motion import motion_of_cycle, motion_of_law
+    from optlaws.files.packaged import is_problem
 
-    if not law.endswith(".toml"):
+    if not is_problem(law):
         if axis is not None:
             raise InputError("--axis is one of a problem file with several; a law has none")
         return motion_of_law(read_law(law), **said)
@@ -123,10 +124,11 @@ def _motion(law: str, axis: str | None, said: dict[str, str | None]) -> Motion:
 
 
 def _cycle(file: Path, axis: str | None) -> Any:  # noqa: ANN401 - a Cycle, which the help must not import
-    from optlaws.files import reading
+    from optlaws.files.packaged import problem_of_job
     from optlaws.jobs.cycle.entries import read
 
-    _, cycles = read(reading.toml(file), file)
+    source, _, entries = problem_of_job(file, "cycle")
+    _, cycles = read(entries, source)
     if axis is None and len(cycles) > 1:
         raise InputError(f"{file} has several axes, say which by --axis: {', '.join(cycles)}")
     chosen = next(iter(cycles)) if axis is None else axis

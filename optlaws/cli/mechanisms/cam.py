@@ -15,20 +15,20 @@ def cam(file: Path, /, *, out: Path | None = None, as_json: AsJson = False) -> N
     Parameters
     ----------
     file
-        A problem file whose job is "cam".
+        A problem file whose job is "cam", or the name of one that comes with optlaws, such as cam_press.
     out
-        Folder for the tables; otherwise results/NAME beside the folder of the problem file.
+        Folder for the tables; otherwise where `optlaws run` puts them.
     as_json
         Print one JSON object on stdout and write nothing.
     """
-    from optlaws.files import reading
+    from optlaws.files.packaged import problem_of_job
     from optlaws.jobs.cam.cam import answer
     from optlaws.jobs.cam.wishes import read
 
-    data = reading.toml(file)
+    source, results, data = problem_of_job(file, "cam")
     if not as_json:
-        run(file, out=out)
+        run(source, out=out or results)
         return
     with busy(f"{file}"):
-        told = answer(*read(data, file))
+        told = answer(*read(data, source))
     print_json(told)

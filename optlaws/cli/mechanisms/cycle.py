@@ -15,21 +15,21 @@ def cycle(file: Path, /, *, out: Path | None = None, as_json: AsJson = False) ->
     Parameters
     ----------
     file
-        A problem file whose job is "cycle".
+        A problem file whose job is "cycle", or the name of one that comes with optlaws, such as cycle_press.
     out
-        Folder for the table, the pictures and the laws; otherwise results/NAME beside the folder of the problem file.
+        Folder for the table, the pictures and the laws; otherwise where `optlaws run` puts them.
     as_json
         Print one JSON object on stdout and write nothing.
     """
-    from optlaws.files import reading
+    from optlaws.files.packaged import problem_of_job
     from optlaws.jobs.cycle.cycle import answer
     from optlaws.jobs.cycle.entries import read
 
-    data = reading.toml(file)
+    source, results, data = problem_of_job(file, "cycle")
     if not as_json:
-        run(file, out=out)
+        run(source, out=out or results)
         return
     with busy(f"{file}"):
-        _, cycles = read(data, file)
+        _, cycles = read(data, source)
         told = answer(cycles)
     print_json(told)
