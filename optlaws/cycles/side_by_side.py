@@ -10,6 +10,7 @@ from typing import Any
 from optlaws.cycles.asked.conversion import factor
 from optlaws.cycles.asked.quantities import either, quantity
 from optlaws.errors import InputError
+from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.reading import read_law
@@ -80,6 +81,7 @@ class Comparison:
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported here alone
         """The rows as a data frame with the laws' names as index; needs the extra `optlaws[studies]`."""
+        needed("pandas", "to_pandas")
         import pandas as pd
 
         return pd.DataFrame(self.rows).set_index("law")

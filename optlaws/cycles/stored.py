@@ -10,6 +10,7 @@ from typing import Any, Self
 from optlaws.cycles.asked.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move, Return, Rise
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.extras import needed
 from optlaws.files import reading
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.machine.machine import Machine
@@ -197,6 +198,7 @@ def _value(value: Any) -> str:  # noqa: ANN401 - plain data
 
 
 def _frame(cycle: Any) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
+    needed("pandas", "to_pandas")
     import pandas as pd
 
     unit = "m" if cycle.axis == "length" else "rad"

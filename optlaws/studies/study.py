@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Any
 import msgspec
 
 from optlaws.errors import InputError
+from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.studies.point import CONSTANTS, StudyPoint, study_point
@@ -158,7 +159,7 @@ class Study:
         NotInstalled
             If pyarrow is missing.
         """
-        _needed("pyarrow", "to_arrow")
+        needed("pyarrow", "to_arrow")
         if self._directory.table.exists():
             return self._parquet().read()
         return table.arrow(list(table.rows_in_order(self._journal(), self._points)), table.schema(self._points))
@@ -171,7 +172,7 @@ class Study:
         NotInstalled
             If pandas or pyarrow is missing.
         """
-        _needed("pandas", "to_pandas")
+        needed("pandas", "to_pandas")
         return self.to_arrow().to_pandas()
 
     def to_xarray(self) -> xr.Dataset:
@@ -182,7 +183,7 @@ class Study:
         NotInstalled
             If xarray is missing.
         """
-        _needed("xarray", "to_xarray")
+        needed("xarray", "to_xarray")
         from optlaws.studies.store.dataset import dataset
 
         return dataset(self._rows(), self._points, self.about)
@@ -228,7 +229,7 @@ class Study:
         return self._scanned[1]
 
     def _parquet(self) -> Any:  # noqa: ANN401 - pyarrow has no types
-        _needed("pyarrow", f"reading {self._directory.table}")
+        needed("pyarrow", f"reading {self._directory.table}")
         import pyarrow.parquet as pq
 
         found = self._directory.table.stat()
@@ -262,10 +263,3 @@ def open_study(path: Path | str) -> Study:
     optlaws.errors.InputError: nowhere holds no study; optlaws study FILE --out nowhere makes one
     """
     return Study(path)
-
-
-def _needed(module: str, what: str) -> None:
-    from importlib.util import find_spec
-
-    if find_spec(module) is None:
-        raise table.NotInstalled(f"{what} needs {module}: pip install 'optlaws[studies]'")

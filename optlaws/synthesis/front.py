@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
 from optlaws.plotting import plotted
@@ -106,6 +107,7 @@ class Front:
         >>> front.to_pandas()[["B", "C", "status"]].round(4).to_dict("list")
         {'B': [1.5, ..., 1.8], 'C': [5.705, ..., 4.6958], 'status': ['optimal', 'optimal', 'optimal']}
         """
+        needed("pandas", "to_pandas")
         import pandas as pd
 
         return pd.DataFrame(self.rows, columns=list(self.headings))

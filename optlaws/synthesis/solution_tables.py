@@ -8,6 +8,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.extras import needed
 from optlaws.synthesis.arrays.problems import ProblemArray
 
 if TYPE_CHECKING:
@@ -21,6 +22,7 @@ Columns = Mapping[str, NDArray[Any]]
 
 def as_pandas(problems: ProblemArray, columns: Columns) -> pd.DataFrame:
     """A row for each problem: what varies, and columns of the problems' shape."""
+    needed("pandas", "to_pandas")
     import pandas as pd
 
     varied = {name: arrays[0].reshape(-1) for name, arrays in problems.varied.items() if len(arrays) == 1}
@@ -38,6 +40,7 @@ def as_xarray(problems: ProblemArray, columns: Columns, longer: Mapping[str, tup
     longer
         Values with one axis more, each with that axis's name.
     """
+    needed("xarray", "to_xarray")
     import xarray as xr
 
     dims, coords = _axes(problems)

@@ -73,9 +73,11 @@ def test_every_manner_of_asking_is_drawn() -> None:
 
 
 def test_every_basis_is_drawn() -> None:
-    assert set(BASES) == set(Basis.kinds), "a new basis needs an entry in random_options.BASES"
-    assert {problem.basis.name for problem in PROBLEMS} == set(Basis.kinds)
-    for name in Basis.kinds:
+    # laws that repeat have no conditions at ends and are drawn with random cycles
+    with_ends = set(Basis.kinds) - {"periodic"}
+    assert set(BASES) == with_ends, "a new basis needs an entry in random_options.BASES"
+    assert {problem.basis.name for problem in PROBLEMS} == with_ends
+    for name in with_ends:
         chosen = [problem.basis for problem in PROBLEMS if problem.basis.name == name]
         for entry in fields(chosen[0]):  # type: ignore[arg-type] # each basis is a dataclass
             assert len({getattr(basis, entry.name) for basis in chosen}) >= 3, f"{name} never varies {entry.name}"

@@ -68,7 +68,7 @@ def _cluster(address: str | None) -> Iterator[tuple[Executor | None, int | None]
     if address is None:
         yield None, None
         return
-    from optlaws.studies.store.table import NotInstalled
+    from optlaws.extras import NotInstalled
 
     try:
         from distributed import Client

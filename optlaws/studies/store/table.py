@@ -39,18 +39,7 @@ _IN_MEMORY = 1024
 _NONE = b"null"
 
 
-class NotInstalled(InputError, ImportError):  # noqa: N818 - as SolverFailure
-    """A library is missing that an extra of optlaws brings.
-
-    Examples
-    --------
-    >>> raise NotInstalled("to_pandas needs pandas: pip install optlaws[studies]")
-    Traceback (most recent call last):
-    optlaws.studies.store.table.NotInstalled: to_pandas needs pandas: pip install optlaws[studies]
-    """
-
-
-class DamagedTable(InputError):  # noqa: N818 - beside NotInstalled
+class DamagedTable(InputError):  # noqa: N818 - as SolverFailure
     """The table of a study is not what was written.
 
     Examples

@@ -136,7 +136,7 @@ def test_a_wrong_switch_is_named(name: str, wrong: object) -> None:
 
 def test_an_unknown_basis_is_named_with_the_known_ones() -> None:
     with pytest.raises(
-        InputError, match="'splines' is unknown; known are bernstein, bsplines, chebyshev, pieces, powers"
+        InputError, match="'splines' is unknown; known are bernstein, bsplines, chebyshev, periodic, pieces, powers"
     ):
         basis("splines", 3)
 
