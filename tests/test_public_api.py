@@ -60,42 +60,50 @@ def test_the_public_names_are_sorted_and_exist() -> None:
     assert all(hasattr(optlaws, name) for name in NAMES)
 
 
-@pytest.mark.parametrize("name", DOCUMENTED)
-def test_every_public_name_has_a_summary_and_an_example(name: str) -> None:
-    text = own_documentation(getattr(optlaws, name))
-    assert text.partition("\n")[0].strip()
-    assert ">>> " in text
+def test_every_public_name_has_a_summary_and_an_example() -> None:
+    texts = {name: own_documentation(getattr(optlaws, name)) for name in DOCUMENTED}
+    assert [name for name, text in texts.items() if not text.partition("\n")[0].strip() or ">>> " not in text] == []
 
 
-@pytest.mark.parametrize("name", CALLABLES)
-def test_every_parameter_is_documented(name: str) -> None:
-    one = CALLABLES[name]
+def undocumented(one: Callable[..., Any]) -> list[str]:
     text = own_documentation(one)
     if inspect.isclass(one):  # what a base class says of its parameters holds for those it leaves to it
         inherited = [base for base in inspect.getmro(one)[1:] if str(base.__module__).startswith("optlaws")]
         text = "\n".join([text, *map(own_documentation, inherited)])
-    missing = [
+    return [
         parameter.name
         for parameter in parameters(one)
         if not parameter.name.startswith("_") and not re.search(rf"(?<!\w){re.escape(parameter.name)}(?!\w)", text)
     ]
-    assert missing == []
 
 
-@pytest.mark.parametrize("name", METHODS)
-def test_every_public_method_says_what_it_is(name: str) -> None:
-    assert inspect.getdoc(METHODS[name])
+def test_every_parameter_is_documented() -> None:
+    assert {name: missing for name, one in CALLABLES.items() if (missing := undocumented(one))} == {}
 
 
-@pytest.mark.parametrize("name", [*CALLABLES, *METHODS])
-def test_a_misspelt_keyword_is_refused(name: str) -> None:
-    function = CALLABLES.get(name) or METHODS[name]
-    if inspect.isclass(function) and inspect.isabstract(function):
-        pytest.skip("cannot be made")
-    if styled(function):
-        pytest.skip("matplotlib refuses what it does not know")
-    with pytest.raises(TypeError, match=r"unexpected keyword|takes no (keyword )?arguments|no arguments"):
+def test_every_public_method_says_what_it_is() -> None:
+    assert [name for name, method in METHODS.items() if not inspect.getdoc(method)] == []
+
+
+def refusal(function: Callable[..., Any]) -> str:
+    """What is said of a keyword that there is not."""
+    try:
         function(misspelt_keyword=1)
+    except TypeError as error:
+        return str(error)
+    return "taken"
+
+
+def test_a_misspelt_keyword_is_refused() -> None:
+    # abstract classes cannot be made, and matplotlib refuses what it does not know of a style
+    asked = {
+        name: function
+        for name, function in (CALLABLES | METHODS).items()
+        if not (inspect.isclass(function) and inspect.isabstract(function)) and not styled(function)
+    }
+    said = {name: refusal(function) for name, function in asked.items()}
+    refused = re.compile("unexpected keyword|takes no (keyword )?arguments|no arguments")
+    assert {name: text for name, text in said.items() if not refused.search(text)} == {}
 
 
 @pytest.mark.parametrize("value", [optlaws.smoothstep(3), optlaws.synthesize(optlaws.Problem(B=1.7, order=3))])
@@ -104,23 +112,26 @@ def test_a_misspelt_style_is_refused_by_what_draws(value: optlaws.MotionLaw | op
         value.plot(misspelt_keyword=1)
 
 
-@pytest.mark.parametrize("name", [*CALLABLES, *METHODS])
-def test_no_public_callable_swallows_keywords(name: str) -> None:
-    function = CALLABLES.get(name) or METHODS[name]
+def swallows(function: Callable[..., Any]) -> bool:
     if inspect.isclass(function) and issubclass(function, Exception) and "__init__" not in vars(function):
-        return
-    swallowed = [p for p in inspect.signature(function).parameters.values() if p.kind is p.VAR_KEYWORD]
-    assert styled(function) or not swallowed
+        return False
+    return any(one.kind is one.VAR_KEYWORD for one in inspect.signature(function).parameters.values())
 
 
-@pytest.mark.parametrize("name", [*CALLABLES, *METHODS])
-def test_every_public_callable_is_annotated(name: str) -> None:
-    function = CALLABLES.get(name) or METHODS[name]
-    if inspect.isclass(function):
-        return
+def test_no_public_callable_swallows_keywords() -> None:
+    every = CALLABLES | METHODS
+    assert [name for name, function in every.items() if swallows(function) and not styled(function)] == []
+
+
+def annotated(function: Callable[..., Any]) -> bool:
     signature = inspect.signature(function)
-    assert signature.return_annotation is not signature.empty
-    assert all(p.annotation is not p.empty for p in signature.parameters.values() if p.name not in {"self", "cls"})
+    own = [one for one in signature.parameters.values() if one.name not in {"self", "cls"}]
+    return signature.return_annotation is not signature.empty and all(one.annotation is not one.empty for one in own)
+
+
+def test_every_public_callable_is_annotated() -> None:
+    functions = {name: one for name, one in (CALLABLES | METHODS).items() if not inspect.isclass(one)}
+    assert [name for name, function in functions.items() if not annotated(function)] == []
 
 
 def test_everything_raised_on_purpose_is_one_tree() -> None:

@@ -27,6 +27,7 @@ from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, PL
 from optlaws.synthesis.problem.named_constants import expression, is_named, named
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
+from tests import sampling
 from tests.contracts.kinds import kinds
 from tests.contracts.test_families import coordinates
 from tests.synthesis.judge import Judged
@@ -246,7 +247,7 @@ def test_its_rows_hold_if_and_only_if_it_is_bounded(name: str) -> None:
                 assert (max(family.extremes(full)[2].max() for family in rows) <= 0.0) == holds, where
 
 
-@every_constant
+@pytest.mark.parametrize("name", sampling.sampled(EXAMPLES, 2))
 def test_it_is_convex_if_it_says_so(name: str) -> None:
     constant = EXAMPLES[name]
     # far from each other, and so near that hardly more than one place counts

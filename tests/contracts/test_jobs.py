@@ -14,6 +14,8 @@ from optlaws.files import tables, writing
 from optlaws.jobs import job
 from tests.jobs.examples import EXAMPLES
 
+#: those whose own tests do them each time, and make check-results at full size
+SLOW = {"atlas", "fronts", "loader optimal", "machine laws", "optimal polydyne"}
 WRONG = [(name, *change) for name, example in EXAMPLES.items() for change in example.wrong]
 WRONG_BESIDE = [(name, *change) for name, example in EXAMPLES.items() for change in example.wrong_beside]
 
@@ -53,7 +55,9 @@ def test_a_job_is_imported_when_it_runs() -> None:
     assert said == f"True {len(EXAMPLES)} ['optlaws.jobs.job']\n"
 
 
-@pytest.mark.parametrize("name", EXAMPLES)
+@pytest.mark.parametrize(
+    "name", [pytest.param(name, marks=[pytest.mark.long] if name in SLOW else []) for name in EXAMPLES]
+)
 def test_a_job_writes_sealed_files_and_the_same_again(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:

@@ -156,6 +156,7 @@ def test_killed_within_an_array_it_ends_as_if_nothing_had_been(tmp_path: Path) -
     assert rows(study) == rows(serially(LINES, tmp_path / "undisturbed"))
 
 
+@pytest.mark.long
 def test_killed_twice_it_ends_as_if_nothing_had_been(undisturbed: Study, tmp_path: Path) -> None:
     assert list(disturbed(tmp_path, 1, ["solver", "run"])) == ["solver", "run"]
     assert rows(open_study(tmp_path / "out")) == rows(undisturbed)

@@ -155,8 +155,8 @@ def registered() -> Iterator[None]:
     [
         ("errs", "error", "ZeroDivisionError: a mistake in a constant"),
         ("dies", "worker died", "its process died 3 times: signal 9"),
-        ("hangs", "time limit", "no answer within 2 s"),
-        ("dies_forked", "worker died", "its process died 3 times: signal 9"),
+        pytest.param("hangs", "time limit", "no answer within 2 s", marks=pytest.mark.long),
+        pytest.param("dies_forked", "worker died", "its process died 3 times: signal 9", marks=pytest.mark.long),
         ("hangs_forked", "time limit", "no answer within 2 s"),
     ],
 )

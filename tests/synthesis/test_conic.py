@@ -35,6 +35,7 @@ def verdict(problem: Problem) -> str:
     return "same"
 
 
+@pytest.mark.long
 def test_clarabel_finds_the_same_optima_of_a_few_problems_of_every_kind() -> None:
     found = Counter(verdict(problem) for problem in convex_problems(4, 36))
     assert found["undecided"] <= 3

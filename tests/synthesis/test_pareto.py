@@ -188,7 +188,14 @@ def test_many_points_are_put_in_together_and_lie_as_evenly() -> None:
     assert front[77].objective == pytest.approx(alone.objective, rel=1e-11)
 
 
-@pytest.mark.parametrize("over", [("residual(nu=20.0)", "C"), ("peak(c + 0.2*b)", "J"), ("rms_c", "C_cam(nu=20.0)")])
+@pytest.mark.parametrize(
+    "over",
+    [
+        ("residual(nu=20.0)", "C"),
+        pytest.param(("peak(c + 0.2*b)", "J"), marks=pytest.mark.long),
+        pytest.param(("rms_c", "C_cam(nu=20.0)"), marks=pytest.mark.long),
+    ],
+)
 def test_any_constants_are_exchanged(over: tuple[str, str]) -> None:
     front = pareto_front(Problem(B=1.8, order=4), over=over, points=4)
     first, last = front.values.T

@@ -171,7 +171,7 @@ def test_a_parallelogram_swings_harmonically() -> None:
 
 
 @example(beta=2.0, lam=0.1, rho=0.0, nu=0.0, swing=12.0)
-@settings(max_examples=200)
+@settings(max_examples=60)
 @given(
     beta=st.floats(0.05, 4.0),
     lam=st.floats(-1.0, 1.2).map(lambda power: 10.0**power),

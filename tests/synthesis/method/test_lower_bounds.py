@@ -118,6 +118,7 @@ def test_what_is_not_convex_does_not_hide_a_contradiction() -> None:
     assert caught.value.proof.proves_infeasible
 
 
+@pytest.mark.long
 def test_a_peak_velocity_between_end_velocities_is_reached_where_it_costs_least() -> None:
     ends = BoundaryConditions((0, 0, 0), (1, 2.327, 0))
     solution = synthesize(
