@@ -1,6 +1,7 @@
 """Makes the documents' code blocks tests (see tests/documents.py), wherever pytest starts from."""
 
 import os
+import sys
 from importlib import import_module
 from pathlib import Path
 
@@ -31,6 +32,14 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
         import_module(".".join(place.parts if place.name != "__init__" else place.parts[:-1]))
     found: pytest.Collector | None = _collect_document(file_path, parent)
     return found
+
+
+def pytest_runtest_teardown() -> None:
+    """Close what a test drew: pyplot keeps every figure, and warns from the twentieth on."""
+    if "matplotlib.pyplot" in sys.modules:
+        import matplotlib.pyplot as plt
+
+        plt.close("all")
 
 
 class SharingScheduling(LoadScopeScheduling):  # type: ignore[misc]  # xdist is untyped
