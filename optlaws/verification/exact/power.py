@@ -79,12 +79,12 @@ class _PowerProof(BoxSteps):
         reach = (max(self.ends, key=lambda end: float(abs(end))) ** 2 + self.D).sqrt()
         return ball(self.greatest["B"]).min(reach) if "B" in self.greatest else reach
 
-    @property
+    @kept_property
     def D(self) -> arb:
         """What D is at most."""
         return ball(self.greatest["D"])
 
-    @property
+    @kept_property
     def anchors(self) -> list[tuple[Fraction, arb, arb]]:
         """Places at which the velocity is known to lie between two values."""
         known_at = [(Fraction(i), end, end) for i, end in enumerate(self.ends)]

@@ -39,7 +39,7 @@ Way = tuple[int, ...] | None
 # of what a formula's value and slopes amount to: more than they are rounded by
 _ROUNDED = 2.0**-44
 _MOST_CORNERS = 8
-_MOST_C = 1e9
+_NEAREST = 1e-300
 
 
 def applies(problem: Problem) -> bool:
@@ -150,7 +150,7 @@ class FormulaRows(BoxRows):
         start = self.space.start_velocity
         for place, velocity in ((0.0, start), (1.0, start + self.space.velocity_change)):
             away = np.abs(k - place)
-            reach = np.where(away > 0.0, self.greatest.get("C", _MOST_C) * away, 0.0)
+            reach = np.where(away > 0.0, self.greatest.get("C", inf) * np.maximum(away, _NEAREST), 0.0)
             low, high = np.maximum(low, velocity - reach), np.minimum(high, velocity + reach)
         return low, high
 
