@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from copy import deepcopy
 from functools import lru_cache
 from math import degrees
 from pathlib import Path
@@ -218,5 +219,4 @@ def example() -> dict[str, Any]:
     >>> answer(AskedCam(study=example()))["trust"]["word"]
     'no undercut'
     """
-    copy: dict[str, Any] = json.loads(json.dumps(EXAMPLE))
-    return copy
+    return deepcopy(EXAMPLE)

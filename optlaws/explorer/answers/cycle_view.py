@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator
+from copy import deepcopy
 from functools import lru_cache
 from math import inf
 from pathlib import Path
@@ -269,5 +269,4 @@ def example() -> dict[str, Any]:
     >>> answer(AskedCycle(study=example()))["trust"]["word"]
     'proven optimal'
     """
-    copy: dict[str, Any] = json.loads(json.dumps(EXAMPLE))
-    return copy
+    return deepcopy(EXAMPLE)

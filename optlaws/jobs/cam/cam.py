@@ -73,18 +73,17 @@ def answer(spec: Study, cam: DiscCam, found_beside: Found | None = None, sizes: 
     return told | (found_beside or Found(spec, cam)).told()
 
 
-def page(spec: Study, cam: DiscCam, found_beside: Found | None = None, sizes: Sizes | None = None) -> Page:
+def page(spec: Study, cam: DiscCam, found_beside: Found, sizes: Sizes) -> Page:
     """The page of results."""
     made = Page(spec.title).text(spec.text).figure("cam", spec.title)
     made.text(f"Undercut: {cam.extremes.undercut}.")
     made.table(("what", "at least", "at most", "unit", "at, deg"), _extreme_rows(cam), digits=7)
-    proven = sizes or Sizes(spec, cam)
-    rows = _size_rows(proven)
+    rows = _size_rows(sizes)
     if rows:
         made.heading("Sizes").table(("what", "kept with", "broken with", "unit", "at, deg"), rows, digits=7)
-    if isinstance(proven.least, str):
-        made.text(f"{proven.least[0].upper()}{proven.least[1:]}.")
-    return add(made, found_beside or Found(spec, cam))
+    if isinstance(sizes.least, str):
+        made.text(f"{sizes.least[0].upper()}{sizes.least[1:]}.")
+    return add(made, found_beside)
 
 
 def _extreme_rows(cam: DiscCam) -> list[list[tables.Cell]]:
