@@ -12,9 +12,11 @@ from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.numbers import MOST_VALUES, derivative, whole
+from optlaws.extras import needed
+from optlaws.numbers import MOST_VALUES, derivative, finite, whole
 from optlaws.plotting import plotted
 from optlaws.series import peaks
+from optlaws.series.crossings import crossings
 from optlaws.series.peaks import Peak
 
 Array = NDArray[np.float64]
@@ -155,6 +157,37 @@ class Curve(ABC):
         order = derivative(nu)
         return self._extremes(lambda: self._whole(order), lambda k: self._derivative(k, order), within)
 
+    def where(self, value: float, nu: int = 0) -> Array:
+        """Every k of the interval, ascending, where the derivative of order nu has a value; of a rest there, both ends.
+
+        Parameters
+        ----------
+        value
+            The value, dimensionless. A jump over it is no place that has it.
+        nu
+            Order of the derivative.
+
+        Raises
+        ------
+        InputError
+            If `value` is no finite number, or `nu` not an integer of at least 0.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> smoothstep(3).where(0.8).round(6).tolist()  # four fifths of the stroke are done
+        [0.673402]
+        >>> smoothstep(3).where(0.0, nu=2).tolist()
+        [0.0, 0.5, 1.0]
+        """
+        order, asked = derivative(nu), finite(value, "value")
+        turns, _ = self._sides(order)
+        places = np.unique(np.concatenate([turns, self.breaks]))
+        after = self._derivative(places, order)
+        before = after.copy()
+        before[np.searchsorted(places, self.breaks[1:-1])] = self._before_breaks(order)
+        return crossings(lambda k: float(self._derivative(np.array(k), order)), places, after, before, asked)
+
     def power_peak(self) -> Peak:
         """Peak of |d| over the whole interval, d = b c.
 
@@ -235,6 +268,33 @@ class Curve(ABC):
         after = np.arange(len(k)) >= len(inner)
         ordered = np.lexsort((after, k))
         return k[ordered], values[ordered]
+
+    def to_pandas(self, count: int = 201) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
+        """The samples of a, b, c, d and j as a data frame over k; needs the extra `optlaws[studies]`.
+
+        Parameters
+        ----------
+        count
+            Number of equally spaced k, at least 2; a break inside comes twice more, with the values on its two sides.
+
+        Raises
+        ------
+        InputError
+            If `count` is not an integer of at least 2, or pandas is missing.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> smoothstep(3).to_pandas(3).loc[0.5].round(6).to_dict()
+        {'a': 0.5, 'b': 1.875, 'c': 0.0, 'd': 0.0, 'j': -30.0}
+        """
+        needed("pandas", "to_pandas")
+        import pandas as pd
+
+        (k, a), (_, b), (_, c), (_, j) = (self.samples(count, nu) for nu in range(4))
+        with np.errstate(invalid="ignore"):
+            d = np.where(np.isfinite(c), b * c, self.d(k))
+        return pd.DataFrame({"a": a, "b": b, "c": c, "d": d, "j": j}, index=pd.Index(k, name="k"))
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
         """Draw a, b, c and j with their peaks, dimensionless over k, by matplotlib; jumps break the line.

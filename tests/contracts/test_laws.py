@@ -419,6 +419,10 @@ def test_root_mean_squares_are_the_integrals(curve: Curve) -> None:
 @everything
 def test_samples_are_the_values_with_both_sides_of_breaks(curve: Curve) -> None:
     k, values = curve.samples(33, 2)
+    frame = curve.to_pandas(33)
+    assert frame.index.tolist() == k.tolist()
+    assert frame.c.tolist() == values.tolist()
+    assert not frame.isna().any(axis=None)
     assert (np.diff(k) >= 0.0).all()
     assert (k[0], k[-1]) == curve.interval == (curve.breaks[0], curve.breaks[-1])
     assert len(k) == 33 + 2 * (len(curve.breaks) - 2)
@@ -442,6 +446,25 @@ def test_extrema_of_a_part_are_those_of_its_samples(curve: Curve) -> None:
         assert high.value >= values.max() - 1e-12 * size
         whole = curve.extrema(nu)
         assert whole[0].value <= low.value <= high.value <= whole[1].value
+
+
+@everything
+def test_places_of_a_value_have_it_and_none_between_samples_is_missed(curve: Curve) -> None:
+    for nu in (0, 1, 2):
+        low, high = curve.extrema(nu)
+        if not np.isfinite([low.value, high.value]).all():
+            continue
+        size = max(abs(low.value), abs(high.value))
+        value = 0.37 * low.value + 0.63 * high.value
+        places = curve.where(value, nu)
+        assert (np.diff(places) > 0.0).all()
+        sides = np.array([curve(places, nu), curve(np.maximum(places - 1e-12, curve.interval[0]), nu)])
+        assert (np.abs(sides - value).min(axis=0) <= 1e-9 * size).all()
+        for first, last in itertools.pairwise(curve.breaks):
+            k = np.linspace(first, last, 203)[1:-1]
+            passed = np.flatnonzero(np.diff(np.sign(curve(k, nu) - value)))
+            assert all(((places >= k[i]) & (places <= k[i + 1])).any() for i in passed)
+        assert any(np.abs(curve.where(high.value, nu) - high.k) < 1e-5)
 
 
 @everything
