@@ -69,7 +69,7 @@ nitpick_ignore = [
     ("py:class", "optlaws.cams.followers.contact.FaceContact"),
     ("py:class", "optlaws.cams.followers.contact.RollerContact"),
     ("py:class", "optlaws.cams.followers.follower.Place"),
-    ("py:class", "optlaws.cycles.drive.Drive"),
+    ("py:class", "optlaws.cycles.driven.drive.Drive"),
     ("py:class", "optlaws.cycles.asked.conversion.Piece"),
     ("py:class", "optlaws.formulas.of_motion.Motion"),
     ("py:class", "optlaws.mechanisms.machine.dynamics.Drive"),

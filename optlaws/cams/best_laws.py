@@ -25,8 +25,8 @@ from optlaws.cams.followers.translating_roller import SlidingRoller, Translating
 from optlaws.cams.law_lines import walls_of
 from optlaws.cams.least_sizes import CURVATURE, PRESSURE, LeastBaseCircle, least_base_circle, read_cam_limits
 from optlaws.cycles.asked.conversion import Piece
+from optlaws.cycles.best.aims import OBJECTIVES
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.optimal import OBJECTIVES
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum

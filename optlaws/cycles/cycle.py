@@ -2,68 +2,45 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field, replace
-from functools import reduce
-from itertools import pairwise
-from math import hypot
+from math import sqrt
 from typing import Any
-
-import numpy as np
-from numpy.typing import NDArray
 
 from optlaws.cycles.asked.conversion import Piece
 from optlaws.cycles.asked.joints import Layout, layout
-from optlaws.cycles.asked.programme import TURN, Programme, Stretch, is_optimal, period_of, programme
+from optlaws.cycles.asked.programme import TURN, Programme, is_optimal, period_of, programme
 from optlaws.cycles.asked.quantities import quantity
-from optlaws.cycles.asked.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move
-from optlaws.cycles.drive import Drive, read_drive
-from optlaws.cycles.durations import durations
-from optlaws.cycles.effort import Effort, effort
-from optlaws.cycles.load import LOAD, Load, read_load
-from optlaws.cycles.optimal import (
+from optlaws.cycles.asked.segments import CycleSegment
+from optlaws.cycles.best.aims import (
+    FORCE,
     LOADED,
     Wanted,
     check_objective,
-    force_unit,
     kind_of,
     limits_of_stretch,
     read_limits,
     read_load_limits,
-    solve,
 )
+from optlaws.cycles.best.cycle_bound import bound_of
+from optlaws.cycles.best.durations import durations
+from optlaws.cycles.best.optimal import solve
+from optlaws.cycles.driven.drive import Drive, read_drive
+from optlaws.cycles.driven.effort import Effort, effort
+from optlaws.cycles.driven.load import LOAD, Load, read_load
+from optlaws.cycles.handing_over import Handed
+from optlaws.cycles.moving import SegmentPeaks, leaps, segment_peaks, values_at
+from optlaws.cycles.remade import Made, cam_segments, segments_at
 from optlaws.cycles.stored import Stated
 from optlaws.errors import InputError
-from optlaws.exporting import exported
 from optlaws.kept import kept_property
-from optlaws.mechanisms.cam.polydyne import polydyne
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.numbers import MOST_DEGREE, derivative, real_times, whole
-from optlaws.plotting import plotted
 from optlaws.synthesis.solution import Solution, Status
-
-Array = NDArray[np.float64]
-Place = tuple[float, float]
-
-JOINED = 1e-9  # a leap below this share of the derivative's greatest value is rounding
-
-
-@dataclass(frozen=True)
-class SegmentPeaks:
-    """Least and greatest position, velocity, acceleration and jerk in a segment, each with its time; SI units."""
-
-    name: str
-    start: float
-    duration: float
-    extremes: tuple[tuple[tuple[float, float], tuple[float, float]], ...]
-
-    def peak(self, nu: int) -> float:
-        """The greatest magnitude of the derivative of order nu."""
-        return max(abs(value) for value, _ in self.extremes[nu])
 
 
 @dataclass(frozen=True, repr=False)
-class Cycle(Stated):
+class Cycle(Handed, Stated):
     """A cycle that repeats: segments, and how fast the master turns; call it for motion in SI units over time.
 
     Positions are lengths or angles, whichever the first displacement is. Laws that are to be optimal are looked for
@@ -172,52 +149,21 @@ class Cycle(Stated):
         if nu == LOADED:
             output = self.minimise.removeprefix("rms ").removeprefix(LOAD)
             return self.load_motion.rms(output) if mean else self.load_motion.peak(output).value
-        if nu < 0:
+        if nu == FORCE:
             return self.effort.rms_force if mean else self.effort.peak_force
-        if mean:
-            squares = sum(piece.duration * piece.mean_square(nu) for piece in self.pieces)
-            return float(np.sqrt(squares / self.duration))
-        return max(one.peak(nu) for one in self.peaks)
+        if not mean:
+            return max(one.peak(nu) for one in self.peaks)
+        return sqrt(sum(piece.duration * piece.mean_square(nu) for piece in self.pieces) / self.duration)
 
     @kept_property
     def lower_bound(self) -> float | None:
         """What no other optimal laws in the same times can beat; with dry friction, that never turn back."""
-        nu, mean = kind_of(self.minimise)
-        if nu == LOADED:
-            ((piece, solution),) = self._solved
-            return solution.lower_bound * abs(piece.stroke)
-        if nu < 0:
-            return self._force_bound(mean=mean)
-        sizes = [(piece.duration, self._bound(piece, solution, nu)) for piece, solution in self._solved]
-        known = [(piece.duration, self._size(piece, nu, mean=mean)) for piece in self._layout.pieces]
-        if not mean:
-            return max(bound for _, bound in sizes + known)
-        return reduce(hypot, (bound * float(np.sqrt(time / self.duration)) for time, bound in sizes + known), 0.0)
-
-    def _force_bound(self, *, mean: bool) -> float:
-        """The same of forces: those of each law that was looked for, and what other pieces take."""
-        drive = self._drive
-        if drive is None:
-            return 0.0
-        spans = zip(self._layout.spans, self._solved, strict=True)
-        sizes = [
-            (piece.duration, solution.lower_bound * force_unit(span, drive, piece.stroke))
-            for span, (piece, solution) in spans
-        ]
-        for piece in self._layout.pieces:
-            taken = effort(drive, [piece], piece.duration)
-            sizes.append((piece.duration, taken.rms_force if mean else taken.peak_force))
-        if not mean:
-            return max(bound for _, bound in sizes)
-        return reduce(hypot, (bound * float(np.sqrt(time / self.duration)) for time, bound in sizes), 0.0)
+        return bound_of(self._layout, self._solved, self._wanted, self.duration)
 
     @kept_property
     def peaks(self) -> tuple[SegmentPeaks, ...]:
         """Least and greatest values in every segment."""
-        return tuple(
-            SegmentPeaks(one.given.label, start, stop - start, self._extremes(one, start, stop))
-            for one, (start, stop) in zip(self.programme.stretches, pairwise(self._layout.starts), strict=True)
-        )
+        return segment_peaks(self.programme, self._layout.starts, self.pieces)
 
     def peak(self, nu: int) -> float:
         """The greatest magnitude of the derivative of order nu over the cycle, up to the jerk, in SI units."""
@@ -229,19 +175,7 @@ class Cycle(Stated):
     @property
     def joints(self) -> tuple[dict[str, Any], ...]:
         """Every joint: its time, and by how much velocity, acceleration and jerk leap there; 0 where they do not."""
-        found = []
-        for start in self._layout.starts[:-1]:
-            leaps = [self._leap(start, nu) for nu in (1, 2, 3)]
-            kept = [0.0 if abs(leap) <= JOINED * self.peak(nu) else leap for nu, leap in enumerate(leaps, start=1)]
-            found.append({"time": start, "velocity": kept[0], "acceleration": kept[1], "jerk": kept[2]})
-        return tuple(found)
-
-    def _leap(self, start: float, nu: int) -> float:
-        """By how much a derivative leaps where a segment starts: between pieces, or inside one of several segments."""
-        for i, piece in enumerate(self.pieces):
-            if piece.start == start:
-                return piece.end(nu, 0) - self.pieces[i - 1].end(nu, 1)
-        return next(piece.leap(start, nu) for piece in self.pieces if piece.start < start < piece.stop)
+        return leaps(self._layout.starts[:-1], self.pieces, [self.peak(nu) for nu in (1, 2, 3)])
 
     @kept_property
     def load_motion(self) -> RepeatedMotion:
@@ -285,18 +219,8 @@ class Cycle(Stated):
         InputError
             If a time is no finite number.
         """
-        times, order = real_times(time), derivative(nu)
-        turns = np.floor(times / self.duration)
-        within = np.clip(times - turns * self.duration, 0.0, self.duration)
-        starts = np.array([piece.start for piece in self.pieces])
-        which = np.maximum(np.searchsorted(starts, within, side="right") - 1, 0)
-        values = np.empty(times.shape)
-        for i, piece in enumerate(self.pieces):
-            here = which == i
-            values[here] = piece.values(within[here], order)
-        moved = sum(one.displacement for one in self.programme.stretches)
-        values = values + turns * moved if order == 0 else values
-        return values if np.ndim(values) else float(values)
+        values = values_at(self.programme, self.pieces, real_times(time), derivative(nu))
+        return values if values.ndim else float(values)
 
     def at_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
         """The same at an angle of the master, in degrees or a text such as "0.5 rad"; derivatives are by time."""
@@ -319,25 +243,14 @@ class Cycle(Stated):
         >>> fast.duration, round(fast.peak(2) / cycle.peak(2), 9)
         (0.15, 4.0)
         """
-        share = period_of(speed, None) / self.duration
-        made: list[CycleSegment] = []
-        for one, given, piece in self._by_segment("another speed is given to laws of single segments"):
-            time, name = f"{piece.duration * share!r} s", given.label
-            if isinstance(given, ConstantVelocity):
-                made.append(ConstantVelocity(self._shown(piece.end(1, 0) / share) + "/s", time, name=name))
-            elif piece.stroke == 0.0:
-                made.append(Dwell(time, name=name))
-            elif piece.stroke == one.displacement:
-                made.append(Move(self._shown(piece.stroke), time, law=piece.law, name=name))
-            else:
-                raise InputError(f"{one.where} ends where it begins: give it to a Cycle of its own at the other speed")
-        return replace(self, segments=made, speed=None, period=f"{self.duration * share!r} s", limits={})
-
-    def _by_segment(self, why: str) -> Iterator[tuple[Stretch, CycleSegment, Piece]]:
-        """Segments with their pieces, where each has one."""
-        if len(self.pieces) != len(self.segments):
-            raise InputError(f"{why}: take moves in place of free motions that meet")
-        return zip(self.programme.stretches, self.segments, self.pieces, strict=True)
+        period = period_of(speed, None)
+        return replace(
+            self,
+            segments=segments_at(self._made, period / self.duration),
+            speed=None,
+            period=f"{period!r} s",
+            limits={},
+        )
 
     def per_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
         """Derivatives by the master's angle in radians, as cams and controllers take them."""
@@ -368,26 +281,8 @@ class Cycle(Stated):
         >>> round(Cycle(moves, speed="300 rpm").cam("20 ms", damping=0.05).peak(2), 6)
         39.380514
         """
-        natural = quantity(period, "time", "follower: period")
-        if natural <= 0.0:
-            raise InputError(f"follower: period must be above 0, got {period!r}")
-        made: list[CycleSegment] = []
-        for one, given, piece in self._by_segment("the cam of an elastic follower is made move by move"):
-            time = f"{piece.duration!r} s"
-            if piece.stroke == 0.0:
-                made.append(Dwell(time, name=given.label))
-                continue
-            try:
-                law = polydyne(piece.law, TURN * piece.duration / natural, damping)
-            except InputError as error:
-                raise InputError(f"{one.where}: {error}") from None
-            made.append(Move(self._shown(one.displacement), time, law=law, name=given.label))
-        return replace(self, segments=made, speed=None, period=f"{self.duration!r} s")
-
-    def _repr_html_(self) -> str:
-        from optlaws.cycles.notebook import cycle_page
-
-        return cycle_page(self)
+        segments = cam_segments(self._made, period, damping)
+        return replace(self, segments=segments, speed=None, period=f"{self.duration!r} s")
 
     @property
     def limits_of_segments(self) -> tuple[dict[int, float], ...]:
@@ -397,105 +292,9 @@ class Cycle(Stated):
             for one in self.programme.stretches
         )
 
-    def _shown(self, displacement: float) -> str:
-        return f"{displacement!r} {'m' if self.axis == 'length' else 'rad'}"
-
-    def export(
-        self,
-        to: str,
-        *,
-        master: Any = "360 deg",  # noqa: ANN401 - a quantity
-        unit: str | None = None,
-        points: int | str | None = None,
-        counts: int | None = None,
-        digits: int | None = None,
-        decimal: str | None = None,
-        interpolation: str | None = None,
-        task: str | None = None,
-        name: str | None = None,
-    ) -> Any:  # noqa: ANN401 - made a layer above
-        """The cycle in the format of a controller, with what the controller will run.
-
-        Parameters
-        ----------
-        to
-            The format: `optlaws export --list` names them.
-        master
-            How far the master goes in a cycle; None for a master that is time in seconds.
-        unit
-            Of positions; "mm" for lengths and "deg" for angles unless given.
-        points, counts, digits, decimal, interpolation, task, name
-            As in `MotionLaw.export`.
-
-        Returns
-        -------
-        An `Export`: its `text`, its `report`, its `run`; `write(file)` writes it.
-
-        Raises
-        ------
-        InputError
-            If there is no such format, it takes no such option, or it cannot hold the motion.
-
-        Examples
-        --------
-        >>> from optlaws.cycles.asked.segments import Return, Rise
-        >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
-        >>> made = cycle.export("rockwell-cam", points=61)
-        >>> made.points, round(made.report.ratio(2), 3)
-        (61, 1.008)
-        """
-        said = {"master": master, "unit": unit}
-        asked = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
-        return exported("cycle", self, to, said, **asked, interpolation=interpolation, task=task, name=name)
-
-    def polynomials(self, *, master: Any = None, unit: str | None = None, tolerance: float = 1e-9) -> Any:  # noqa: ANN401
-        """Times and polynomial coefficients of the cycle, as a `PiecewiseMotion`: `breaks` and `coefficients`.
-
-        Over time in seconds unless a master is given; exact where laws are made of polynomials, else within
-        `tolerance`, a share of the greatest stroke, over the whole cycle.
-
-        Raises
-        ------
-        InputError
-            If a quantity is wrong, or a law's derivatives grow without limit.
-
-        Examples
-        --------
-        >>> from optlaws.cycles.asked.segments import Return, Rise
-        >>> cycle = Cycle([Rise("1 m", "1 s", law="cubic"), Return(law="cubic")], period="3 s")
-        >>> pieces = cycle.polynomials(unit="m")
-        >>> pieces.breaks, [[round(one, 9) for one in row] for row in pieces.coefficients]
-        ((0.0, 1.0, 3.0), [[0.0, 0.0, 3.0, -2.0], [1.0, 0.0, -0.75, 0.25]])
-        """
-        return exported("pieces_of_cycle", self, tolerance, master=master, unit=unit)
-
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw position, velocity, acceleration and jerk over time, with segments and limits, by matplotlib.
-
-        Parameters
-        ----------
-        ax
-            Four axes, or one for all, where every curve is divided by its peak; a new figure unless given.
-        style
-            What `Axes.plot` takes, for the curves.
-
-        Returns
-        -------
-        The artists; `[0].figure` is the figure.
-
-        Raises
-        ------
-        InputError
-            If there are neither one nor four axes.
-
-        Examples
-        --------
-        >>> from optlaws.cycles.asked.segments import Return, Rise
-        >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
-        >>> [one.axes.get_ylabel() for one in cycle.plot()][2]
-        'acceleration, m/s²'
-        """
-        return plotted("cycle", self, ax, **style)
+    @property
+    def _made(self) -> Made:
+        return Made(self.segments, self.programme, self.pieces)
 
     @kept_property
     def _drive(self) -> Drive | None:
@@ -525,23 +324,3 @@ class Cycle(Stated):
     @kept_property
     def _solved(self) -> tuple[tuple[Piece, Solution], ...]:
         return tuple(solve(span, self._wanted, self.axis) for span in self._layout.spans)
-
-    def _extremes(self, one: Stretch, start: float, stop: float) -> tuple[tuple[Place, Place], ...]:
-        piece = next(one for one in reversed(self.pieces) if one.start <= start)
-        if isinstance(one.given, Move | Free):
-            return tuple(piece.extremes(nu, start, stop) for nu in range(4))
-        # straight: what its law has beside is rounding
-        low, high = sorted((float(piece.values(np.array([time]), 0)[0]), time) for time in (start, stop))
-        speed = (one.displacement / (stop - start), start)
-        return (low, high), (speed, speed), ((0.0, start),) * 2, ((0.0, start),) * 2
-
-    def _bound(self, piece: Piece, solution: Solution, nu: int) -> float:
-        return solution.lower_bound * self._factor(piece, nu)
-
-    def _size(self, piece: Piece, nu: int, *, mean: bool) -> float:
-        constant = piece.law.rms(nu) if mean else piece.law.peak(nu).value
-        return constant * self._factor(piece, nu) if piece.stroke else 0.0
-
-    @staticmethod
-    def _factor(piece: Piece, nu: int) -> float:
-        return abs(piece.stroke) / piece.duration**nu

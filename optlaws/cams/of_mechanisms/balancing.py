@@ -16,7 +16,7 @@ from optlaws.cycles.asked.conversion import Piece
 from optlaws.cycles.asked.programme import TURN
 from optlaws.cycles.asked.quantities import either
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.drive import Drive, read_drive
+from optlaws.cycles.driven.drive import Drive, read_drive
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property

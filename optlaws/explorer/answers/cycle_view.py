@@ -13,7 +13,7 @@ import msgspec
 import numpy as np
 
 from optlaws import Cycle, Status
-from optlaws.cycles.optimal import LIMITS, read_limits
+from optlaws.cycles.best.aims import LIMITS, read_limits
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.explorer.answers.asked import MOST_DEGREE, MOST_ORDER
 from optlaws.explorer.answers.law_view import HEARD, digits, drawn, gap_text, refusal

@@ -11,8 +11,8 @@ from typing import Any
 import numpy as np
 
 from optlaws import drawing
+from optlaws.cycles.best.aims import FORCE, LOADED, kind_of
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.optimal import FORCE, LOADED, kind_of
 from optlaws.files import tables, writing
 from optlaws.jobs.cycle.entries import Study, read
 from optlaws.jobs.cycle.machine_files import Exports, add_exports, exports_of, plain_name

@@ -8,7 +8,7 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.translating_roller import TranslatingRoller
 from optlaws.cams.loads.forces import CamForces
 from optlaws.cams.of_mechanisms.balancing import Balancing
-from optlaws.cycles.effort import effort
+from optlaws.cycles.driven.effort import effort
 from optlaws.errors import InputError
 from optlaws.mechanisms.loader.loader import Loader
 

@@ -6,8 +6,7 @@ peaks is the least of the greatest ones, and the least sum of squares is the sum
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Sequence
 from itertools import groupby
 from math import inf
 from operator import itemgetter
@@ -15,14 +14,12 @@ from typing import Any
 
 from optlaws.cycles.asked.conversion import Piece, factor
 from optlaws.cycles.asked.joints import Span, State
-from optlaws.cycles.asked.programme import AXES, Stretch, in_small_units, is_optimal
-from optlaws.cycles.asked.quantities import quantity
-from optlaws.cycles.asked.segments import Free, Move
-from optlaws.cycles.drive import Drive
-from optlaws.cycles.joined import joined_basis, joint_windows, place
-from optlaws.cycles.load import LOAD, Load, load_output
+from optlaws.cycles.asked.programme import in_small_units, is_optimal
+from optlaws.cycles.best.aims import FORCE, LOADED, Wanted, kind_of, limits_of_stretch
+from optlaws.cycles.best.joined import joined_basis, joint_windows, place
+from optlaws.cycles.driven.drive import Drive
+from optlaws.cycles.driven.load import load_output
 from optlaws.errors import InfeasibleProblem, InputError
-from optlaws.suggest import unknown_key
 from optlaws.synthesis.functionals.makers import peak, rms
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.problem import Problem
@@ -33,135 +30,8 @@ from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.spaces.bases import Chebyshev
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
-#: what may be least over a cycle: the order of the derivative, and whether it is its root mean square
-OBJECTIVES = {
-    "velocity": (1, False),
-    "acceleration": (2, False),
-    "jerk": (3, False),
-    "rms acceleration": (2, True),
-    "rms jerk": (3, True),
-    "force": (-1, False),
-    "rms force": (-1, True),
-}
-LIMITS = {"velocity": 1, "acceleration": 2, "jerk": 3, "force": -1, "torque": -1}
-FORCE, LOADED = -1, -2
 _PEAKS = {1: "B", 2: "C", 3: "J"}
-_FORCES = {"length": "force", "angle": "torque"}
 _ROUGH = 15  # degree of Z where points on the way or velocities bend the law
-
-
-@dataclass(frozen=True)
-class Wanted:
-    """What is least over a cycle, the limits of the whole of it, and how rich laws are.
-
-    Parameters
-    ----------
-    minimise
-        One of `OBJECTIVES`.
-    limits
-        Greatest velocity, acceleration and jerk, in SI units, by order; of force or torque by -1.
-    order, degree
-        End conditions of laws, and the degree of Z.
-    drive
-        What the force is of, where it is minimised or bounded.
-    load
-        What is driven elastically.
-    loaded
-        Greatest values of the load's outputs, in SI units, by output and whether they are root mean squares.
-    """
-
-    minimise: str
-    limits: Mapping[int, float]
-    order: int
-    degree: int
-    drive: Drive | None
-    load: Load | None = None
-    loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
-
-    @property
-    def of_load(self) -> bool:
-        """Whether the load is spoken of, so that the cycle is one problem."""
-        return bool(self.loaded) or kind_of(self.minimise)[0] == LOADED
-
-
-def kind_of(minimise: str) -> tuple[int, bool]:
-    """The order of the derivative that is minimised (-1 a force, -2 of the load), and whether its root mean square.
-
-    Examples
-    --------
-    >>> kind_of("rms jerk"), kind_of("load acceleration")
-    ((3, True), (-2, False))
-    """
-    return OBJECTIVES.get(minimise, (LOADED, minimise.startswith("rms ")))
-
-
-def check_objective(minimise: Any, load: Load | None) -> None:  # noqa: ANN401 - it is checked here
-    """Refuse what cannot be minimised.
-
-    Raises
-    ------
-    InputError
-        If it is no objective, or the load has no such output.
-    """
-    if not isinstance(minimise, str) or (minimise not in OBJECTIVES and load_output(minimise, load) is None):
-        raise InputError(f"minimise: {unknown_key(minimise, (*OBJECTIVES, 'load acceleration'), 'objective')}")
-
-
-def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tuple[str, bool], float]:
-    """Those of limits that are of the load, in SI units, by output and whether they are root mean squares.
-
-    Raises
-    ------
-    InputError
-        If the load has no such output, or a limit is not above 0 or of another dimension.
-
-    Examples
-    --------
-    >>> from optlaws.cycles.load import read_load
-    >>> read_load_limits({"load deflection": "2 mm"}, read_load({"period": "20 ms"}, "length"))
-    {('deflection', False): 0.002}
-    """
-    found = {}
-    for name, value in entries.items():
-        asked = load_output(name, load)
-        if asked is not None and load is not None:
-            found[asked] = load.limit(value, asked[0], f"limits, {name}")
-    return found
-
-
-def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, float]:
-    """Limits in SI units by the order of the derivative.
-
-    Raises
-    ------
-    InputError
-        If a name is unknown, or a limit is not above 0 or of another dimension.
-
-    Examples
-    --------
-    >>> read_limits({"velocity": "616 mm/s"}, "length", "limits")
-    {1: 0.616}
-    """
-    found = {}
-    for name, value in entries.items():
-        if name not in LIMITS:
-            if where == "limits" and name.removeprefix("rms ").startswith(LOAD):
-                continue
-            raise InputError(f"{where}: {unknown_key(name, LIMITS, 'limit')}")
-        dimension = _FORCES[axis] if LIMITS[name] == FORCE else AXES[axis][LIMITS[name]]
-        found[LIMITS[name]] = quantity(value, dimension, f"{where}, {name}")
-        if found[LIMITS[name]] <= 0.0:
-            raise InputError(f"{where}, {name} must be above 0, got {value!r}")
-    return found
-
-
-def limits_of_stretch(one: Stretch, wanted: Wanted, axis: str) -> dict[int, float]:
-    """Limits of a segment by order: its own and those of the whole cycle, whichever is less."""
-    entries = one.given.limits if isinstance(one.given, Move | Free) else {}
-    given = read_limits(entries, axis, f"{one.where}: limits")
-    orders = {*wanted.limits, *given}
-    infinite = float("inf")
-    return {nu: min(wanted.limits.get(nu, infinite), given.get(nu, infinite)) for nu in sorted(orders)}
 
 
 def solve(span: Span, wanted: Wanted, axis: str) -> tuple[Piece, Solution]:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.cycles.asked.conversion import Piece
-from optlaws.cycles.drive import Drive
+from optlaws.cycles.driven.drive import Drive
 
 Array = NDArray[np.float64]
 

@@ -21,7 +21,8 @@ from optlaws.cycles.asked.joints import Span, State
 from optlaws.cycles.asked.named import named_law
 from optlaws.cycles.asked.programme import Programme, Stretch, is_optimal
 from optlaws.cycles.asked.segments import ConstantVelocity, Dwell, Free, Move
-from optlaws.cycles.optimal import FORCE, Wanted, kind_of, limits_of_stretch, span_problem
+from optlaws.cycles.best.aims import FORCE, Wanted, kind_of, limits_of_stretch
+from optlaws.cycles.best.optimal import span_problem
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
 from optlaws.synthesis.problem.ranges import Range

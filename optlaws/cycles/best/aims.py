@@ -1,0 +1,143 @@
+"""What is asked of the best of a cycle: what is least, limits of the whole and of its segments, how rich laws are."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from optlaws.cycles.asked.programme import AXES, Stretch
+from optlaws.cycles.asked.quantities import quantity
+from optlaws.cycles.asked.segments import Free, Move
+from optlaws.cycles.driven.drive import Drive
+from optlaws.cycles.driven.load import LOAD, Load, load_output
+from optlaws.errors import InputError
+from optlaws.suggest import unknown_key
+
+#: what may be least over a cycle: the order of the derivative, and whether it is its root mean square
+OBJECTIVES = {
+    "velocity": (1, False),
+    "acceleration": (2, False),
+    "jerk": (3, False),
+    "rms acceleration": (2, True),
+    "rms jerk": (3, True),
+    "force": (-1, False),
+    "rms force": (-1, True),
+}
+LIMITS = {"velocity": 1, "acceleration": 2, "jerk": 3, "force": -1, "torque": -1}
+FORCE, LOADED = -1, -2
+_FORCES = {"length": "force", "angle": "torque"}
+
+
+@dataclass(frozen=True)
+class Wanted:
+    """What is least over a cycle, the limits of the whole of it, and how rich laws are.
+
+    Parameters
+    ----------
+    minimise
+        One of `OBJECTIVES`.
+    limits
+        Greatest velocity, acceleration and jerk, in SI units, by order; of force or torque by -1.
+    order, degree
+        End conditions of laws, and the degree of Z.
+    drive
+        What the force is of, where it is minimised or bounded.
+    load
+        What is driven elastically.
+    loaded
+        Greatest values of the load's outputs, in SI units, by output and whether they are root mean squares.
+    """
+
+    minimise: str
+    limits: Mapping[int, float]
+    order: int
+    degree: int
+    drive: Drive | None
+    load: Load | None = None
+    loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
+
+    @property
+    def of_load(self) -> bool:
+        """Whether the load is spoken of, so that the cycle is one problem."""
+        return bool(self.loaded) or kind_of(self.minimise)[0] == LOADED
+
+
+def kind_of(minimise: str) -> tuple[int, bool]:
+    """The order of the derivative that is minimised (-1 a force, -2 of the load), and whether its root mean square.
+
+    Examples
+    --------
+    >>> kind_of("rms jerk"), kind_of("load acceleration")
+    ((3, True), (-2, False))
+    """
+    return OBJECTIVES.get(minimise, (LOADED, minimise.startswith("rms ")))
+
+
+def check_objective(minimise: Any, load: Load | None) -> None:  # noqa: ANN401 - it is checked here
+    """Refuse what cannot be minimised.
+
+    Raises
+    ------
+    InputError
+        If it is no objective, or the load has no such output.
+    """
+    if not isinstance(minimise, str) or (minimise not in OBJECTIVES and load_output(minimise, load) is None):
+        raise InputError(f"minimise: {unknown_key(minimise, (*OBJECTIVES, 'load acceleration'), 'objective')}")
+
+
+def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tuple[str, bool], float]:
+    """Those of limits that are of the load, in SI units, by output and whether they are root mean squares.
+
+    Raises
+    ------
+    InputError
+        If the load has no such output, or a limit is not above 0 or of another dimension.
+
+    Examples
+    --------
+    >>> from optlaws.cycles.driven.load import read_load
+    >>> read_load_limits({"load deflection": "2 mm"}, read_load({"period": "20 ms"}, "length"))
+    {('deflection', False): 0.002}
+    """
+    found = {}
+    for name, value in entries.items():
+        asked = load_output(name, load)
+        if asked is not None and load is not None:
+            found[asked] = load.limit(value, asked[0], f"limits, {name}")
+    return found
+
+
+def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, float]:
+    """Limits in SI units by the order of the derivative.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, or a limit is not above 0 or of another dimension.
+
+    Examples
+    --------
+    >>> read_limits({"velocity": "616 mm/s"}, "length", "limits")
+    {1: 0.616}
+    """
+    found = {}
+    for name, value in entries.items():
+        if name not in LIMITS:
+            if where == "limits" and name.removeprefix("rms ").startswith(LOAD):
+                continue
+            raise InputError(f"{where}: {unknown_key(name, LIMITS, 'limit')}")
+        dimension = _FORCES[axis] if LIMITS[name] == FORCE else AXES[axis][LIMITS[name]]
+        found[LIMITS[name]] = quantity(value, dimension, f"{where}, {name}")
+        if found[LIMITS[name]] <= 0.0:
+            raise InputError(f"{where}, {name} must be above 0, got {value!r}")
+    return found
+
+
+def limits_of_stretch(one: Stretch, wanted: Wanted, axis: str) -> dict[int, float]:
+    """Limits of a segment by order: its own and those of the whole cycle, whichever is less."""
+    entries = one.given.limits if isinstance(one.given, Move | Free) else {}
+    given = read_limits(entries, axis, f"{one.where}: limits")
+    orders = {*wanted.limits, *given}
+    infinite = float("inf")
+    return {nu: min(wanted.limits.get(nu, infinite), given.get(nu, infinite)) for nu in sorted(orders)}

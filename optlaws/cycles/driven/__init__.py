@@ -1,0 +1,1 @@
+"""What a motion drives: forces, torques and power, elastic loads."""
