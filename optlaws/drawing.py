@@ -145,7 +145,7 @@ def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Art
     values = front.values
     if len(front.over) == 2:
         return list(axes.plot(*values.T, **style))
-    style = {"s": 18.0, "c": values[:, 2], **{key: one for key, one in style.items() if key != "color"}}
+    style = {"s": 18.0, "c": values[:, 2], **{key: value for key, value in style.items() if key != "color"}}
     points = axes.scatter(values[:, 0], values[:, 1], **style)
     bar = axes.get_figure(root=True).colorbar(points, ax=axes)  # type: ignore[union-attr] # these axes have a figure
     bar.set_label(f"{_AXES.get(front.over[2], front.over[2])} (dimensionless)")

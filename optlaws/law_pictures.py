@@ -93,7 +93,7 @@ def draw_curve(
         axes = panels()
     if not isinstance(axes, Sequence | np.ndarray):
         return [_line(curve, axes, nu, **{"color": _COLOURS[nu]} | style) for nu in range(4)]
-    return [artist for nu, one in enumerate(four(axes)) for artist in _with_peak(curve, one, nu, style)]
+    return [artist for nu, panel in enumerate(four(axes)) for artist in _with_peak(curve, panel, nu, style)]
 
 
 def four(axes: Any) -> list[Axes]:  # noqa: ANN401 - it is checked here
@@ -110,10 +110,10 @@ def four(axes: Any) -> list[Axes]:  # noqa: ANN401 - it is checked here
     Traceback (most recent call last):
     optlaws.errors.InputError: a, b, c and j are drawn into one pair of axes or into four, got 0
     """
-    found = list(np.ravel(np.asarray(axes, dtype=object)))
-    if len(found) != len(QUANTITIES):
-        raise InputError(f"a, b, c and j are drawn into one pair of axes or into four, got {len(found)}")
-    return found
+    panels = list(np.ravel(np.asarray(axes, dtype=object)))
+    if len(panels) != len(QUANTITIES):
+        raise InputError(f"a, b, c and j are drawn into one pair of axes or into four, got {len(panels)}")
+    return panels
 
 
 def broken(curve: Curve, nu: int, count: int = _SAMPLES) -> tuple[Array, Array]:
@@ -210,7 +210,7 @@ def marks(problem: Problem) -> Iterator[Mark]:
 
     Examples
     --------
-    >>> [(one.nu, one.value, one.what) for one in marks(Problem(B=1.8, order=4))]
+    >>> [(mark.nu, mark.value, mark.what) for mark in marks(Problem(B=1.8, order=4))]
     [(1, 1.8, 'B = 1.8'), (1, -1.8, 'B = 1.8')]
     """
     for nu, name in enumerate(PEAKS):
@@ -246,7 +246,7 @@ def draw_solution(
     --------
     >>> from optlaws.synthesis import synthesize
     >>> artists = draw_solution(synthesize(Problem(B=1.8, order=4)))
-    >>> sorted({one.get_label() for one in artists if one.get_label()[0] != "_"})
+    >>> sorted({artist.get_label() for artist in artists if artist.get_label()[0] != "_"})
     ['B = 1.8', 'no law has a smaller C: 4.05']
     """
     if axes is None:
@@ -257,9 +257,9 @@ def draw_solution(
     by_order = four(axes)
     artists += [_marked(by_order[mark.nu], mark) for mark in _without_idle(solution)]
     artists += _limit(by_order, solution)
-    for one in by_order:
-        if any(not str(line.get_label()).startswith("_") for line in one.lines):
-            one.legend(*_once(one), **_ABOVE)
+    for panel in by_order:
+        if any(not str(line.get_label()).startswith("_") for line in panel.lines):
+            panel.legend(*_once(panel), **_ABOVE)
     return artists
 
 
@@ -295,7 +295,7 @@ def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style:
     firsts = []
     for place, law in enumerate(comparison.laws.values()):
         own = {**_COMPARED[place % len(_COMPARED)], **style}
-        drawn = [artist for nu, one in enumerate(by_order) for artist in _with_peak(law, one, nu, own, said=False)]
+        drawn = [artist for nu, panel in enumerate(by_order) for artist in _with_peak(law, panel, nu, own, said=False)]
         firsts.append(drawn[0])
         artists += drawn
     if axes is None:
@@ -306,12 +306,12 @@ def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style:
 
 def _without_idle(solution: Solution) -> list[Mark]:
     """Marks but those far below every value of a law that never goes there, such as -B where b is never negative."""
-    found = []
+    kept = []
     for mark in marks(solution.problem):
         low, high = solution.law.extrema(mark.nu)
         if mark.what == "window" or low.value - 0.5 * abs(mark.value) <= mark.value <= high.value + 2 * abs(mark.value):
-            found.append(mark)
-    return found
+            kept.append(mark)
+    return kept
 
 
 def _marked(axes: Axes, mark: Mark) -> Artist:
@@ -338,5 +338,5 @@ def _limit(by_order: Sequence[Axes], solution: Solution) -> list[Artist]:
 
 def _once(axes: Axes) -> tuple[list[Any], list[str]]:
     """Handles and labels of a legend, each label once."""
-    found = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
-    return list(found.values()), list(found)
+    labelled = dict(zip(*reversed(axes.get_legend_handles_labels()), strict=True))
+    return list(labelled.values()), list(labelled)

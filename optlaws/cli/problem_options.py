@@ -23,7 +23,7 @@ Command = Callable[..., None]
 
 def _numbers(text: str) -> list[float]:
     try:
-        return [float(one) for one in text.replace(",", " ").split()]
+        return [float(number) for number in text.replace(",", " ").split()]
     except ValueError:
         raise InputError(f'start and end are numbers such as "0, 0.5", got {shortened(text)}') from None
 
@@ -130,11 +130,11 @@ def asks_for_a_problem(
 
         @wraps(command)
         def called(**values: Any) -> None:  # noqa: ANN401 - whatever the parser made
-            typed = {one.name: values.pop(one.name, one.default) for one in asked}
+            typed = {parameter.name: values.pop(parameter.name, parameter.default) for parameter in asked}
             command(_entries(typed, why), **values)
 
         called.__signature__ = inspect.Signature([*asked, *own])  # type: ignore[attr-defined]
-        called.__annotations__ = {one.name: one.annotation for one in (*asked, *own)}
+        called.__annotations__ = {parameter.name: parameter.annotation for parameter in (*asked, *own)}
         return called
 
     return decorated

@@ -110,9 +110,9 @@ def busy(text: str) -> Iterator[None]:
 
 def constants_table(constants: optlaws.Constants) -> Table:
     """Constants with their places."""
-    found = table("constant", "value", "at k")
+    peaks = table("constant", "value", "at k")
     for name in ("B", "C", "D", "J"):
         peak: Any = getattr(constants, name)
-        found.add_row(name, f"{peak.value:.10g}", f"{peak.k:.6g}")
-    found.add_row("RMS of c", f"{constants.rms_c:.10g}", "")
-    return found
+        peaks.add_row(name, f"{peak.value:.10g}", f"{peak.k:.6g}")
+    peaks.add_row("RMS of c", f"{constants.rms_c:.10g}", "")
+    return peaks

@@ -20,7 +20,7 @@ from optlaws.synthesis.solution import Solution
 
 Row = tuple[str, float | None, float | None, float | None]
 
-_NAMES = [one.lower() for one in QUANTITIES]
+_NAMES = [quantity.lower() for quantity in QUANTITIES]
 
 
 @dataclass(frozen=True)
@@ -122,8 +122,8 @@ class Export:
                 for nu, name, unit in moving
             ),
             *(
-                (f"greatest deviation of {_NAMES[nu]}, {units[nu]}", one.value, None, None)
-                for nu, one in enumerate(self.report.deviation)
+                (f"greatest deviation of {_NAMES[nu]}, {units[nu]}", extreme.value, None, None)
+                for nu, extreme in enumerate(self.report.deviation)
             ),
         ]
         if self.report.bound:

@@ -136,7 +136,7 @@ class Format:
         InputError
             If it is unknown, or means nothing to this format.
         """
-        known = {one.name for one in fields(Request)}
+        known = {field.name for field in fields(Request)}
         given = {name: value for name, value in asked.items() if value is not None}
         for name in given:
             if name not in known:

@@ -188,7 +188,7 @@ class Motion:
         return max(abs(value) for value, _ in self.extrema(nu))
 
     def _scaled(self, share: float, units: Units) -> Motion:
-        pieces = [replace(one, start=share * one.start, duration=share * one.duration) for one in self.pieces]
+        pieces = [replace(piece, start=share * piece.start, duration=share * piece.duration) for piece in self.pieces]
         return replace(self, pieces=tuple(pieces), units=units)
 
     @staticmethod
@@ -282,8 +282,8 @@ def motion_of_cycle(cycle: Cycle, *, master: Any = "360 deg", unit: str | None =
     share = span.number / cycle.duration
     starts = [*(_as_said(share * piece.start) for piece in cycle.pieces), span.number]
     pieces = tuple(
-        replace(one, start=low, duration=high - low, offset=size * one.offset, stroke=size * one.stroke)
-        for one, (low, high) in zip(cycle.pieces, pairwise(starts), strict=True)
+        replace(part, start=low, duration=high - low, offset=size * part.offset, stroke=size * part.stroke)
+        for part, (low, high) in zip(cycle.pieces, pairwise(starts), strict=True)
     )
     return Motion(pieces, Units(span.unit, chosen, share), repeats=True, proof=_proof(cycle))
 
@@ -329,5 +329,5 @@ def _positive(number: float, name: str, given: Any) -> float:  # noqa: ANN401
     return number
 
 
-def _value(found: Place) -> float:
-    return found[0]
+def _value(place: Place) -> float:
+    return place[0]

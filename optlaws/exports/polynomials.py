@@ -180,7 +180,7 @@ class PiecewiseMotion:
     def peak(self, nu: int) -> Extreme:
         """The greatest magnitude of the derivative of order nu."""
         low, high = self.extremes(nu)
-        return max(Extreme(0.0 - low.value, low.x), high, key=lambda one: (one.value, -one.x))
+        return max(Extreme(0.0 - low.value, low.x), high, key=lambda extreme: (extreme.value, -extreme.x))
 
     def rms(self, nu: int) -> float:
         """Root mean square of the derivative of order nu, impulses left out.
@@ -211,7 +211,7 @@ class PiecewiseMotion:
         with np.errstate(over="ignore"):
             breaks = np.array(self.breaks, dtype=np.float32)
             rows = [np.array(row, dtype=np.float32) for row in self.coefficients]
-        if not all(np.isfinite(one).all() for one in (breaks, *rows)):
+        if not all(np.isfinite(numbers).all() for numbers in (breaks, *rows)):
             raise InputError("a number of the motion is beyond REAL32 (3.4e38): choose units that make it smaller")
         if (np.diff(breaks) <= 0).any():
             raise InputError("two breaks are the same in REAL32: take fewer pieces or let x start at 0")
@@ -237,15 +237,15 @@ class PiecewiseMotion:
         Examples
         --------
         >>> line = PiecewiseMotion([0, np.pi / 2], [[0, 2 / np.pi]])
-        >>> found = line.deviation(lambda x, nu: np.sin(x + nu * np.pi / 2))
-        >>> round(found.value, 9), round(found.x, 6)
+        >>> greatest = line.deviation(lambda x, nu: np.sin(x + nu * np.pi / 2))
+        >>> round(greatest.value, 9), round(greatest.x, 6)
         (0.210513662, 0.880689)
         """
         order = derivative(nu)
         if isinstance(motion, PiecewiseMotion):
             return self.minus(motion).peak(order)
-        found = greatest_difference(lambda x: self._values(x, order), lambda x: motion(x, order), self._with(breaks))
-        return Extreme(*found)
+        greatest = greatest_difference(lambda x: self._values(x, order), lambda x: motion(x, order), self._with(breaks))
+        return Extreme(*greatest)
 
     def minus(self, other: PiecewiseMotion) -> PiecewiseMotion:
         """The difference, between the breaks of both.
@@ -294,7 +294,7 @@ class PiecewiseMotion:
         """
         across, up = Fraction(x), Fraction(y)
         rows = [[float(Fraction(c) * up / across**n) for n, c in enumerate(row)] for row in self.coefficients]
-        return PiecewiseMotion([float(Fraction(one) * across) for one in self.breaks], rows)
+        return PiecewiseMotion([float(Fraction(place) * across) for place in self.breaks], rows)
 
     @kept_property
     def _powers(self) -> dict[int, Array]:
@@ -329,11 +329,11 @@ class PiecewiseMotion:
     def _top(self, nu: int, sign: float) -> Extreme:
         table = self.powers(nu)
         scaled = table * self.lengths[:, None] ** np.arange(table.shape[1])
-        found = bernstein.top(sign * bernstein.from_powers(scaled))
-        low, length = self.breaks[found.row], float(self.lengths[found.row])
-        if found.u in {0.0, 1.0}:
-            return Extreme(found.value, self.breaks[found.row + int(found.u)])
-        return Extreme(found.value, low + length * self._stationary(found.row, found.u * length, nu))
+        highest = bernstein.top(sign * bernstein.from_powers(scaled))
+        low, length = self.breaks[highest.row], float(self.lengths[highest.row])
+        if highest.u in {0.0, 1.0}:
+            return Extreme(highest.value, self.breaks[highest.row + int(highest.u)])
+        return Extreme(highest.value, low + length * self._stationary(highest.row, highest.u * length, nu))
 
     def _stationary(self, row: int, s: float, nu: int) -> float:
         """The place near one found by halving where the derivative is stationary, as a share of the piece."""
@@ -356,7 +356,7 @@ def from_exact(breaks: Sequence[Fraction], rows: Sequence[Sequence[Fraction]]) -
     >>> from_exact([Fraction(0), Fraction(1, 3)], [[Fraction(1, 3)]]).coefficients
     ((0.3333333333333333,),)
     """
-    return PiecewiseMotion([float(one) for one in breaks], [[float(c) for c in row] for row in rows])
+    return PiecewiseMotion([float(place) for place in breaks], [[float(c) for c in row] for row in rows])
 
 
 def _horner(table: Array, x: Any) -> Any:  # noqa: ANN401 - numbers or arrays

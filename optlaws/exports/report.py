@@ -50,7 +50,7 @@ class Characteristics:
 
     def peak(self, nu: int) -> float:
         """The greatest magnitude of the derivative of order nu; inf where a lower one leaps inside."""
-        if any(one.value for one in self.leaps[: max(nu - 1, 0)]):
+        if any(leap.value for leap in self.leaps[: max(nu - 1, 0)]):
             return inf
         return max(abs(self.least[nu].value), abs(self.greatest[nu].value))
 
@@ -58,12 +58,12 @@ class Characteristics:
         """The characteristics by TwinCAT's names, as plain data; what is infinite is null."""
         told: dict[str, Any] = {"StartPoint": _point(None, self.start), "EndPoint": _point(None, self.end)}
         for side, extremes in (("Min", self.least), ("Max", self.greatest)):
-            for name, one in zip(QUANTITIES, extremes, strict=True):
-                told[f"PointAt{side}Slave{name}"] = {"MasterPosition": one.x, f"Slave{name}": _known(one.value)}
+            for name, extreme in zip(QUANTITIES, extremes, strict=True):
+                told[f"PointAt{side}Slave{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
         told["SlaveMeanAbsoluteVelocity"] = self.mean_absolute_velocity
         told["SlaveEffectiveAcceleration"] = _known(self.effective_acceleration)
-        for name, one, end in zip(QUANTITIES[1:], self.leaps, self.leaps_at_ends, strict=True):
-            told[f"Leap{name}"] = {"MasterPosition": one.x, f"Slave{name}": _known(one.value)}
+        for name, extreme, end in zip(QUANTITIES[1:], self.leaps, self.leaps_at_ends, strict=True):
+            told[f"Leap{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
             told[f"LeapAtEnds{name}"] = _known(end)
         return told
 
@@ -115,8 +115,8 @@ class Report:
             "law": self.law.to_dict(),
             "ratio": {name: _known(self.ratio(nu)) for nu, name in enumerate(QUANTITIES) if nu},
             "deviation": {
-                name: {"MasterPosition": one.x, f"Slave{name}": _known(one.value)}
-                for name, one in zip(QUANTITIES, self.deviation, strict=False)
+                name: {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
+                for name, extreme in zip(QUANTITIES, self.deviation, strict=False)
             },
             "rounding_bound_acceleration": self.bound,
         }
@@ -144,7 +144,7 @@ def as_run(run: PiecewiseMotion, motion: Motion, bound: float = 0.0, roundings: 
 
 
 def _of_run(run: PiecewiseMotion, motion: Motion, rate: float, roundings: tuple[float, ...]) -> Characteristics:
-    extremes = [tuple(_sized(one, rate**nu) for one in run.extremes(nu)) for nu in ORDERS]
+    extremes = [tuple(_sized(extreme, rate**nu) for extreme in run.extremes(nu)) for nu in ORDERS]
     ends = [run.ends(nu) for nu in ORDERS]
     start = tuple(float(first[0]) * rate**nu for nu, (first, _) in enumerate(ends))
     end = tuple(float(last[-1]) * rate**nu for nu, (_, last) in enumerate(ends))
@@ -170,7 +170,7 @@ def _of_run(run: PiecewiseMotion, motion: Motion, rate: float, roundings: tuple[
 
 
 def _of_law(motion: Motion, rate: float) -> Characteristics:
-    extremes = [tuple(_sized(Extreme(*one), rate**nu) for one in motion.extrema(nu)) for nu in ORDERS]
+    extremes = [tuple(_sized(Extreme(*pair), rate**nu) for pair in motion.extrema(nu)) for nu in ORDERS]
     start, end = (tuple(rate**nu * motion.ends(nu)[side] for nu in ORDERS) for side in (0, 1))
     small = tuple(ROUNDING[0] * max(abs(low.value), abs(high.value)) for low, high in extremes)
     leaps = tuple(_sized(Extreme(*motion.leap(nu)), rate**nu) for nu in ORDERS[1:])
@@ -212,8 +212,8 @@ def _deviation(run: PiecewiseMotion, motion: Motion, nu: int, rate: float, *, ha
     return _sized(run.deviation(law, nu, motion.breaks), rate**nu)
 
 
-def _sized(one: Extreme, factor: float) -> Extreme:
-    return Extreme(one.value * factor, one.x)
+def _sized(extreme: Extreme, factor: float) -> Extreme:
+    return Extreme(extreme.value * factor, extreme.x)
 
 
 def _known(value: float) -> float | None:

@@ -136,10 +136,10 @@ def best(motion: Motion, make: Callable[[int], Made], least: int, most: int) -> 
             tried[count] = (judge.rank(made), made)
 
     rough = least * _RATIO ** np.arange(1 + int(np.log(most / least) / np.log(_RATIO)))
-    attempt({*range(least, min(most, _EACH) + 1), *(int(one) for one in rough), most})
+    attempt({*range(least, min(most, _EACH) + 1), *(int(guess) for guess in rough), most})
     top = min(tried, key=lambda count: tried[count][0])
     near = np.linspace(max(least, top / _RATIO), min(most, top * _RATIO), 2 * _NEAR + 1)
-    attempt({int(one) for one in near})
+    attempt({int(guess) for guess in near})
     return tried[_fewest({count: rank for count, (rank, _) in tried.items()})][1]
 
 
@@ -241,4 +241,4 @@ def _shares(lengths: Array, steps: int, weights: Array) -> list[int]:
     shares = np.maximum(1, np.floor(sized / total * (steps - len(lengths)))).astype(int)
     for _ in range(steps - int(shares.sum())):
         shares[int(np.argmax(sized / shares))] += 1
-    return [int(one) for one in shares]
+    return [int(share) for share in shares]

@@ -64,7 +64,7 @@ def say_the_same(first: bytes, second: bytes, kind: str, digits: int | None = No
 
 def _renamed(picture: str) -> str:
     order = {name: f"name-{i}-" for i, name in enumerate(dict.fromkeys(_NAME.findall(picture)))}
-    return _NAME.sub(lambda found: order[found[0]], picture)
+    return _NAME.sub(lambda match: order[match[0]], picture)
 
 
 def _same_texts(first: str, second: str, *, picture: bool = False, digits: int | None = None) -> bool:

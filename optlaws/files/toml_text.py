@@ -38,17 +38,19 @@ def _lines(data: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
     for name, value in tables.items():
         own = (*path, name)
         heading = ".".join(map(_key, own))
-        for one in value if isinstance(value, list) else [value]:
+        for entry in value if isinstance(value, list) else [value]:
             yield ""
             yield f"[[{heading}]]" if isinstance(value, list) else f"[{heading}]"
-            yield from _lines(one, own)
+            yield from _lines(entry, own)
 
 
 def _has_own_lines(value: Any) -> bool:  # noqa: ANN401
     """Whether a value is a table of tables, a list of tables, or a table of more than a line."""
     if isinstance(value, list):
-        return bool(value) and all(isinstance(one, Mapping) for one in value)
-    return isinstance(value, Mapping) and (len(value) > 4 or any(isinstance(one, Mapping) for one in value.values()))
+        return bool(value) and all(isinstance(entry, Mapping) for entry in value)
+    return isinstance(value, Mapping) and (
+        len(value) > 4 or any(isinstance(entry, Mapping) for entry in value.values())
+    )
 
 
 def _key(name: str) -> str:
@@ -68,7 +70,7 @@ def _value(value: Any) -> str:  # noqa: ANN401
     if isinstance(value, list | tuple):
         return f"[{', '.join(map(_value, value))}]"
     if isinstance(value, Mapping):
-        inner = ", ".join(f"{_key(name)} = {_value(one)}" for name, one in value.items() if one is not None)
+        inner = ", ".join(f"{_key(name)} = {_value(entry)}" for name, entry in value.items() if entry is not None)
         return f"{{ {inner} }}" if inner else "{}"
     raise InputError(f"TOML has no {type(value).__name__}")
 

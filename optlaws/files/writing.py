@@ -197,7 +197,7 @@ def check_place(file: Path) -> None:
     check_name(file)
     if file.is_dir():
         raise InputError(f"cannot write {file}: it is a folder")
-    folder = next(one for one in file.absolute().parents if one.exists())
+    folder = next(parent for parent in file.absolute().parents if parent.exists())
     if not folder.is_dir():
         raise InputError(f"cannot write {file}: {folder} is not a folder")
     try:

@@ -223,8 +223,8 @@ class MotionLaw(Curve, Stored):
         return exported("pieces_of_law", self, tolerance, **said)
 
     def __repr__(self) -> str:
-        one = self.constants
-        shown = f"B={one.B.value:g}, C={one.C.value:g}, D={one.D.value:g}, J={one.J.value:g}"
+        constants = self.constants
+        shown = f"B={constants.B.value:g}, C={constants.C.value:g}, D={constants.D.value:g}, J={constants.J.value:g}"
         return f"{type(self).__name__}({self._summary()}, {shown})"
 
     def _repr_html_(self) -> str:

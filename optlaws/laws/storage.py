@@ -65,7 +65,7 @@ class Stored(ABC):
         kind = fields.pop("kind", None)
         law = cls.kinds[kind] if isinstance(kind, str) and kind in cls.kinds else None
         if law is None or not issubclass(law, cls):
-            known = sorted(name for name, one in cls.kinds.items() if issubclass(one, cls))
+            known = sorted(name for name, heir in cls.kinds.items() if issubclass(heir, cls))
             raise InputError(f"kind of law {shortened(kind)} is unknown; known are {', '.join(known)}")
         return law._read(known_fields(law, fields, f"a {kind} law"))  # noqa: SLF001
 
@@ -105,7 +105,7 @@ def contents(value: Any) -> dict[str, Any]:  # noqa: ANN401 - any frozen datacla
     >>> contents(PolynomialSegment((1.0, 2.0)))
     {'acceleration': [1.0, 2.0], 'b0': 0.0}
     """
-    return {one.name: _plain(getattr(value, one.name)) for one in dataclasses.fields(value)}
+    return {field.name: _plain(getattr(value, field.name)) for field in dataclasses.fields(value)}
 
 
 def known_fields(kind: type, fields: Mapping[str, Any], what: str) -> dict[str, Any]:
@@ -123,7 +123,7 @@ def known_fields(kind: type, fields: Mapping[str, Any], what: str) -> dict[str, 
     Traceback (most recent call last):
     optlaws.errors.InputError: a power segment has the keys b0, b1; 'b2' is unknown, 'b1' is missing
     """
-    expected = [one.name for one in dataclasses.fields(kind)]
+    expected = [field.name for field in dataclasses.fields(kind)]
     problems = [f"{shortened(key)} is unknown" for key in fields if key not in expected]
     problems += [f"{key!r} is missing" for key in expected if key not in fields]
     if problems:
@@ -133,7 +133,7 @@ def known_fields(kind: type, fields: Mapping[str, Any], what: str) -> dict[str, 
 
 def _plain(value: Any) -> Any:  # noqa: ANN401
     if isinstance(value, tuple):
-        return [_plain(one) for one in value]
+        return [_plain(part) for part in value]
     return value.to_dict() if hasattr(value, "to_dict") else value
 
 
@@ -142,7 +142,7 @@ def _opened(data: Any) -> dict[str, Any]:  # noqa: ANN401
         msg = f"a law must be a dict, got {type(data).__name__}"
         raise InputError(msg)
     fields = dict(data)
-    if (found := fields.pop("format", None)) != FORMAT:
-        msg = f"format of a law must be {FORMAT}, got {shortened(found)}"
+    if (stated := fields.pop("format", None)) != FORMAT:
+        msg = f"format of a law must be {FORMAT}, got {shortened(stated)}"
         raise InputError(msg)
     return fields

@@ -19,8 +19,8 @@ _DIGITS = 15
 
 def sizes(law: MotionLaw) -> tuple[float, ...]:
     """The greatest values of a, b, c, j and d."""
-    one = law.constants
-    return law.peak(0).value, one.B.value, one.C.value, one.J.value, one.D.value
+    constants = law.constants
+    return law.peak(0).value, constants.B.value, constants.C.value, constants.J.value, constants.D.value
 
 
 def values(law: MotionLaw, k: NDArray[np.float64]) -> list[NDArray[np.float64]]:
@@ -29,10 +29,10 @@ def values(law: MotionLaw, k: NDArray[np.float64]) -> list[NDArray[np.float64]]:
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> [float(one[0]) for one in values(smoothstep(3), np.array([0.5]))]
+    >>> [float(column[0]) for column in values(smoothstep(3), np.array([0.5]))]
     [0.5, 1.875, 0.0, -30.0, 0.0]
     """
-    columns = [getattr(law, one)(k) for one in LETTERS]
+    columns = [getattr(law, letter)(k) for letter in LETTERS]
     return [
         np.where(np.abs(column) <= NOISE * size, 0.0, column) for column, size in zip(columns, sizes(law), strict=True)
     ]

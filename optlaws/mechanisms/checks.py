@@ -26,10 +26,10 @@ def state(value: Any) -> tuple[float, float]:  # noqa: ANN401 - whatever a calle
     >>> state([0, 1])
     (0.0, 1.0)
     """
-    found = numbers(value, "initial")
-    if len(found) != 2:
+    pair = numbers(value, "initial")
+    if len(pair) != 2:
         raise InputError(f"initial must be displacement and velocity of the mass, got {shortened(value)}")
-    return found[0], found[1]
+    return pair[0], pair[1]
 
 
 def motion_law(value: Any, name: str = "law") -> MotionLaw:  # noqa: ANN401 - whatever a caller hands over

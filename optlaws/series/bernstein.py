@@ -116,7 +116,7 @@ def _cuts(degree: int) -> Array:
     left = np.array([[comb(i, j) / 2.0**i for i in range(degree + 1)] for j in range(degree + 1)])
     matrices = [np.eye(degree + 1)]
     while len(matrices) < _PARTS:
-        matrices = [one @ half for one in matrices for half in (left, left[::-1, ::-1])]
+        matrices = [matrix @ half for matrix in matrices for half in (left, left[::-1, ::-1])]
     joined = np.concatenate(matrices, axis=1)
     joined.setflags(write=False)
     return joined

@@ -53,8 +53,8 @@ def greatest_difference(first: Function, second: Function, places: Array) -> tup
         size, greatest = max(size, met), max(greatest, float(np.abs(values).max()))
         tail = np.abs(chebyshev.from_values(values.T)[-2:]).max(axis=0)
         done = tail <= max(_RESOLVED * size, _SHARE * greatest)
-        for kept, one in ((control, bernstein.from_values(values)), (lows, low), (highs, high)):
-            kept.append(one[done])
+        for kept, fresh in ((control, bernstein.from_values(values)), (lows, low), (highs, high)):
+            kept.append(fresh[done])
         if done.all():
             return _top(*map(partial(np.concatenate, axis=0), (control, lows, highs)))
         low, high = low[~done], high[~done]
@@ -74,6 +74,6 @@ def _differences(first: Function, second: Function, low: Array, high: Array) -> 
 
 def _top(table: Array, start: Array, stop: Array) -> tuple[float, float]:
     order = np.argsort(start)
-    found = bernstein.top(np.stack([table[order], -table[order]], axis=1).reshape(-1, table.shape[1]))
-    row = order[found.row // 2]
-    return found.value, float(start[row] + (stop[row] - start[row]) * found.u)
+    highest = bernstein.top(np.stack([table[order], -table[order]], axis=1).reshape(-1, table.shape[1]))
+    row = order[highest.row // 2]
+    return highest.value, float(start[row] + (stop[row] - start[row]) * highest.u)

@@ -55,21 +55,21 @@ class Panels:
 
     def roots_of(self, series: Array, f: Function, slope: Function) -> Array:
         """The same where the series of f on every panel are known."""
-        found = [chebyshev.real_parts_of_roots(column) for column in series.T]
-        counts = [len(x) for x in found]
+        roots = [chebyshev.real_parts_of_roots(column) for column in series.T]
+        counts = [len(x) for x in roots]
         low, high = (np.repeat(np.array(edges), counts) for edges in (self.edges[:-1], self.edges[1:]))
 
         def residual(x: Array) -> tuple[Array, Array]:
             t = _places(low, high, x)
             return f(t), 0.5 * (high - low) * slope(t)
 
-        return _places(low, high, polished(np.concatenate(found), residual)) if sum(counts) else np.empty(0)
+        return _places(low, high, polished(np.concatenate(roots), residual)) if sum(counts) else np.empty(0)
 
     def square(self, f: Function) -> float:
         """Integral of f²."""
         return sum(
-            (high - low) * chebyshev.mean_product(one, one)
-            for (low, high), one in zip(pairwise(self.edges), self.series(f).T, strict=True)
+            (high - low) * chebyshev.mean_product(product, product)
+            for (low, high), product in zip(pairwise(self.edges), self.series(f).T, strict=True)
         )
 
 
@@ -82,14 +82,14 @@ class Integral:
 
     def __call__(self, t: Array) -> Array:
         """The integral up to t."""
-        found = np.zeros(t.shape)
+        values = np.zeros(t.shape)
         places = np.searchsorted(self.edges[1:-1], t, side="right")
         for i, (low, high) in enumerate(pairwise(self.edges)):
             here = places == i
             if here.any():
                 x = np.clip(2.0 * (t[here] - low) / (high - low) - 1.0, -1.0, 1.0)
-                found[here] = chebyshev.value(np.array(self.parts[i]), x)
-        return found
+                values[here] = chebyshev.value(np.array(self.parts[i]), x)
+        return values
 
 
 def equal(low: float, high: float, count: int, terms: int = TERMS) -> Panels:
@@ -124,17 +124,17 @@ def resolved(f: Function, first: Panels, short: Short) -> tuple[Panels, Array]:
     ((0.0, 1.0, 2.0, 3.0, 4.0), (9, 4))
     """
     waiting = list(pairwise(first.edges))[::-1]
-    edges, found = list(first.edges[:1]), []
+    edges, heights = list(first.edges[:1]), []
     while waiting:
         low, high = waiting.pop()
         series = Panels((low, high), first.terms).series(f)[:, 0]
         if short(series, high - low):
             edges.append(high)
-            found.append(series)
+            heights.append(series)
         else:
             middle = 0.5 * (low + high)
             waiting += [(middle, high), (low, middle)]
-    return Panels(tuple(edges), first.terms), np.array(found).T
+    return Panels(tuple(edges), first.terms), np.array(heights).T
 
 
 def of_root(f: Function, low: float, high: float, scale: float) -> Panels:
@@ -159,10 +159,10 @@ def integral(f: Function, on: Panels) -> Integral:
     """The integral of f from the first edge on."""
     total, parts = 0.0, []
     for (low, high), values in zip(pairwise(on.edges), on.series(f).T, strict=True):
-        one = chebyshev.integral(values * (high - low), 0.0)
-        one[0] += total
-        total = float(one.sum())
-        parts.append(tuple(one.tolist()))
+        integral = chebyshev.integral(values * (high - low), 0.0)
+        integral[0] += total
+        total = float(integral.sum())
+        parts.append(tuple(integral.tolist()))
     return Integral(on.edges, tuple(parts))
 
 

@@ -106,13 +106,13 @@ def roots(powers: Sum, low: float, high: float) -> list[float]:
     divided = {exponent - lowest: factor for exponent, factor in powers.items()}
     marks = [low, *roots(derivative(divided), low, high), high]
     heights = [_at(divided, v) for v in marks]
-    found = [v for v, height in zip(marks[1:-1], heights[1:-1], strict=True) if height == 0.0]
-    found += [
+    zeros = [v for v, height in zip(marks[1:-1], heights[1:-1], strict=True) if height == 0.0]
+    zeros += [
         sum(halved(partial(_same_sign, divided, before), start, end)) / 2.0
         for start, end, before, after in zip(marks, marks[1:], heights, heights[1:], strict=False)
         if before * after < 0.0
     ]
-    return sorted(found)
+    return sorted(zeros)
 
 
 def _at(powers: Sum, v: float) -> float:

@@ -76,8 +76,8 @@ def table(headings: Iterable[object], rows: Iterable[Iterable[object]]) -> str:
     >>> table(["B"], [[1.5]])
     '<table><tr><th>B</th></tr><tr><td>1.5</td></tr></table>'
     """
-    head = "".join(f"<th>{cell(one)}</th>" for one in headings)
-    body = "".join(f"<tr>{''.join(f'<td>{cell(one)}</td>' for one in row)}</tr>" for row in rows)
+    head = "".join(f"<th>{cell(heading)}</th>" for heading in headings)
+    body = "".join(f"<tr>{''.join(f'<td>{cell(entry)}</td>' for entry in row)}</tr>" for row in rows)
     return f"<table><tr>{head}</tr>{body}</table>"
 
 

@@ -25,14 +25,14 @@ def catalogue(search: str | None = None, /, *, as_json: AsJson = False) -> None:
     if not entries:
         raise InputError(f"no law is like {search!r}; `optlaws catalogue` lists all {len(known)}")
     if as_json:
-        print_json([{key: value for key, value in one.to_dict().items() if key != "law"} for one in entries])
+        print_json([{key: value for key, value in entry.to_dict().items() if key != "law"} for entry in entries])
         return
     rows = table("law", "B", "C", "D", "J", "continuous")
     rows.columns[0].no_wrap = True
-    for one in entries:
-        peaks = one.constants
+    for entry in entries:
+        peaks = entry.constants
         numbers = [f"{peak.value:.6g}" for peak in (peaks.B, peaks.C, peaks.D, peaks.J)]
-        rows.add_row(one.name, *numbers, continuous(one.continuity))
+        rows.add_row(entry.name, *numbers, continuous(entry.continuity))
     show(rows)
 
 

@@ -48,22 +48,22 @@ def compare(
     if nu is not None and len(nu) > _INTERVAL:
         raise InputError(f"--nu is given once for a frequency or twice for an interval, got {len(nu)} times")
     asked = None if nu is None else nu[0] if len(nu) == _ONE else (nu[0], nu[1])
-    found = optlaws.compare(*laws, stroke=stroke, time=time, nu=asked, damping=damping)
+    comparison = optlaws.compare(*laws, stroke=stroke, time=time, nu=asked, damping=damping)
     if csv is not None:
-        _save(found, csv)
+        _save(comparison, csv)
     if plot is not None:
-        save_picture(plot, found)
+        save_picture(plot, comparison)
     if as_json:
-        print_json(found.to_dict())
+        print_json(comparison.to_dict())
         return
-    rows = table(*found.rows[0])
-    for row in found.rows:
+    rows = table(*comparison.rows[0])
+    for row in comparison.rows:
         rows.add_row(*(cell if isinstance(cell, str) else number(cell, NOISE, ".7g") for cell in row.values()))
-    show(rows, *found.remarks)
+    show(rows, *comparison.remarks)
 
 
-def _save(found: optlaws.Comparison, file: Path) -> None:
+def _save(comparison: optlaws.Comparison, file: Path) -> None:
     from optlaws.files import tables, writing
 
-    rows = [list(row.values()) for row in found.rows]
-    writing.write(file, tables.to_csv(list(found.rows[0]), rows, about="laws compared"))
+    rows = [list(row.values()) for row in comparison.rows]
+    writing.write(file, tables.to_csv(list(comparison.rows[0]), rows, about="laws compared"))

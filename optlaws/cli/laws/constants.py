@@ -33,8 +33,8 @@ def constants(
         numbers = [float(text) for text in z.replace(",", " ").split()]
     except ValueError as error:
         raise InputError(f"--z takes numbers separated by blanks: {error}") from None
-    found = optlaws.construct(optlaws.BoundaryConditions.rest(order), numbers).constants
+    peaks = optlaws.construct(optlaws.BoundaryConditions.rest(order), numbers).constants
     if as_json:
-        print_json(found.to_dict())
+        print_json(peaks.to_dict())
     else:
-        show(constants_table(found))
+        show(constants_table(peaks))

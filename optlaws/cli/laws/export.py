@@ -116,9 +116,9 @@ def _motion(law: str, axis: str | None, said: dict[str, str | None]) -> Motion:
         if axis is not None:
             raise InputError("--axis is one of a problem file with several; a law has none")
         return motion_of_law(read_law(law), **said)
-    for one in ("stroke", "time", "start"):
-        if said[one] is not None:
-            raise InputError(f"--{one} is of a law alone: a cycle has its own")
+    for option in ("stroke", "time", "start"):
+        if said[option] is not None:
+            raise InputError(f"--{option} is of a law alone: a cycle has its own")
     cycle = _cycle(Path(law), axis)
     return motion_of_cycle(cycle) if said["master"] is None else motion_of_cycle(cycle, master=said["master"])
 
@@ -155,9 +155,9 @@ def _list(*, as_json: bool) -> None:
     formats = [FORMATS[name] for name in sorted(FORMATS)]
     if as_json:
         keys = ("name", "target", "held", "model", "limits", "extension", "takes")
-        print_json([{key: getattr(one, key) for key in keys} for one in formats])
+        print_json([{key: getattr(file_format, key) for key in keys} for file_format in formats])
         return
     rows = table("format", "target", "holds", "runs", "limits")
-    for one in formats:
-        rows.add_row(one.name, one.target, one.held, one.model, one.limits)
+    for file_format in formats:
+        rows.add_row(file_format.name, file_format.target, file_format.held, file_format.model, file_format.limits)
     show(rows)

@@ -52,29 +52,31 @@ def law(
     check_files(csv, plot=plot)
     if samples is not None and csv is None:
         raise InputError("--samples says how many lines --csv FILE has: name the file")
-    about, found = _asked(name, alpha, peak_velocity)
-    values = [{"k": k, **{one: getattr(found, one)(k) for one in LETTERS}} for k in at or ()]
+    about, motion_law = _asked(name, alpha, peak_velocity)
+    values = [{"k": k, **{letter: getattr(motion_law, letter)(k) for letter in LETTERS}} for k in at or ()]
     if csv is not None:
-        writing.write(csv, table_of_values(found, name, SAMPLES if samples is None else samples))
+        writing.write(csv, table_of_values(motion_law, name, SAMPLES if samples is None else samples))
     if plot is not None:
-        save_picture(plot, found)
+        save_picture(plot, motion_law)
     if as_json:
         print_json({**about, "at": values})
     else:
-        _show(about, found, values)
+        _show(about, motion_law, values)
 
 
-def _show(about: dict[str, Any], found: optlaws.MotionLaw, values: list[dict[str, float]]) -> None:
+def _show(about: dict[str, Any], motion_law: optlaws.MotionLaw, values: list[dict[str, float]]) -> None:
     head = table()
     for key, value in _lines(about):
         head.add_row(key, value)
-    show(head, constants_table(found.constants))
+    show(head, constants_table(motion_law.constants))
     if values:
         from optlaws.laws.values import sizes
 
         rows = table(*values[0])
         for row in values:
-            rows.add_row(*(number(value, size) for value, size in zip(row.values(), (1.0, *sizes(found)), strict=True)))
+            rows.add_row(
+                *(number(value, size) for value, size in zip(row.values(), (1.0, *sizes(motion_law)), strict=True))
+            )
         show(rows)
 
 
@@ -83,27 +85,27 @@ def _asked(name: str, alpha: float | None, B: float | None) -> tuple[dict[str, A
     from optlaws.laws.catalogue.entry import continuity_with_rest
 
     family = reading.family_of(name)
-    found = read_law(name, alpha, B, by="--alpha or --peak-velocity")
+    motion_law = read_law(name, alpha, B, by="--alpha or --peak-velocity")
     chosen = None if family is not None else reading.member(name)
     if family is not None or chosen is not None:
-        return _member(found, chosen or (optlaws.SavinFamily.of(str(family)), alpha), B), found
+        return _member(motion_law, chosen or (optlaws.SavinFamily.of(str(family)), alpha), B), motion_law
     if reading.is_file(name):
-        return _facts(f"the law in {name}", found) | {"continuity": continuity_with_rest(found)}, found
+        return _facts(f"the law in {name}", motion_law) | {"continuity": continuity_with_rest(motion_law)}, motion_law
     entry = optlaws.catalogue[name]
     return entry.to_dict(), entry.law
 
 
 def _member(
-    found: optlaws.MotionLaw, chosen: tuple[optlaws.SavinFamily, float | None], B: float | None
+    motion_law: optlaws.MotionLaw, chosen: tuple[optlaws.SavinFamily, float | None], B: float | None
 ) -> dict[str, Any]:
     family, alpha = chosen
-    name, *others = _facts(f"Savin's {family}", found).items()
+    name, *others = _facts(f"Savin's {family}", motion_law).items()
     own = {"alpha": alpha if alpha is not None else family.alphas(B=B)[0], "order": family.order}
     return dict([name, *own.items(), *others])
 
 
-def _facts(name: str, found: optlaws.MotionLaw) -> dict[str, Any]:
-    return {"name": name, "constants": found.constants.to_dict(rms=True), "law": found.to_dict()}
+def _facts(name: str, motion_law: optlaws.MotionLaw) -> dict[str, Any]:
+    return {"name": name, "constants": motion_law.constants.to_dict(rms=True), "law": motion_law.to_dict()}
 
 
 def _lines(about: dict[str, Any]) -> list[tuple[str, str]]:

@@ -70,7 +70,7 @@ def dwell(
         Print one JSON object on stdout and nothing else; angles in radians.
     """
     _check_turn(rise, dwell, lower_dwell)
-    found = optlaws.compare_dwell_mechanisms(
+    comparison = optlaws.compare_dwell_mechanisms(
         law=read_law(name),
         dwell=optlaws.deg(dwell),
         rise=optlaws.deg(rise),
@@ -84,11 +84,11 @@ def dwell(
         law_1=None if law_1 is None else read_law(law_1),
         law_2=None if law_2 is None else read_law(law_2),
     )
-    clutches = {kind: optlaws.Clutch(one) for kind, one in found.mechanisms.items() if kind != "I"}
+    clutches = {kind: optlaws.Clutch(mechanism) for kind, mechanism in comparison.mechanisms.items() if kind != "I"}
     if as_json:
-        print_json(_plain(found, clutches, teeth))
+        print_json(_plain(comparison, clutches, teeth))
     else:
-        _show(found, clutches, teeth)
+        _show(comparison, clutches, teeth)
 
 
 def _check_turn(rise: float, dwell: float, lower_dwell: float | None) -> None:
@@ -102,16 +102,22 @@ def _check_turn(rise: float, dwell: float, lower_dwell: float | None) -> None:
         )
 
 
-def _show(found: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: int) -> None:
+def _show(comparison: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: int) -> None:
     types = table("type", "a", "b", "S1", "S2", "usable")
-    for kind, reason in found.reasons.items():
-        one = found.mechanisms.get(kind)
-        cells = ["", "", "", ""] if one is None else [f"{value:.6g}" for value in (one.a, one.b, one.S1, one.S2)]
+    for kind, reason in comparison.reasons.items():
+        mechanism = comparison.mechanisms.get(kind)
+        cells = (
+            ["", "", "", ""]
+            if mechanism is None
+            else [f"{value:.6g}" for value in (mechanism.a, mechanism.b, mechanism.S1, mechanism.S2)]
+        )
         types.add_row(kind, *cells, reason)
-    chosen = "none is usable" if found.chosen is None else f"type {found.chosen}, the smallest cam of those usable"
-    remarks = {remark for one in found.mechanisms.values() for remark in one.remarks}
+    chosen = (
+        "none is usable" if comparison.chosen is None else f"type {comparison.chosen}, the smallest cam of those usable"
+    )
+    remarks = {remark for mechanism in comparison.mechanisms.values() for remark in mechanism.remarks}
     show(*(f"mind: {remark}" for remark in sorted(remarks)))
-    show(types, f"take {chosen}; the paper's rule of thumb says {found.by_rule}")
+    show(types, f"take {chosen}; the paper's rule of thumb says {comparison.by_rule}")
     teeth_of = table("clutch", "p/N wanted", "p", "N", "off by, deg", "exact with")
     for kind, clutch in clutches.items():
         for choice in _choices(clutch, teeth):
@@ -122,29 +128,29 @@ def _show(found: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: in
 
 
 def _choices(clutch: optlaws.Clutch, teeth: int) -> tuple[Teeth, ...]:
-    found = [one for one in clutch.choices(1, teeth) if gcd(one.p, one.N) == 1]
-    return tuple(found[:_TEETH]) or (clutch.nearest(teeth),)
+    choices = [choice for choice in clutch.choices(1, teeth) if gcd(choice.p, choice.N) == 1]
+    return tuple(choices[:_TEETH]) or (clutch.nearest(teeth),)
 
 
-def _remedy(one: Teeth) -> str:
-    angles = {"swing": one.swing, "dwell": one.dwell, "rise": one.rise}
+def _remedy(choice: Teeth) -> str:
+    angles = {"swing": choice.swing, "dwell": choice.dwell, "rise": choice.rise}
     said = [f"{name} {degrees(value):.5g}" for name, value in angles.items() if value is not None]
-    said += [] if one.B2 is None else [f"B2 = {one.B2:.5g}"]
+    said += [] if choice.B2 is None else [f"B2 = {choice.B2:.5g}"]
     return " or ".join(said)
 
 
-def _plain(found: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: int) -> dict[str, Any]:
+def _plain(comparison: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: int) -> dict[str, Any]:
     return {
-        "chosen": found.chosen,
-        "by_rule": found.by_rule,
-        "reasons": dict(found.reasons),
-        "types": {kind: one.to_dict() for kind, one in found.mechanisms.items()},
+        "chosen": comparison.chosen,
+        "by_rule": comparison.by_rule,
+        "reasons": dict(comparison.reasons),
+        "types": {kind: mechanism.to_dict() for kind, mechanism in comparison.mechanisms.items()},
         "clutches": {
             kind: {
                 "ratio": clutch.ratio,
                 "teeth": [
-                    {"p": one.p, "N": one.N, "error": one.error, "swing": one.swing, "B2": one.B2}
-                    for one in _choices(clutch, teeth)
+                    {"p": choice.p, "N": choice.N, "error": choice.error, "swing": choice.swing, "B2": choice.B2}
+                    for choice in _choices(clutch, teeth)
                 ],
             }
             for kind, clutch in clutches.items()

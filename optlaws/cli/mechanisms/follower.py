@@ -94,13 +94,13 @@ def follower(
     response = mass.response(cam)
     if plot is not None and spectrum is not None:
         _draw(cam, reference, mass.damping, spectrum, plot)
-    found = _summary(mass, cam, reference, response)
+    summary = _summary(mass, cam, reference, response)
     if machine is not None:
-        found["machine"] = machine.response(cam).to_dict() | {"dynamic factor": found["dynamic_factor"]}
+        summary["machine"] = machine.response(cam).to_dict() | {"dynamic factor": summary["dynamic_factor"]}
     if as_json:
-        print_json(found)
+        print_json(summary)
     else:
-        _show(found)
+        _show(summary)
 
 
 Bare = tuple[float | None, float | None, float | None]
@@ -110,7 +110,7 @@ def _asked(
     nu: float | None, bare: Bare, quantities: dict[str, str | None], stroke: str | None, damping: float
 ) -> tuple[optlaws.Follower, optlaws.MachineFollower | None]:
     """The follower, and the machine that it is of, where a stroke is given."""
-    if any(one is not None for one in quantities.values()):
+    if any(quantity is not None for quantity in quantities.values()):
         if nu is not None or bare != _NONE:
             raise InputError("--frequency, --speed, --rise and --time are of a machine: give no --nu or numbers beside")
         machine = optlaws.machine_follower(stroke=stroke or "1 m", damping=damping, **quantities)
@@ -151,33 +151,33 @@ def _summary(
         "residual_acceleration": response.residual_acceleration,
         "off_design": [
             {
-                "percent": one.percent,
-                "nu": one.response.nu,
-                "dynamic_factor": one.dynamic_factor,
-                "residual_acceleration": one.response.residual_acceleration,
+                "percent": deviation.percent,
+                "nu": deviation.response.nu,
+                "dynamic_factor": deviation.dynamic_factor,
+                "residual_acceleration": deviation.response.residual_acceleration,
             }
-            for one in optlaws.off_design(cam, reference, mass)
+            for deviation in optlaws.off_design(cam, reference, mass)
         ],
         "cam": {"constants": cam.constants.to_dict(), "law": cam.to_dict()},
     }
 
 
-def _show(found: dict[str, Any]) -> None:
+def _show(summary: dict[str, Any]) -> None:
     facts = table()
-    facts.add_row("follower", f"nu {found['nu']:.8g}, damping ratio {found['damping']:g}")
-    facts.add_row("dynamic factor", f"{found['dynamic_factor']:.8g}")
+    facts.add_row("follower", f"nu {summary['nu']:.8g}, damping ratio {summary['damping']:g}")
+    facts.add_row("dynamic factor", f"{summary['dynamic_factor']:.8g}")
     for key, text in (("peak_acceleration", "in the rise"), ("dwell_acceleration", "in the dwell")):
-        peak = found[key]
+        peak = summary[key]
         facts.add_row(f"acceleration {text}", f"{peak['value']:.8g} at k = {peak['k']:.6g}")
-    facts.add_row("residual acceleration", f"{found['residual_acceleration']:.8g}")
-    facts.add_row("residual displacement", f"{found['residual_displacement']:.8g}")
-    cam = found["cam"]["constants"]
+    facts.add_row("residual acceleration", f"{summary['residual_acceleration']:.8g}")
+    facts.add_row("residual displacement", f"{summary['residual_displacement']:.8g}")
+    cam = summary["cam"]["constants"]
     facts.add_row("cam", ", ".join(f"{name} {_number(cam[name]['value'])}" for name in "BCDJ"))
     off = table("nu off by", "nu", "dynamic factor", "residual acceleration")
-    for one in found["off_design"]:
-        cells = (f"{one[key]:.6g}" for key in ("nu", "dynamic_factor", "residual_acceleration"))
-        off.add_row(f"{one['percent']:+g} %" if one["percent"] else "0 %", *cells)
-    for name, value in found.get("machine", {}).items():
+    for deviation in summary["off_design"]:
+        cells = (f"{deviation[key]:.6g}" for key in ("nu", "dynamic_factor", "residual_acceleration"))
+        off.add_row(f"{deviation['percent']:+g} %" if deviation["percent"] else "0 %", *cells)
+    for name, value in summary.get("machine", {}).items():
         if name != "dynamic factor":
             facts.add_row(name, f"{value:.6g}")
     show(facts, off)
@@ -197,13 +197,15 @@ def _draw(
 
     if not 0.0 < span[0] < span[1]:
         raise InputError(f"--spectrum takes a range of nu, two rising numbers above 0, got {span[0]:g} {span[1]:g}")
-    found = optlaws.response_spectrum(cam, np.linspace(*span, _POINTS), damping)
+    spectrum = optlaws.response_spectrum(cam, np.linspace(*span, _POINTS), damping)
     C = reference.constants.C.value
     with drawing.style():
         figure = drawing.figure()
         axes = figure.subplots()
-        drawing.draw_spectrum(found, axes, what="peak", over=C, color=drawing.BLUES[3], label="in the rise")
-        drawing.draw_spectrum(found, axes, over=C, color=drawing.WARM, linestyle="--", label="free vibration after it")
+        drawing.draw_spectrum(spectrum, axes, what="peak", over=C, color=drawing.BLUES[3], label="in the rise")
+        drawing.draw_spectrum(
+            spectrum, axes, over=C, color=drawing.WARM, linestyle="--", label="free vibration after it"
+        )
         axes.set(xlim=span, ylim=(0.0, None), ylabel="acceleration of the mass / C")
         axes.legend()
         writing.write(file, drawing.rendered(figure, file.suffix[1:]))

@@ -85,15 +85,15 @@ def lever(
         "most_rocker_swing": optlaws.deg(most_rocker_swing),
     }
     levers = _levers(beta, lam, wanted or [], given)
-    machines = [_machine(one.exact, inertia, stiffness, period, one.xi) for one in levers]
+    machines = [_machine(lever.exact, inertia, stiffness, period, lever.xi) for lever in levers]
     if output is not None:
         _save(output, levers)
     if as_json:
-        found = [_plain(one) | machine for one, machine in zip(levers, machines, strict=True)]
-        print_json(found[0] if wanted is None else {"levers": found})
+        plain = [_plain(lever) | machine for lever, machine in zip(levers, machines, strict=True)]
+        print_json(plain[0] if wanted is None else {"levers": plain})
         return
-    for one, machine in zip(levers, machines, strict=True):
-        _show(one, machine)
+    for lever, machine in zip(levers, machines, strict=True):
+        _show(lever, machine)
 
 
 def _levers(
@@ -134,24 +134,24 @@ def _machine(
     }
 
 
-def _plain(one: optlaws.TorsionLever) -> dict[str, Any]:
-    linkage = one.linkage
+def _plain(lever: optlaws.TorsionLever) -> dict[str, Any]:
+    linkage = lever.linkage
     return {
-        "beta": one.beta,
-        "lam": one.lam,
-        "rho": one.rho,
-        "nu": one.nu,
-        "swing": one.swing,
+        "beta": lever.beta,
+        "lam": lever.lam,
+        "rho": lever.rho,
+        "nu": lever.nu,
+        "swing": lever.swing,
         "alpha": linkage.alpha,
         "psi0": linkage.psi0,
         **{name: getattr(linkage, name) for name in "QPSR"},
-        **{name: getattr(one, name) for name in ("xi", "gamma01", "n", "q", "p", "T0")},
-        "twists": list(one.twists),
-        "twists_left": list(one.twists_left),
-        "exact": _motion(one.exact),
-        "asymptotic": _motion(one.asymptotic),
-        "errors": one.errors,
-        "law": one.law().to_dict(),
+        **{name: getattr(lever, name) for name in ("xi", "gamma01", "n", "q", "p", "T0")},
+        "twists": list(lever.twists),
+        "twists_left": list(lever.twists_left),
+        "exact": _motion(lever.exact),
+        "asymptotic": _motion(lever.asymptotic),
+        "errors": lever.errors,
+        "law": lever.law().to_dict(),
     }
 
 
@@ -165,13 +165,13 @@ def _save(file: Path, levers: tuple[optlaws.TorsionLever, ...]) -> None:
     save(file, {"law": levers[0].law().to_dict()})
 
 
-def _show(one: optlaws.TorsionLever, machine: dict[str, float]) -> None:
+def _show(lever: optlaws.TorsionLever, machine: dict[str, float]) -> None:
     facts = table()
-    linkage = one.linkage
-    facts.add_row("beta, lambda", f"{one.beta:.8g}, {one.lam:.8g}")
+    linkage = lever.linkage
+    facts.add_row("beta, lambda", f"{lever.beta:.8g}, {lever.lam:.8g}")
     facts.add_row("alpha, psi0", f"{linkage.alpha:.8g}, {degrees(linkage.psi0):.6g} deg")
-    facts.add_row("xi = c2/c1", f"{one.xi:.8g}")
-    for name, twist, left in zip(("1", "2"), one.twists, one.twists_left, strict=True):
+    facts.add_row("xi = c2/c1", f"{lever.xi:.8g}")
+    for name, twist, left in zip(("1", "2"), lever.twists, lever.twists_left, strict=True):
         slack = "" if left > 0.0 else ": slack"
         facts.add_row(
             f"twist of bar {name}", f"{degrees(twist):.6g} deg at rest, {degrees(left):.4g} deg at least{slack}"
@@ -179,20 +179,20 @@ def _show(one: optlaws.TorsionLever, machine: dict[str, float]) -> None:
     for name, value in machine.items():
         unit = "s" if name == "period_seconds" else "N m/rad"
         facts.add_row(name.replace("_", " ").replace(" seconds", ""), f"{value:.8g} {unit}")
-    show(facts, _compared(one))
+    show(facts, _compared(lever))
 
 
-def _compared(one: optlaws.TorsionLever) -> Table:
+def _compared(lever: optlaws.TorsionLever) -> Table:
     rows = table("", "exact", "asymptotic", "off by, %")
-    exact, asymptotic = _motion(one.exact), _motion(one.asymptotic)
-    rows.add_row("T, sqrt(I/c1)", f"{exact['T']:.8g}", f"{asymptotic['T']:.8g}", f"{100 * one.errors['T']:.2g}")
+    exact, asymptotic = _motion(lever.exact), _motion(lever.asymptotic)
+    rows.add_row("T, sqrt(I/c1)", f"{exact['T']:.8g}", f"{asymptotic['T']:.8g}", f"{100 * lever.errors['T']:.2g}")
     for name in (*_ANGLES, *_CONSTANTS):
         scale, unit = (degrees(1.0), ", deg") if name in _ANGLES else (1.0, "")
         rows.add_row(
             f"{name}{unit}",
             f"{scale * exact[name]:.8g}",
             f"{scale * asymptotic[name]:.8g}",
-            f"{100 * one.errors[name]:.2g}",
+            f"{100 * lever.errors[name]:.2g}",
         )
-    rows.add_row("max |da|", "", "", f"{100 * one.errors['max |da|']:.2g}")
+    rows.add_row("max |da|", "", "", f"{100 * lever.errors['max |da|']:.2g}")
     return rows

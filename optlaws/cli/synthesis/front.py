@@ -50,57 +50,59 @@ def front(
     """
     check_files(csv, plot=plot)
     problem, names = optlaws.Problem.from_dict(entries), tuple(apart(over))
-    found: optlaws.Front | optlaws.ProvenFront
+    front: optlaws.Front | optlaws.ProvenFront
     if gap is None:  # which shows its steps itself
-        found = optlaws.pareto_front(problem, names, points=points, between=between)
+        front = optlaws.pareto_front(problem, names, points=points, between=between)
     else:
         with busy("solving"):
-            found = optlaws.proven_front(problem, names, between=between, gap=gap)
-    headings, rows = _table(found, whole(points, "points", least=2))
+            front = optlaws.proven_front(problem, names, between=between, gap=gap)
+    headings, rows = _table(front, whole(points, "points", least=2))
     if csv is not None:
-        _save_table(found, csv, headings, rows)
+        _save_table(front, csv, headings, rows)
     if plot is not None:
-        save_picture(plot, found)
+        save_picture(plot, front)
     if as_json:
-        print_json(found.to_dict())
+        print_json(front.to_dict())
     else:
-        _show(found, headings, rows)
+        _show(front, headings, rows)
 
 
 Rows = list[list[Any]]
 
 
-def _table(found: optlaws.Front | optlaws.ProvenFront, points: int) -> tuple[tuple[str, ...], Rows]:
-    if isinstance(found, optlaws.Front):
-        return found.headings, found.rows
-    low, high = found.between
+def _table(front: optlaws.Front | optlaws.ProvenFront, points: int) -> tuple[tuple[str, ...], Rows]:
+    if isinstance(front, optlaws.Front):
+        return front.headings, front.rows
+    low, high = front.between
     values = [low + (high - low) * i / (points - 1) for i in range(points - 1)]
-    some = [found(value) for value in [*values, high]]
-    return (*found.over, "lower bound", "gap"), [[one.value, one.objective, one.lower_bound, one.gap] for one in some]
+    some = [front(value) for value in [*values, high]]
+    return (*front.over, "lower bound", "gap"), [
+        [point.value, point.objective, point.lower_bound, point.gap] for point in some
+    ]
 
 
-def _show(found: optlaws.Front | optlaws.ProvenFront, headings: tuple[str, ...], lines: Rows) -> None:
+def _show(front: optlaws.Front | optlaws.ProvenFront, headings: tuple[str, ...], lines: Rows) -> None:
     rows = table(*headings)
     for line in lines:
         rows.add_row(
             *(_cell(cell, ".0e" if name == "gap" else ".7g") for cell, name in zip(line, headings, strict=True))
         )
     show(rows)
-    if isinstance(found, optlaws.ProvenFront):
-        show(f"{found!r}")
+    if isinstance(front, optlaws.ProvenFront):
+        show(f"{front!r}")
         return
-    if found.failed:
-        values = ", ".join(f"{value:.6g}" for value in found.failed)
-        show(f"no law was found at {found.over[0]} = {values}")
+    if front.failed:
+        values = ", ".join(f"{value:.6g}" for value in front.failed)
+        show(f"no law was found at {front.over[0]} = {values}")
 
 
 def _cell(cell: float | str | None, form: str) -> str:
     return "" if cell is None else cell if isinstance(cell, str) else format(cell, form)
 
 
-def _save_table(found: optlaws.Front | optlaws.ProvenFront, file: Path, headings: tuple[str, ...], lines: Rows) -> None:
+def _save_table(front: optlaws.Front | optlaws.ProvenFront, file: Path, headings: tuple[str, ...], lines: Rows) -> None:
     from optlaws.files import tables, writing
 
-    problem = found[0].problem if isinstance(found, optlaws.Front) else found.problem
-    about = f"{' and '.join(found.over)} exchanged: {problem!r}"
+    problem = front[0].problem if isinstance(front, optlaws.Front) else front.problem
+    about = f"{' and '.join(front.over)} exchanged: {problem!r}"
     writing.write(file, tables.to_csv(headings, lines, about=about))

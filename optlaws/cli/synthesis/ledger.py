@@ -50,18 +50,30 @@ def ledger(
     with busy(f"{len(asked)} items"):
         judged = [judge(item, name, source.parent) for name, item in asked]
     if as_json:
-        print_json([one.to_dict() for one in judged])
+        print_json([judgement.to_dict() for judgement in judged])
     else:
         _show(judged)
-    broken = [f"{one.paper} {one.item.id}: declared {one.item.verdict!s}, found {one.verdict!s}" for one in judged]
-    if not all(one.holds for one in judged):
-        raise NotProven("\n".join(text for one, text in zip(judged, broken, strict=True) if not one.holds))
+    broken = [
+        f"{judgement.paper} {judgement.item.id}: declared {judgement.item.verdict!s}, found {judgement.verdict!s}"
+        for judgement in judged
+    ]
+    if not all(judgement.holds for judgement in judged):
+        raise NotProven("\n".join(text for judgement, text in zip(judged, broken, strict=True) if not judgement.holds))
 
 
 def _show(judged: list[Judged]) -> None:
     rows = table("paper", "item", "kind", "printed", "computed", "verdict")
-    for one in judged:
-        computed = "" if one.computed is None else f"{one.computed:.10g}"
-        rows.add_row(one.paper, one.item.id, one.item.kind, one.item.printed, computed, str(one.verdict))
-    told = [f"{one.item.id}: {why}" for one in judged if (why := one.item.reason or one.item.lost)]
+    for judgement in judged:
+        computed = "" if judgement.computed is None else f"{judgement.computed:.10g}"
+        rows.add_row(
+            judgement.paper,
+            judgement.item.id,
+            judgement.item.kind,
+            judgement.item.printed,
+            computed,
+            str(judgement.verdict),
+        )
+    told = [
+        f"{judgement.item.id}: {why}" for judgement in judged if (why := judgement.item.reason or judgement.item.lost)
+    ]
     show(rows, *told, f"{len(judged)} items")

@@ -59,7 +59,9 @@ def _show(solution: optlaws.Solution) -> None:
     if solution.starts:
         facts.add_row("starts", f"{len(solution.starts)}, from {solution.starts[0]:.10g} to {solution.starts[-1]:.10g}")
     if solution.z is not None:
-        facts.add_row("Z(k)", " ".join(f"{one:.9g}" for one in solution.z) + f"  ({solution.problem.basis.name})")
+        facts.add_row(
+            "Z(k)", " ".join(f"{coefficient:.9g}" for coefficient in solution.z) + f"  ({solution.problem.basis.name})"
+        )
     facts.add_row("solved", f"{solution.problem!r}")
     facts.add_row("", f"{solution.iterations} iterations of IPOPT, {1e3 * solution.seconds:.0f} ms")
     show(facts, constants_table(solution.constants), *_remarks(solution))
@@ -73,9 +75,9 @@ def _remarks(solution: optlaws.Solution) -> list[str]:
     from optlaws.cycles.side_by_side import costs
 
     usual = optlaws.catalogue[_USUAL].law
-    found = costs(solution.law, usual, _USUAL, nu=_FREQUENCIES)
+    prices = costs(solution.law, usual, _USUAL, nu=_FREQUENCIES)
     low, high = _FREQUENCIES
     return [
         f"note: the least C alone has {text}" + (f" (worst of nu {low:g} to {high:g})" if "residual" in text else "")
-        for text in found
-    ] + (["bound what matters, for example by --most-jerk"] if found else [])
+        for text in prices
+    ] + (["bound what matters, for example by --most-jerk"] if prices else [])

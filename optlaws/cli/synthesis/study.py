@@ -59,8 +59,8 @@ def study(
     console = progress()
     watch = Bar(console) if console.is_terminal else Lines(console)
     with _cluster(dask) as (executor, threads):
-        found = optlaws.run_study(file, target, executor=executor, workers=workers or threads, watch=watch)
-    _show(found, as_json=as_json)
+        study = optlaws.run_study(file, target, executor=executor, workers=workers or threads, watch=watch)
+    _show(study, as_json=as_json)
 
 
 @contextmanager
@@ -82,16 +82,16 @@ def _cluster(address: str | None) -> Iterator[tuple[Executor | None, int | None]
         yield client.get_executor(), max(1, sum(client.nthreads().values()))
 
 
-def _show(found: Study, *, as_json: bool) -> None:
+def _show(study: Study, *, as_json: bool) -> None:
     from optlaws.studies.progress import listed
 
-    counts, total, running = found.counts, len(found), found.running
+    counts, total, running = study.counts, len(study), study.running
     done = sum(counts.values())
     if as_json:
-        state = {"path": str(found.path), "points": total, "done": done, "running": running, "counts": counts}
-        print_json({**found.about, **state})
+        state = {"path": str(study.path), "points": total, "done": done, "running": running, "counts": counts}
+        print_json({**study.about, **state})
         return
     state_in_words = (
         "finished" if done == total else "under way" if running else "interrupted: run the same command again"
     )
-    show(f"{found.path}: {done} of {total} points, {state_in_words}", *([listed(counts)] if counts else []))
+    show(f"{study.path}: {done} of {total} points, {state_in_words}", *([listed(counts)] if counts else []))

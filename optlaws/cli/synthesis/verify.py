@@ -30,14 +30,22 @@ def verify(*files: Path, as_json: AsJson = False) -> None:
 
     if not files:
         raise InputError("name at least one file that `optlaws solve --output FILE` wrote")
-    found = {_name(file, place): one for file in files for place, one in verify_all(file).items()}
+    verifications = {
+        _name(file, place): verification for file in files for place, verification in verify_all(file).items()
+    }
     if as_json:
-        print_json({name: one.to_dict() for name, one in found.items()})
+        print_json({name: verification.to_dict() for name, verification in verifications.items()})
     else:
-        for name, one in found.items():
-            word = "proven" if one.proven else "NOT PROVEN"
-            print(f"{name}: {word}\n{one}\n" if len(found) == len(files) else _line(name, word, one))  # noqa: T201
-    failed = [f"{name}: {claim}" for name, one in found.items() for claim in one.claims if not claim.proven]
+        for name, verification in verifications.items():
+            word = "proven" if verification.proven else "NOT PROVEN"
+            alone = len(verifications) == len(files)
+            print(f"{name}: {word}\n{verification}\n" if alone else _line(name, word, verification))  # noqa: T201
+    failed = [
+        f"{name}: {claim}"
+        for name, verification in verifications.items()
+        for claim in verification.claims
+        if not claim.proven
+    ]
     if failed:
         raise NotProven("\n".join(failed))
 
@@ -46,7 +54,7 @@ def _name(file: Path, place: str) -> str:
     return f"{file}: {place}" if place else str(file)
 
 
-def _line(name: str, word: str, one: Verification) -> str:
-    bound = "" if one.bound is None else f", no law below {one.bound!r}"
-    gap = "" if one.gap is None else f", gap at most {one.gap:.1e}"
-    return f"{name}: {word}, {len(one.claims)} claims{bound}{gap}"
+def _line(name: str, word: str, verification: Verification) -> str:
+    bound = "" if verification.bound is None else f", no law below {verification.bound!r}"
+    gap = "" if verification.gap is None else f", gap at most {verification.gap:.1e}"
+    return f"{name}: {word}, {len(verification.claims)} claims{bound}{gap}"

@@ -155,7 +155,7 @@ def _in(motion: PiecewiseMotion, name: str, *, single: bool) -> str:
         "six": f"6.0{suffix}",
     }
     functions = _FUNCTIONS.format(**texts)
-    functions += "".join(_ONE.format(**texts, quantity=one, nu=nu) for nu, one in enumerate(QUANTITIES))
+    functions += "".join(_ONE.format(**texts, quantity=quantity, nu=nu) for nu, quantity in enumerate(QUANTITIES))
     return f"{_tables(run, texts['kind'], name + '_{}' + f, suffix)}\n{functions}"
 
 

@@ -80,7 +80,7 @@ def error_bounds(motion: PiecewiseMotion, arithmetic: Arithmetic = DOUBLE) -> tu
     Examples
     --------
     >>> motion = PiecewiseMotion([0.0, 1.0], [[0.0, 0.0, 3.0, -2.0]])
-    >>> [f"{one:.1e}" for one in error_bounds(motion)]
+    >>> [f"{bound:.1e}" for bound in error_bounds(motion)]
     ['7.2e-15', '1.7e-14', '2.6e-14', '1.7e-14']
     """
     run = held(motion, arithmetic)
@@ -94,7 +94,7 @@ def error_bounds(motion: PiecewiseMotion, arithmetic: Arithmetic = DOUBLE) -> tu
         for nu in range(ORDERS):
             error = gamma * _magnitude(row, length, nu) + _magnitude(missed, length, nu)
             bounds[nu] = max(bounds[nu], error + _underflow(run.degree, length, nu, arithmetic))
-    return tuple(_up(one) for one in bounds)
+    return tuple(_up(bound) for bound in bounds)
 
 
 def _moved(motion: PiecewiseMotion, breaks: tuple[float, ...]) -> list[list[Fraction]]:

@@ -47,10 +47,10 @@ def heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequence[Arith
         *labels.notes,
         *(_peaks(motion, nu, labels.unit(nu)) for nu in range(len(QUANTITIES))),
     ]
-    for one in arithmetics:
-        bounds = error_bounds(motion, one)
+    for arithmetic in arithmetics:
+        bounds = error_bounds(motion, arithmetic)
         said = ", ".join(f"{rounded_up(bound)} {labels.unit(nu)}" for nu, bound in enumerate(bounds))
-        lines += [f"rounding in {one.name}, proven, at most: {said}"]
+        lines += [f"rounding in {arithmetic.name}, proven, at most: {said}"]
     return lines
 
 

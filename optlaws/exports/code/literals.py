@@ -50,11 +50,11 @@ def safe(lines: Iterable[str]) -> list[str]:
     >>> safe(["a */ b (* c *)", "two" + chr(10) + "lines"])
     ['a * / b ( * c * )', 'two', 'lines']
     """
-    found: list[str] = []
+    printable: list[str] = []
     for line in lines:
         for part in line.splitlines() or [""]:
-            one = part
+            text = part
             for mark in ("*/", "/*", "(*", "*)", "//", "??"):
-                one = one.replace(mark, f"{mark[0]} {mark[1]}")
-            found.append("".join(c if c.isprintable() else "?" for c in one.rstrip("\\ ")))
-    return found
+                text = text.replace(mark, f"{mark[0]} {mark[1]}")
+            printable.append("".join(c if c.isprintable() else "?" for c in text.rstrip("\\ ")))
+    return printable

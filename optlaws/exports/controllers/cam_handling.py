@@ -27,10 +27,10 @@ def _write_elements(motion: Motion, request: Request) -> Written:
     made = asked(motion, request, 5, SEGMENTS)
     ends = ends_of(motion, made.run, 3)
     rows = [
-        fields(**_bounds(one), camProfileType=_profile(row))
-        for one, row in zip(ends, made.run.coefficients, strict=True)
+        fields(**_bounds(end), camProfileType=_profile(row))
+        for end, row in zip(ends, made.run.coefficients, strict=True)
     ]
-    run = PiecewiseMotion(made.run.breaks, [_quintic(one) for one in ends])
+    run = PiecewiseMotion(made.run.breaks, [_quintic(end) for end in ends])
     notes = (made.said(motion.units.slave), f"{len(rows)} of the {SEGMENTS} segments of the TO")
     text = _configuration(name, "LCamHdl_typeAdvancedElement", rows, motion, (run, notes))
     return Written(text, run, "quintic polynomials by their ends", len(rows), "segments", notes=notes)
@@ -41,10 +41,10 @@ def _write_polynomials(motion: Motion, request: Request) -> Written:
     made = asked(motion, request, 6, SEGMENTS)
     ends = ends_of(motion, made.run, 4)
     rows = [
-        fields(**_bounds(one), geoJerkStart=one.first[3], camProfileType=ADD_POLY, polynomialMode=START_JERK)
-        for one in ends
+        fields(**_bounds(end), geoJerkStart=end.first[3], camProfileType=ADD_POLY, polynomialMode=START_JERK)
+        for end in ends
     ]
-    run = PiecewiseMotion(made.run.breaks, [_sixth(one) for one in ends])
+    run = PiecewiseMotion(made.run.breaks, [_sixth(end) for end in ends])
     notes = (made.said(motion.units.slave), f"{len(rows)} of the {SEGMENTS} segments of the TO")
     text = _configuration(name, "LCamHdl_typePolynomialElement", rows, motion, (run, notes))
     return Written(
@@ -52,17 +52,17 @@ def _write_polynomials(motion: Motion, request: Request) -> Written:
     )
 
 
-def _bounds(one: Ends) -> dict[str, object]:
+def _bounds(ends: Ends) -> dict[str, object]:
     """The fields that elements of all kinds have."""
     return {
-        "leadingValueStart": one.x[0],
-        "leadingValueEnd": one.x[1],
-        "followingValueStart": one.first[0],
-        "followingValueEnd": one.last[0],
-        "geoVeloStart": one.first[1],
-        "geoVeloEnd": one.last[1],
-        "geoAccelStart": one.first[2],
-        "geoAccelEnd": one.last[2],
+        "leadingValueStart": ends.x[0],
+        "leadingValueEnd": ends.x[1],
+        "followingValueStart": ends.first[0],
+        "followingValueEnd": ends.last[0],
+        "geoVeloStart": ends.first[1],
+        "geoVeloEnd": ends.last[1],
+        "geoAccelStart": ends.first[2],
+        "geoAccelEnd": ends.last[2],
     }
 
 
@@ -71,15 +71,15 @@ def _profile(row: Sequence[float]) -> int:
     return POLY_5 if degree > 1 else (DWELL, CONST_VELO)[degree]
 
 
-def _quintic(one: Ends) -> list[float]:
+def _quintic(ends: Ends) -> list[float]:
     """The quintic with the values of both ends."""
-    return list(hermite_powers(np.array(one.x), np.array([one.first[:3], one.last[:3]]).T)[0].tolist())
+    return list(hermite_powers(np.array(ends.x), np.array([ends.first[:3], ends.last[:3]]).T)[0].tolist())
 
 
-def _sixth(one: Ends) -> list[float]:
+def _sixth(ends: Ends) -> list[float]:
     """The quintic of the ends and so much of u³ (1 - u)³ that the jerk at the start is as told."""
-    quintic, length = _quintic(one), one.x[1] - one.x[0]
-    share = one.first[3] / 6.0 - quintic[3]
+    quintic, length = _quintic(ends), ends.x[1] - ends.x[0]
+    share = ends.first[3] / 6.0 - quintic[3]
     bump = {3: share, 4: -3.0 * share / length, 5: 3.0 * share / length**2, 6: -share / length**3}
     return [c + bump.get(n, 0.0) for n, c in enumerate([*quintic, 0.0])]
 
@@ -88,7 +88,7 @@ def _write_points(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "SIMATIC AX")
     made = _smooth(motion, asked(motion, request, 5, SEGMENTS, points=True))
     ends = ends_of(motion, made.run, 3)
-    values = np.array([*(one.first for one in ends), ends[-1].last]).T
+    values = np.array([*(end.first for end in ends), ends[-1].last]).T
     run = PiecewiseMotion(made.run.breaks, hermite_powers(np.array(made.run.breaks), values))
     rows = [
         fields(leadingValue=x, followingValue=y, velocityRatio=v, accelerationRatio=a)

@@ -25,7 +25,7 @@ def _write(motion: Motion, request: Request, *, third: bool) -> Written:
     made = _shared(motion, request)
     degrees = [5 if len(row) <= 6 or not any(row[6:]) else 7 for row in made.run.coefficients]
     ends = ends_of(motion, made.run, 4)
-    values = np.array([*(one.first for one in ends), ends[-1].last]).T
+    values = np.array([*(end.first for end in ends), ends[-1].last]).T
     run = _run(made.run.breaks, values, degrees)
     rows = [
         (_of_mc3 if third else _of_nc2)(i, x, values[:, i].tolist(), degree)

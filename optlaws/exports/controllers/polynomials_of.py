@@ -75,7 +75,7 @@ def fields(**values: object) -> str:
     >>> fields(PointIndex=1, MasterPos=0.5)
     'PointIndex := 1, MasterPos := 0.5'
     """
-    texts = ((name, real(one) if isinstance(one, float) else str(one)) for name, one in values.items())
+    texts = ((name, real(value) if isinstance(value, float) else str(value)) for name, value in values.items())
     return ", ".join(f"{name} := {text}" for name, text in texts)
 
 
@@ -112,12 +112,12 @@ def ends_of(motion: Motion, run: PiecewiseMotion, orders: int) -> list[Ends]:
         lasts.append(np.where(np.abs(known - own) <= rounding(run, nu), known, own).tolist())
         firsts.append(first.tolist())
     places = zip(run.breaks, run.breaks[1:], strict=False)
-    return [Ends(*one) for one in zip(places, zip(*firsts, strict=True), zip(*lasts, strict=True), strict=True)]
+    return [Ends(*joint) for joint in zip(places, zip(*firsts, strict=True), zip(*lasts, strict=True), strict=True)]
 
 
 def rounding(run: PiecewiseMotion, nu: int) -> float:
     """The greatest leap of the derivative of order nu that is no more than rounding."""
-    size = max(abs(one.value) for one in run.extremes(nu))
+    size = max(abs(extreme.value) for extreme in run.extremes(nu))
     # positions are rounded, and what is left of that in a derivative grows as pieces get shorter
     return float(max(_ROUNDING * size, 2.0**-44 * run.peak(0).value / float(run.lengths.min()) ** nu))
 

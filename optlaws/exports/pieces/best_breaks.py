@@ -89,8 +89,8 @@ def best_breaks(law: MotionLaw, degree: int = 7, most: int = MOST) -> BestBreaks
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> found = best_breaks(smoothstep(5), degree=7)
-    >>> len(found.breaks) - 1, abs(found.ratio - 1) <= 1e-3, [one.count for one in found.tried]
+    >>> best = best_breaks(smoothstep(5), degree=7)
+    >>> len(best.breaks) - 1, abs(best.ratio - 1) <= 1e-3, [attempt.count for attempt in best.tried]
     (3, True, [1, 2, 3])
     """
     orders = (whole(degree, "degree", least=3, most=9) + 1) // 2
@@ -154,16 +154,16 @@ class Search:
 
     def _best(self, count: int) -> tuple[float, float, Array]:
         even = self._placed(np.ones(count))
-        found: list[tuple[float, Array]] = [(self.ratio(even), even)]
-        first = found[0][0]
+        tried: list[tuple[float, Array]] = [(self.ratio(even), even)]
+        first = tried[0][0]
         for grading in _GRADINGS if abs(first - 1.0) > HIGHER and count > 1 else ():
-            self._descend(count, grading, found)
-            if abs(found[-1][0] - 1.0) <= HIGHER:
+            self._descend(count, grading, tried)
+            if abs(tried[-1][0] - 1.0) <= HIGHER:
                 break
-        ratio, breaks = min(found, key=lambda one: abs(one[0] - 1.0))
+        ratio, breaks = min(tried, key=lambda pair: abs(pair[0] - 1.0))
         return first, ratio, breaks
 
-    def _descend(self, count: int, grading: float, found: list[tuple[float, Array]]) -> None:
+    def _descend(self, count: int, grading: float, tried: list[tuple[float, Array]]) -> None:
         from scipy.optimize import minimize
 
         half = (count + 1) // 2 if self._symmetric else count
@@ -175,8 +175,8 @@ class Search:
         def off(logarithms: Array) -> float:
             breaks = self._placed(lengths(np.clip(logarithms, -6.0, 6.0)))
             ratio = self.ratio(breaks)
-            if abs(ratio - 1.0) < abs(found[-1][0] - 1.0) or len(found) == 1:
-                found.append((ratio, breaks))
+            if abs(ratio - 1.0) < abs(tried[-1][0] - 1.0) or len(tried) == 1:
+                tried.append((ratio, breaks))
             if abs(ratio - 1.0) <= HIGHER:
                 raise _Enough
             return abs(ratio - 1.0)

@@ -178,22 +178,24 @@ def fitted(
     True
     """
     orders = (degree + 1) // 2
-    pairs = [(piece, one) for piece in motion.pieces for one in _of(piece, degree, whole=laid is not None)]
+    pairs = [
+        (piece, own_stretch) for piece in motion.pieces for own_stretch in _of(piece, degree, whole=laid is not None)
+    ]
     parts = [_Part(0.0, i, piece, stretch) for i, (piece, stretch) in enumerate(pairs)]
     if len(parts) > (most if count is None else count):
         raise InputError(f"the motion has {len(parts)} pieces of its own, {_asked(most, count)}: export its parts")
-    open_parts = [one for one in parts if one.stretch.own is None]
+    open_parts = [part for part in parts if part.stretch.own is None]
     peak = motion.peak(2) if open_parts else 0.0
     if not np.isfinite(peak):
         raise InputError("the acceleration of the motion has no bound, as where the velocity leaps: smooth it first")
-    for one in open_parts:
+    for part in open_parts:
         if laid is None:
-            one.split(orders, peak, near)
+            part.split(orders, peak, near)
         else:
-            one.run = laid(one.piece)
+            part.run = laid(part.piece)
     if laid is None:
         left = (most if count is None else count) - len(parts)
-        _divide(open_parts, left, count, lambda one: one.split(orders, peak, near))
+        _divide(open_parts, left, count, lambda part: part.split(orders, peak, near))
     made = _joined(motion, parts)
     if made.count > most:
         raise InputError(f"{made.count} pieces are needed, and the target holds {most}: export the motion in parts")
@@ -214,10 +216,10 @@ def exactly(motion: Motion, degree: int) -> Fitted | None:
     >>> made.exact, made.count, made.run.degree
     (True, 6, 17)
     """
-    pairs = [(piece, one) for piece in motion.pieces for one in _of(piece, degree, whole=False)]
-    if any(one.own is None for _, one in pairs):
+    pairs = [(piece, stretch) for piece in motion.pieces for stretch in _of(piece, degree, whole=False)]
+    if any(stretch.own is None for _, stretch in pairs):
         return None
-    cut = ((piece, part) for piece, one in pairs for part in _cut(one))
+    cut = ((piece, part) for piece, stretch in pairs for part in _cut(stretch))
     return _joined(motion, [_Part(0.0, i, piece, part) for i, (piece, part) in enumerate(cut)])
 
 
@@ -263,8 +265,8 @@ def _joined(motion: Motion, parts: Sequence[_Part]) -> Fitted:
             rows.append([Fraction(piece.stroke) * c / Fraction(piece.duration) ** n for n, c in enumerate(powers)])
             rows[-1][0] += height
     run = from_exact([*breaks, Fraction(motion.stop)], rows)
-    own = all(one.run is None for one in parts)
-    position, acceleration = (max(one.off(nu) for one in parts) for nu in (0, 2))
+    own = all(stretch.run is None for stretch in parts)
+    position, acceleration = (max(stretch.off(nu) for stretch in parts) for nu in (0, 2))
     return Fitted(run, own, position, acceleration)
 
 
@@ -284,8 +286,8 @@ def _of(piece: Piece, degree: int, *, whole: bool) -> list[Stretch]:
     law = piece.law
     if not is_polynomial(law):
         return [Stretch(law, ends) for ends in ([(0.0, 1.0)] if whole else pairwise(law.breaks))]
-    found = [
+    parts = [
         Stretch(law, (float(low), float(high)), tuple(powers) if len(powers) <= degree + 1 else None)
         for low, high, powers in stretches(law)
     ]
-    return [Stretch(law, (0.0, 1.0))] if whole and any(one.own is None for one in found) else found
+    return [Stretch(law, (0.0, 1.0))] if whole and any(stretch.own is None for stretch in parts) else parts

@@ -32,7 +32,7 @@ def is_polynomial(law: MotionLaw) -> bool:
     (True, False)
     """
     if isinstance(law, PiecewiseLaw):
-        return all(isinstance(one, PolynomialSegment) for one in law.segments)
+        return all(isinstance(segment, PolynomialSegment) for segment in law.segments)
     return isinstance(law, PolynomialLaw)
 
 
@@ -63,9 +63,9 @@ def polynomials_of_law(
     ((0.0, 0.0, 0.375, -0.125),)
     """
     height, duration = Fraction(finite(stroke, "stroke")), Fraction(positive(time, "time"))
-    found = [part for one in stretches(law) for part in _tame(one, cancelled)]
-    rows = [[height * a / duration**n for n, a in enumerate(powers)] for _, _, powers in found]
-    return from_exact([duration * k for k in (found[0][0], *(last for _, last, _ in found))], rows)
+    tame = [part for stretch in stretches(law) for part in _tame(stretch, cancelled)]
+    rows = [[height * a / duration**n for n, a in enumerate(powers)] for _, _, powers in tame]
+    return from_exact([duration * k for k in (tame[0][0], *(last for _, last, _ in tame))], rows)
 
 
 def _tame(stretch: Stretch, cancelled: float) -> Iterator[Stretch]:
@@ -106,15 +106,15 @@ def stretches(law: MotionLaw) -> Iterator[Stretch]:
         yield Fraction(0), Fraction(1), law.exact_powers()
     if isinstance(law, PiecewiseLaw):
         height = Fraction(law.a0)
-        for one, ends in zip(law.segments, pairwise(map(Fraction, law.breaks)), strict=True):
-            assert isinstance(one, PolynomialSegment)  # noqa: S101 - said above
-            powers = _powers(one, ends[1] - ends[0], height)
+        for segment, ends in zip(law.segments, pairwise(map(Fraction, law.breaks)), strict=True):
+            assert isinstance(segment, PolynomialSegment)  # noqa: S101 - said above
+            powers = _powers(segment, ends[1] - ends[0], height)
             yield *ends, powers
             height = sum((a * (ends[1] - ends[0]) ** n for n, a in enumerate(powers)), Fraction(0))
 
 
 def _powers(segment: PolynomialSegment, length: Fraction, height: Fraction) -> list[Fraction]:
     """Powers of k less the segment's start, of the displacement."""
-    acceleration = exact.exact_powers([Fraction(one) for one in segment.acceleration])
-    steps = [one / (length**n * (n + 1) * (n + 2)) for n, one in enumerate(acceleration)]
+    acceleration = exact.exact_powers([Fraction(coefficient) for coefficient in segment.acceleration])
+    steps = [power / (length**n * (n + 1) * (n + 2)) for n, power in enumerate(acceleration)]
     return [height, Fraction(segment.b0), *steps]

@@ -50,7 +50,7 @@ def pieces_of_motion(motion: Motion, tolerance: float = TOLERANCE) -> PiecewiseM
     --------
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_law(smoothstep(2), stroke="35 mm", time="0.1 s")
-    >>> [round(one, 6) for one in pieces_of_motion(motion).coefficients[0]]
+    >>> [round(coefficient, 6) for coefficient in pieces_of_motion(motion).coefficients[0]]
     [0.0, 0.0, 10500.0, -70000.0]
     """
     share = positive(tolerance, "tolerance")
@@ -78,7 +78,7 @@ def _of_piece(piece: Piece, tolerance: float) -> PiecewiseMotion:
         cancelled = max(tolerance / (_ROUNDING * abs(piece.stroke)), _LEAST)
         return _moved(polynomials_of_law(piece.law, piece.stroke, piece.duration, cancelled=cancelled), piece)
     stretches = [Stretch(piece.law, ends) for ends in pairwise(piece.law.breaks)]
-    near = reduce(PiecewiseMotion.then, (_near(one, tolerance / abs(piece.stroke)) for one in stretches))
+    near = reduce(PiecewiseMotion.then, (_near(stretch, tolerance / abs(piece.stroke)) for stretch in stretches))
     return _moved(near.in_units(piece.duration, piece.stroke), piece)
 
 

@@ -49,7 +49,7 @@ def _xy(motion: Motion, request: Request) -> Written:
 
     table = chosen(motion, request, make, least=2, most=STANDARD[-1])
     count = len(table.x)
-    size = next(one for one in STANDARD if one >= count)
+    size = next(standard for standard in STANDARD if standard >= count)
     rows = [f"[{real(x)}, {real(y)}]" for x, y in zip(table.x.tolist(), table.values[0].tolist(), strict=True)]
     last = [rows[-1]] * (size - count)
     extent = [table.x[0], table.x[-1], table.values[0].min(), table.values[0].max()]

@@ -61,7 +61,7 @@ def profile_motion(rows: Sequence[Sequence[int]]) -> PiecewiseMotion:
 
 
 def _row(x: float, y: float, kind: int, constants: Sequence[float]) -> list[int]:
-    return [CALCULATED, *_halves(x), *_halves(y), kind, *(half for one in constants for half in _halves(one))]
+    return [CALCULATED, *_halves(x), *_halves(y), kind, *(half for constant in constants for half in _halves(constant))]
 
 
 def _halves(value: float) -> tuple[int, ...]:
@@ -96,7 +96,9 @@ def _array(motion: Motion, request: Request, *, single: bool) -> Written:
     name = iec_name(request.name, "Logix")
     table = _table(motion, request, single=single)
     kind = SEGMENT_TYPES[_interpolation(request)]
-    start, end = (real(float(one), single=single) for one in Held(single=single).numbers(np.array(motion.ends(1))))
+    start, end = (
+        real(float(number), single=single) for number in Held(single=single).numbers(np.array(motion.ends(1)))
+    )
     rows = [
         f"{name}[{i}].Master := {real(x, single=single)}; {name}[{i}].Slave := {real(y, single=single)}; "
         f"{name}[{i}].SegmentType := {kind};"

@@ -44,7 +44,7 @@ def _in_si(motion: Motion) -> Motion:
     """In m or rad, as ROS has them."""
     dimension, unit = ("angle", "rad") if _is_angle(motion.units.slave) else ("length", "m")
     size = quantity(f"1 {motion.units.slave}", dimension, "slave")
-    pieces = tuple(replace(one, offset=size * one.offset, stroke=size * one.stroke) for one in motion.pieces)
+    pieces = tuple(replace(piece, offset=size * piece.offset, stroke=size * piece.stroke) for piece in motion.pieces)
     return replace(motion, pieces=pieces, units=Units("s", unit, 1.0))
 
 

@@ -58,15 +58,15 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         for kind in KINDS
     }
     rows: list[list[tables.Cell]] = []
-    for kind, one in types.items():
+    for kind, mechanism in types.items():
         place = 0.0
-        for section in one.sections:
+        for section in mechanism.sections:
             rows.append(
                 [kind, section.name, degrees(place), degrees(place + section.angle), round(section.travel, 12) + 0.0]
             )
             place += section.angle
     figures = {"mechanism": draw_cams(types), "motion": draw_motions(types)}
-    said = "; ".join(f"{kind}: a = {one.a:.5g}, b = {one.b:.5g}" for kind, one in types.items())
+    said = "; ".join(f"{kind}: a = {mechanism.a:.5g}, b = {mechanism.b:.5g}" for kind, mechanism in types.items())
     page = Page(spec.title).text(f"Law {spec.law}; {said}.")
     page.figure("mechanism", "The cams").figure("motion", "The motions")
     page.text("Cam angles in degrees, ways of the rocker in strokes of the executive link.").table(HEADINGS, rows)
@@ -91,11 +91,11 @@ def draw_cams(types: Mapping[str, DwellMechanism]) -> Figure:
     """The executive cam and the balancing cams of the types, to one scale."""
     angles = np.linspace(0.0, tau, _SAMPLES)
     radii = {"executive cam": _executive(next(iter(types.values())), angles)}
-    for kind, one in types.items():
-        k = np.clip(angles / one.cycle, 0.0, 1.0)
-        ways = one.motion.a(k)
-        radii[f"type {kind}, a = {one.a:.3g}"] = one.radius_ratio + ways - ways.min()
-    apart = 2.0 * max(float(one.max()) for one in radii.values()) + 0.5
+    for kind, mechanism in types.items():
+        k = np.clip(angles / mechanism.cycle, 0.0, 1.0)
+        ways = mechanism.motion.a(k)
+        radii[f"type {kind}, a = {mechanism.a:.3g}"] = mechanism.radius_ratio + ways - ways.min()
+    apart = 2.0 * max(float(values.max()) for values in radii.values()) + 0.5
     with drawing.style():
         figure = drawing.figure(11.0, 3.6)
         axes = figure.subplots()
@@ -123,40 +123,42 @@ def draw_motions(types: Mapping[str, DwellMechanism]) -> Figure:
     with drawing.style():
         figure = drawing.figure(9.6, 6.4)
         panels = figure.subplots(len(types), 2, sharex=True, squeeze=False)
-        for (kind, one), (left, right) in zip(types.items(), panels, strict=True):
+        for (kind, mechanism), (left, right) in zip(types.items(), panels, strict=True):
             k = np.linspace(0.0, 1.0, 1601)
-            place = k * degrees(one.cycle)
-            _sections(left, one)
-            _sections(right, one)
-            left.plot(place, one.motion.a(k), color=drawing.GREEN)
-            ways = _executive(one, np.deg2rad(place)) - one.radius_ratio
+            place = k * degrees(mechanism.cycle)
+            _sections(left, mechanism)
+            _sections(right, mechanism)
+            left.plot(place, mechanism.motion.a(k), color=drawing.GREEN)
+            ways = _executive(mechanism, np.deg2rad(place)) - mechanism.radius_ratio
             left.plot(place, ways, color=drawing.BLUES[3], linestyle="--")
-            right.plot(place, one.motion.b(k) / one.cycle, color=drawing.GREEN)
+            right.plot(place, mechanism.motion.b(k) / mechanism.cycle, color=drawing.GREEN)
             left.set_title(f"type {kind}")
             left.set_ylabel("way (S)")
             right.set_ylabel("speed (S per radian)")
-            left.set(xlim=(0.0, degrees(one.cycle)), xticks=np.arange(0.0, degrees(one.cycle) + 1.0, 45.0))
+            left.set(xlim=(0.0, degrees(mechanism.cycle)), xticks=np.arange(0.0, degrees(mechanism.cycle) + 1.0, 45.0))
         for axes in panels[-1]:
             axes.set_xlabel("cam angle (degrees)")
         lines = panels[0][0].lines[:2]
-        used = [name for name in SHADES if any(name == s.name for one in types.values() for s in one.sections)]
+        used = [
+            name for name in SHADES if any(name == s.name for mechanism in types.values() for s in mechanism.sections)
+        ]
         patches = [Patch(facecolor=SHADES[name]) for name in used]
         labels = ["loader's rocker", "executive link", *used]
         figure.legend([*lines, *patches], labels, loc="outside lower center", ncols=4)
         return figure
 
 
-def _sections(axes: Axes, one: DwellMechanism) -> None:
+def _sections(axes: Axes, mechanism: DwellMechanism) -> None:
     place = 0.0
-    for section in one.sections:
+    for section in mechanism.sections:
         end = place + degrees(section.angle)
         if section.name in SHADES:
             axes.axvspan(place, end, color=SHADES[section.name], linewidth=0.0, zorder=0)
         place = end
 
 
-def _executive(one: DwellMechanism, angles: np.ndarray) -> np.ndarray:
+def _executive(mechanism: DwellMechanism, angles: np.ndarray) -> np.ndarray:
     """Radii of the executive cam."""
-    up = np.clip(angles / one.rise, 0.0, 1.0)
-    down = np.clip((angles - one.rise - one.dwell) / one.return_angle, 0.0, 1.0)
-    return np.asarray(one.radius_ratio + one.law.a(up) - one.return_law.a(down))
+    up = np.clip(angles / mechanism.rise, 0.0, 1.0)
+    down = np.clip((angles - mechanism.rise - mechanism.dwell) / mechanism.return_angle, 0.0, 1.0)
+    return np.asarray(mechanism.radius_ratio + mechanism.law.a(up) - mechanism.return_law.a(down))

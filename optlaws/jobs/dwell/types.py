@@ -111,8 +111,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     spec = convert(data, Types, file)
     cases = list(_cases(spec))
     about = f"{spec.title}; from {file.name}; angles in degrees"
-    rows = [[*one.given, *_criteria(one)] for one in cases]
-    teeth = [row for one in cases for row in _teeth(one, spec.teeth)]
+    rows = [[*case.given, *_criteria(case)] for case in cases]
+    teeth = [row for case in cases for row in _teeth(case, spec.teeth)]
     figures = {
         "size_of_type_I": draw_first(spec),
         "nomograms": draw_all(spec),
@@ -132,17 +132,17 @@ def _cases(spec: Types) -> Iterator[Case]:
         yield Case(scenario.name, swing, clutch, dwell, scenario.angle(dwell), types)
 
 
-def _criteria(one: Case) -> list[tables.Cell]:
+def _criteria(case: Case) -> list[tables.Cell]:
     wanted = [name.split() for name in CRITERIA]
-    return [getattr(one.types[kind], name) if kind in one.types else None for name, kind in wanted]
+    return [getattr(case.types[kind], name) if kind in case.types else None for name, kind in wanted]
 
 
-def _teeth(one: Case, most: int) -> Iterator[list[tables.Cell]]:
+def _teeth(case: Case, most: int) -> Iterator[list[tables.Cell]]:
     for kind in ("II", "III"):
-        if kind in one.types:
-            clutch = Clutch(one.types[kind])
+        if kind in case.types:
+            clutch = Clutch(case.types[kind])
             best = clutch.nearest(most)
-            yield [kind, *one.given[:4], clutch.ratio, 1.0 / clutch.ratio, best.p, best.N, degrees(best.error)]
+            yield [kind, *case.given[:4], clutch.ratio, 1.0 / clutch.ratio, best.p, best.N, degrees(best.error)]
 
 
 def _page(spec: Types, rows: Sequence[Sequence[tables.Cell]], teeth: Sequence[Sequence[tables.Cell]]) -> Page:
@@ -177,9 +177,9 @@ def draw_first(spec: Types) -> Figure:
         axes = figure.subplots()
         for scenario, stroke in zip(spec.scenario, strokes, strict=False):
             for swing, shade in zip(spec.swings, drawing.BLUES[-len(spec.swings) :], strict=False):
-                found = [spec.types(scenario, swing, 0.0, dwell)["I"].a for dwell in dwells.tolist()]
+                sizes = [spec.types(scenario, swing, 0.0, dwell)["I"].a for dwell in dwells.tolist()]
                 label = f"swing {swing:g}°, {scenario.name}"
-                axes.plot(dwells, found, color=shade, linestyle=stroke, label=label)
+                axes.plot(dwells, sizes, color=shade, linestyle=stroke, label=label)
         axes.set(xlabel="dwell (degrees)", ylabel="a: greatest radius over that of the executive cam")
         axes.set(title=f"Cam of the loader of type I, law {spec.law}", ylim=(1.0, None))
         axes.legend(loc="upper left")
@@ -212,13 +212,13 @@ def _panel(axes: Axes, spec: Types, swing: float, clutch: float, *, last: bool) 
     cases = [spec.types(spec.scenario[0], swing, clutch, dwell) for dwell in dwells.tolist()]
     handles: dict[str, Line2D] = {}
     for kind in ("I", "II", "III"):
-        (handles[f"a, type {kind}"],) = axes.plot(dwells, [one[kind].a for one in cases], color=COLOURS[kind])
+        (handles[f"a, type {kind}"],) = axes.plot(dwells, [case[kind].a for case in cases], color=COLOURS[kind])
     axes.set(xlim=(least, most), ylim=(0.9, 4.0))
     torque = axes.twinx()
     torque.spines["right"].set_visible(True)
     torque.grid(visible=False)
     for kind in ("II", "III"):
-        values = [one[kind].b for one in cases]
+        values = [case[kind].b for case in cases]
         (handles[f"b, type {kind}"],) = torque.semilogy(dwells, values, color=COLOURS[kind], linestyle="--")
     torque.set_ylim(0.02, 200.0)
     if last:
@@ -269,7 +269,7 @@ def draw_map(law: MotionLaw, limits: Sequence[float], clutch_angles: Sequence[fl
 def _from(kind: str, law: MotionLaw, limit: float, clutch: float) -> float:
     """The dwell in degrees from which on a type keeps to the limit; half a turn where it never does."""
     dwell = deg(2.0 * clutch + 1.0)
-    one = dwell_mechanism(
+    mechanism = dwell_mechanism(
         kind,
         law=law,
         dwell=dwell,
@@ -280,6 +280,6 @@ def _from(kind: str, law: MotionLaw, limit: float, clutch: float) -> float:
         inertia_ratio=1.0,
     )
     try:
-        return degrees(least_dwell(one, limit))
+        return degrees(least_dwell(mechanism, limit))
     except InfeasibleProblem:
         return _WHOLE

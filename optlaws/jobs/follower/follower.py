@@ -110,10 +110,10 @@ class Cam:
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec = convert(data, Study, file)
-    cams = {one.name: _cam(one, spec.nu) for one in spec.cam}
+    cams = {entry.name: _cam(entry, spec.nu) for entry in spec.cam}
     if len(cams) != len(spec.cam):
         raise InputError("cam: names must differ")
-    for name in [*(one.cam for one in spec.off_design), *spec.spectrum.cams, *spec.curves.cams]:
+    for name in [*(run.cam for run in spec.off_design), *spec.spectrum.cams, *spec.curves.cams]:
         if name not in cams:
             raise InputError(unknown_key(name, cams, "cam"))
     if spec.spectrum.least >= spec.spectrum.most:
@@ -152,10 +152,10 @@ OFF_DESIGN = (
 
 def texts(spec: Study, cams: Mapping[str, Cam], about: str) -> dict[str, str]:
     """Every table of the study as CSV, and the page that shows them, by file name."""
-    runs = [(one, _deviations(spec, cams[one.cam], one)) for one in spec.off_design]
+    runs = [(entry, _deviations(spec, cams[entry.cam], entry)) for entry in spec.off_design]
     return {
         "coefficients.csv": tables.to_csv(COEFFICIENTS, _coefficients(cams), about=about),
-        "cams.csv": tables.to_csv(CAMS, [_peaks(one) for one in cams.values()], about=about),
+        "cams.csv": tables.to_csv(CAMS, [_peaks(cam) for cam in cams.values()], about=about),
         "off_design.csv": tables.to_csv(OFF_DESIGN, [_line(*pair) for pair in _pairs(runs)], about=about),
         "follower.md": str(_page(spec, cams, runs)),
     }
@@ -170,22 +170,22 @@ def _deviations(spec: Study, cam: Cam, run: Run) -> tuple[Deviation, ...]:
 
 
 def _pairs(runs: Runs) -> list[tuple[Run, Deviation]]:
-    return [(run, one) for run, found in runs for one in found]
+    return [(run, deviation) for run, deviations in runs for deviation in deviations]
 
 
-def _line(run: Run, one: Deviation) -> list[tables.Cell]:
-    response, peak = one.response, one.peak
+def _line(run: Run, deviation: Deviation) -> list[tables.Cell]:
+    response, peak = deviation.response, deviation.peak
     return [
         run.cam,
         run.damping,
         run.change,
-        one.percent,
+        deviation.percent,
         response.nu,
         response.nu * response.damping,
-        one.reference.constants.C.value,
+        deviation.reference.constants.C.value,
         peak.value,
         round(peak.k, 6),
-        one.dynamic_factor,
+        deviation.dynamic_factor,
         _rounding_is_zero(response.dwell_peak(2).value),
         _rounding_is_zero(response.residual_displacement),
         _rounding_is_zero(response.residual_acceleration),
@@ -199,18 +199,18 @@ def _rounding_is_zero(value: float) -> float:
 
 def _coefficients(cams: Mapping[str, Cam]) -> list[list[tables.Cell]]:
     rows: list[list[tables.Cell]] = []
-    for one in cams.values():
-        if isinstance(one.law, PolynomialLaw) and isinstance(one.reference, PolynomialLaw):
-            pairs = zip(one.reference.to_powers(), one.law.to_powers(), strict=True)
-            rows += [[one.name, i, _rounding_is_zero(Q), _rounding_is_zero(q)] for i, (Q, q) in enumerate(pairs)]
+    for cam in cams.values():
+        if isinstance(cam.law, PolynomialLaw) and isinstance(cam.reference, PolynomialLaw):
+            pairs = zip(cam.reference.to_powers(), cam.law.to_powers(), strict=True)
+            rows += [[cam.name, i, _rounding_is_zero(Q), _rounding_is_zero(q)] for i, (Q, q) in enumerate(pairs)]
     return rows
 
 
-def _peaks(one: Cam) -> list[tables.Cell]:
-    cam, mass = one.law.constants, one.reference.constants
-    ends = [_rounding_is_zero(value) for value in one.law.c([0.0, 1.0]).tolist()]
+def _peaks(follower_cam: Cam) -> list[tables.Cell]:
+    cam, mass = follower_cam.law.constants, follower_cam.reference.constants
+    ends = [_rounding_is_zero(value) for value in follower_cam.law.c([0.0, 1.0]).tolist()]
     return [
-        one.name,
+        follower_cam.name,
         cam.B.value,
         round(cam.B.k, 6),
         cam.C.value,
@@ -224,14 +224,15 @@ def _peaks(one: Cam) -> list[tables.Cell]:
 def _page(spec: Study, cams: Mapping[str, Cam], runs: Runs) -> Page:
     heads = ["cam", "damping", "change", *(f"{percent:+g} %" if percent else "0 %" for percent in spec.deviations)]
     off = {
-        "Dynamic factor off design": [[one.dynamic_factor for one in found] for _, found in runs],
+        "Dynamic factor off design": [[deviation.dynamic_factor for deviation in deviations] for _, deviations in runs],
         "Residual acceleration off design": [
-            [_rounding_is_zero(one.response.residual_acceleration) for one in found] for _, found in runs
+            [_rounding_is_zero(deviation.response.residual_acceleration) for deviation in deviations]
+            for _, deviations in runs
         ],
     }
     page = Page(spec.title).text(spec.text)
     page.figure("curves", "Accelerations of cam and mass").figure("spectrum", "Response spectra")
-    page.heading("The cams").table(CAMS, [_peaks(one) for one in cams.values()], digits=8)
+    page.heading("The cams").table(CAMS, [_peaks(cam) for cam in cams.values()], digits=8)
     for title, values in off.items():
         lines: list[list[tables.Cell]] = [
             [run.cam, run.damping, run.change, *row] for (run, _), row in zip(runs, values, strict=True)
@@ -282,11 +283,11 @@ def spectrum(spec: Study, cams: Sequence[Cam]) -> Figure:
         figure = drawing.figure(8.6, 6.4)
         upper, lower = figure.subplots(2, 1, sharex=True)
         for i, cam in enumerate(cams):
-            found = response_spectrum(cam.law, nu, asked.damping)
+            response = response_spectrum(cam.law, nu, asked.damping)
             look: dict[str, Any] = {"color": _COLOURS[i % len(_COLOURS)], "linestyle": _STROKES[i % len(_STROKES)]}
             C = cam.reference.constants.C.value
-            drawing.draw_spectrum(found, upper, over=C, label=cam.name, **look)
-            drawing.draw_spectrum(found, lower, what="peak", over=C, **look)
+            drawing.draw_spectrum(response, upper, over=C, label=cam.name, **look)
+            drawing.draw_spectrum(response, lower, what="peak", over=C, **look)
         for axes in (upper, lower):
             axes.axvline(spec.nu, color=drawing.GREY, linewidth=0.8, zorder=1)
         upper.set(xlabel="", xlim=(asked.least, asked.most), ylim=(0.0, None), ylabel="residual acceleration / C")

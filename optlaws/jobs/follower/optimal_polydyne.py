@@ -145,30 +145,30 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     for name, (low, high) in (("between", spec.between), ("figure", spec.figure)):
         if not low < high:
             raise InputError(f"{name}: must be two frequencies in ascending order, got [{low:g}, {high:g}]")
-    members = [(one.family, one.alpha) for one in spec.member]
+    members = [(entry.family, entry.alpha) for entry in spec.member]
     low, high = spec.between
-    designs = [Design(spec.nu, one, (low, high), spec.residual, spec.degree) for one in spec.dampings]
-    found = [list(compared(design, members, spec.catalogue)) for design in designs]
-    lines = [_line(one) for laws in found for one in laws]
+    designs = [Design(spec.nu, damping, (low, high), spec.residual, spec.degree) for damping in spec.dampings]
+    comparisons = [list(compared(design, members, spec.catalogue)) for design in designs]
+    lines = [_line(law) for laws in comparisons for law in laws]
     about = f"{spec.title}; from {file.name}"
     written = [
         writing.write(out / "table.csv", tables.to_csv(HEADINGS, lines, about=about)),
         writing.write(out / "table.md", str(_page(spec, lines))),
     ]
-    figure = draw(spec.title, found, (spec.figure[0], spec.figure[1]))
+    figure = draw(spec.title, comparisons, (spec.figure[0], spec.figure[1]))
     return written + drawing.save_picture(figure, out / "figure")
 
 
-def _line(one: Compared) -> list[tables.Cell]:
-    mass, cam, solution = one.law.constants, one.cam.constants, one.solution
+def _line(law: Compared) -> list[tables.Cell]:
+    mass, cam, solution = law.law.constants, law.cam.constants, law.solution
     bound: list[tables.Cell] = [None, None, None]
     if solution is not None:
         optimal = solution.status is Status.OPTIMAL
         bound = [solution.lower_bound, gap(solution), solution.status.value if not optimal else "optimal"]
-    own: list[tables.Cell] = [mass.B.value, mass.C.value] if one.polydyne else [None, None]
-    residuals = [0.0 if one.polydyne else one.at_design, one.worst]
+    own: list[tables.Cell] = [mass.B.value, mass.C.value] if law.polydyne else [None, None]
+    residuals = [0.0 if law.polydyne else law.at_design, law.worst]
     return [
-        one.design.damping, one.name, *own, cam.B.value, cam.C.value, cam.D.value, cam.J.value, *bound, *residuals,
+        law.design.damping, law.name, *own, cam.B.value, cam.C.value, cam.D.value, cam.J.value, *bound, *residuals,
     ]  # fmt: skip
 
 
@@ -184,33 +184,41 @@ _LEAST = 2e-3
 
 #: what is shown together: pictures of more curves cannot be read
 _GROUPS: tuple[tuple[str, Callable[[Compared], bool]], ...] = (
-    ("Least C of the cam, beside Savin's families", lambda one: one.kind == "optimal" or _member(one)),
-    ("Robust laws, beside standard laws on the cam", lambda one: one.kind == "robust" or not one.polydyne),
+    (
+        "Least C of the cam, beside Savin's families",
+        lambda compared_law: compared_law.kind == "optimal" or _member(compared_law),
+    ),
+    (
+        "Robust laws, beside standard laws on the cam",
+        lambda compared_law: compared_law.kind == "robust" or not compared_law.polydyne,
+    ),
 )
 _STROKES = ("-", (0, (4, 1.5)), "-.", (0, (1, 1.2)))
 
 
-def draw(title: str, found: Sequence[Sequence[Compared]], between: tuple[float, float]) -> Figure:
+def draw(title: str, comparisons: Sequence[Sequence[Compared]], between: tuple[float, float]) -> Figure:
     """Residual accelerations over nu and accelerations over k, for each group two panels for each damping."""
     with drawing.style():
-        figure = drawing.figure(9.6, 2 * (3.1 * len(found) + 1.3))
+        figure = drawing.figure(9.6, 2 * (3.1 * len(comparisons) + 1.3))
         figure.suptitle(title, x=0.01, ha="left", fontsize=11.0)
         parts: Any = figure.subfigures(len(_GROUPS), 1)
         for part, (name, belongs) in zip(parts, _GROUPS, strict=True):
-            groups = [[one for one in laws if belongs(one)] for laws in found]
+            groups = [[law for law in laws if belongs(law)] for laws in comparisons]
             _draw_group(part, name, [laws for laws in groups if laws], between)
         return figure
 
 
-def _member(one: Compared) -> bool:
-    return one.kind == "known" and one.polydyne
+def _member(law: Compared) -> bool:
+    return law.kind == "known" and law.polydyne
 
 
-def _draw_group(part: SubFigure, name: str, found: Sequence[Sequence[Compared]], between: tuple[float, float]) -> None:
-    if not found:
+def _draw_group(
+    part: SubFigure, name: str, comparisons: Sequence[Sequence[Compared]], between: tuple[float, float]
+) -> None:
+    if not comparisons:
         return
-    panels = part.subplots(len(found), 2, squeeze=False, width_ratios=(3, 2))
-    for (left, right), laws in zip(panels, found, strict=True):
+    panels = part.subplots(len(comparisons), 2, squeeze=False, width_ratios=(3, 2))
+    for (left, right), laws in zip(panels, comparisons, strict=True):
         told = f"damping ratio {laws[0].design.damping:g}"
         _residuals(left, laws, between)
         _accelerations(right, laws)
@@ -224,9 +232,9 @@ def _draw_group(part: SubFigure, name: str, found: Sequence[Sequence[Compared]],
 def _residuals(axes: Axes, laws: Sequence[Compared], between: tuple[float, float]) -> None:
     design = laws[0].design
     nu = np.linspace(*between, _POINTS)
-    for one, style in zip(laws, _styles(laws), strict=True):
-        amplitudes = nu**2 * np.abs(residual_phasor(one.cam, nu, design.damping))
-        axes.semilogy(nu, np.maximum(amplitudes, _LEAST / 10), label=one.name, **style)
+    for law, style in zip(laws, _styles(laws), strict=True):
+        amplitudes = nu**2 * np.abs(residual_phasor(law.cam, nu, design.damping))
+        axes.semilogy(nu, np.maximum(amplitudes, _LEAST / 10), label=law.name, **style)
     axes.axvspan(*design.between, color="#f2f2f2", zorder=0)
     axes.plot(
         design.between, [design.residual] * 2, color="black", linewidth=0.9, linestyle=":", label="most that is asked"
@@ -236,14 +244,14 @@ def _residuals(axes: Axes, laws: Sequence[Compared], between: tuple[float, float
 
 def _accelerations(axes: Axes, laws: Sequence[Compared]) -> None:
     k = np.linspace(0.0, 1.0, _POINTS)
-    for one, style in zip(laws, _styles(laws), strict=True):
-        axes.plot(k, one.cam.c(k), **style)
+    for law, style in zip(laws, _styles(laws), strict=True):
+        axes.plot(k, law.cam.c(k), **style)
     axes.set(xlim=(0.0, 1.0), ylabel="acceleration c of the cam")
 
 
 def _styles(laws: Sequence[Compared]) -> list[dict[str, Any]]:
     """A colour for each law of a group, and a stroke, so that they are told apart without colours too."""
-    plain = [one.kind == "known" for one in laws]
+    plain = [law.kind == "known" for law in laws]
     return [
         {"color": colour, "linestyle": stroke, "linewidth": 1.2 if known else 1.7}
         for known, colour, stroke in zip(plain, cycle((*drawing.DISTINCT, "black")), cycle(_STROKES), strict=False)

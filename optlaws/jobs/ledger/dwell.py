@@ -65,51 +65,86 @@ def _drawn(kind: str, draw: np.random.Generator) -> DwellMechanism:
 @computation("dwell.mechanism")
 def mechanism(kind: str, draw: np.random.Generator) -> Quantities:
     """A mechanism drawn at random at a random speed, in physical units: angles, ways, times, torques, teeth."""
-    one = _drawn(kind, draw)
+    mechanism = _drawn(kind, draw)
     omega, L, I = draw.uniform(5.0, 20.0), draw.uniform(0.1, 0.5), draw.uniform(0.01, 0.1)
-    S = one.swing * L
-    told = {"omega": omega, "L": L, "I": I, "I1": one.inertia_ratio * I, "r0": one.radius_ratio * S, "S": S}
-    told |= {"g_S": one.swing, "ph_v": one.rise, "ph_S": one.rise, "ph_p": one.dwell, "ph_sp": one.clutch_angle}
-    told |= {"ph1": one.phi1, "ph2": one.phi2, "T_v": one.rise / omega, "T_p": one.dwell / omega}
-    told |= {"T": tau / omega, "T_S": one.rise / omega, "T1": one.phi1 / omega, "T2": one.phi2 / omega}
-    told |= {"t_sp": _duration(one, "clutch", omega), "S1": one.S1 * S, "S2": one.S2 * S, "S_sp": one.S_sp * S}
-    told |= {"g1": one.S1 * one.swing, "g2": one.S2 * one.swing, "g_sp": one.S_sp * one.swing}
-    told |= {"w_max": _fastest(one) * one.swing * omega, "a": one.a, "rmax2": (one.radius_ratio + 1.0) * S}
-    told |= {"rmax1": one.a * (one.radius_ratio + 1.0) * S, "b": one.b} | _peaks(one)
-    return told | _torques(one, told) | _teeth(one, draw)
+    S = mechanism.swing * L
+    told = {"omega": omega, "L": L, "I": I, "I1": mechanism.inertia_ratio * I, "r0": mechanism.radius_ratio * S, "S": S}
+    told |= {
+        "g_S": mechanism.swing,
+        "ph_v": mechanism.rise,
+        "ph_S": mechanism.rise,
+        "ph_p": mechanism.dwell,
+        "ph_sp": mechanism.clutch_angle,
+    }
+    told |= {
+        "ph1": mechanism.phi1,
+        "ph2": mechanism.phi2,
+        "T_v": mechanism.rise / omega,
+        "T_p": mechanism.dwell / omega,
+    }
+    told |= {
+        "T": tau / omega,
+        "T_S": mechanism.rise / omega,
+        "T1": mechanism.phi1 / omega,
+        "T2": mechanism.phi2 / omega,
+    }
+    told |= {
+        "t_sp": _duration(mechanism, "clutch", omega),
+        "S1": mechanism.S1 * S,
+        "S2": mechanism.S2 * S,
+        "S_sp": mechanism.S_sp * S,
+    }
+    told |= {
+        "g1": mechanism.S1 * mechanism.swing,
+        "g2": mechanism.S2 * mechanism.swing,
+        "g_sp": mechanism.S_sp * mechanism.swing,
+    }
+    told |= {
+        "w_max": _fastest(mechanism) * mechanism.swing * omega,
+        "a": mechanism.a,
+        "rmax2": (mechanism.radius_ratio + 1.0) * S,
+    }
+    told |= {"rmax1": mechanism.a * (mechanism.radius_ratio + 1.0) * S, "b": mechanism.b} | _peaks(mechanism)
+    return told | _torques(mechanism, told) | _teeth(mechanism, draw)
 
 
-def _duration(one: DwellMechanism, name: str, omega: float) -> float:
-    return next((section.angle for section in one.sections if section.name == name), 0.0) / omega
+def _duration(mechanism: DwellMechanism, name: str, omega: float) -> float:
+    return next((section.angle for section in mechanism.sections if section.name == name), 0.0) / omega
 
 
-def _fastest(one: DwellMechanism) -> float:
+def _fastest(mechanism: DwellMechanism) -> float:
     """Greatest speed of the loader's rocker in the rise, S per radian, from its composed motion."""
-    low, high = one.motion.extrema(1, (0.0, one.rise / one.cycle))
-    return max(abs(low.value), abs(high.value)) / one.cycle
+    low, high = mechanism.motion.extrema(1, (0.0, mechanism.rise / mechanism.cycle))
+    return max(abs(low.value), abs(high.value)) / mechanism.cycle
 
 
-def _peaks(one: DwellMechanism) -> dict[str, float]:
-    laws = {"": one.law, "1": one.law_1, "2": one.law_2}
+def _peaks(mechanism: DwellMechanism) -> dict[str, float]:
+    laws = {"": mechanism.law, "1": mechanism.law_1, "2": mechanism.law_2}
     told = {f"{name}{i}": getattr(law.constants, name).value for i, law in laws.items() for name in "BCD"}
-    return told | {"B": one.loader.B}
+    return told | {"B": mechanism.loader.B}
 
 
-def _torques(one: DwellMechanism, given: Quantities) -> dict[str, float]:
+def _torques(mechanism: DwellMechanism, given: Quantities) -> dict[str, float]:
     """Greatest torques on the shaft of the cam and of the rocker, from the composed motion itself."""
-    sections = [section for section in one.sections if section.name in {"reverse", "run-out", "run-up"}]
+    sections = [section for section in mechanism.sections if section.name in {"reverse", "run-out", "run-up"}]
     if not sections:
-        return {"M1": 0.0, "M2": _most(one.law, 1.0, given["ph_v"], given["omega"]) * given["I"] * one.swing**2}
+        return {
+            "M1": 0.0,
+            "M2": _most(mechanism.law, 1.0, given["ph_v"], given["omega"]) * given["I"] * mechanism.swing**2,
+        }
     strongest = max(sections, key=lambda section: _power(section, given["omega"]))
     scale, whole = strongest.scale, strongest.angle / (strongest.end - strongest.start)
     turned = given["omega"] / whole
     law = strongest.law
     assert law is not None  # noqa: S101 - these sections have laws
     return {
-        "M1": _power(strongest, given["omega"]) * given["I1"] * one.swing**2 / given["omega"],
-        "M1_driven": given["I1"] * one.swing * abs(scale) * law.peak(2).value * turned**2,
-        "M2": _most(one.law, 1.0, given["ph_v"], given["omega"]) * given["I"] * one.swing**2 / given["omega"],
-        "M2_driven": given["I"] * one.swing * one.law.peak(2).value * (given["omega"] / given["ph_v"]) ** 2,
+        "M1": _power(strongest, given["omega"]) * given["I1"] * mechanism.swing**2 / given["omega"],
+        "M1_driven": given["I1"] * mechanism.swing * abs(scale) * law.peak(2).value * turned**2,
+        "M2": _most(mechanism.law, 1.0, given["ph_v"], given["omega"])
+        * given["I"]
+        * mechanism.swing**2
+        / given["omega"],
+        "M2_driven": given["I"] * mechanism.swing * mechanism.law.peak(2).value * (given["omega"] / given["ph_v"]) ** 2,
     }
 
 
@@ -129,10 +164,10 @@ def _most(law: MotionLaw, scale: float, angle: float, omega: float) -> float:
     return float(peak * scale**2 * (omega / angle) ** 3)
 
 
-def _teeth(one: DwellMechanism, draw: np.random.Generator) -> dict[str, float]:
-    if one.kind == "I":
+def _teeth(mechanism: DwellMechanism, draw: np.random.Generator) -> dict[str, float]:
+    if mechanism.kind == "I":
         return {}
-    clutch, N = Clutch(one), float(draw.integers(20, 100))
+    clutch, N = Clutch(mechanism), float(draw.integers(20, 100))
     turns = {"g_load": clutch.loader_turn, "g_rock": clutch.rocker_turn}
     return turns | {"N": N, "p": clutch.ratio * N, "g_z": tau / N}
 
@@ -146,22 +181,22 @@ def study(name: str, place: float, problems: Path) -> Number:
 @computation("dwell.drift")
 def drift() -> Claim:
     """Way that the rocker of type I is off after a turn whose lower dwell is 60 instead of 90 degrees, in S."""
-    one = _mechanism("I")
-    refused = _refused(lambda: dwell_mechanism("I", **_data(one), lower_dwell=deg(60.0)))
-    return Claim(one.speed * (one.dwell - deg(60.0)) if refused else 0.0, ">=", 0.1)
+    mechanism = _mechanism("I")
+    refused = _refused(lambda: dwell_mechanism("I", **_data(mechanism), lower_dwell=deg(60.0)))
+    return Claim(mechanism.speed * (mechanism.dwell - deg(60.0)) if refused else 0.0, ">=", 0.1)
 
 
 @computation("dwell.step_of_speed")
 def step_of_speed() -> Claim:
     """Step of the loader's speed, as a share, if the return of type I took 60 degrees and the rise 90."""
-    one = _mechanism("I")
-    refused = _refused(lambda: dwell_mechanism("I", **_data(one), return_angle=deg(60.0)))
-    return Claim(one.rise / deg(60.0) - 1.0 if refused else 0.0, ">=", 0.1)
+    mechanism = _mechanism("I")
+    refused = _refused(lambda: dwell_mechanism("I", **_data(mechanism), return_angle=deg(60.0)))
+    return Claim(mechanism.rise / deg(60.0) - 1.0 if refused else 0.0, ">=", 0.1)
 
 
-def _data(one: DwellMechanism) -> dict[str, Any]:
+def _data(mechanism: DwellMechanism) -> dict[str, Any]:
     names = ("law", "dwell", "rise", "clutch_angle", "swing", "radius_ratio", "inertia_ratio")
-    return {name: getattr(one, name) for name in names}
+    return {name: getattr(mechanism, name) for name in names}
 
 
 def _refused(make: Callable[[], object]) -> bool:
@@ -181,8 +216,8 @@ def size(kind: str, dwell: float) -> Claim:
 @computation("dwell.torque_over_speed")
 def torque_over_speed() -> Claim:
     """Torque of the loader's rocker in the dwell at twice the speed over that at the speed, type III."""
-    one = _mechanism("III")
-    run_out = next(section for section in one.sections if section.name == "run-out")
+    mechanism = _mechanism("III")
+    run_out = next(section for section in mechanism.sections if section.name == "run-out")
     return Claim(_power(run_out, 2.0) / 2.0 / _power(run_out, 1.0), ">=", 1.01)
 
 
@@ -190,15 +225,19 @@ def torque_over_speed() -> Claim:
 def size_over_speed(kind: str, clutch: str) -> Claim:
     """How much a changes from 60 to 180 rpm, with the clutch in a fixed angle or a fixed time of 20 ms."""
     made = {rpm: _at_speed(kind, rpm) if clutch == "time" else _mechanism(kind) for rpm in (60.0, 120.0, 180.0)}
-    sizes = [_size_in_time(one, rpm * tau / 60.0) for rpm, one in made.items()]
+    sizes = [_size_in_time(mechanism, rpm * tau / 60.0) for rpm, mechanism in made.items()]
     return Claim(max(sizes) / min(sizes) - 1.0, "<=", 1e-9)
 
 
-def _size_in_time(one: DwellMechanism, omega: float) -> float:
+def _size_in_time(mechanism: DwellMechanism, omega: float) -> float:
     """Criterion a of types I and III from speeds and times: the rocker's greatest speed for the time it keeps it."""
-    fastest = _fastest(one) * omega
-    way = fastest * one.dwell / omega if one.kind == "I" else one.S2 + 2.0 * fastest * _duration(one, "clutch", omega)
-    return 1.0 + way / (one.radius_ratio + 1.0)
+    fastest = _fastest(mechanism) * omega
+    way = (
+        fastest * mechanism.dwell / omega
+        if mechanism.kind == "I"
+        else mechanism.S2 + 2.0 * fastest * _duration(mechanism, "clutch", omega)
+    )
+    return 1.0 + way / (mechanism.radius_ratio + 1.0)
 
 
 @computation("dwell.longer_way_back")
@@ -206,7 +245,7 @@ def longer_way_back() -> Claim:
     """The least of S2 - S1 over 50 mechanisms of type II drawn at random, in S."""
     draw = np.random.default_rng(3)
     drawn = [_drawn("II", draw) for _ in range(50)]
-    return Claim(min(one.S2 - one.S1 for one in drawn), ">=", 0.0)
+    return Claim(min(mechanism.S2 - mechanism.S1 for mechanism in drawn), ">=", 0.0)
 
 
 @computation("dwell.falls")
@@ -237,9 +276,9 @@ def torque_ratio_grows_with_speed(kind: str) -> Claim:
 @computation("dwell.self_adjusting")
 def self_adjusting(kind: str) -> Claim:
     """How much b changes from a speed to twice the speed, with a clutch in a fixed angle, from the torques."""
-    one = _mechanism(kind)
-    moving = max((s for s in one.sections if s.name in {"reverse", "run-out"}), key=lambda s: _power(s, 1.0))
-    ratios = [_power(moving, omega) / _most(one.law, 1.0, one.rise, omega) for omega in (10.0, 20.0)]
+    mechanism = _mechanism(kind)
+    moving = max((s for s in mechanism.sections if s.name in {"reverse", "run-out"}), key=lambda s: _power(s, 1.0))
+    ratios = [_power(moving, omega) / _most(mechanism.law, 1.0, mechanism.rise, omega) for omega in (10.0, 20.0)]
     return Claim(abs(ratios[1] / ratios[0] - 1.0), "<=", 1e-9)
 
 
@@ -253,8 +292,8 @@ def teeth_over_clutch() -> Claim:
 @computation("dwell.choice")
 def choice() -> Claim:
     """a of the chosen type less the least a among the types with a small enough b."""
-    one = _mechanism("III")
-    compared = compare_dwell_mechanisms(**_data(one), most_torque=1.0)
+    mechanism = _mechanism("III")
+    compared = compare_dwell_mechanisms(**_data(mechanism), most_torque=1.0)
     usable = [made.a for made in compared.mechanisms.values() if made.b <= 1.0]
     chosen = compared.mechanisms[compared.chosen or ""]
     return Claim(chosen.a - min(usable), "<=", 0.0)

@@ -210,10 +210,10 @@ def _of_file(data: Path) -> list[dict[str, str]]:
 def _of_catalogue() -> list[dict[str, str]]:
     """The constants that others have published of the laws of the catalogue."""
     return [
-        {"law": entry.name, "by": one.by, "constant": constant, "printed": text}
+        {"law": entry.name, "by": published.by, "constant": constant, "printed": text}
         for entry in catalogue.values()
-        for one in entry.published
-        for constant, text in one.printed
+        for published in entry.published
+        for constant, text in published.printed
     ]
 
 

@@ -57,12 +57,14 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     spec = convert(data, Ledger, file)
     papers = list(_papers(spec, file))
     judged = [judge(item, paper.name, file.parent) for paper in papers for item in paper.items]
-    wrong = [_broken(one) for one in judged if not one.holds]
+    wrong = [_broken(judgement) for judgement in judged if not judgement.holds]
     if wrong:
         raise InputError("verdicts do not hold:\n" + "\n".join(wrong))
     about = f"{spec.title}; from {file.name}"
     return [
-        writing.write(out / "ledger.csv", tables.to_csv(HEADINGS, [_cells(one) for one in judged], about=about)),
+        writing.write(
+            out / "ledger.csv", tables.to_csv(HEADINGS, [_cells(judgement) for judgement in judged], about=about)
+        ),
         writing.write(out / "summary.csv", tables.to_csv(*_summary(papers, judged), about=about)),
         writing.write(out / "ledger.md", str(_page(spec, papers, judged))),
         *(writing.write(out / f"misprints_{paper.name}.md", str(_misprints(paper, judged))) for paper in papers),
@@ -91,18 +93,18 @@ def chosen(
         If a paper, kind, verdict or id is not known.
     """
     for what, asked, known in (
-        ("paper", paper, [one.name for one in papers]),
+        ("paper", paper, [entry.name for entry in papers]),
         ("kind", kind, KINDS),
-        ("verdict", verdict, [str(one) for one in Verdict]),
-        ("id", name, [item.id for one in papers for item in one.items]),
+        ("verdict", verdict, [str(word) for word in Verdict]),
+        ("id", name, [item.id for entry in papers for item in entry.items]),
     ):
         if asked is not None and asked not in known:
             raise InputError(unknown_key(asked, known, what))
     return [
-        (one.name, item)
-        for one in papers
-        for item in one.items
-        if paper in {None, one.name}
+        (entry.name, item)
+        for entry in papers
+        for item in entry.items
+        if paper in {None, entry.name}
         and kind in {None, item.kind}
         and verdict in {None, str(item.verdict)}
         and name in {None, item.id}
@@ -112,21 +114,31 @@ def chosen(
 def _papers(spec: Ledger, file: Path) -> Iterator[Entry]:
     for name in spec.papers:
         source = file.parent / name
-        paper, found = items.read(source)
-        yield Entry(source.stem, paper.title, found)
+        paper, listed = items.read(source)
+        yield Entry(source.stem, paper.title, listed)
 
 
-def _broken(one: Judged) -> str:
-    return f"{one.paper} {one.item.id}: declared {one.item.verdict!s}, found {one.verdict!s} ({one.said})"
+def _broken(judgement: Judged) -> str:
+    item = judgement.item
+    return f"{judgement.paper} {item.id}: declared {item.verdict!s}, found {judgement.verdict!s} ({judgement.said})"
 
 
-def _cells(one: Judged) -> list[tables.Cell]:
-    item = one.item
-    return [one.paper, item.id, item.kind, item.printed, one.computed, str(one.verdict), item.reason, item.confidence]
+def _cells(judgement: Judged) -> list[tables.Cell]:
+    item = judgement.item
+    return [
+        judgement.paper,
+        item.id,
+        item.kind,
+        item.printed,
+        judgement.computed,
+        str(judgement.verdict),
+        item.reason,
+        item.confidence,
+    ]
 
 
 def _summary(papers: Sequence[Entry], judged: Sequence[Judged]) -> tuple[list[str], list[list[tables.Cell]]]:
-    counts = Counter((one.paper, one.item.kind, one.verdict) for one in judged)
+    counts = Counter((judgement.paper, judgement.item.kind, judgement.verdict) for judgement in judged)
     headings = ["paper", "kind", "items", *(str(verdict) for verdict in Verdict)]
     rows: list[list[tables.Cell]] = []
     for paper in [*(entry.name for entry in papers), "all"]:
@@ -134,8 +146,8 @@ def _summary(papers: Sequence[Entry], judged: Sequence[Judged]) -> tuple[list[st
             by_verdict = [
                 sum(
                     count
-                    for (name, of_kind, found), count in counts.items()
-                    if found is verdict and paper in {name, "all"} and kind in {of_kind, "all"}
+                    for (name, of_kind, reached), count in counts.items()
+                    if reached is verdict and paper in {name, "all"} and kind in {of_kind, "all"}
                 )
                 for verdict in Verdict
             ]
@@ -148,7 +160,7 @@ def _page(spec: Ledger, papers: Sequence[Entry], judged: Sequence[Judged]) -> Pa
     headings, rows = _summary(papers, judged)
     page = Page(spec.title).text(spec.text).table(headings, rows)
     for paper in papers:
-        other = [one for one in judged if one.paper == paper.name and one.verdict not in _PLAIN]
+        other = [judgement for judgement in judged if judgement.paper == paper.name and judgement.verdict not in _PLAIN]
         if other:
             page.heading(paper.title)
             groups = [list(group) for _, group in groupby(other, key=_told_alike)]
@@ -161,32 +173,41 @@ def _misprints(paper: Entry, judged: Sequence[Judged]) -> Page:
     """The misprints and misreadings of a paper, for the page of its theory."""
     wrong = {Verdict.MISPRINT, Verdict.MISREAD}
     lines = [
-        [one.item.id, one.item.as_read or one.item.printed, one.item.means or one.item.printed, one.item.reason]
-        for one in judged
-        if one.paper == paper.name and one.verdict in wrong
+        [
+            judgement.item.id,
+            judgement.item.as_read or judgement.item.printed,
+            judgement.item.means or judgement.item.printed,
+            judgement.item.reason,
+        ]
+        for judgement in judged
+        if judgement.paper == paper.name and judgement.verdict in wrong
     ]
     return Page(f"Misprints: {paper.title}").table(["item", "reads", "should read", "why"], lines)
 
 
-def _told_alike(one: Judged) -> tuple[str, ...]:
+def _told_alike(judgement: Judged) -> tuple[str, ...]:
     """Cells of which the same is said stand together."""
-    return (one.item.kind, str(one.verdict), one.item.reason) if one.verdict is Verdict.PERCENT else (one.item.id,)
+    return (
+        (judgement.item.kind, str(judgement.verdict), judgement.item.reason)
+        if judgement.verdict is Verdict.PERCENT
+        else (judgement.item.id,)
+    )
 
 
 def _apart(groups: Sequence[list[Judged]]) -> Iterator[list[Judged]]:
     for group in groups:
-        yield from [group] if len(group) >= _MANY else [[one] for one in group]
+        yield from [group] if len(group) >= _MANY else [[judgement] for judgement in group]
 
 
 def _together(group: Sequence[Judged]) -> list[tables.Cell]:
     ids = f"{group[0].item.id} to {group[-1].item.id}, {len(group)} cells"
-    return [ids, "", None, f"to {max(one.item.within for one in group):g} %", group[0].item.reason]
+    return [ids, "", None, f"to {max(judgement.item.within for judgement in group):g} %", group[0].item.reason]
 
 
-def _line(one: Judged) -> list[tables.Cell]:
-    item = one.item
-    verdict = f"to {item.within:g} %" if one.verdict is Verdict.PERCENT else str(one.verdict)
+def _line(judgement: Judged) -> list[tables.Cell]:
+    item = judgement.item
+    verdict = f"to {item.within:g} %" if judgement.verdict is Verdict.PERCENT else str(judgement.verdict)
     means = f"means {item.means}" if item.means else ""
     why = "; ".join(part for part in (means, item.reason, item.lost, item.source) if part)
-    computed = one.computed if item.kind in {"number", "cell", "claim", "procedure"} else None
+    computed = judgement.computed if item.kind in {"number", "cell", "claim", "procedure"} else None
     return [item.id, item.printed.replace("|", "\\|"), computed, verdict, why.replace("|", "\\|")]

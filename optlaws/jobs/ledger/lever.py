@@ -39,14 +39,14 @@ def lever(draw: np.random.Generator, beta: str = "any", swing: str = "usual") ->
 
     n, q and p are the derivatives of the exact moment at rest, from an interpolant.
     """
-    one = _drawn(draw, beta, swing)
+    lever = _drawn(draw, beta, swing)
     c1, I = (float(part) for part in draw.uniform(0.5, 2.0, 2))
-    told = {"beta": one.beta, "lam": one.lam, "rho": one.rho, "nu": one.nu, "X": one.swing, "xi": one.xi}
-    told |= {"alpha": _pivots(one.linkage), "c1": c1, "I": I, "g01": one.gamma01, "G": one.twists[0]}
-    told |= {name: getattr(one.linkage, name) for name in "QPSR"}
-    moment = Series.interpolate(one.moment, 26, domain=[-0.3, 0.3])
+    told = {"beta": lever.beta, "lam": lever.lam, "rho": lever.rho, "nu": lever.nu, "X": lever.swing, "xi": lever.xi}
+    told |= {"alpha": _pivots(lever.linkage), "c1": c1, "I": I, "g01": lever.gamma01, "G": lever.twists[0]}
+    told |= {name: getattr(lever.linkage, name) for name in "QPSR"}
+    moment = Series.interpolate(lever.moment, 26, domain=[-0.3, 0.3])
     told |= {name: c1 * float(moment.deriv(i + 1)(0.0)) for i, name in enumerate("nqp")}
-    return told | _placed(one, c1, draw) | _exact(one, c1, I, draw) | _asymptotic(one, c1, I, draw)
+    return told | _placed(lever, c1, draw) | _exact(lever, c1, I, draw) | _asymptotic(lever, c1, I, draw)
 
 
 def _drawn(draw: np.random.Generator, beta: str, swing: str) -> TorsionLever:
@@ -72,25 +72,25 @@ def _points(linkage: FourBar, chi: float) -> tuple[float, Array, Array]:
     return float(np.arctan2(*(A - B)[::-1])), A, B
 
 
-def _placed(one: TorsionLever, c1: float, draw: np.random.Generator) -> dict[str, float]:
-    chi, small = float(draw.uniform(0.3, 0.9)) * one.chi01, 0.01
-    delta, _, _ = _points(one.linkage, chi)
-    gam = float(one.linkage.rocker(chi))
-    told = {"chi": chi, "M": c1 * float(one.moment(chi)), "gam": gam, "psi": one.linkage.psi0 + chi, "delta": delta}
-    told |= {"gamma": one.linkage.psi0 + gam, "chi_s": small, "M_s": c1 * float(one.moment(small))}
+def _placed(lever: TorsionLever, c1: float, draw: np.random.Generator) -> dict[str, float]:
+    chi, small = float(draw.uniform(0.3, 0.9)) * lever.chi01, 0.01
+    delta, _, _ = _points(lever.linkage, chi)
+    gam = float(lever.linkage.rocker(chi))
+    told = {"chi": chi, "M": c1 * float(lever.moment(chi)), "gam": gam, "psi": lever.linkage.psi0 + chi, "delta": delta}
+    told |= {"gamma": lever.linkage.psi0 + gam, "chi_s": small, "M_s": c1 * float(lever.moment(small))}
     return told
 
 
-def _exact(one: TorsionLever, c1: float, I: float, draw: np.random.Generator) -> dict[str, float]:
-    t = float(draw.uniform(0.05, 0.2)) * one.exact.period
-    chi = float(one.exact.chi(t))
-    return {"chi_t": chi, "chi2_t": float(one.exact.chi(t, 2)) * c1 / I, "M_t": c1 * float(one.moment(chi))}
+def _exact(lever: TorsionLever, c1: float, I: float, draw: np.random.Generator) -> dict[str, float]:
+    t = float(draw.uniform(0.05, 0.2)) * lever.exact.period
+    chi = float(lever.exact.chi(t))
+    return {"chi_t": chi, "chi2_t": float(lever.exact.chi(t, 2)) * c1 / I, "M_t": c1 * float(lever.moment(chi))}
 
 
-def _asymptotic(one: TorsionLever, c1: float, I: float, draw: np.random.Generator) -> dict[str, float]:
-    motion, unit = one.asymptotic, (I / c1) ** 0.5
+def _asymptotic(lever: TorsionLever, c1: float, I: float, draw: np.random.Generator) -> dict[str, float]:
+    motion, unit = lever.asymptotic, (I / c1) ** 0.5
     told = {"T": motion.period * unit, "x01": motion.chi01, "x02": motion.chi02, "zeta": motion.zeta}
-    told |= {"z": cos(2.0 * pi * motion.zeta), "T0": _small_period(one) * unit}
+    told |= {"z": cos(2.0 * pi * motion.zeta), "T0": _small_period(lever) * unit}
     t = float(draw.uniform(0.1, 0.4)) * motion.period
     told |= {"phi": 2.0 * pi * t / motion.period, "chi_a": float(motion.chi(t))}
     told |= {name: getattr(motion, name) for name in _EXTREMES}
@@ -105,9 +105,9 @@ def _asymptotic(one: TorsionLever, c1: float, I: float, draw: np.random.Generato
     return told
 
 
-def _small_period(one: TorsionLever) -> float:
+def _small_period(lever: TorsionLever) -> float:
     """Period of a swing too small for its moment to bend, from the exact motion of a lever of the same linkage."""
-    stiffness = float(Series.interpolate(one.moment, 26, domain=[-0.3, 0.3]).deriv()(0.0))
+    stiffness = float(Series.interpolate(lever.moment, 26, domain=[-0.3, 0.3]).deriv()(0.0))
     return 2.0 * pi / sqrt(stiffness)
 
 
@@ -178,44 +178,44 @@ def taylor(problems: Path) -> Number:
     worst = 0.0
     for beta in reading.toml(problems / _STUDY)["beta"]:
         swings = (swing for swing in range(100, 10, -10) if _some_within_limits(problems, beta, swing))
-        for one in _some_within_limits(problems, beta, next(swings, 20)):
-            chi = np.linspace(one.chi01 - one.swing, one.chi01, 41)
-            exact = one.moment(chi)
-            worst = max(worst, float(np.abs(one.taylor_moment(chi) - exact).max() / np.abs(exact).max()))
+        for lever in _some_within_limits(problems, beta, next(swings, 20)):
+            chi = np.linspace(lever.chi01 - lever.swing, lever.chi01, 41)
+            exact = lever.moment(chi)
+            worst = max(worst, float(np.abs(lever.taylor_moment(chi) - exact).max() / np.abs(exact).max()))
     return Number(100.0 * (1.0 - worst))
 
 
 @computation("lever.spread")
 def spread(names: list[str], least_lam: float, problems: Path) -> Number:
     """The greatest spread of constants over lambda, rho and nu at beta = 0.5 and a swing of 100 degrees, percent."""
-    made = [one for one in _within_limits(problems, 0.5, 100.0) if one.lam >= least_lam]
-    return Number(100.0 * max(_spread([getattr(one.asymptotic, name) for one in made]) for name in names))
+    made = [lever for lever in _within_limits(problems, 0.5, 100.0) if lever.lam >= least_lam]
+    return Number(100.0 * max(_spread([getattr(lever.asymptotic, name) for lever in made]) for name in names))
 
 
 def _spread(values: list[float]) -> float:
     return (max(values) - min(values)) / abs(float(np.mean(values)))
 
 
-def _departure(one: TorsionLever) -> float:
+def _departure(lever: TorsionLever) -> float:
     """How far the moment departs from its tangent at rest at the ends of the swing, as a share of the tangent."""
-    chi = np.array([one.chi01 - one.swing, one.chi01])
-    return float(np.abs(one.moment(chi) / (one.n * chi) - 1.0).max())
+    chi = np.array([lever.chi01 - lever.swing, lever.chi01])
+    return float(np.abs(lever.moment(chi) / (lever.n * chi) - 1.0).max())
 
 
 @computation("lever.clearances")
 def clearances(problems: Path) -> Claim:
     """The least twist that is left in a bar on its way, radians, over levers of the study."""
     made = [*_within_limits(problems, 0.5, 60.0)[::7], *_within_limits(problems, 1.5, 30.0)[::7]]
-    return Claim(min(min(one.twists_left) for one in made), ">=", 0.0)
+    return Claim(min(min(lever.twists_left) for lever in made), ">=", 0.0)
 
 
 @computation("lever.unloaded")
 def unloaded() -> Claim:
     """The greatest moment left on the cam in the exact swing, as a share of the bars' greatest moment."""
-    one = _lever(*_STRONG, 90.0)
-    t = np.linspace(0.0, 0.5, 101) * one.exact.period
-    moment = one.moment(one.exact.chi(t))
-    return Claim(float(np.abs(one.exact.chi(t, 2) + moment).max() / np.abs(moment).max()), "<=", 1e-6)
+    lever = _lever(*_STRONG, 90.0)
+    t = np.linspace(0.0, 0.5, 101) * lever.exact.period
+    moment = lever.moment(lever.exact.chi(t))
+    return Claim(float(np.abs(lever.exact.chi(t, 2) + moment).max() / np.abs(moment).max()), "<=", 1e-6)
 
 
 @computation("lever.nonlinearity")
@@ -229,36 +229,36 @@ def nonlinearity() -> Claim:
 def shift() -> Claim:
     """The least shift of mid-swing towards the softer side at beta = 0.5 and 2, radians."""
     shifts = []
-    for one in (_lever(0.5, 3.0, 0.15, 0.15, 100.0), _lever(2.0, 3.0, 0.15, 0.15, 25.0)):
-        half = 0.5 * one.swing
-        softer = 1.0 if abs(float(one.moment(half))) < abs(float(one.moment(-half))) else -1.0
-        shifts.append(softer * 0.5 * (one.exact.chi01 + one.exact.chi02))
+    for lever in (_lever(0.5, 3.0, 0.15, 0.15, 100.0), _lever(2.0, 3.0, 0.15, 0.15, 25.0)):
+        half = 0.5 * lever.swing
+        softer = 1.0 if abs(float(lever.moment(half))) < abs(float(lever.moment(-half))) else -1.0
+        shifts.append(softer * 0.5 * (lever.exact.chi01 + lever.exact.chi02))
     return Claim(min(shifts), ">=", 0.0)
 
 
 @computation("lever.parallelogram")
 def parallelogram() -> Claim:
     """The departure of the moment from its tangent, and of the extremes from one another, at beta = 1."""
-    one = _lever(1.0, 2.0, 0.15, 0.3, 50.0)
-    return Claim(max(_departure(one), abs(one.exact.chi01 + one.exact.chi02)), "<=", 1e-9)
+    lever = _lever(1.0, 2.0, 0.15, 0.3, 50.0)
+    return Claim(max(_departure(lever), abs(lever.exact.chi01 + lever.exact.chi02)), "<=", 1e-9)
 
 
 @computation("lever.same_nonlinearity")
 def same_nonlinearity(problems: Path) -> Claim:
     """The spread of the departure from the tangent over lambda, rho and nu at beta 0.5 and 60 degrees, beside 0.1."""
-    return Claim(_spread([_departure(one) for one in _within_limits(problems, 0.5, 60.0)]), "<=", 0.1)
+    return Claim(_spread([_departure(lever) for lever in _within_limits(problems, 0.5, 60.0)]), "<=", 0.1)
 
 
 @computation("lever.by_beta_only")
 def by_beta_only() -> Claim:
     """The greatest change of Q and S, from derivatives of moment and rocker at rest, between lambda = 1 and 5."""
-    found = []
+    pairs = []
     for lam in (1.0, 5.0):
-        one = _lever(0.75, lam, 0.15, 0.15, 40.0)
-        moment = Series.interpolate(one.moment, 26, domain=[-0.3, 0.3])
-        rocker = Series.interpolate(one.linkage.rocker, 26, domain=[-0.3, 0.3])
-        found.append((float(moment.deriv(2)(0.0)) / one.twists[0], float(rocker.deriv(3)(0.0)) / 6.0))
-    return Claim(max(abs(second / first - 1.0) for first, second in zip(*found, strict=True)), "<=", 1e-7)
+        lever = _lever(0.75, lam, 0.15, 0.15, 40.0)
+        moment = Series.interpolate(lever.moment, 26, domain=[-0.3, 0.3])
+        rocker = Series.interpolate(lever.linkage.rocker, 26, domain=[-0.3, 0.3])
+        pairs.append((float(moment.deriv(2)(0.0)) / lever.twists[0], float(rocker.deriv(3)(0.0)) / 6.0))
+    return Claim(max(abs(second / first - 1.0) for first, second in zip(*pairs, strict=True)), "<=", 1e-7)
 
 
 @computation("lever.period_over_swing")
@@ -271,8 +271,8 @@ def period_over_swing() -> Claim:
 @computation("lever.actual_swing")
 def actual_swing(problems: Path) -> Claim:
     """The greatest difference of chi01 - chi02 by (9) and (10) from the nominal swing, as a share."""
-    made = [one for swing in (60.0, 100.0) for one in _within_limits(problems, 0.5, swing)]
-    return Claim(max(abs(one.asymptotic.swing / one.swing - 1.0) for one in made), "<=", 0.02)
+    made = [lever for swing in (60.0, 100.0) for lever in _within_limits(problems, 0.5, swing)]
+    return Claim(max(abs(lever.asymptotic.swing / lever.swing - 1.0) for lever in made), "<=", 0.02)
 
 
 @computation("lever.trends")
@@ -291,7 +291,7 @@ def trends() -> Claim:
 def same_constants(problems: Path) -> Claim:
     """The greatest spread of B1, B3, C1 and C3 over lambda, rho and nu at beta = 0.5 and 60 degrees, as a share."""
     made = _within_limits(problems, 0.5, 60.0)
-    return Claim(max(_spread([getattr(one.asymptotic, name) for one in made]) for name in _EXTREMES), "<=", 0.02)
+    return Claim(max(_spread([getattr(lever.asymptotic, name) for lever in made]) for name in _EXTREMES), "<=", 0.02)
 
 
 @computation("lever.nearly_harmonic")
@@ -299,9 +299,9 @@ def nearly_harmonic(problems: Path) -> Claim:
     """The greatest departure of T, B and C from the harmonic law's for 0.75 <= beta <= 1.25 up to 60 degrees."""
     worst = 0.0
     for beta, swing in product((0.75, 1.25), (20.0, 40.0, 60.0)):
-        for one in _within_limits(problems, beta, swing):
-            motion = one.asymptotic
-            off = [motion.period / one.T0, *(abs(getattr(motion, name)) / (pi / 2.0) for name in ("B1", "B3"))]
+        for lever in _within_limits(problems, beta, swing):
+            motion = lever.asymptotic
+            off = [motion.period / lever.T0, *(abs(getattr(motion, name)) / (pi / 2.0) for name in ("B1", "B3"))]
             off += [abs(getattr(motion, name)) / (pi**2 / 2.0) for name in ("C1", "C3")]
             worst = max(worst, *(abs(share - 1.0) for share in off))
     return Claim(worst, "<=", 0.1)
@@ -318,12 +318,12 @@ def power() -> Claim:
 @computation("lever.design")
 def design() -> Claim:
     """What is left of (3), (12) and (13) for xi, gamma01 and chi01 that are found for given lengths and swing."""
-    one = _lever(*_STRONG, 60.0)
-    x, G, S = one.chi01, one.twists[0], one.linkage.S
-    left = [one.xi * (one.swing - x) * (1.0 + one.nu) / (one.beta * G) - 1.0]
-    left.append((one.beta * x + S * x**3) / one.gamma01 - 1.0)
-    right = one.swing * (768.0 * one.n - 64.0 * one.q * one.swing + one.p * one.swing**2)
-    left.append(1536.0 * one.n * x / right - 1.0)
+    lever = _lever(*_STRONG, 60.0)
+    x, G, S = lever.chi01, lever.twists[0], lever.linkage.S
+    left = [lever.xi * (lever.swing - x) * (1.0 + lever.nu) / (lever.beta * G) - 1.0]
+    left.append((lever.beta * x + S * x**3) / lever.gamma01 - 1.0)
+    right = lever.swing * (768.0 * lever.n - 64.0 * lever.q * lever.swing + lever.p * lever.swing**2)
+    left.append(1536.0 * lever.n * x / right - 1.0)
     return Claim(max(abs(part) for part in left), "<=", 1e-9)
 
 

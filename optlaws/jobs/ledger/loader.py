@@ -35,8 +35,8 @@ def _rows(problems: Path) -> dict[str, table.Row]:
 @computation("loader.constant")
 def constant(row: str, name: str, problems: Path) -> Number:
     """B, C or D of the loader of a law, exact and as the greatest value at the paper's grid."""
-    one = _rows(problems)[row]
-    return Number(one.exact[name], one.on_grid[name])
+    printed_row = _rows(problems)[row]
+    return Number(printed_row.exact[name], printed_row.on_grid[name])
 
 
 @computation("loader.codes")
@@ -69,26 +69,49 @@ def _masses(made: Loader, draw: np.random.Generator) -> dict[str, float]:
 @computation("loader.trapezium")
 def trapezium(part: str, draw: np.random.Generator) -> Quantities:
     """A trapezium and its loader at one k on its ramp, its plateau or its fall."""
-    one = _trapezium(draw)
-    m, n, A, Y = one.m, one.n, one.A, loader(one.law).Y
+    substitute = _trapezium(draw)
+    m, n, A, Y = substitute.m, substitute.n, substitute.A, loader(substitute.law).Y
     low, high = {"ramp": (0.05 * m, 0.6 * m), "plateau": (m, m + n), "fall": (m + n, 0.499)}[part]
     k = float(draw.uniform(low, high))
-    B, C = one.law.peak(1).value, one.law.peak(2).value
-    moved = loader(one.law).law
-    told = {"e": one.e13, "g": one.gamma_w, "m": m, "n": n, "L": 0.5 - m - n, "A": A, "B": B, "C": C, "Y": Y, "k": k}
-    told |= {"b": one.law.b(k), "c": one.law.c(k), "b_l": moved.b(k), "k1": 0.5 - k, "c_k1": one.law.c(k)}
-    told |= {"b_k1": B - one.law.b(k), "a_l": moved(k), "a_m": moved(m), "a_mn": moved(m + n), "a_half": moved(0.5)}
+    B, C = substitute.law.peak(1).value, substitute.law.peak(2).value
+    moved = loader(substitute.law).law
+    told = {
+        "e": substitute.e13,
+        "g": substitute.gamma_w,
+        "m": m,
+        "n": n,
+        "L": 0.5 - m - n,
+        "A": A,
+        "B": B,
+        "C": C,
+        "Y": Y,
+        "k": k,
+    }
+    told |= {
+        "b": substitute.law.b(k),
+        "c": substitute.law.c(k),
+        "b_l": moved.b(k),
+        "k1": 0.5 - k,
+        "c_k1": substitute.law.c(k),
+    }
+    told |= {
+        "b_k1": B - substitute.law.b(k),
+        "a_l": moved(k),
+        "a_m": moved(m),
+        "a_mn": moved(m + n),
+        "a_half": moved(0.5),
+    }
     return told
 
 
 def _trapezium(draw: np.random.Generator) -> TrapeziumSubstitute:
     while True:
         try:
-            one = TrapeziumSubstitute(float(draw.uniform(0.5, 0.66)), float(draw.uniform(0.26, 0.4)))
+            substitute = TrapeziumSubstitute(float(draw.uniform(0.5, 0.66)), float(draw.uniform(0.26, 0.4)))
         except InputError:
             continue
-        if min(one.m, one.n, 0.5 - one.m - one.n) > 0.02:
-            return one
+        if min(substitute.m, substitute.n, 0.5 - substitute.m - substitute.n) > 0.02:
+            return substitute
 
 
 @computation("loader.growth")
@@ -106,7 +129,7 @@ def series() -> Claim:
     """The greatest relative error of Y by (25), with four terms of the series, over 50 trapezia drawn at random."""
     draw = np.random.default_rng(4)
     made = [_trapezium(draw) for _ in range(50)]
-    return Claim(max(abs(one.Y / loader(one.law).Y - 1.0) for one in made), "<=", 1e-5)
+    return Claim(max(abs(substitute.Y / loader(substitute.law).Y - 1.0) for substitute in made), "<=", 1e-5)
 
 
 @computation("loader.substitute")
@@ -125,7 +148,7 @@ def substitute() -> Claim:
 def half_way() -> Claim:
     """The greatest distance of the loader's way at the turn from one half, over the laws of the table."""
     laws = [catalogue[name].law for name in (*_SMOOTH_TURN, "K", "Co", "3-4-5 polynomial")]
-    return Claim(max(abs(loader(one).law(0.5) - 0.5) for one in laws), "<=", 1e-9)
+    return Claim(max(abs(loader(law).law(0.5) - 0.5) for law in laws), "<=", 1e-9)
 
 
 @computation("loader.peak_at_turn")

@@ -249,8 +249,8 @@ def from_starts() -> Claim:
     """The spread of C that a minimiser finds from the paper's usual start and from its start for B = 1.969, there."""
     starts = {"usual": [1.0, 0.0, 0.0, 0.0], "chosen": [-1110.0, -333.0, -1111.0, 0.0]}
     ended = [own_search.search(1.969, own_search.Start(name=n, z=z), order=4, grid=100) for n, z in starts.items()]
-    found = [one.law.constants.C.value for one in ended]
-    return Claim(max(found) / min(found) - 1.0, ">=", 0.01)
+    peaks = [search.law.constants.C.value for search in ended]
+    return Claim(max(peaks) / min(peaks) - 1.0, ">=", 0.01)
 
 
 @computation("optimal.search")

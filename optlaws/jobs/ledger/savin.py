@@ -50,10 +50,10 @@ def H(u: int) -> Number:
 @computation("savin.family")
 def family(name: str, draw: np.random.Generator) -> Quantities:
     """A member of a family, alpha drawn from 0.5 to 5, at one k, with the derivatives of its start."""
-    one, alpha, k = SavinFamily.of(name), float(draw.uniform(0.5, 5.0)), float(draw.uniform(0.1, 0.45))
-    law, origin = one.law(alpha), smoothstep(one.u + 2)
-    told = {"k": k, "alpha": alpha, "delta": float(one.M) + 1.0 / alpha, "a": law(k), "b": law.b(k), "c": law.c(k)}
-    told |= {"H": float(one.H), "u": float(one.u), "c_base": origin.c(k), "y": law.c(k) / origin.c(k)}
+    family, alpha, k = SavinFamily.of(name), float(draw.uniform(0.5, 5.0)), float(draw.uniform(0.1, 0.45))
+    law, origin = family.law(alpha), smoothstep(family.u + 2)
+    told = {"k": k, "alpha": alpha, "delta": float(family.M) + 1.0 / alpha, "a": law(k), "b": law.b(k), "c": law.c(k)}
+    told |= {"H": float(family.H), "u": float(family.u), "c_base": origin.c(k), "y": law.c(k) / origin.c(k)}
     at_middle = law(0.5, 3) / origin(0.5, 3)
     told |= {"y0": at_middle, "a_end": law(1.0)} | {f"a{i}_start": law(0.0, i) for i in range(2, 6)}
     return told
@@ -71,9 +71,9 @@ def end_velocity(draw: np.random.Generator) -> Quantities:
 @computation("savin.range")
 def alpha_end(name: str, end: str) -> Number:
     """The least or greatest alpha of a family, from the sign of its multiplier."""
-    one = SavinFamily.of(name)
+    family = SavinFamily.of(name)
     k = np.linspace(0.0, 0.5, 2001)
-    shape = k * k - k + float(one.M)  # y = 1 + alpha shape
+    shape = k * k - k + float(family.M)  # y = 1 + alpha shape
     return Number(float(-1.0 / shape.max()) if end == "low" else float(-1.0 / shape.min()))
 
 
@@ -110,10 +110,10 @@ def synthesis(name: str, draw: np.random.Generator) -> Quantities:
     """A family's law meant for the mass, and the cam that makes it: coefficients Q and q, and starts."""
     alpha, nu = float(draw.uniform(1.0, 5.0)), float(draw.uniform(15.0, 25.0))
     n = float(draw.uniform(0.5, 2.0))
-    law, one = savin(name, alpha), SavinFamily.of(name)
+    law, family = savin(name, alpha), SavinFamily.of(name)
     cam = polydyne(law, nu, n / nu)
     assert isinstance(cam, PolynomialLaw)  # noqa: S101 - of a polynomial
-    told = {"alpha": alpha, "delta": float(one.M) + 1.0 / alpha, "nu": nu, "n": n}
+    told = {"alpha": alpha, "delta": float(family.M) + 1.0 / alpha, "nu": nu, "n": n}
     return told | _powers("Q", law) | _powers("q", cam)
 
 
@@ -123,7 +123,7 @@ def entry(cam: str, name: str, problems: Path) -> Number:
     spec = reading.toml(problems / _EXPERIMENT)
     if name == "nu":
         return Number(float(spec["nu"]))
-    return Number(float(next(one for one in spec["cam"] if one["name"] == cam)[name]))
+    return Number(float(next(entry for entry in spec["cam"] if entry["name"] == cam)[name]))
 
 
 @computation("savin.deviation")
@@ -167,7 +167,7 @@ def _off_design(name: str, alpha: float, damping: float) -> tuple[float, ...]:
     law = savin(name, alpha)
     cam = polydyne(law, 20.0, damping)
     at = (Follower(20.0 / (1.0 + speed / 100.0), damping) for speed in _SPEEDS)
-    return tuple(one.response(cam).dynamic_factor(reference=law) for one in at)
+    return tuple(follower.response(cam).dynamic_factor(reference=law) for follower in at)
 
 
 @computation("savin.near_design")
@@ -246,9 +246,9 @@ def chain() -> Claim:
     """The greatest distance of each family's last law from the base law of the next."""
     k, worst = np.linspace(0.0, 1.0, 101), 0.0
     for name, after in pairwise((*_FAMILIES, "")):
-        one = SavinFamily.of(name)
-        last = one.law(float(one.range[0]))
-        following = smoothstep(one.u + 3) if not after else SavinFamily.of(after).law(0.0)
+        family = SavinFamily.of(name)
+        last = family.law(float(family.range[0]))
+        following = smoothstep(family.u + 3) if not after else SavinFamily.of(after).law(0.0)
         worst = max(worst, float(np.abs(last(k) - following(k)).max()))
     return Claim(worst, "<=", 1e-9)
 
@@ -257,17 +257,17 @@ def chain() -> Claim:
 def choice() -> Claim:
     """The greatest distance of B, C or D from what is asked of a member that is chosen by it."""
     off = [abs(savin("II", B=1.7).constants.B.value - 1.7)]
-    one = SavinFamily.of("III")
-    off += [abs(one.law(alpha).constants.D.value - 7.0) for alpha in one.alphas(D=7.0)]
-    off += [abs(one.law(alpha).constants.C.value - 7.0) for alpha in one.alphas(C=7.0)]
+    family = SavinFamily.of("III")
+    off += [abs(family.law(alpha).constants.D.value - 7.0) for alpha in family.alphas(D=7.0)]
+    off += [abs(family.law(alpha).constants.C.value - 7.0) for alpha in family.alphas(C=7.0)]
     return Claim(max(off), "<=", 1e-8)
 
 
 @computation("savin.any_end_velocity")
 def any_end_velocity() -> Claim:
     """The greatest breach of b = 0.4 at both ends and a(1) = 1 by laws with that end velocity."""
-    laws = [with_end_velocity(one, 0.4) for one in (savin("I", 2.0), savin("IV", 8.0), catalogue["cycloidal"].law)]
-    breaches = [part for one in laws for part in (one.b(0.0) - 0.4, one.b(1.0) - 0.4, one(1.0) - 1.0)]
+    laws = [with_end_velocity(law, 0.4) for law in (savin("I", 2.0), savin("IV", 8.0), catalogue["cycloidal"].law)]
+    breaches = [part for law in laws for part in (law.b(0.0) - 0.4, law.b(1.0) - 0.4, law(1.0) - 1.0)]
     return Claim(max(abs(part) for part in breaches), "<=", 1e-9)
 
 

@@ -24,10 +24,10 @@ def levers(
     beta: float, swing: float, lam: Sequence[float], rho: Sequence[float], nu: Sequence[float]
 ) -> list[TorsionLever]:
     """The levers of one beta and one swing, degrees, that keep to the limits."""
-    found = []
+    made = []
     for length, first, second in product(lam, rho, nu):
         try:
-            found.append(TorsionLever(beta=beta, lam=length, rho=first, nu=second, swing=deg(swing)))
+            made.append(TorsionLever(beta=beta, lam=length, rho=first, nu=second, swing=deg(swing)))
         except InputError:
             continue
-    return found
+    return made

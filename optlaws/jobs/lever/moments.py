@@ -67,9 +67,9 @@ class Drawn:
     @property
     def name(self) -> str:
         """What the legend calls it."""
-        one = self.lever
-        own = f"beta {one.beta:g}, " if one.beta != self.beta else ""
-        return f"{self.number}: {own}lambda {one.lam:g}, rho {one.rho:g}, nu {one.nu:g}"
+        lever = self.lever
+        own = f"beta {lever.beta:g}, " if lever.beta != self.beta else ""
+        return f"{self.number}: {own}lambda {lever.lam:g}, rho {lever.rho:g}, nu {lever.nu:g}"
 
     @property
     def chi(self) -> np.ndarray[Any, np.dtype[np.float64]]:
@@ -87,7 +87,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec = convert(data, Moments, file)
     drawn = [_drawn(panel, i, curve) for panel in spec.panel for i, curve in enumerate(panel.curve, 1)]
-    rows = [_row(one) for one in drawn]
+    rows = [_row(case) for case in drawn]
     about = f"{spec.title}; from {file.name}"
     page = Page(spec.title).text(spec.text).figure("moments", "Moment of the bars over the deviation")
     return [
@@ -106,21 +106,21 @@ def _drawn(panel: Panel, number: int, curve: Curve) -> Drawn:
     return Drawn(panel.beta, number, lever)
 
 
-def _row(one: Drawn) -> list[tables.Cell]:
-    motion = one.lever.asymptotic
-    angles = [round(degrees(angle), 9) for angle in (one.lever.swing, motion.chi01, motion.chi02)]
-    moments = [float(one.lever.moment(chi)) for chi in (motion.chi01, motion.chi02)]
+def _row(case: Drawn) -> list[tables.Cell]:
+    motion = case.lever.asymptotic
+    angles = [round(degrees(angle), 9) for angle in (case.lever.swing, motion.chi01, motion.chi02)]
+    moments = [float(case.lever.moment(chi)) for chi in (motion.chi01, motion.chi02)]
     # a lever without any departure has one of rounding size
-    return [f"beta = {one.beta:g}", one.name, *angles, *moments, round(100.0 * one.departure(), 9) + 0.0]
+    return [f"beta = {case.beta:g}", case.name, *angles, *moments, round(100.0 * case.departure(), 9) + 0.0]
 
 
 def draw(drawn: Sequence[Drawn]) -> Figure:
     """The figure: a panel a beta, each curve with its tangent at rest."""
-    betas = list(dict.fromkeys(one.beta for one in drawn))
+    betas = list(dict.fromkeys(case.beta for case in drawn))
     with drawing.style():
         figure = drawing.figure(4.8 * len(betas), 4.4)
         for axes, beta in zip(np.atleast_1d(figure.subplots(1, len(betas))), betas, strict=True):
-            _panel(axes, beta, [one for one in drawn if one.beta == beta])
+            _panel(axes, beta, [case for case in drawn if case.beta == beta])
         return figure
 
 
@@ -129,9 +129,9 @@ _STYLES = ("-", "--", "-.", ":", (0, (5, 1)), (0, (1, 1)))
 
 def _panel(axes: Axes, beta: float, drawn: Sequence[Drawn]) -> None:
     shades = (*drawing.BLUES[::-1][: len(drawn) - 1], drawing.WARM) if len(drawn) > 1 else (drawing.BLUES[-1],)
-    for one, colour, dashes in zip(drawn, shades, _STYLES, strict=False):
-        chi = one.chi
-        axes.plot(np.degrees(chi), one.lever.moment(chi), color=colour, linestyle=dashes, label=one.name)
+    for case, colour, dashes in zip(drawn, shades, _STYLES, strict=False):
+        chi = case.chi
+        axes.plot(np.degrees(chi), case.lever.moment(chi), color=colour, linestyle=dashes, label=case.name)
     axes.axhline(0.0, color=drawing.GREY, linewidth=0.8)
     axes.axvline(0.0, color=drawing.GREY, linewidth=0.8)
     axes.set(xlabel="deviation of the driven link (degrees)", ylabel="moment M_R / c1 (radians)")

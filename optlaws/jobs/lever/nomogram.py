@@ -43,12 +43,14 @@ class Nomogram(msgspec.Struct, kw_only=True, forbid_unknown_fields=True, rename=
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec = convert(data, Nomogram, file)
-    rows = [_row(one) for beta in spec.beta for swing in spec.tabled for one in _levers(spec, beta, [swing], spec.rho)]
+    rows = [
+        _row(lever) for beta in spec.beta for swing in spec.tabled for lever in _levers(spec, beta, [swing], spec.rho)
+    ]
     if not rows:
         raise InputError("no combination of beta and swing keeps to the limits")
     swings = np.linspace(min(spec.tabled), max(spec.tabled), spec.points).tolist()
     curves = {
-        rho: {beta: found for beta in spec.beta if (found := _levers(spec, beta, swings, rho))}
+        rho: {beta: made for beta in spec.beta if (made := _levers(spec, beta, swings, rho))}
         for rho in (spec.rho, *spec.also)
     }
     about = f"{spec.title}; from {file.name}"
@@ -61,17 +63,17 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
 
 
 def _levers(spec: Nomogram, beta: float, swings: Sequence[float], rho: float) -> list[TorsionLever]:
-    return [one for swing in swings for one in levers(beta, swing, [spec.lam], [rho], [spec.nu])]
+    return [lever for swing in swings for lever in levers(beta, swing, [spec.lam], [rho], [spec.nu])]
 
 
-def _row(one: TorsionLever) -> list[tables.Cell]:
-    motion = one.asymptotic
-    angles = (one.swing, one.chi01, motion.chi02, one.gamma01)
+def _row(lever: TorsionLever) -> list[tables.Cell]:
+    motion = lever.asymptotic
+    angles = (lever.swing, lever.chi01, motion.chi02, lever.gamma01)
     try:
-        period = one.exact.period
+        period = lever.exact.period
     except InputError:  # the exact motion leaves the limits by a little
         period = None
-    return [one.beta, *(round(degrees(angle), 9) for angle in angles), one.xi, motion.period, period]
+    return [lever.beta, *(round(degrees(angle), 9) for angle in angles), lever.xi, motion.period, period]
 
 
 def _page(spec: Nomogram, rows: Sequence[Sequence[tables.Cell]]) -> Page:
@@ -96,10 +98,10 @@ def draw(curves: Mapping[float, Mapping[float, Sequence[TorsionLever]]]) -> Figu
 def _draw_row(left: Axes, right: Axes, curves: Mapping[float, Sequence[TorsionLever]]) -> None:
     from matplotlib.ticker import FormatStrFormatter, LogLocator, NullLocator
 
-    for beta, found in curves.items():
+    for beta, made in curves.items():
         colour = drawing.GREY if beta == 1.0 else drawing.BLUES[3] if beta < 1.0 else drawing.WARM
-        _curve(left, beta, found, lambda one: degrees(one.gamma01), colour)
-        _curve(right, beta, found, lambda one: one.xi, colour)
+        _curve(left, beta, made, lambda lever: degrees(lever.gamma01), colour)
+        _curve(right, beta, made, lambda lever: lever.xi, colour)
     for axes in (left, right):
         _head(axes)
     left.set(ylabel="gamma01 (degrees)")
@@ -119,7 +121,7 @@ def _curve(
     value: Callable[[TorsionLever], float],
     colour: str,
 ) -> None:
-    swing, values = [degrees(one.swing) for one in levers], [value(one) for one in levers]
+    swing, values = [degrees(lever.swing) for lever in levers], [value(lever) for lever in levers]
     axes.plot(swing, values, color=colour)
     style: dict[str, Any] = {"textcoords": "offset points", "va": "center", "ha": "right", "fontsize": 8.5}
     axes.annotate(f"{beta:g}", (swing[0], values[0]), xytext=(-4, 0), color=colour, **style)

@@ -70,10 +70,10 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     if missing := [f"{beta:g}" for beta in spec.drawn if beta not in spec.beta]:
         raise InputError(f"drawn: {', '.join(missing)} not among beta")
     groups = [
-        _group(beta, swing, found)
+        _group(beta, swing, made)
         for beta in spec.beta
         for swing in spec.swing
-        if (found := levers(beta, swing, spec.lam, spec.rho, spec.nu))
+        if (made := levers(beta, swing, spec.lam, spec.rho, spec.nu))
     ]
     if not groups:
         raise InputError("no combination of beta, lambda, rho, nu and swing keeps to the limits")
@@ -87,33 +87,33 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     ]
 
 
-def _group(beta: float, swing: float, found: Sequence[TorsionLever]) -> Group:
-    values = [_values(one, one.asymptotic) for one in found]
+def _group(beta: float, swing: float, made: Sequence[TorsionLever]) -> Group:
+    values = [_values(lever, lever.asymptotic) for lever in made]
     exact, off = [], []
-    for one in found:
+    for lever in made:
         try:
-            exact.append(_values(one, one.exact))
+            exact.append(_values(lever, lever.exact))
         except InputError:  # the exact motion leaves the limits by a little
             continue
-        off.append([abs(one.errors[name]) for name in ("T", *CONSTANTS, "max |da|")])
+        off.append([abs(lever.errors[name]) for name in ("T", *CONSTANTS, "max |da|")])
     return Group(
         beta,
         swing,
         np.array(values),
         np.array(exact).reshape(-1, 5),
-        max(_truncated(one) for one in found),
+        max(_truncated(lever) for lever in made),
         np.array(off).reshape(-1, 6).max(axis=0, initial=0.0),
     )
 
 
-def _values(one: TorsionLever, motion: Any) -> list[float]:  # noqa: ANN401
-    return [*(abs(getattr(motion, name)) for name in CONSTANTS), motion.period / one.T0]
+def _values(lever: TorsionLever, motion: Any) -> list[float]:  # noqa: ANN401
+    return [*(abs(getattr(motion, name)) for name in CONSTANTS), motion.period / lever.T0]
 
 
-def _truncated(one: TorsionLever) -> float:
-    chi = np.linspace(one.asymptotic.chi02, one.chi01, 201)
-    moment = one.moment(chi)
-    return float(np.abs(one.taylor_moment(chi) - moment).max() / np.abs(moment).max())
+def _truncated(lever: TorsionLever) -> float:
+    chi = np.linspace(lever.asymptotic.chi02, lever.chi01, 201)
+    moment = lever.moment(chi)
+    return float(np.abs(lever.taylor_moment(chi) - moment).max() / np.abs(moment).max())
 
 
 def _cells(groups: Sequence[Group]) -> tuple[list[str], list[list[tables.Cell]]]:
@@ -123,20 +123,20 @@ def _cells(groups: Sequence[Group]) -> tuple[list[str], list[list[tables.Cell]]]
     headings += [f"spread of {name}, %" for name in names[:4]]
     headings += ["Taylor error of the moment, %", *(f"{name} off by, %" for name in ("T", *CONSTANTS)), "max |da|"]
     rows: list[list[tables.Cell]] = []
-    for one in groups:
-        spread = 100 * np.ptp(one.values[:, :4], axis=0) / one.values[:, :4].min(axis=0)
+    for group in groups:
+        spread = 100 * np.ptp(group.values[:, :4], axis=0) / group.values[:, :4].min(axis=0)
         rows.append(
             [
-                one.beta,
-                one.swing,
-                len(one.values),
-                len(one.exact),
-                *_ends(one.values),
-                *_ends(one.exact),
+                group.beta,
+                group.swing,
+                len(group.values),
+                len(group.exact),
+                *_ends(group.values),
+                *_ends(group.exact),
                 *np.round(spread, 6).tolist(),
-                round(100 * one.truncated, 6),
-                *np.round(100 * one.off[:5], 6).tolist(),
-                round(float(one.off[5]), 8),
+                round(100 * group.truncated, 6),
+                *np.round(100 * group.off[:5], 6).tolist(),
+                round(float(group.off[5]), 8),
             ]
         )
     return headings, rows
@@ -151,13 +151,18 @@ def _page(spec: Study, groups: Sequence[Group]) -> Page:
     page = Page(spec.title).text(spec.text).figure("constants", "B and C over the swing")
     headings = ["beta", "swing, deg", "levers", "B1", "B3", "C1", "abs C3", "T/T0"]
     rows: list[list[tables.Cell]] = [
-        [one.beta, one.swing, len(one.values), *(_span(column) for column in one.values.T)] for one in groups
+        [group.beta, group.swing, len(group.values), *(_span(column) for column in group.values.T)] for group in groups
     ]
     page.heading("Asymptotic constants").table(headings, rows)
     headings = ["beta", "swing, deg", "moment, %", "T, %", "B1, %", "B3, %", "C1, %", "C3, %", "max da"]
     rows = [
-        [one.beta, one.swing, *(f"{100 * value:.3f}" for value in (one.truncated, *one.off[:5])), f"{one.off[5]:.5f}"]
-        for one in groups
+        [
+            group.beta,
+            group.swing,
+            *(f"{100 * value:.3f}" for value in (group.truncated, *group.off[:5])),
+            f"{group.off[5]:.5f}",
+        ]
+        for group in groups
     ]
     return page.heading("What they are off by, at most").table(headings, rows)
 
@@ -185,7 +190,7 @@ def draw(betas: Sequence[float], groups: Sequence[Group]) -> Figure:
         rows = figure.subplots(2, 2, sharex=True, sharey="row")
         for axes, (column, half, name, harmonic) in zip(rows.ravel(), _PANELS, strict=True):
             for beta in betas:
-                _band(axes, [one for one in groups if one.beta == beta], column, colours[beta])
+                _band(axes, [group for group in groups if group.beta == beta], column, colours[beta])
             axes.axhline(harmonic, color=drawing.GREY, linewidth=1.0, zorder=1)
             axes.set(ylabel=f"{name} (dimensionless)", title=f"{name.split()[-1]}, {half}")
         for axes in rows[1]:
@@ -206,7 +211,7 @@ def _colours(betas: Sequence[float]) -> dict[float, str]:
 
 
 def _band(axes: Axes, groups: Sequence[Group], column: int, colour: str) -> None:
-    swing = [one.swing for one in groups]
-    low, high = (np.array([end(one.values[:, column]) for one in groups]) for end in (np.min, np.max))
+    swing = [group.swing for group in groups]
+    low, high = (np.array([end(group.values[:, column]) for group in groups]) for end in (np.min, np.max))
     axes.fill_between(swing, low, high, color=colour, alpha=0.35, linewidth=0.0)
     axes.plot(swing, 0.5 * (low + high), color=colour, marker="o", markersize=2.5)

@@ -61,8 +61,10 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
 
 
 def _verdicts(spec: Tables, lines: Sequence[Mapping[str, str]], where: str) -> list[printed.Verdict]:
-    wrong: dict[tuple[str, str, str], str] = {(one.coefficient, one.beta, one.lam): one.reason for one in spec.misprint}
-    found = []
+    wrong: dict[tuple[str, str, str], str] = {
+        (misprint.coefficient, misprint.beta, misprint.lam): misprint.reason for misprint in spec.misprint
+    }
+    verdicts = []
     for line in lines:
         name, beta, lam = (line[column] for column in COLUMNS[:3])
         if name not in ("Q", "P", "S", "R"):
@@ -73,13 +75,13 @@ def _verdicts(spec: Tables, lines: Sequence[Mapping[str, str]], where: str) -> l
         # a coefficient that vanishes may come out as -0
         exact = float(getattr(linkage, name)) + 0.0
         try:
-            found.append(_judged(line, exact, wrong.pop((name, beta, lam), None)))
+            verdicts.append(_judged(line, exact, wrong.pop((name, beta, lam), None)))
         except InputError as error:
             raise InputError(f"{where}: {error}") from None
     if wrong:
         rest = ", ".join(" ".join(part for part in key if part) for key in wrong)
         raise InputError(f"misprint: not among the printed numbers of {where}: {rest}")
-    return found
+    return verdicts
 
 
 def _judged(line: Mapping[str, str], exact: float, misprint: str | None) -> printed.Verdict:
@@ -104,11 +106,11 @@ def _page(spec: Tables, lines: Sequence[Mapping[str, str]], verdicts: Sequence[p
     betas = list(dict.fromkeys(line["beta"] for line in lines))
     exact = {(v.quantity, line["beta"], line["lambda"]): v.exact for line, v in zip(lines, verdicts, strict=True)}
     for title, names, lam in (("Q, P and S, exact", "QPS", [""]), ("R, exact", "R", _lambdas(lines))):
-        headings = ["beta", *(name if not one else f"{name}, lambda {one}" for name in names for one in lam)]
-        rows = [[beta, *(exact.get((name, beta, one)) for name in names for one in lam)] for beta in betas]
+        headings = ["beta", *(name if not ratio else f"{name}, lambda {ratio}" for name in names for ratio in lam)]
+        rows = [[beta, *(exact.get((name, beta, ratio)) for name in names for ratio in lam)] for beta in betas]
         page.heading(title).table(headings, rows)
     count = Counter(v.verdict if not v.verdict.endswith("%") else "off by more than rounding" for v in verdicts)
-    page.heading("Verdicts").table(["verdict", "numbers"], [[*one] for one in count.items()])
+    page.heading("Verdicts").table(["verdict", "numbers"], [[*item] for item in count.items()])
     off = [(v.quantity, v.row, v.printed, v.exact, v.verdict, v.reason) for v in verdicts if v.verdict != REPRODUCED]
     headings = ["coefficient", "of", "printed", "exact", "verdict", "reason"]
     return page.heading("Numbers that are not reproduced to their digits").table(headings, off)

@@ -40,16 +40,16 @@ class Drawing(msgspec.Struct, forbid_unknown_fields=True):
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec = convert(data, Drawing, file)
-    one = loader(catalogue[spec.law].law)
+    mechanism = loader(catalogue[spec.law].law)
     figures = {
-        "mechanism": draw_mechanism(one, deg(spec.shown), spec.radius_ratio),
-        "exchange": draw_exchange(one, spec.title),
+        "mechanism": draw_mechanism(mechanism, deg(spec.shown), spec.radius_ratio),
+        "exchange": draw_exchange(mechanism, spec.title),
     }
     rows: list[list[tables.Cell]] = []
-    for name, law in (("executive", one.executive), ("loader", one.law)):
+    for name, law in (("executive", mechanism.executive), ("loader", mechanism.law)):
         peaks = law.constants
         rows.append([name, peaks.B.value, peaks.C.value, peaks.D.value, peaks.J.value])
-    page = Page(spec.title).text(f"Law {spec.law}, Y = {one.Y:.9g}.")
+    page = Page(spec.title).text(f"Law {spec.law}, Y = {mechanism.Y:.9g}.")
     page.figure("mechanism", "Both cams").figure("exchange", "What they exchange").table(HEADINGS, rows)
     return [
         writing.write(out / "drawing.md", str(page)),
@@ -63,11 +63,11 @@ _APART = 6.4
 _SAMPLES = 721
 
 
-def draw_mechanism(one: Loader, shown: float, radius_ratio: float) -> Figure:
+def draw_mechanism(mechanism: Loader, shown: float, radius_ratio: float) -> Figure:
     """Executive cam and balancing cam on one shaft, at the cam angle `shown`; strokes are equal."""
     angles = np.linspace(0.0, 2.0 * np.pi, _SAMPLES)
-    executive = _cycle(one.executive, angles, 0.0)
-    balancing = _cycle(one.law, angles, 0.5)
+    executive = _cycle(mechanism.executive, angles, 0.0)
+    balancing = _cycle(mechanism.law, angles, 0.5)
     with drawing.style():
         figure = drawing.figure(8.4, 5.4)
         axes = figure.subplots()
@@ -88,15 +88,19 @@ def draw_mechanism(one: Loader, shown: float, radius_ratio: float) -> Figure:
         return figure
 
 
-def draw_exchange(one: Loader, title: str) -> Figure:
+def draw_exchange(mechanism: Loader, title: str) -> Figure:
     """Velocities, energies and powers over the motion."""
     k = np.linspace(0.0, 1.0, 401)
-    B, Y = one.executive.peak(1).value, one.Y
-    b, b_l = one.executive.b(k), one.law.b(k)
+    B, Y = mechanism.executive.peak(1).value, mechanism.Y
+    b, b_l = mechanism.executive.b(k), mechanism.law.b(k)
     panels: tuple[tuple[str, dict[str, Array], str], ...] = (
         ("velocity", {"executive b": b, "loader b": b_l}, "velocity (dimensionless)"),
         ("energy", {"executive": (b / B) ** 2, "loader": (b_l / (Y * B)) ** 2}, "share of the kinetic energy"),
-        ("power", {"executive Y² d": Y**2 * one.executive.d(k), "loader d": one.law.d(k)}, "power (dimensionless)"),
+        (
+            "power",
+            {"executive Y² d": Y**2 * mechanism.executive.d(k), "loader d": mechanism.law.d(k)},
+            "power (dimensionless)",
+        ),
     )
     with drawing.style():
         figure = drawing.figure(10.2, 3.5)

@@ -62,13 +62,13 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
 
 def _row(e13: float, gamma_w: float) -> list[float] | None:
     try:
-        one = TrapeziumSubstitute(e13, gamma_w)
+        substitute = TrapeziumSubstitute(e13, gamma_w)
     except InputError:
         return None
-    exact = loader(one.law)
-    peaks = one.law.constants
+    exact = loader(substitute.law)
+    peaks = substitute.law.constants
     own = [peaks.B.value, peaks.C.value, peaks.D.value]
-    return [e13, gamma_w, one.m, one.n, one.Y, exact.Y, *own, exact.B, exact.C, exact.D]
+    return [e13, gamma_w, substitute.m, substitute.n, substitute.Y, exact.Y, *own, exact.B, exact.C, exact.D]
 
 
 def _page(spec: Nomogram, rows: Sequence[Sequence[float]]) -> Page:

@@ -88,7 +88,7 @@ class Row:
     @property
     def best(self) -> BalancedLaw:
         """The law with the least C of the loader."""
-        return min(self.least.values(), key=lambda found: found.objective)
+        return min(self.least.values(), key=lambda solution: solution.objective)
 
     def printed(self, kind: str) -> float:
         """What the printed law has of what a rival is best at."""
@@ -100,16 +100,17 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec = convert(data, Spec, file)
     given = printed.rows(file.parent / spec.printed, COLUMNS)
-    codes = [one["code"] for one in given]
+    codes = [entry["code"] for entry in given]
     if spec.shown not in codes:
         raise InputError(f"{file}: {unknown_key(spec.shown, codes, 'law')}")
-    rows = [_row(one, spec) for one in given]
+    rows = [_row(entry, spec) for entry in given]
     about = f"{spec.title}; from {file.name}"
     least, headings = _least(rows), _headings(rows)
     rivals = _rivals(rows)
     page = _page(spec, rows, (headings, least), rivals)
     kept = {
-        row.code: {kind: None if one is None else one.to_dict() for kind, one in row.rivals.items()} for row in rows
+        row.code: {kind: None if rival is None else rival.to_dict() for kind, rival in row.rivals.items()}
+        for row in rows
     }
     figure = draw(spec.title, rows, next(row for row in rows if row.code == spec.shown))
     return [
@@ -157,7 +158,7 @@ def _least(rows: Sequence[Row]) -> list[list[tables.Cell]]:
             row.B,
             row.C,
             bounded(row.one.C),
-            *(one.objective for one in row.least.values()),
+            *(solution.objective for solution in row.least.values()),
             loader_acceleration_limit(row.B),
             _better(row.best.objective, row.one.C),
         ]
@@ -170,23 +171,23 @@ RIVALS = ("law", "order", "rival", *_PEAKS, *(f"printed {peak}" for peak in _PEA
 
 
 def _rivals(rows: Sequence[Row]) -> list[list[tables.Cell]]:
-    found: list[list[tables.Cell]] = []
+    lines: list[list[tables.Cell]] = []
     for row in rows:
         own = [row.C, bounded(row.one.C), row.one.B, row.one.D]
         for kind in KINDS:
-            one = row.rivals[kind]
-            if one is None:
-                found.append([row.code, row.order, f"{kind}: none exists", None, None, None, None, *own, None, None])
+            rival = row.rivals[kind]
+            if rival is None:
+                lines.append([row.code, row.order, f"{kind}: none exists", None, None, None, None, *own, None, None])
                 continue
-            peaks = [one.law.constants.C.value, one.loader.C, one.loader.B, one.loader.D]
-            better = _better(one.objective, row.printed(kind))
-            gap = max(0.0, round(one.gap, 6))
-            found.append([row.code, row.order, kind, *peaks, *own, better, gap])
-    return found
+            peaks = [rival.law.constants.C.value, rival.loader.C, rival.loader.B, rival.loader.D]
+            better = _better(rival.objective, row.printed(kind))
+            gap = max(0.0, round(rival.gap, 6))
+            lines.append([row.code, row.order, kind, *peaks, *own, better, gap])
+    return lines
 
 
-def _better(found: float, own: float) -> float | None:
-    return round(100.0 * (1.0 - found / own), 3) if isfinite(own) else None
+def _better(least: float, own: float) -> float | None:
+    return round(100.0 * (1.0 - least / own), 3) if isfinite(own) else None
 
 
 def _page(
@@ -202,8 +203,8 @@ def _page(
 
 def _said(rows: Sequence[Row]) -> str:
     """What is proven of the least C_l."""
-    every = [one for row in rows for one in row.least.values()]
-    open_ones = [one.gap for one in every if one.status is not Status.OPTIMAL]
+    every = [solution for row in rows for solution in row.least.values()]
+    open_ones = [solution.gap for solution in every if solution.status is not Status.OPTIMAL]
     if not open_ones:
         return f"proven for all {len(every)}, to 1e-8"
     return f"proven for {len(every) - len(open_ones)} of {len(every)}, the others to {max(open_ones):.1e}"
@@ -222,10 +223,10 @@ def draw(title: str, rows: Sequence[Row], shown: Row) -> Figure:
 
 def _over_B(axes: Axes, rows: Sequence[Row]) -> None:
     B = np.linspace(min(row.B for row in rows) - 0.04, max(row.B for row in rows) + 0.04, 121)
-    axes.plot(B, [loader_acceleration_limit(one) for one in B], color=drawing.GREY, label="limit for b ≥ 0")
+    axes.plot(B, [loader_acceleration_limit(velocity) for velocity in B], color=drawing.GREY, label="limit for b ≥ 0")
     finite = [row for row in rows if isfinite(row.one.C)]
     axes.plot([row.B for row in finite], [row.one.C for row in finite], "o", color=drawing.WARM, label="printed laws")
-    capped = [(row.B, one.loader.C) for row in rows if (one := row.rivals["C no greater"]) is not None]
+    capped = [(row.B, rival.loader.C) for row in rows if (rival := row.rivals["C no greater"]) is not None]
     axes.plot(*np.transpose(capped), "s", color=drawing.BLUES[2], label="least C of the loader, own C no greater")
     best = [(row.B, row.best.loader.C) for row in rows]
     axes.plot(*np.transpose(best), "v", color=drawing.GREEN, label="least C of the loader")
@@ -236,8 +237,8 @@ def _over_B(axes: Axes, rows: Sequence[Row]) -> None:
 def _pair(axes: Axes, row: Row) -> None:
     k = np.linspace(0.0, 1.0, 801)
     rival = row.rivals["C no greater"] or row.best
-    for one, colour, name in ((row.one, drawing.WARM, row.code), (rival.loader, drawing.BLUES[2], "rival")):
-        axes.plot(k, one.executive.c(k), color=colour, label=f"{name}: executive c")
-        axes.plot(k, one.law.c(k), color=colour, linestyle="--", label=f"{name}: loader c")
+    for balanced, colour, name in ((row.one, drawing.WARM, row.code), (rival.loader, drawing.BLUES[2], "rival")):
+        axes.plot(k, balanced.executive.c(k), color=colour, label=f"{name}: executive c")
+        axes.plot(k, balanced.law.c(k), color=colour, linestyle="--", label=f"{name}: loader c")
     axes.set(xlabel="k (dimensionless time)", ylabel="acceleration")
     axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.14), ncols=2)

@@ -68,22 +68,22 @@ class Row:
         """
         size = float(self.given[name])
         from_B = self.one.Y * float(self.given["B"]) / self.one.B
-        found = []
+        candidates = []
         for seen, gridded in ((self.exact[name], False), (self.on_grid[name], True)):
             if seen is not None and isfinite(seen):
                 ratio = size / seen
-                found.append((self.one.Y * (sqrt(ratio) if name == "D" else ratio), gridded))
-        return min(found, key=lambda pair: abs(pair[0] / from_B - 1.0))
+                candidates.append((self.one.Y * (sqrt(ratio) if name == "D" else ratio), gridded))
+        return min(candidates, key=lambda pair: abs(pair[0] / from_B - 1.0))
 
 
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec = convert(data, Table, file)
-    rows = [recomputed(one, spec.grid) for one in printed.rows(file.parent / spec.printed, COLUMNS)]
+    rows = [recomputed(line, spec.grid) for line in printed.rows(file.parent / spec.printed, COLUMNS)]
     judged = [verdict for row in rows for verdict in _verdicts(row)]
     about = f"{spec.title}; from {file.name}"
     headings = ("row", "quantity", "printed", "exact", "on grid", "verdict", "reason")
-    lines = [[getattr(one, name.replace(" ", "_")) for name in headings] for one in judged]
+    lines = [[getattr(judgement, name.replace(" ", "_")) for name in headings] for judgement in judged]
     return [
         writing.write(out / "table.csv", tables.to_csv(HEADINGS, _table(rows), about=about)),
         writing.write(out / "energy.csv", tables.to_csv(ENERGY, _energy(rows), about=about)),
@@ -97,28 +97,32 @@ def recomputed(given: Mapping[str, str], grid: int) -> Row:
     for name in CONSTANTS:
         if given[name] != "inf":
             printed.number(given[name], f"row {given['code']}, {name}")
-    one = loader(catalogue[given["law"]].law)
+    mechanism = loader(catalogue[given["law"]].law)
     k = np.linspace(0.0, 1.0, grid + 1)
-    moving = k[one.law.b(k) != 0.0]  # where the loader turns, the paper's formula for c is 0/0
-    on_grid = {"B": None, "C": float(np.abs(one.law.c(moving)).max()), "D": float(np.abs(one.law.d(k)).max())}
-    return Row(given["code"], given, one, on_grid)
+    moving = k[mechanism.law.b(k) != 0.0]  # where the loader turns, the paper's formula for c is 0/0
+    on_grid = {
+        "B": None,
+        "C": float(np.abs(mechanism.law.c(moving)).max()),
+        "D": float(np.abs(mechanism.law.d(k)).max()),
+    }
+    return Row(given["code"], given, mechanism, on_grid)
 
 
 def _verdicts(row: Row) -> list[printed.Verdict]:
-    found = []
+    verdicts = []
     for name, exact in row.exact.items():
         text = row.given[name]
         if text == "inf":
             reproduced = exact == inf
             verdict = printed.REPRODUCED if reproduced else "off: it is finite"
-            found.append(printed.Verdict(row.code, name, text, exact, None, verdict, ""))
+            verdicts.append(printed.Verdict(row.code, name, text, exact, None, verdict, ""))
             continue
-        one = printed.judge(row.code, name, text, exact, on_grid=row.on_grid[name], misprint=None)
+        judgement = printed.judge(row.code, name, text, exact, on_grid=row.on_grid[name], misprint=None)
         off = float(text) / exact - 1.0
-        if one.verdict not in {printed.REPRODUCED, printed.ON_GRID} and abs(off) >= EXACT:
-            one = replace(one, verdict=f"off by {100.0 * off:+.2g} %", reason=_reason(row, name))
-        found.append(one)
-    return found
+        if judgement.verdict not in {printed.REPRODUCED, printed.ON_GRID} and abs(off) >= EXACT:
+            judgement = replace(judgement, verdict=f"off by {100.0 * off:+.2g} %", reason=_reason(row, name))
+        verdicts.append(judgement)
+    return verdicts
 
 
 def _reason(row: Row, name: str) -> str:
@@ -137,14 +141,14 @@ def _reason(row: Row, name: str) -> str:
     return f"{said}; {100 * left:+.2g} % remain{grid}, of unknown cause"
 
 
-def _shape(one: Loader) -> tuple[float, float]:
-    B, C = (one.executive.peak(nu).value for nu in (1, 2))
+def _shape(mechanism: Loader) -> tuple[float, float]:
+    B, C = (mechanism.executive.peak(nu).value for nu in (1, 2))
     return 1.0 / B, B / C
 
 
-def _is_trapezium(one: Loader) -> bool:
+def _is_trapezium(mechanism: Loader) -> bool:
     try:
-        TrapeziumSubstitute(*_shape(one))
+        TrapeziumSubstitute(*_shape(mechanism))
     except InputError:
         return False
     return True
@@ -182,8 +186,11 @@ def _energy(rows: Sequence[Row]) -> list[list[tables.Cell]]:
 
 
 def _page(spec: Table, rows: Sequence[Row], judged: Sequence[printed.Verdict]) -> Page:
-    good = sum(one.verdict in {printed.REPRODUCED, printed.ON_GRID} for one in judged)
-    lines = [[one.row, one.quantity, one.printed, one.exact, one.verdict, one.reason] for one in judged]
+    good = sum(judgement.verdict in {printed.REPRODUCED, printed.ON_GRID} for judgement in judged)
+    lines = [
+        [judgement.row, judgement.quantity, judgement.printed, judgement.exact, judgement.verdict, judgement.reason]
+        for judgement in judged
+    ]
     headings = ("row", "quantity", "printed", "exact", "verdict", "reason")
     page = Page(spec.title).text(_ABOUT_TABLE).table(HEADINGS, _table(rows))
     page.heading("The energy parameter").text(_ABOUT_ENERGY).table(ENERGY, _energy(rows))

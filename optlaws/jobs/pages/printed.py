@@ -71,11 +71,11 @@ def rows(file: Path, columns: tuple[str, ...]) -> list[Mapping[str, str]]:
     reader = csv.DictReader(line for line in text.splitlines() if line and not line.startswith("#"))
     if tuple(reader.fieldnames or ()) != columns:
         raise InputError(f"{file} must have the columns {', '.join(columns)}, got {reader.fieldnames}")
-    found: list[Mapping[str, str]] = list(reader)
-    for i, row in enumerate(found, 1):
+    lines: list[Mapping[str, str]] = list(reader)
+    for i, row in enumerate(lines, 1):
         if None in row or None in row.values():
             raise InputError(f"{file}: row {i} must have {len(columns)} cells ({', '.join(columns)})")
-    return found
+    return lines
 
 
 def number(text: str, where: str) -> float:

@@ -56,14 +56,14 @@ class Catalogue(Mapping[str, "Entry"]):
         from optlaws.laws.catalogue.entry import Entry
 
         text = files("optlaws.laws.catalogue").joinpath("catalogue.toml").read_text(encoding="utf-8")
-        return {one["name"]: Entry.from_dict(one) for one in tomllib.loads(text)["law"]}
+        return {entry["name"]: Entry.from_dict(entry) for entry in tomllib.loads(text)["law"]}
 
     @kept_property
     def _by_alias(self) -> dict[str, Entry]:
         from optlaws.laws.catalogue.tyr_codes import canonical
 
         entries = self._entries.values()
-        return {canonical(name) or plain(name): one for one in entries for name in (*one.aliases, one.name)}
+        return {canonical(name) or plain(name): entry for entry in entries for name in (*entry.aliases, entry.name)}
 
     def __getitem__(self, name: str) -> Entry:
         from optlaws.laws.catalogue.tyr_codes import canonical
@@ -73,12 +73,12 @@ class Catalogue(Mapping[str, "Entry"]):
         if len(name) > _LONGEST:
             raise UnknownLaw(f"no law is called {shortened(name)}; `optlaws catalogue` lists them")
         code = canonical(name)
-        found = self._by_alias.get(code or plain(name))
-        if found is not None:
-            return found
+        named = self._by_alias.get(code or plain(name))
+        if named is not None:
+            return named
         if code is not None:
             return self._coded(code)
-        near = [f"{one.name!r}" for one in self.search(name)[:3]]
+        near = [f"{entry.name!r}" for entry in self.search(name)[:3]]
         hint = f"did you mean {' or '.join(near)}?" if near else "`optlaws catalogue` lists them"
         raise UnknownLaw(f"no law is called {name!r}; {hint}")
 
@@ -97,9 +97,11 @@ class Catalogue(Mapping[str, "Entry"]):
 
         rows = []
         for name, entry in self._entries.items():
-            one = entry.law.constants
+            constants = entry.law.constants
             shown = drawings(entry.law).split("<svg")[3]
-            rows.append([name, one.B.value, one.C.value, one.D.value, one.J.value, Html(f"<svg{shown}")])
+            rows.append(
+                [name, constants.B.value, constants.C.value, constants.D.value, constants.J.value, Html(f"<svg{shown}")]
+            )
         return page(f"{len(self)} standard laws", table(("law", "B", "C", "D", "J", "acceleration"), rows))
 
     def search(self, text: str) -> tuple[Entry, ...]:
@@ -115,10 +117,10 @@ class Catalogue(Mapping[str, "Entry"]):
         >>> [entry.name for entry in catalogue.search("BESTEHORN")]
         ['cycloidal']
         """
-        ranked = [(_rank(one, text), one) for one in self._entries.values()]
-        kept = sorted(((rank, one) for rank, one in ranked if rank is not None), key=lambda pair: pair[0])
-        good = [one for rank, one in kept if rank < 4.0]
-        return tuple(good or [one for _, one in kept])
+        ranked = [(_rank(entry, text), entry) for entry in self._entries.values()]
+        kept = sorted(((rank, entry) for rank, entry in ranked if rank is not None), key=lambda pair: pair[0])
+        good = [entry for rank, entry in kept if rank < 4.0]
+        return tuple(good or [entry for _, entry in kept])
 
     def _coded(self, code: str) -> Entry:
         from optlaws.laws.catalogue.entry import Entry

@@ -39,13 +39,13 @@ class Published:
 
     def disagreements(self, constants: Constants) -> tuple[str, ...]:
         """What is printed otherwise than the constants are when rounded to the printed digits."""
-        found = []
+        different = []
         for name, text in self.printed:
             value = getattr(constants, name).value
             digits = len(text.partition(".")[2])
             if abs(value - float(text)) > 0.5 * 10.0**-digits * (1.0 + 1e-9):
-                found.append(f"{name} = {text} is {value:.7g}")
-        return tuple(found)
+                different.append(f"{name} = {text} is {value:.7g}")
+        return tuple(different)
 
 
 @dataclass(frozen=True)
@@ -96,8 +96,8 @@ class Entry:
             source=data["source"],
             from_memory=data.get("from_memory", False),
             published=tuple(
-                Published(one["by"], tuple((key, text) for key, text in one.items() if key != "by"))
-                for one in data.get("published", ())
+                Published(printed["by"], tuple((key, text) for key, text in printed.items() if key != "by"))
+                for printed in data.get("published", ())
             ),
         )
 
@@ -114,7 +114,7 @@ class Entry:
     @property
     def aliases(self) -> tuple[str, ...]:
         """Its other names, without the numbers of enumerations."""
-        return tuple(one.partition(" = ")[0] for _, some in self.names for one in some)
+        return tuple(name.partition(" = ")[0] for _, some in self.names for name in some)
 
     @kept_property
     def law(self) -> MotionLaw:
@@ -163,7 +163,7 @@ class Entry:
             "from_memory": self.from_memory,
             "continuity": self.continuity,
             "constants": self.constants.to_dict(rms=True),
-            "published": [{"by": one.by, **dict(one.printed)} for one in self.published],
+            "published": [{"by": source.by, **dict(source.printed)} for source in self.published],
             "law": self.law.to_dict(),
         }
 
@@ -192,7 +192,7 @@ def _built(builder: str, numbers: Any) -> MotionLaw:  # noqa: ANN401 - whatever 
         return coded(numbers)
     if builder in ("scca", "trapezoid"):
         build = scca if builder == "scca" else trapezoid
-        return build(*(float(Fraction(one)) for one in numbers))
+        return build(*(float(Fraction(number)) for number in numbers))
     terms = [(int(n), float(Fraction(q))) for n, q in numbers]
     scale, base, phase = (2.0 * pi, 2.0 * pi, 0.0) if builder == "sines" else (pi * pi, pi, 0.5 * pi)
     amplitudes = tuple(scale * q for _, q in terms)

@@ -72,17 +72,17 @@ def member(text: str) -> tuple[SavinFamily, float] | None:
     >>> member("III(7.2)"), member("cubic")
     ((SavinFamily(u=2), 7.2), None)
     """
-    found = _MEMBER.fullmatch(text) if len(text) <= _LONGEST else None
-    if found is None:
+    match = _MEMBER.fullmatch(text) if len(text) <= _LONGEST else None
+    if match is None:
         return None
-    family = SavinFamily.of(found[1].upper())
-    if found[2] is None:
+    family = SavinFamily.of(match[1].upper())
+    if match[2] is None:
         low, high = map(float, family.range)
-        name = found[1].upper()
+        name = match[1].upper()
         raise InputError(
             f"{family} has a law for each alpha from {low:.9g} to {high:.9g}: say which by {name}(alpha) or {name}(B=x)"
         )
-    name, given, value = found[2].rpartition("=")
+    name, given, value = match[2].rpartition("=")
     try:
         number = float(value)
     except ValueError:

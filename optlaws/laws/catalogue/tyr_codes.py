@@ -26,9 +26,9 @@ def canonical(text: str) -> str | None:
     ('0317(1,5)', '0510', 'KC05', None)
     """
     plain = text.replace(" ", "")
-    if found := _TRAPEZOID.fullmatch(plain):
-        power = float((found[3] or "1").replace(",", "."))
-        return found[1] + found[2] + ("" if power == 1.0 else f"({power:.15g})".replace(".", ","))
+    if match := _TRAPEZOID.fullmatch(plain):
+        power = float((match[3] or "1").replace(",", "."))
+        return match[1] + match[2] + ("" if power == 1.0 else f"({power:.15g})".replace(".", ","))
     return plain.upper() if _COSINE.fullmatch(plain) else None
 
 
@@ -57,13 +57,13 @@ def coded(code: str) -> PiecewiseLaw:
     Peak(value=1.423199, k=0.5)
     """
     plain = code.replace(" ", "")
-    if found := _TRAPEZOID.fullmatch(plain):
-        ramp, plateau = int(found[1]), int(found[2])
+    if match := _TRAPEZOID.fullmatch(plain):
+        ramp, plateau = int(match[1]), int(match[2])
         _check_room(code, ramp + plateau)
-        return trapezoid(ramp / 100, plateau / 100, exponent=float((found[3] or "1").replace(",", ".")))
-    if found := _COSINE.fullmatch(plain):
-        _check_room(code, int(found[1]))
-        return _cosine(int(found[1]) / 100)
+        return trapezoid(ramp / 100, plateau / 100, exponent=float((match[3] or "1").replace(",", ".")))
+    if match := _COSINE.fullmatch(plain):
+        _check_room(code, int(match[1]))
+        return _cosine(int(match[1]) / 100)
     raise InputError(f"a law code is mmnn, mmnn(p) or KCmm, for example 0317(1,5) or KC05; got {shortened(code)}")
 
 

@@ -27,7 +27,9 @@ def law_between(first: MotionLaw, last: MotionLaw, share: float) -> MotionLaw:
         mean = _mean(first.acceleration, last.acceleration, share)
         return PolynomialLaw(mean, *_mean((first.a0, first.b0), (last.a0, last.b0), share))
     if isinstance(first, PiecewiseLaw) and isinstance(last, PiecewiseLaw) and first.breaks == last.breaks:
-        segments = [_segment(one, other, share) for one, other in zip(first.segments, last.segments, strict=True)]
+        segments = [
+            _segment(segment, other, share) for segment, other in zip(first.segments, last.segments, strict=True)
+        ]
         return PiecewiseLaw(first.breaks, segments, *_mean((first.a0,), (last.a0,), share))
     raise InputError(
         f"laws between two laws need polynomials, or polynomials with the same breaks, got {first!r} and {last!r}"
@@ -44,5 +46,5 @@ def _segment(first: object, last: object, share: float) -> PolynomialSegment:
 
 def _mean(first: tuple[float, ...], last: tuple[float, ...], share: float) -> list[float]:
     longest = max(len(first), len(last))
-    padded = (one + (0.0,) * (longest - len(one)) for one in (first, last))
+    padded = (series + (0.0,) * (longest - len(series)) for series in (first, last))
     return [(1.0 - share) * low + share * high for low, high in zip(*padded, strict=True)]

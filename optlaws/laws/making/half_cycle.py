@@ -54,8 +54,8 @@ def from_half(pieces: Sequence[Piece]) -> PiecewiseLaw:
 
 def _joined(pieces: Sequence[Piece]) -> list[Piece]:
     velocity = 0.0
-    found: list[Piece] = []
+    joined: list[Piece] = []
     for length, segment in pieces:
-        found.append((length, segment.scaled(length, 1.0, velocity - segment.velocity(length))))
-        velocity = found[-1][1].velocity(length, last=True)
-    return found
+        joined.append((length, segment.scaled(length, 1.0, velocity - segment.velocity(length))))
+        velocity = joined[-1][1].velocity(length, last=True)
+    return joined

@@ -90,10 +90,10 @@ def _segment(
     running = [(start, share) for start, share in impulses if start < middle < start + duration]
 
     def total(k: Array, order: int) -> Array:
-        found = np.zeros(np.shape(k))
+        values = np.zeros(np.shape(k))
         for start, share in running:
-            found += share / duration**order * np.asarray(law(np.clip((k - start) / duration, 0.0, 1.0), order))
-        return found
+            values += share / duration**order * np.asarray(law(np.clip((k - start) / duration, 0.0, 1.0), order))
+        return values
 
     c = chebyshev.interpolated(lambda x: total(low + 0.5 * (high - low) * (x + 1.0), 2), "the acceleration")
     return PolynomialSegment(tuple(c.tolist()), float(total(np.array(low), 1)))

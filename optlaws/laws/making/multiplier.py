@@ -120,9 +120,9 @@ def multiplier_for(
         made = _values(_made(law, _combined(powers, weights)), wanted)
         return np.asarray((made - values) / np.where(size > 0.0, size, 1.0))
 
-    found = _searched(missing, len(wanted))
-    even = _combined(powers, found)
-    if _most(missing(found)) > MET:
+    coefficients = _searched(missing, len(wanted))
+    even = _combined(powers, coefficients)
+    if _most(missing(coefficients)) > MET:
         nearest = _told(wanted, _values(_made(law, even), wanted))
         raise InputError(
             f"no y of {len(powers)} even powers was found that gives {_told(wanted, values)}; "
@@ -151,14 +151,14 @@ def _values(law: MotionLaw, wanted: Iterable[str]) -> Array:
 
 def _scaled_powers(law: MotionLaw, count: int) -> list[list[Fraction]]:
     """Chebyshev series of even powers of 2k - 1, each scaled so that c times it gives the stroke."""
-    found: list[list[Fraction]] = []
+    powers: list[list[Fraction]] = []
     for n in range(count):
         power = fractions(np.polynomial.chebyshev.poly2cheb([*(2 * n * [0.0]), 1.0]), "y")
         made = _made(law, power)
         k = law.peak(2).k if n == 0 else made.peak(2).k
         scale = Fraction(made.c(k)) / Fraction(law.c(k) * (2.0 * k - 1.0) ** (2 * n))
-        found.append([scale * value for value in power])
-    return found
+        powers.append([scale * value for value in power])
+    return powers
 
 
 def _combined(powers: Sequence[Sequence[Fraction]], weights: Array) -> list[Fraction]:
@@ -212,8 +212,8 @@ def _told(names: Iterable[str], values: Iterable[float]) -> str:
 def _even(y: Multiplier) -> list[Fraction]:
     """The Chebyshev series of y in 2k - 1, without the odd part that rounding left."""
     if callable(y):
-        found = chebyshev.interpolated(lambda x: np.array([float(y(k)) for k in 0.5 * (x + 1.0)]), "y")
-        given = fractions(found, "y")
+        series = chebyshev.interpolated(lambda x: np.array([float(y(k)) for k in 0.5 * (x + 1.0)]), "y")
+        given = fractions(series, "y")
     else:
         given = exact.exact_chebyshev(fractions(y, "y"))
     size = max(map(abs, given), default=Fraction(0))
@@ -261,7 +261,7 @@ def _of_pieces(law: PiecewiseLaw, y: Array) -> PiecewiseLaw:
     swing = PiecewiseLaw(law.breaks, segments)
     b0 = law.b(0.0)
     scale = float(_scale(Fraction(law.a(1.0) - law.a0 - b0), Fraction(swing.a(1.0))))
-    changed = [one.scaled(end - start, scale, b0) for one, (start, end) in zip(segments, pairs, strict=True)]
+    changed = [part.scaled(end - start, scale, b0) for part, (start, end) in zip(segments, pairs, strict=True)]
     return PiecewiseLaw(law.breaks, changed, law.a0)
 
 

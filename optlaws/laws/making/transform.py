@@ -67,11 +67,11 @@ def reversed_law(law: MotionLaw) -> MotionLaw:
     ([12.0, 0.0], [0.0, -12.0])
     """
     if isinstance(law, PolynomialLaw):
-        turned = [one if n % 2 else -one for n, one in enumerate(law.acceleration)]
+        turned = [coefficient if n % 2 else -coefficient for n, coefficient in enumerate(law.acceleration)]
         return PolynomialLaw(turned, law.a0, law.b(1.0))
     if isinstance(law, PiecewiseLaw):
         lengths = [end - start for start, end in pairwise(law.breaks)]
-        turned_pieces = [one.backwards(length) for one, length in zip(law.segments, lengths, strict=True)]
+        turned_pieces = [segment.backwards(length) for segment, length in zip(law.segments, lengths, strict=True)]
         return PiecewiseLaw([1.0 - k for k in law.breaks[::-1]], turned_pieces[::-1], law.a0)
     return reversed_law(as_polynomial(law))
 
@@ -120,16 +120,16 @@ def as_polynomial(law: MotionLaw) -> PolynomialLaw:
     >>> as_polynomial(PiecewiseLaw([0, 1], [SineSegment(6.28, 6.28)])).degree > 15
     True
     """
-    found = chebyshev.interpolated(lambda x: law.c(0.5 * (x + 1.0)), f"c of {type(law).__name__}")
-    return PolynomialLaw(found, law.a(0.0), law.b(0.0))
+    series = chebyshev.interpolated(lambda x: law.c(0.5 * (x + 1.0)), f"c of {type(law).__name__}")
+    return PolynomialLaw(series, law.a(0.0), law.b(0.0))
 
 
 def _scaled(law: MotionLaw, scale: float, drift: float) -> PolynomialLaw | PiecewiseLaw:
     if isinstance(law, PolynomialLaw):
-        acceleration = [scale * one for one in law.acceleration]
+        acceleration = [scale * coefficient for coefficient in law.acceleration]
         return PolynomialLaw(acceleration, scale * law.a0, scale * law.b0 + drift)
     if isinstance(law, PiecewiseLaw):
         lengths = [end - start for start, end in pairwise(law.breaks)]
-        segments = [one.scaled(length, scale, drift) for one, length in zip(law.segments, lengths, strict=True)]
+        segments = [segment.scaled(length, scale, drift) for segment, length in zip(law.segments, lengths, strict=True)]
         return PiecewiseLaw(law.breaks, segments, scale * law.a0)
     return _scaled(as_polynomial(law), scale, drift)

@@ -91,6 +91,6 @@ def trapezoid(ramp: float, plateau: float, fall: float | None = None, *, exponen
 def _fall(power: float) -> Segment:
     if power == int(power) and power <= HIGHEST_POWER:
         rise = [0] * int(power) + [1]
-        turned = (-one if n % 2 else one for n, one in enumerate(chebyshev_from_powers(rise)))
+        turned = (-coefficient if n % 2 else coefficient for n, coefficient in enumerate(chebyshev_from_powers(rise)))
         return PolynomialSegment(tuple(turned))
     return FractionalSegment(power, 1.0, 0.0, (1.0,))

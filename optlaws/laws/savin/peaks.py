@@ -44,8 +44,8 @@ def _positive_roots(constant: float, linear: float, square: float) -> list[float
     half = -0.5 * (
         linear + (1.0 if linear >= 0.0 else -1.0) * sqrt(max(linear * linear - 4.0 * constant * square, 0.0))
     )
-    found = [constant / half if half else 0.0, half / square if square else 0.0]
-    return [z for z in found if z > 0.0]
+    roots = [constant / half if half else 0.0, half / square if square else 0.0]
+    return [z for z in roots if z > 0.0]
 
 
 def power_peak(u: int, H: int, M: Fraction, alpha: Fraction) -> Peak:
@@ -66,7 +66,7 @@ def power_peak(u: int, H: int, M: Fraction, alpha: Fraction) -> Peak:
         return 0.5 * H * H * sqrt(q) * p ** (2 * u + 1) * float(y(p)) * float(F(p))
 
     return max(
-        (Peak(d(p), 0.5 - sqrt(max(0.25 - p, 0.0))) for p in _roots(cubic, 0.0, 0.25)), key=lambda one: one.value
+        (Peak(d(p), 0.5 - sqrt(max(0.25 - p, 0.0))) for p in _roots(cubic, 0.0, 0.25)), key=lambda peak: peak.value
     )
 
 

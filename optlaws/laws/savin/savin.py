@@ -48,25 +48,25 @@ def savin(
     >>> savin("I", B=1.45)
     PolynomialLaw(degree=5, B=1.45, C=6.8, D=3.29666, J=21.6)
     """
-    found = SavinFamily.of(family)
+    known = SavinFamily.of(family)
     given = [name for name, value in (("alpha", alpha), ("B", B), ("C", C), ("D", D)) if value is not None]
     if len(given) != 1:
         raise InputError(f"a member is given by one of alpha, B, C and D, got {' and '.join(given) or 'none'}")
     if alpha is not None:
         if branch is not None:
             raise InputError("branch tells two members of one C or D apart; alpha alone names a member")
-        return found.law(alpha)
+        return known.law(alpha)
     if branch not in (None, "lower", "upper"):
         raise InputError(f"branch must be 'lower' or 'upper', got {shortened(branch)}")
-    members = found.alphas(B=B, C=C, D=D)
+    members = known.alphas(B=B, C=C, D=D)
     if len(members) == 1:
-        return found.law(members[0])
+        return known.law(members[0])
     if branch is None:
-        both = " and ".join(f"{one:.9g}" for one in members)
+        both = " and ".join(f"{member:.9g}" for member in members)
         raise InputError(
-            f"{found} has two members of this {given[0]}, alpha = {both}; say branch='lower' or branch='upper'"
+            f"{known} has two members of this {given[0]}, alpha = {both}; say branch='lower' or branch='upper'"
         )
-    return found.law(members[0 if branch == "lower" else 1])
+    return known.law(members[0 if branch == "lower" else 1])
 
 
 def alpha_range(family: str | int) -> tuple[float, float]:

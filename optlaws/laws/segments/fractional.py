@@ -86,11 +86,16 @@ class FractionalSegment(Segment, kind="fractional"):
         return real_powers.integral(real_powers.product(powers, powers), low, high) * length / (high - low)
 
     def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
-        coefficients = tuple(scale * one for one in self.coefficients)
+        coefficients = tuple(scale * coefficient for coefficient in self.coefficients)
         return replace(self, coefficients=coefficients, steady=scale * self.steady + drift)
 
     def backwards(self, length: float) -> Segment:  # noqa: ARG002, D102
-        return replace(self, first=self.last, last=self.first, coefficients=tuple(-one for one in self.coefficients))
+        return replace(
+            self,
+            first=self.last,
+            last=self.first,
+            coefficients=tuple(-coefficient for coefficient in self.coefficients),
+        )
 
     def times(self, length: float, y: Array) -> Segment:  # noqa: ARG002, D102
         # x = 2u - 1 is straight in v: x = (2v - first - last) / (last - first)
@@ -126,8 +131,8 @@ class FractionalSegment(Segment, kind="fractional"):
 
     def _u(self, powers: real_powers.Sum) -> Array:
         low, high = sorted((self.first, self.last))
-        found = np.array(real_powers.roots(powers, low, high))
-        return (found - self.first) / (self.last - self.first)
+        roots = np.array(real_powers.roots(powers, low, high))
+        return (roots - self.first) / (self.last - self.first)
 
     def _swing(self, length: float) -> dict[float, float]:
         """Velocity without its steady part, in powers of v."""
@@ -140,10 +145,10 @@ class FractionalSegment(Segment, kind="fractional"):
         if nu == 1:
             return real_powers.gathered([(0.0, self.steady), *self._swing(length).items()])
         rate = (self.last - self.first) / length
-        found = real_powers.gathered((self.exponent + i, q) for i, q in enumerate(self.coefficients))
+        terms = real_powers.gathered((self.exponent + i, q) for i, q in enumerate(self.coefficients))
         for _ in range(nu - 2):
-            found = {e: q * rate for e, q in real_powers.derivative(found).items()}
-        return found
+            terms = {e: q * rate for e, q in real_powers.derivative(terms).items()}
+        return terms
 
     def _power(self, length: float) -> dict[float, float]:
         return real_powers.product(self.powers(length, 1), self.powers(length, 2))

@@ -65,7 +65,7 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
         if len(places) < 2 or places[0] != 0.0 or places[-1] != 1.0 or any(b <= a for a, b in pairwise(places)):
             raise InputError(f"breaks must increase from 0 to 1, got {places}")
         kept = tuple(_listed(segments))
-        if len(kept) != len(places) - 1 or not all(isinstance(one, Segment) for one in kept):
+        if len(kept) != len(places) - 1 or not all(isinstance(segment, Segment) for segment in kept):
             raise InputError(
                 f"segments must be {len(places) - 1} segments, one between breaks, got {shortened(segments)}"
             )
@@ -75,43 +75,45 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
 
     @kept_property
     def _lengths(self) -> tuple[tuple[Segment, float], ...]:
-        return tuple((one, end - start) for one, (start, end) in zip(self.segments, pairwise(self.breaks), strict=True))
+        return tuple(
+            (segment, end - start) for segment, (start, end) in zip(self.segments, pairwise(self.breaks), strict=True)
+        )
 
     @kept_property
     def _starts(self) -> tuple[float, ...]:
         whole_segment = np.ones(1)
-        steps = (float(one.derivative(whole_segment, length, 0)[0]) for one, length in self._lengths)
+        steps = (float(segment.derivative(whole_segment, length, 0)[0]) for segment, length in self._lengths)
         return tuple(accumulate(steps, initial=self.a0))
 
     def _pieces(self, k: Array, values: Any) -> Array:  # noqa: ANN401
-        found = np.empty(k.shape)
+        result = np.empty(k.shape)
         places = np.searchsorted(self.breaks[1:-1], k, side="right")
         for i, (segment, length) in enumerate(self._lengths):
             here = places == i
             if here.any():
                 u = np.minimum((k[here] - self.breaks[i]) / length, 1.0)
-                found[here] = values(segment, u, length)
-        return found
+                result[here] = values(segment, u, length)
+        return result
 
     def _derivative(self, k: Array, nu: int) -> Array:
-        found = self._pieces(k, lambda segment, u, length: segment.derivative(u, length, nu))
+        values = self._pieces(k, lambda segment, u, length: segment.derivative(u, length, nu))
         if nu == 0:
-            found += np.array(self._starts)[np.searchsorted(self.breaks[1:-1], k, side="right")]
-        return found
+            values += np.array(self._starts)[np.searchsorted(self.breaks[1:-1], k, side="right")]
+        return values
 
     def _gathered(self, candidates: Any, values: Any) -> tuple[Array, Array]:  # noqa: ANN401
         """Candidate times with the values that their own segment has there, so that breaks appear twice."""
-        places, found = [], []
+        places, heights = [], []
         for (segment, length), (start, end) in zip(self._lengths, pairwise(self.breaks), strict=True):
             u = np.concatenate([[0.0], candidates(segment, length), [1.0]])
             places.append(np.where(u == 1.0, end, start + u * length))
-            found.append(values(segment, u, length))
-        return np.concatenate(places), np.concatenate(found)
+            heights.append(values(segment, u, length))
+        return np.concatenate(places), np.concatenate(heights)
 
     def _before_breaks(self, nu: int) -> Array:
         if nu == 0:
             return np.array(self._starts[1:-1])
-        return np.array([float(one.derivative(_END, length, nu)[0]) for one, length in self._lengths[:-1]])
+        return np.array([float(segment.derivative(_END, length, nu)[0]) for segment, length in self._lengths[:-1]])
 
     def _power(self, k: Array) -> Array:
         c = self._derivative(k, 2)
@@ -150,7 +152,7 @@ class PiecewiseLaw(MotionLaw, kind="piecewise"):
     def _read(cls, fields: dict[str, Any]) -> Self:
         if not isinstance(fields["segments"], list | tuple):
             raise InputError(f"segments must be a list, got {shortened(fields['segments'])}")
-        return cls(fields["breaks"], [Segment.from_dict(one) for one in fields["segments"]], fields["a0"])
+        return cls(fields["breaks"], [Segment.from_dict(entry) for entry in fields["segments"]], fields["a0"])
 
 
 def _listed(segments: object) -> Sequence[Any]:

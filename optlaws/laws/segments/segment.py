@@ -206,10 +206,10 @@ class Segment(ABC):
 
     def _check(self) -> None:
         """Turn every field into floats."""
-        for one in fields(self):  # type: ignore[arg-type]
-            value = getattr(self, one.name)
-            many = str(one.type).startswith("tuple")
-            object.__setattr__(self, one.name, numbers(value, one.name) if many else finite(value, one.name))
+        for field in fields(self):  # type: ignore[arg-type]
+            value = getattr(self, field.name)
+            many = str(field.type).startswith("tuple")
+            object.__setattr__(self, field.name, numbers(value, field.name) if many else finite(value, field.name))
 
 
 @dataclass(frozen=True)
@@ -241,10 +241,12 @@ class PolynomialSegment(Segment, kind="polynomial"):
         return length ** (5 - 2 * nu) * self._law(length).rms(nu) ** 2
 
     def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
-        return PolynomialSegment(tuple(scale * one for one in self.acceleration), scale * self.b0 + drift)
+        return PolynomialSegment(
+            tuple(scale * coefficient for coefficient in self.acceleration), scale * self.b0 + drift
+        )
 
     def backwards(self, length: float) -> Segment:  # noqa: D102
-        turned = (one if n % 2 else -one for n, one in enumerate(self.acceleration))
+        turned = (coefficient if n % 2 else -coefficient for n, coefficient in enumerate(self.acceleration))
         return PolynomialSegment(tuple(turned), self.velocity(length, last=True))
 
     def times(self, length: float, y: Array) -> Segment:  # noqa: ARG002, D102

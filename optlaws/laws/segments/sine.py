@@ -65,7 +65,7 @@ class SineSegment(Segment, kind="sine"):
         return np.asarray(start + steady + self.amplitude / w * swing, dtype=np.float64)
 
     def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
-        powers = tuple(scale * one for one in self.powers)
+        powers = tuple(scale * power for power in self.powers)
         return replace(self, amplitude=scale * self.amplitude, b0=scale * self.b0 + drift, powers=powers)
 
     def backwards(self, length: float) -> Segment:  # noqa: D102
@@ -140,7 +140,7 @@ class HarmonicSegment(Segment, kind="harmonics"):
 
     def __post_init__(self) -> None:
         self._check()
-        alike = len({len(one) for one in (self.amplitudes, self.frequencies, self.phases)}) == 1
+        alike = len({len(numbers) for numbers in (self.amplitudes, self.frequencies, self.phases)}) == 1
         if not alike or not self.amplitudes or min(self.frequencies) <= 0.0:
             raise InputError(f"a harmonic segment needs as many amplitudes as frequencies > 0 and phases, got {self}")
 
@@ -148,10 +148,10 @@ class HarmonicSegment(Segment, kind="harmonics"):
     def sines(self) -> tuple[SineSegment, ...]:
         """The sines it is the sum of; the first has the velocity at the start."""
         waves = zip(self.amplitudes, self.frequencies, self.phases, strict=True)
-        return tuple(SineSegment(*one, b0=0.0 if i else self.b0) for i, one in enumerate(waves))
+        return tuple(SineSegment(*wave, b0=0.0 if i else self.b0) for i, wave in enumerate(waves))
 
     def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
-        return np.asarray(sum(one.derivative(u, length, nu) for one in self.sines), dtype=np.float64)
+        return np.asarray(sum(sine.derivative(u, length, nu) for sine in self.sines), dtype=np.float64)
 
     def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
         return candidates(self, max(self.frequencies), length, nu)
@@ -163,7 +163,7 @@ class HarmonicSegment(Segment, kind="harmonics"):
         return length * of_waves(max(self.frequencies), length).square(lambda u: self.derivative(u, length, nu))
 
     def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: ARG002, D102
-        amplitudes = tuple(scale * one for one in self.amplitudes)
+        amplitudes = tuple(scale * amplitude for amplitude in self.amplitudes)
         return replace(self, amplitudes=amplitudes, b0=scale * self.b0 + drift)
 
     def backwards(self, length: float) -> Segment:  # noqa: D102

@@ -38,7 +38,7 @@ class CamPeak(CombinedPeak):
     def value(self, law: MotionLaw) -> float:
         """The peak over the whole rise of the cam."""
         lowest, highest = cam_law(law, self.frequency, self.damping).extrema(self.nu)
-        return max(sign * one.value for sign in self.signs for one in (lowest, highest))
+        return max(sign * extreme.value for sign in self.signs for extreme in (lowest, highest))
 
     def check(self, space: LawSpace) -> None:
         """Refuse laws whose cam would jump in velocity, or in acceleration where its jerk counts."""
@@ -119,12 +119,12 @@ def cam_law(law: MotionLaw, nu: float, damping: float) -> MotionLaw:
     if not isinstance(law, PolynomialLaw):
         return polydyne(law, nu, damping)
     once, twice = map(float, cam_factors(nu, damping))
-    found = np.array(law.acceleration or (0.0,))
-    slope = chebyshev.derivative(found)
-    found[: len(slope)] += once * slope
+    series = np.array(law.acceleration or (0.0,))
+    slope = chebyshev.derivative(series)
+    series[: len(slope)] += once * slope
     slope = chebyshev.derivative(slope)
-    found[: len(slope)] += twice * slope
-    return PolynomialLaw(found, a0=law.a0, b0=law.b0)
+    series[: len(slope)] += twice * slope
+    return PolynomialLaw(series, a0=law.a0, b0=law.b0)
 
 
 def gain(nu: float, damping: float) -> float:

@@ -59,11 +59,11 @@ def polydyne(law: MotionLaw, nu: float, damping: float = 0.0) -> MotionLaw:
     check_mass_law(law)
     if isinstance(law, PolynomialLaw):
         return _from_powers(cam_powers(law.exact_powers(), frequency, ratio), law)
-    once, twice = (float(one) for one in cam_factors(frequency, ratio))
+    once, twice = (float(factor) for factor in cam_factors(frequency, ratio))
     if isinstance(law, PiecewiseLaw):
         places = zip(law.segments, pairwise(law.breaks), strict=True)
         return PiecewiseLaw(
-            law.breaks, [one.plus_derivatives(high - low, once, twice) for one, (low, high) in places], law.a0
+            law.breaks, [segment.plus_derivatives(high - low, once, twice) for segment, (low, high) in places], law.a0
         )
 
     def c(x: Array) -> Array:

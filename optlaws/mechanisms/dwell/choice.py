@@ -76,7 +76,7 @@ def compare_dwell_mechanisms(
     Examples
     --------
     >>> from optlaws import catalogue, deg
-    >>> found = compare_dwell_mechanisms(
+    >>> comparison = compare_dwell_mechanisms(
     ...     law=catalogue["K"].law,
     ...     dwell=deg(90),
     ...     rise=deg(90),
@@ -86,9 +86,9 @@ def compare_dwell_mechanisms(
     ...     inertia_ratio=0.1,
     ...     most_torque=0.5,
     ... )
-    >>> found.chosen, found.by_rule
+    >>> comparison.chosen, comparison.by_rule
     ('III', 'III')
-    >>> found.reasons["II"]
+    >>> comparison.reasons["II"]
     'no: b = 1.98 exceeds 0.5'
     """
     make = partial(
@@ -142,8 +142,8 @@ def _compared(
         kind: _reason(made[kind], most_torque, most_size) if kind in made else f"cannot be built: {refused[kind]}"
         for kind in KINDS
     }
-    usable = [one for kind, one in made.items() if reasons[kind].startswith("yes")]
-    chosen = min(usable, key=lambda one: (one.a, one.b)).kind if usable else None
+    usable = [mechanism for kind, mechanism in made.items() if reasons[kind].startswith("yes")]
+    chosen = min(usable, key=lambda mechanism: (mechanism.a, mechanism.b)).kind if usable else None
     return DwellComparison(made, reasons, chosen, by_rule)
 
 
@@ -168,7 +168,7 @@ def least_dwell(mechanism: DwellMechanism, most_torque: float, *, half_turn: boo
     --------
     >>> from math import degrees
     >>> from optlaws import catalogue, deg
-    >>> one = dwell_mechanism(
+    >>> mechanism = dwell_mechanism(
     ...     "III",
     ...     law=catalogue["K"].law,
     ...     dwell=deg(60),
@@ -178,7 +178,7 @@ def least_dwell(mechanism: DwellMechanism, most_torque: float, *, half_turn: boo
     ...     radius_ratio=1.0,
     ...     inertia_ratio=0.1,
     ... )
-    >>> degrees(least_dwell(one, 0.5))
+    >>> degrees(least_dwell(mechanism, 0.5))
     46.666667
     """
 
@@ -202,16 +202,16 @@ def _root(excess: Callable[[float], float], low: float, high: float, what: str) 
     return float(brentq(excess, low, high, xtol=1e-13))
 
 
-def _reason(one: DwellMechanism, most_torque: float, most_size: float) -> str:
-    found = [
+def _reason(mechanism: DwellMechanism, most_torque: float, most_size: float) -> str:
+    faults = [
         f"{name} = {value:.3g} exceeds {limit:g}"
-        for name, value, limit in (("a", one.a, most_size), ("b", one.b, most_torque))
+        for name, value, limit in (("a", mechanism.a, most_size), ("b", mechanism.b, most_torque))
         if value > limit
     ]
-    if found:
-        return f"no: {' and '.join(found)}"
-    limits = f"b = {one.b:.3g} is within {most_torque:g}"
-    return f"yes: a = {one.a:.4g}, {limits}" + (f", a within {most_size:g}" if isfinite(most_size) else "")
+    if faults:
+        return f"no: {' and '.join(faults)}"
+    limits = f"b = {mechanism.b:.3g} is within {most_torque:g}"
+    return f"yes: a = {mechanism.a:.4g}, {limits}" + (f", a within {most_size:g}" if isfinite(most_size) else "")
 
 
 def _by_rule(dwell: float, lower_dwell: float) -> str:

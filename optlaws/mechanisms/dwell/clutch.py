@@ -59,10 +59,10 @@ class Clutch:
     >>> from optlaws import catalogue, deg, dwell_mechanism
     >>> K = catalogue["K"].law
     >>> angles = dict(dwell=deg(90), rise=deg(90), clutch_angle=deg(15), swing=deg(20))
-    >>> one = Clutch(dwell_mechanism("II", law=K, radius_ratio=1.0, inertia_ratio=0.1, **angles))
-    >>> one.ratio, 1 / one.ratio
+    >>> clutch = Clutch(dwell_mechanism("II", law=K, radius_ratio=1.0, inertia_ratio=0.1, **angles))
+    >>> clutch.ratio, 1 / clutch.ratio
     (0.087266, 11.459156)
-    >>> best = one.nearest(most=120)
+    >>> best = clutch.nearest(most=120)
     >>> best.p, best.N, round(best.error, 6)
     (9, 103, -0.000705)
     """
@@ -79,14 +79,14 @@ class Clutch:
     @property
     def loader_turn(self) -> float:
         """Angle that the free loader turns through while the clutch is open, radians (eq. 29)."""
-        one = self.mechanism
-        return one.swing * one.speed * one.free(self._dwell)
+        mechanism = self.mechanism
+        return mechanism.swing * mechanism.speed * mechanism.free(self._dwell)
 
     @property
     def rocker_turn(self) -> float:
         """Angle that the rocker turns through meanwhile, radians (eq. 28 for type II, 25 for type III)."""
-        one = self.mechanism
-        return one.swing * (-2.0 * one.S_sp if one.kind == "II" else one.S2)
+        mechanism = self.mechanism
+        return mechanism.swing * (-2.0 * mechanism.S_sp if mechanism.kind == "II" else mechanism.S2)
 
     @kept_property
     def ratio(self) -> float:
@@ -106,8 +106,10 @@ class Clutch:
         InputError
             If `most` is not a whole number above 0.
         """
-        found = Fraction(self.ratio).limit_denominator(whole(most, "the whole number most", least=1, most=MOST_TEETH))
-        return self.teeth(found.numerator, found.denominator)
+        fraction = Fraction(self.ratio).limit_denominator(
+            whole(most, "the whole number most", least=1, most=MOST_TEETH)
+        )
+        return self.teeth(fraction.numerator, fraction.denominator)
 
     def choices(self, least: int, most: int) -> tuple[Teeth, ...]:
         """The best p for each number of teeth in a range, the most exact clutch first; those with p = 0 left out.
@@ -127,8 +129,8 @@ class Clutch:
             whole(most, "the whole number most", least=1, most=MOST_TEETH) + 1,
         )
         pairs = ((round(self.ratio * N), N) for N in counts)
-        found = [self.teeth(p, N) for p, N in pairs if p > 0]
-        return tuple(sorted(found, key=lambda one: (abs(one.error), one.N)))
+        teeth = [self.teeth(p, N) for p, N in pairs if p > 0]
+        return tuple(sorted(teeth, key=lambda choice: (abs(choice.error), choice.N)))
 
     def teeth(self, p: int, N: int) -> Teeth:
         """A clutch of N teeth that meets p pitches on, how far it is off, and what would make it exact.
@@ -139,7 +141,7 @@ class Clutch:
             If p is not a whole number of at least 0, or N not one above 0.
         """
         whole(p, "the whole number p")
-        one = self.mechanism
+        mechanism = self.mechanism
         wanted = p / whole(N, "the whole number N", least=1)
         share = wanted / self.ratio if self.ratio else inf
         possible = 0.0 < share < inf
@@ -147,10 +149,10 @@ class Clutch:
             p=p,
             N=N,
             error=(self.ratio - wanted) * tau,
-            swing=one.swing * share if possible else None,
+            swing=mechanism.swing * share if possible else None,
             dwell=self._exact_dwell(wanted) if possible else None,
-            rise=one.rise / share if possible else None,
-            B2=self._exact_B2(wanted) if one.kind == "III" else None,
+            rise=mechanism.rise / share if possible else None,
+            B2=self._exact_B2(wanted) if mechanism.kind == "III" else None,
         )
 
     @property
@@ -159,20 +161,20 @@ class Clutch:
 
     def _exact_dwell(self, wanted: float) -> float | None:
         """p/N is linear in the dwell: for type II without a constant, for III beginning at its angles of rest."""
-        one = self.mechanism
-        turn = one.swing * one.speed / tau
-        if one.kind == "II":
+        mechanism = self.mechanism
+        turn = mechanism.swing * mechanism.speed / tau
+        if mechanism.kind == "II":
             return wanted / turn
-        slack = 1.0 - 1.0 / peak_velocity(one.law_2)
-        still = one.free(self._dwell) - one.phi2
+        slack = 1.0 - 1.0 / peak_velocity(mechanism.law_2)
+        still = mechanism.free(self._dwell) - mechanism.phi2
         if slack == 0.0:
             return None
-        dwell = 2.0 * one.clutch_angle + still + (wanted / turn - still) / slack
-        return dwell if dwell > 2.0 * one.clutch_angle + still else None
+        dwell = 2.0 * mechanism.clutch_angle + still + (wanted / turn - still) / slack
+        return dwell if dwell > 2.0 * mechanism.clutch_angle + still else None
 
     def _exact_B2(self, wanted: float) -> float | None:
-        one = self.mechanism
-        left = (self.loader_turn - wanted * tau) / (one.swing * one.speed * one.phi2)
+        mechanism = self.mechanism
+        left = (self.loader_turn - wanted * tau) / (mechanism.swing * mechanism.speed * mechanism.phi2)
         return 1.0 / left if 0.0 < left < 1.0 else None
 
 

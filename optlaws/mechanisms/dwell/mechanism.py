@@ -39,7 +39,7 @@ class DwellMechanism:
     Examples
     --------
     >>> from optlaws import catalogue, deg, dwell_mechanism
-    >>> one = dwell_mechanism(
+    >>> mechanism = dwell_mechanism(
     ...     "III",
     ...     law=catalogue["K"].law,
     ...     dwell=deg(90),
@@ -49,7 +49,7 @@ class DwellMechanism:
     ...     radius_ratio=1.0026761,
     ...     inertia_ratio=0.1,
     ... )
-    >>> one, [section.name for section in one.sections]
+    >>> mechanism, [section.name for section in mechanism.sections]
     (DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667), ['rise', 'clutch', 'run-out', 'run-up', 'clutch', ...])
     """
 
@@ -124,12 +124,12 @@ class DwellMechanism:
     @kept_property
     def b(self) -> float:
         """Criterion b: greatest inertia torque of the loader's rocker in the dwells over the balanced one (eq. 23)."""
-        found = 0.0
-        for one in self.sections:
-            if one.law is not None and one.name in {"run-out", "reverse", "run-up"}:
-                whole = one.angle / (one.end - one.start)
-                found = max(found, peak_power(one.law) * one.scale**2 / whole**3)
-        return self.inertia_ratio * found * self.rise**3 / peak_power(self.law)
+        greatest = 0.0
+        for section in self.sections:
+            if section.law is not None and section.name in {"run-out", "reverse", "run-up"}:
+                whole = section.angle / (section.end - section.start)
+                greatest = max(greatest, peak_power(section.law) * section.scale**2 / whole**3)
+        return self.inertia_ratio * greatest * self.rise**3 / peak_power(self.law)
 
     @kept_property
     def sections(self) -> tuple[Section, ...]:
@@ -160,7 +160,9 @@ class DwellMechanism:
         return {
             "type": self.kind,
             **{name: getattr(self, name) for name in ANGLES + RATIOS + FOUND},
-            "sections": [{"name": one.name, "angle": one.angle, "travel": one.travel} for one in self.sections],
+            "sections": [
+                {"name": section.name, "angle": section.angle, "travel": section.travel} for section in self.sections
+            ],
             "remarks": list(self.remarks),
         }
 
@@ -199,7 +201,7 @@ class DwellMechanism:
         return [*ends, run_out, *middle, run_up, *ends]
 
 
-def _check(one: DwellMechanism) -> None:
+def _check(mechanism: DwellMechanism) -> None:
     """Refuse what cannot be built.
 
     Raises
@@ -207,56 +209,56 @@ def _check(one: DwellMechanism) -> None:
     InputError
         Naming the first quantity that does not fit, and the remedy.
     """
-    if one.kind not in KINDS:
-        raise InputError(f"kind must be one of {', '.join(KINDS)}, got {shortened(one.kind)}")
+    if mechanism.kind not in KINDS:
+        raise InputError(f"kind must be one of {', '.join(KINDS)}, got {shortened(mechanism.kind)}")
     for name in (*POSITIVE, *NOT_NEGATIVE):
-        number = real(getattr(one, name))
+        number = real(getattr(mechanism, name))
         if number is None or not (0.0 < number < inf or (name in NOT_NEGATIVE and number == 0.0)):
             least = "at least 0" if name in NOT_NEGATIVE else "positive"
-            raise InputError(f"{name} must be {least} and finite, got {shortened(getattr(one, name))}")
-    if not 0.0 < finite(one.reverse_share, "reverse_share") < 1.0:
-        raise InputError(f"reverse_share must be between 0 and 1, got {shortened(one.reverse_share)}")
+            raise InputError(f"{name} must be {least} and finite, got {shortened(getattr(mechanism, name))}")
+    if not 0.0 < finite(mechanism.reverse_share, "reverse_share") < 1.0:
+        raise InputError(f"reverse_share must be between 0 and 1, got {shortened(mechanism.reverse_share)}")
     for name in LAWS:
-        check_law(name, getattr(one, name))
-    _speeds(one)
-    if one.kind == "I":
-        _equal_dwells(one)
+        check_law(name, getattr(mechanism, name))
+    _speeds(mechanism)
+    if mechanism.kind == "I":
+        _equal_dwells(mechanism)
     else:
-        _room(one)
+        _room(mechanism)
 
 
-def _speeds(one: DwellMechanism) -> None:
-    back = loader_of(one.return_law).B / one.return_angle
-    if abs(one.speed / back - 1.0) > REST:
+def _speeds(mechanism: DwellMechanism) -> None:
+    back = loader_of(mechanism.return_law).B / mechanism.return_angle
+    if abs(mechanism.speed / back - 1.0) > REST:
         raise InputError(
             f"return_angle must suit the rise, for the loader keeps its speed in the dwell: it ends the rise with "
-            f"{one.speed:.6g} S per radian (B / rise), and the return begins with {back:.6g}; for the return's law it "
-            f"must be {degrees(loader_of(one.return_law).B / one.speed):.6g} degrees"
+            f"{mechanism.speed:.6g} S per radian (B / rise), and the return begins with {back:.6g}; for the return's "
+            f"law it must be {degrees(loader_of(mechanism.return_law).B / mechanism.speed):.6g} degrees"
         )
 
 
-def _equal_dwells(one: DwellMechanism) -> None:
-    if abs(one.lower_dwell - one.dwell) > REST:
+def _equal_dwells(mechanism: DwellMechanism) -> None:
+    if abs(mechanism.lower_dwell - mechanism.dwell) > REST:
         raise InputError(
-            f"lower_dwell of type I must equal dwell, {degrees(one.dwell):.6g} degrees, or its rocker drifts; got "
-            f"{degrees(one.lower_dwell):.6g} degrees: take type II, or III if there are two dwells"
+            f"lower_dwell of type I must equal dwell, {degrees(mechanism.dwell):.6g} degrees, or its rocker drifts; "
+            f"got {degrees(mechanism.lower_dwell):.6g} degrees: take type II, or III if there are two dwells"
         )
 
 
-def _room(one: DwellMechanism) -> None:
-    for name, dwell in (("dwell", one.dwell), ("lower_dwell", one.lower_dwell)):
-        if one.kind == "II" and dwell == 0.0:
+def _room(mechanism: DwellMechanism) -> None:
+    for name, dwell in (("dwell", mechanism.dwell), ("lower_dwell", mechanism.lower_dwell)):
+        if mechanism.kind == "II" and dwell == 0.0:
             continue
-        if one.free(dwell) <= REST or one.second(dwell) <= REST:
-            least = degrees(2.0 * one.clutch_angle + (one.standstill if one.kind == "III" else 0.0))
+        if mechanism.free(dwell) <= REST or mechanism.second(dwell) <= REST:
+            least = degrees(2.0 * mechanism.clutch_angle + (mechanism.standstill if mechanism.kind == "III" else 0.0))
             raise InputError(
-                f"{name} must exceed twice clutch_angle{' and the standstill' if one.kind == 'III' else ''}, "
+                f"{name} must exceed twice clutch_angle{' and the standstill' if mechanism.kind == 'III' else ''}, "
                 f"{least:.6g} degrees, got {degrees(dwell):.6g} degrees"
             )
-        if one.free(dwell) - one.second(dwell) < -REST:
+        if mechanism.free(dwell) - mechanism.second(dwell) < -REST:
             raise InputError(
                 f"{name} of type III must leave room for the same way as the upper one: at least "
-                f"{degrees(one.dwell - one.standstill):.6g} degrees, got {degrees(dwell):.6g} degrees"
+                f"{degrees(mechanism.dwell - mechanism.standstill):.6g} degrees, got {degrees(dwell):.6g} degrees"
             )
 
 

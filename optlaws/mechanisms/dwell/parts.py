@@ -59,10 +59,10 @@ class PartSegment(Segment, kind="part"):
         return np.asarray(self.scale * (span / length) ** nu * values)
 
     def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002, D102
-        return self._places(np.array([one.k for one in self.law.extrema(nu, (self.start, self.end))]))
+        return self._places(np.array([extreme.k for extreme in self.law.extrema(nu, (self.start, self.end))]))
 
     def power_candidates(self, length: float) -> Array:  # noqa: ARG002, D102
-        return self._places(np.array([one.k for one in self.law.power_extrema((self.start, self.end))]))
+        return self._places(np.array([extreme.k for extreme in self.law.power_extrema((self.start, self.end))]))
 
     def scaled(self, length: float, scale: float, drift: float = 0.0) -> Segment:  # noqa: D102
         return super().scaled(length, scale, drift) if drift else replace(self, scale=scale * self.scale)

@@ -56,9 +56,9 @@ def top(law: MotionLaw) -> float:
     >>> top(smoothstep(2))
     0.5
     """
-    found = tops(law)
-    one = found[len(found) // 2]
-    return 0.5 * (one.first + one.last)
+    places = tops(law)
+    middle = places[len(places) // 2]
+    return 0.5 * (middle.first + middle.last)
 
 
 @lru_cache(maxsize=64)

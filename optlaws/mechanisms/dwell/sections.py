@@ -78,10 +78,10 @@ def _extent(law: MotionLaw, start: float, end: float) -> Pair:
 
 def excursion(sections: Sequence[Section]) -> float:
     """The way between the extremes of the rocker over a cycle, in S."""
-    places = accumulate((one.travel for one in sections), initial=0.0)
+    places = accumulate((section.travel for section in sections), initial=0.0)
     extents = [
         (place + low, place + high)
-        for place, (low, high) in zip(places, (one.extent for one in sections), strict=False)
+        for place, (low, high) in zip(places, (section.extent for section in sections), strict=False)
     ]
     return max(high for _, high in extents) - min(low for low, _ in extents)
 
@@ -94,16 +94,16 @@ def composed(sections: Sequence[Section]) -> PiecewiseLaw:
     InputError
         If the rocker is not back after the cycle.
     """
-    net = sum(one.travel for one in sections)
+    net = sum(section.travel for section in sections)
     if abs(net) > CLOSED:
         raise InputError(f"the rocker is {net:.6g} S off its start after the cycle; dwells or laws do not match")
-    whole = sum(one.angle for one in sections)
+    whole = sum(section.angle for section in sections)
     places, segments = [0.0], list[Segment]()
     angle = 0.0
-    for one in sections:
-        for share, segment in _segments(one, whole):
+    for section in sections:
+        for share, segment in _segments(section, whole):
             segments.append(segment)
-            angle += share * one.angle
+            angle += share * section.angle
             places.append(angle / whole)
     places[-1] = 1.0
     return PiecewiseLaw(places, segments)

@@ -51,7 +51,7 @@ class Forcing:
         """Derivative of order `order` of a at s."""
         if not self.sines:
             return self._polynomial(s, order)
-        first, *others = (one.derivative(s, 1.0, order) for one in self._swings)
+        first, *others = (motion.derivative(s, 1.0, order) for motion in self._swings)
         swing: Array = sum(others, first)
         return swing if order > 1 and not self.acceleration.any() else swing + self._polynomial(s, order)
 
@@ -60,7 +60,7 @@ class Forcing:
 
     @kept_property
     def _swings(self) -> tuple[SineSegment, ...]:
-        return tuple(SineSegment(*one) for one in self.sines)
+        return tuple(SineSegment(*sine) for sine in self.sines)
 
     @kept_property
     def _known(self) -> dict[int, Array]:

@@ -52,7 +52,7 @@ class Motion:
     @kept_property
     def stretches(self) -> list[Stretch]:
         """The forcings with their particular solutions."""
-        return [one for forcing in self.forcings for one in stretches(forcing, self.oscillator)]
+        return [stretch for forcing in self.forcings for stretch in stretches(forcing, self.oscillator)]
 
     @kept_property
     def _joints(self) -> tuple[list[State], State]:
@@ -61,21 +61,24 @@ class Motion:
         end = np.zeros(1)
         before: Forcing | None = None
         u, v = 0.0, 0.0
-        for one in self.stretches:
-            if one.forcing is not before:
-                cam = [float(one.cam(end, order)[0]) for order in (0, 1)]
+        for stretch in self.stretches:
+            if stretch.forcing is not before:
+                cam = [float(stretch.cam(end, order)[0]) for order in (0, 1)]
                 if before is None:
                     u, v = self.initial[0] - cam[0], self.initial[1] - cam[1]
                 else:  # displacement and velocity of the mass are continuous, whatever the cam does
                     last = np.array([before.length])
                     u += float(before.derivative(last, 0)[0]) - cam[0]
                     v += float(before.derivative(last, 1)[0]) - cam[1]
-                before = one.forcing
-            free = u - float(one.particular.derivative(end, 0)[0]), v - float(one.particular.derivative(end, 1)[0])
+                before = stretch.forcing
+            free = (
+                u - float(stretch.particular.derivative(end, 0)[0]),
+                v - float(stretch.particular.derivative(end, 1)[0]),
+            )
             starts.append(free)
-            last = np.array([one.length])
+            last = np.array([stretch.length])
             u, v = (
-                float(one.particular.derivative(last, order)[0] + self.oscillator.motion(*free, last, order)[0])
+                float(stretch.particular.derivative(last, order)[0] + self.oscillator.motion(*free, last, order)[0])
                 for order in (0, 1)
             )
         return starts, (u, v)
@@ -84,12 +87,12 @@ class Motion:
     def breaks(self) -> tuple[float, ...]:
         """Where one forcing ends and the next begins, both ends of the chain included."""
         last = self.forcings[-1]
-        return (*(one.start for one in self.forcings), last.start + last.length)
+        return (*(forcing.start for forcing in self.forcings), last.start + last.length)
 
     def before_breaks(self, order: int) -> Array:
         """The derivative of order `order` of a_m just before every break inside."""
         pairs = zip(self.stretches, self.stretches[1:], strict=False)
-        last = [i for i, (one, after) in enumerate(pairs) if after.forcing is not one.forcing]
+        last = [i for i, (before, after) in enumerate(pairs) if after.forcing is not before.forcing]
         return np.array([float(self._values(i, np.array([self.stretches[i].length]), order)[0]) for i in last])
 
     @property
@@ -106,14 +109,14 @@ class Motion:
 
     def derivative(self, time: Array, order: int) -> Array:
         """Derivative of order `order` of a_m at times of any shape within the chain."""
-        starts = np.array([one.start for one in self.stretches])
+        starts = np.array([stretch.start for stretch in self.stretches])
         places = np.clip(np.searchsorted(starts, time, side="right") - 1, 0, len(starts) - 1)
-        found = np.empty(np.shape(time))
+        values = np.empty(np.shape(time))
         for i in np.unique(places):
             here = places == i
             s = np.clip(np.asarray(time)[here] - starts[i], 0.0, self.stretches[i].length)
-            found[here] = self._values(int(i), s, order)
-        return found
+            values[here] = self._values(int(i), s, order)
+        return values
 
     def candidates(self, order: int) -> tuple[Array, Array]:
         """Times, and values there, among which the extremes of the derivative of order `order` are."""
@@ -132,8 +135,8 @@ class Motion:
 
     def mean_square(self, order: int) -> float:
         """Mean of the square of the derivative of order `order` over the chain."""
-        total = sum(self._square(i, one.length, order) for i, one in enumerate(self.stretches))
-        return total / sum(one.length for one in self.stretches)
+        total = sum(self._square(i, stretch.length, order) for i, stretch in enumerate(self.stretches))
+        return total / sum(stretch.length for stretch in self.stretches)
 
     def _square(self, i: int, length: float, order: int) -> float:
         """Integral over a stretch, halved until the product of its series is known to rounding."""
@@ -144,26 +147,26 @@ class Motion:
 
     def _gathered(self, values: Callable[[int, Array], Array], slope: Slope) -> tuple[Array, Array]:
         """Both ends of every stretch and its roots of a slope, with the values there."""
-        slopes = [slope(i, one.length * SAMPLES, 0) for i, one in enumerate(self.stretches)]
-        negligible = RESOLVED * float(max(np.abs(one).max() for one in slopes))
-        times, found = [], []
-        for i, one in enumerate(self.stretches):
-            s = np.concatenate([[0.0], self._stops(i, slope, negligible), [one.length]])
-            times.append(one.start + s)
-            found.append(values(i, s))
-        return np.concatenate(times), np.concatenate(found)
+        slopes = [slope(i, stretch.length * SAMPLES, 0) for i, stretch in enumerate(self.stretches)]
+        negligible = RESOLVED * float(max(np.abs(steepness).max() for steepness in slopes))
+        times, heights = [], []
+        for i, stretch in enumerate(self.stretches):
+            s = np.concatenate([[0.0], self._stops(i, slope, negligible), [stretch.length]])
+            times.append(stretch.start + s)
+            heights.append(values(i, s))
+        return np.concatenate(times), np.concatenate(heights)
 
     def _values(self, i: int, s: Array, order: int) -> Array:
         """a + u where u is small beside a; else, from a_m'' on, the equation of motion, which cancels less."""
-        one, free = self.stretches[i], self._joints[0][i]
+        stretch, free = self.stretches[i], self._joints[0][i]
 
         def off(order: int) -> Array:
-            return np.asarray(one.particular.derivative(s, order) + self.oscillator.motion(*free, s, order))
+            return np.asarray(stretch.particular.derivative(s, order) + self.oscillator.motion(*free, s, order))
 
-        if order < 2 or one.closed:
-            return one.cam(s, order) + off(order)
+        if order < 2 or stretch.closed:
+            return stretch.cam(s, order) + off(order)
         twice, square = 2.0 * self.oscillator.n, self.oscillator.nu**2
-        value = one.cam(s, 1) + off(1)
+        value = stretch.cam(s, 1) + off(1)
         for m in range(order - 1):
             value = -twice * value - square * off(m)
         return value

@@ -78,13 +78,13 @@ class CycleResponse(MassMotion):
     @kept_property
     def _forcings(self) -> list[Forcing]:
         low, high = float(self.rise.a(0.0)), float(self.rise.a(1.0))
-        found = list(forcings(self.rise))
+        driven = list(forcings(self.rise))
         if self.dwell > BRIEF:
-            found.append(rest(1.0, self.dwell, high))
-        found += forcings(self.fall, 1.0 + self.dwell, self.fall_duration, high, -1.0)
+            driven.append(rest(1.0, self.dwell, high))
+        driven += forcings(self.fall, 1.0 + self.dwell, self.fall_duration, high, -1.0)
         if self.rest > BRIEF:
-            found.append(rest(1.0 + self.dwell + self.fall_duration, self.rest, low))
-        return found
+            driven.append(rest(1.0 + self.dwell + self.fall_duration, self.rest, low))
+        return driven
 
     @kept_property
     def _initial(self) -> tuple[float, float]:
@@ -103,8 +103,8 @@ class CycleResponse(MassMotion):
                 f"an undamped follower of nu = {self.nu:g} is in resonance with a cycle of {self.period:g} durations "
                 "of the rise (nu period / 2 pi is whole): it has no steady motion; give it damping or change the cycle"
             )
-        found = np.linalg.solve(matrix, np.array([forced[0] - low, forced[1]]))
-        return low + float(found[0]), float(found[1])
+        start = np.linalg.solve(matrix, np.array([forced[0] - low, forced[1]]))
+        return low + float(start[0]), float(start[1])
 
     @kept_property
     def _motion(self) -> Motion:

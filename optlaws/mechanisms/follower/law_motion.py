@@ -42,7 +42,7 @@ def forcings(
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> [one.derivative(np.array([2.0]), 0).tolist() for one in forcings(smoothstep(3), 1.0, 2.0, 1.0, -1.0)]
+    >>> [forcing.derivative(np.array([2.0]), 0).tolist() for forcing in forcings(smoothstep(3), 1.0, 2.0, 1.0, -1.0)]
     [[0.0]]
     """
     return _Frame(law, start, length, float(law.a(0.0)) if a0 is None else a0, stroke).pieces()
@@ -64,7 +64,7 @@ class _Frame:
             return (self._forcing(Waves(law.acceleration or (0.0,), law.b0), 0.0, 1.0),)
         if isinstance(law, PiecewiseLaw):
             stretches = zip(law.segments, pairwise(law.breaks), strict=True)
-            return tuple(piece for one, (low, high) in stretches for piece in self._segment(one, low, high))
+            return tuple(piece for segment, (low, high) in stretches for piece in self._segment(segment, low, high))
         return tuple(self._interpolated(lambda k: np.asarray(law.b(k)), 0.0, 1.0))
 
     def _segment(self, segment: Segment, low: float, high: float) -> list[Forcing]:
@@ -78,7 +78,7 @@ class _Frame:
 
     def _forcing(self, waves: Waves, low: float, high: float) -> Forcing:
         scale = self.stroke / self.length**2
-        sines = (Wave(scale * one.amplitude, one.frequency / self.length, one.phase) for one in waves.sines)
+        sines = (Wave(scale * sine.amplitude, sine.frequency / self.length, sine.phase) for sine in waves.sines)
         c = scale * np.array(waves.acceleration)
         return Forcing(*self._place(low, high), self.stroke / self.length * waves.b0, c, tuple(sines))
 
@@ -91,8 +91,8 @@ class _Frame:
             return missed <= RESOLVED or 0.5 * missed * length <= ABSORBED
 
         panels, series = resolved(velocity, Panels((low, high), COUNT), short)
-        found = []
+        pieces = []
         for (first, last), b in zip(pairwise(panels.edges), series.T, strict=True):
             c = tuple((chebyshev.derivative(b) / (last - first)).tolist())
-            found.append(self._forcing(Waves(c, float(chebyshev.value(b, -1.0))), first, last))
-        return found
+            pieces.append(self._forcing(Waves(c, float(chebyshev.value(b, -1.0))), first, last))
+        return pieces

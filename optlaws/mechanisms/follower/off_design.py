@@ -91,7 +91,7 @@ def off_design(
     >>> from optlaws.laws.savin.savin import savin
     >>> from optlaws.mechanisms import polydyne
     >>> law = savin("IV", 11.0)
-    >>> [round(one.dynamic_factor, 6) for one in off_design(polydyne(law, nu=20), law, Follower(nu=20))]
+    >>> [round(deviation.dynamic_factor, 6) for deviation in off_design(polydyne(law, nu=20), law, Follower(nu=20))]
     [1.185564, 1.102502, 1.0, 0.963659, 0.945973]
     """
     meant = motion_law(reference, "reference")
@@ -100,9 +100,9 @@ def off_design(
         raise InputError(f"deviations are changes of nu in percent and must be above -100, got {min(percents):g}")
     if change not in ("speed", "stiffness"):
         raise InputError(f'change must be "speed" or "stiffness", got {shortened(change)}')
-    found = []
+    compared = []
     for percent in percents:
         factor = 1.0 + percent / 100.0
         ratio = design.damping if change == "speed" else design.damping / factor
-        found.append(Deviation(percent, Follower(design.nu * factor, ratio).response(cam), meant))
-    return tuple(found)
+        compared.append(Deviation(percent, Follower(design.nu * factor, ratio).response(cam), meant))
+    return tuple(compared)

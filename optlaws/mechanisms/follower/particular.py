@@ -99,11 +99,11 @@ class SineSolution:
 
     def derivative(self, s: Array, order: int) -> Array:
         """Derivative of order `order` at s."""
-        found = self.steady.derivative(s, order)
+        values = self.steady.derivative(s, order)
         for amplitude, frequency in self.waves:
             turned = amplitude * (1j * frequency) ** order
-            found += turned.real * np.cos(frequency * s) - turned.imag * np.sin(frequency * s)
-        return found
+            values += turned.real * np.cos(frequency * s) - turned.imag * np.sin(frequency * s)
+        return values
 
 
 def stretches(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
@@ -159,10 +159,10 @@ def _closed(forcing: Forcing, oscillator: Oscillator) -> Particular | None:
     n, square = oscillator.n, oscillator.nu**2
     waves: list[tuple[complex, float]] = []
     b0 = forcing.b0
-    for one in forcing.sines:
-        w = one.frequency
+    for sine in forcing.sines:
+        w = sine.frequency
         # c is the real part of amplitude exp(i w s) and a polynomial, and b its integral from b0
-        amplitude = -1j * one.amplitude * cmath.exp(1j * one.phase)
+        amplitude = -1j * sine.amplitude * cmath.exp(1j * sine.phase)
         velocity = amplitude / (1j * w)
         b0 -= velocity.real
         stiffness = complex(square - w * w, 2.0 * n * w)
@@ -175,7 +175,7 @@ def _closed(forcing: Forcing, oscillator: Oscillator) -> Particular | None:
 
 
 def _solved(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
-    fastest = max(oscillator.fastest, *(one.frequency for one in forcing.sines), 0.0)
+    fastest = max(oscillator.fastest, *(sine.frequency for sine in forcing.sines), 0.0)
     terms = max(len(forcing.acceleration) + 1, WAVE_TERMS if forcing.sines else 0)
     count = max(1, ceil(fastest * forcing.length / RADIANS))
     length = forcing.length / count
@@ -188,10 +188,10 @@ def _solved(forcing: Forcing, oscillator: Oscillator) -> list[Stretch]:
     load[:terms] = chebyshev.from_values(values)
     integral = length * _integration(size)
     matrix = np.eye(size) + 2.0 * oscillator.n * integral + oscillator.nu**2 * (integral @ integral)
-    found: Array = np.asarray(np.linalg.solve(matrix, -load), dtype=np.float64)
+    coefficients: Array = np.asarray(np.linalg.solve(matrix, -load), dtype=np.float64)
     made = []
     for i in range(count):
-        w = found[:, i]
+        w = coefficients[:, i]
         v = chebyshev.integral(length * w, 0.0)
         solution = PolynomialSolution(length, (chebyshev.integral(length * v, 0.0), v, w))
         made.append(Stretch(forcing, float(offsets[i]), length, solution, closed=False))

@@ -117,8 +117,8 @@ class Response(MassMotion):
         >>> Follower(nu=20, damping=0.05).response(smoothstep(4)).dwell_peak(2)
         Peak(value=1.620669, k=1.016776)
         """
-        found = self._oscillator.peak(*self._off, derivative(nu))
-        return Peak(found.value, 1.0 + found.k)
+        peak = self._oscillator.peak(*self._off, derivative(nu))
+        return Peak(peak.value, 1.0 + peak.k)
 
     def __repr__(self) -> str:
         return (
@@ -149,9 +149,9 @@ class Response(MassMotion):
         return times
 
     def _derivative(self, k: Array, nu: int) -> Array:
-        found = self._motion.derivative(np.minimum(k, 1.0), nu)
+        values = self._motion.derivative(np.minimum(k, 1.0), nu)
         after = k > 1.0
         if after.any():
             free = self._oscillator.motion(*self._off, k[after] - 1.0, nu)
-            found[after] = free + (float(self.law.a(1.0)) if nu == 0 else 0.0)
-        return found
+            values[after] = free + (float(self.law.a(1.0)) if nu == 0 else 0.0)
+        return values

@@ -51,14 +51,14 @@ def upper_extreme(potential: Function, swing: float, reach: tuple[float, float],
     low, high = max(0.0, reach[0] + swing), min(swing, reach[1])
     tried = np.linspace(low, max(low, high), _TRIED)
     values = excess(tried)
-    found = np.flatnonzero((values[:-1] < 0.0) & (values[1:] >= 0.0))
-    if not len(found):
+    crossings = np.flatnonzero((values[:-1] < 0.0) & (values[1:] >= 0.0))
+    if not len(crossings):
         raise InputError(
             f"no swing of {np.degrees(swing):.6g} deg: the linkage can move from {np.degrees(reach[0]):.6g} to "
             f"{np.degrees(reach[1]):.6g} deg about rest, to its dead points, and the bars do not bring it to rest "
             "twice on so long a way; reduce swing"
         )
-    first = found[np.argmin(np.abs(tried[found] - guess))]
+    first = crossings[np.argmin(np.abs(tried[crossings] - guess))]
     return float(brentq(lambda chi: float(excess(chi)), tried[first], tried[first + 1], xtol=4e-16, rtol=1e-15))
 
 

@@ -57,24 +57,24 @@ def along(line: Line, value: float) -> tuple[TorsionLever, ...]:
 
     lengths, values = _samples(line)
     excess = values - value
-    found = lengths[excess == 0.0].tolist()
+    places = lengths[excess == 0.0].tolist()
     for i in np.flatnonzero(excess[:-1] * excess[1:] < 0.0):
         low, high = lengths[i : i + 2].tolist()
-        found.append(float(brentq(lambda length: line.value(length) - value, low, high, xtol=1e-14, rtol=1e-14)))
-    if not found:
+        places.append(float(brentq(lambda length: line.value(length) - value, low, high, xtol=1e-14, rtol=1e-14)))
+    if not places:
         low, high = int(np.argmin(values)), int(np.argmax(values))
         raise InputError(
             f"{line.title} = {value:.6g} is out of reach: for {line.name} from {lengths[0]:.5g} to {lengths[-1]:.5g}, "
             f"where all limits hold, it runs from {values[low]:.6g} (at {lengths[low]:.5g}) to {values[high]:.6g} "
             f"(at {lengths[high]:.5g}); change the other length, the swing or the pre-twists"
         )
-    return tuple(line.lever(length) for length in sorted(found))
+    return tuple(line.lever(length) for length in sorted(places))
 
 
 def _samples(line: Line) -> tuple[Array, Array]:
     """Lengths within all limits, up to the very limits, and the constant there."""
     lengths = np.geomspace(*line.span, _TRIED)
-    values = np.array([line.value(float(one)) for one in lengths])
+    values = np.array([line.value(float(length)) for length in lengths])
     known = np.isfinite(values)
     if not known.any():
         line.quantity(line.lever(float(lengths[_TRIED // 2])))  # raises, and says which limit it is
@@ -115,7 +115,7 @@ def within(
             return np.full(len(targets), np.nan)
 
     grid = np.stack(np.meshgrid(*np.linspace(low, high, _TRIED_EACH).T), axis=-1).reshape(-1, len(names))
-    reached = np.array([values(one) for one in grid])
+    reached = np.array([values(point) for point in grid])
     known = np.isfinite(reached).all(axis=1)
     if not known.any():
         next(iter(wanted.values()))[0](lever(0.5 * (low + high)))  # raises, and says which limit it is
@@ -127,12 +127,12 @@ def within(
 
     starts = grid[np.argsort(np.linalg.norm((reached - targets) / scale, axis=1), kind="stable")[:_STARTS]]
     ends = [least_squares(miss, start, bounds=(low, high), xtol=3e-16, ftol=3e-16, gtol=3e-16).x for start in starts]
-    found: list[Array] = []
+    solved: list[Array] = []
     for end in ends:
         met = np.abs(miss(end)).max() <= _MET
-        if met and not any(np.abs(end - other).max() <= _SAME for other in found):
-            found.append(end)
-    if not found:
+        if met and not any(np.abs(end - other).max() <= _SAME for other in solved):
+            solved.append(end)
+    if not solved:
         best = min(ends, key=lambda end: float(np.abs(miss(end)).max()))
         near = ", ".join(f"{name} = {value:.6g}" for name, value in zip(wanted, values(best), strict=True))
         at = ", ".join(f"{name} = {length:.5g}" for name, length in zip(names, np.exp(best), strict=True))
@@ -144,4 +144,4 @@ def within(
             f"no lever has {' and '.join(f'{name} = {value:.6g}' for name, (_, value) in wanted.items())}: the nearest "
             f"has {near} at {at}; alone each reaches about: {reach}"
         )
-    return tuple(lever(one) for one in sorted(found, key=lambda one: float(one[0])))
+    return tuple(lever(point) for point in sorted(solved, key=lambda point: float(point[0])))

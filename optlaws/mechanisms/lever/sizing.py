@@ -58,6 +58,6 @@ def sized(linkage: FourBar, rho: float, nu: float, swing: float) -> Sizing:
     share = polished(
         inside[[np.argmin(np.abs(inside - 0.5))]], lambda x: (quartic(swing * x), swing * quartic.deriv()(swing * x))
     )
-    found = swing * float(share[0])
-    rocker = float(gamma01(found))
-    return Sizing(found, rocker, beta * rocker * (1.0 + rho) / ((swing - found) * (1.0 + nu)))
+    angle = swing * float(share[0])
+    rocker = float(gamma01(angle))
+    return Sizing(angle, rocker, beta * rocker * (1.0 + rho) / ((swing - angle) * (1.0 + nu)))

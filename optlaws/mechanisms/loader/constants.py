@@ -50,7 +50,7 @@ class LoaderPeak(Functional):
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> [round(one.value(smoothstep(2)), 6) for one in (B_loader, C_loader, D_loader)]
+    >>> [round(functional.value(smoothstep(2)), 6) for functional in (B_loader, C_loader, D_loader)]
     [1.640754, 4.640754, 4.144721]
     """
 
@@ -104,7 +104,7 @@ class LoaderPeak(Functional):
         """B of the loader itself, which is convex at one B of the law; of the others what no law is below."""
         if self.of == "B" and isinstance(problem.B, float):
             families = self.families(space, slack, bound)
-            return tuple(replace(one, convex=True) for one in families if isinstance(one, EnergyFamily))
+            return tuple(replace(family, convex=True) for family in families if isinstance(family, EnergyFamily))
         least = self.limit(problem)
         if least is None or not slack.any():
             return ()
@@ -131,20 +131,20 @@ def _energy(space: PolynomialSpace, size: int) -> Energy:
 def _fall(below: LinearFamily) -> EvenFamily:
     """p = q + u dq/du over u = t², of which the acceleration is 4 t p."""
     series = below.series
-    found = np.zeros_like(series)
-    found[: len(series) - 1] = chebyshev.chebder(series)
+    fallen = np.zeros_like(series)
+    fallen[: len(series) - 1] = chebyshev.chebder(series)
     # u = (1 + v)/2 and dq/du = 2 dq/dv
-    for column in found.T:
+    for column in fallen.T:
         column[:] = product(np.array([1.0, 1.0]), column.copy())[: len(column)]
-    return EvenFamily("fall", below.slack, series=series + found)
+    return EvenFamily("fall", below.slack, series=series + fallen)
 
 
 B_loader = LoaderPeak("B_loader", 1.0, convex=False, of="B")
 C_loader = LoaderPeak("C_loader", 4.0, convex=False, of="C")
 D_loader = LoaderPeak("D_loader", 2.25, convex=False, of="D")
 
-NAMES: Mapping[str, Functional] = {one.name: one for one in (C, B_loader, C_loader, D_loader)}
-PLAIN.update({one.name: one for one in (B_loader, C_loader, D_loader)})
+NAMES: Mapping[str, Functional] = {functional.name: functional for functional in (C, B_loader, C_loader, D_loader)}
+PLAIN.update({functional.name: functional for functional in (B_loader, C_loader, D_loader)})
 
 
 def objective(minimise: str | Term | Expression) -> Expression:
@@ -161,14 +161,14 @@ def objective(minimise: str | Term | Expression) -> Expression:
     0.125*C + 0.125*C_loader
     """
     if isinstance(minimise, str):
-        found = parse(minimise, NAMES)
+        expression = parse(minimise, NAMES)
     elif isinstance(minimise, Term | Expression):
-        found = minimise.expression()
+        expression = minimise.expression()
     else:
         raise InputError(f"minimise must be a sum of {', '.join(NAMES)}, got {shortened(minimise)}")
-    for _, term in found.terms:
+    for _, term in expression.terms:
         if term not in NAMES.values():
             raise InputError(f"a balanced law minimises a sum of {', '.join(NAMES)}, got {shortened(term)} in it")
-    if [term for _, term in found.terms] == [C]:
+    if [term for _, term in expression.terms] == [C]:
         raise InputError("C alone has no loader in it: minimise it with synthesize, or add C_loader or B_loader")
-    return found
+    return expression

@@ -78,30 +78,30 @@ class LoaderLaw(MotionLaw, kind="loader"):
     def _stretches(self) -> tuple[list[float], list[str]]:
         """Places that bound the stretches, and for each stretch which of its ends is a top, "flat" where both are."""
         places = {0.0, 1.0, *self.executive.breaks}
-        for one in self._tops:
-            places |= {one.first, one.last}
-            places -= {k for k in places if one.first < k < one.last}
+        for top in self._tops:
+            places |= {top.first, top.last}
+            places -= {k for k in places if top.first < k < top.last}
         bounds = sorted(places)
         kinds = [self._kind(start, end) for start, end in pairwise(bounds)]
-        for i in reversed([i for i, one in enumerate(kinds) if one == "both"]):
+        for i in reversed([i for i, kind in enumerate(kinds) if kind == "both"]):
             bounds.insert(i + 1, 0.5 * (bounds[i] + bounds[i + 1]))
             kinds[i : i + 1] = ["start", "end"]
         return bounds, kinds
 
     def _kind(self, start: float, end: float) -> str:
-        if any((start, end) == (one.first, one.last) for one in self._tops):
+        if any((start, end) == (top.first, top.last) for top in self._tops):
             return "flat"
-        begins = any(start == one.last for one in self._tops)
-        ends = any(end == one.first for one in self._tops)
+        begins = any(start == top.last for top in self._tops)
+        ends = any(end == top.first for top in self._tops)
         return "both" if begins and ends else "start" if begins else "end" if ends else ""
 
     def _segments(self, Y: float) -> list[Segment]:
         bounds, kinds = self._stretches
-        found: list[Segment] = []
+        segments: list[Segment] = []
         for (start, end), kind in zip(pairwise(bounds), kinds, strict=True):
-            passed = sum(one.last <= start for one in self._tops)
-            found.append(self._segment(start, end, kind, Y * (-1) ** passed))
-        return found
+            passed = sum(top.last <= start for top in self._tops)
+            segments.append(self._segment(start, end, kind, Y * (-1) ** passed))
+        return segments
 
     def _segment(self, start: float, end: float, kind: str, scale: float) -> Segment:
         if kind == "flat":

@@ -32,8 +32,8 @@ def loader_velocity_limit(B: float) -> float:
     >>> round(loader_velocity_limit(1.25), 12)
     1.666666666667
     """
-    found = _velocity(B)
-    return found / sqrt(found * found - 1.0)
+    velocity = _velocity(B)
+    return velocity / sqrt(velocity * velocity - 1.0)
 
 
 def loader_acceleration_limit(B: float) -> float:
@@ -58,16 +58,16 @@ def loader_acceleration_limit(B: float) -> float:
     >>> round(loader_acceleration_limit(4 / pi), 9), round(loader_acceleration_limit(1.875), 6)
     (4.0, 4.459318)
     """
-    found = _velocity(B)
-    if found >= HARMLESS:
-        rate = 0.5 * pi * found
+    velocity = _velocity(B)
+    if velocity >= HARMLESS:
+        rate = 0.5 * pi * velocity
         return rate * rate / (rate - 1.0)
 
     def peak(angle: float) -> float:
-        rate = _rate(found, angle, 0.5 * pi)
+        rate = _rate(velocity, angle, 0.5 * pi)
         return rate * rate / (1.0 + cos(angle) * (rate - 2.0))
 
-    return _least(found, peak)
+    return _least(velocity, peak)
 
 
 def loader_power_limit(B: float) -> float:
@@ -91,16 +91,16 @@ def loader_power_limit(B: float) -> float:
     >>> round(loader_power_limit(1.5), 12), round(loader_power_limit(1.875), 6)
     (2.25, 2.32438)
     """
-    found = _velocity(B)
-    if found >= EVEN_POWER:
-        rate = 4.0 * found / 3.0
+    velocity = _velocity(B)
+    if velocity >= EVEN_POWER:
+        rate = 4.0 * velocity / 3.0
         return 0.5 * rate**3 / (rate - 2.0 / 3.0) ** 2
 
     def peak(angle: float) -> float:
-        rate = _rate(found, angle, 4.0 / 3.0)
+        rate = _rate(velocity, angle, 4.0 / 3.0)
         return 0.5 * rate**3 / (4.0 / 3.0 + cos(angle) * (rate - 2.0)) ** 2
 
-    return _least(found, peak)
+    return _least(velocity, peak)
 
 
 LIMITS: Mapping[str, Callable[[float], float]] = {
@@ -127,9 +127,9 @@ def _least(B: float, peak: Callable[[float], float]) -> float:
 
 
 def _velocity(B: float) -> float:
-    found = positive(B, "B")
-    if found <= 1.0:
+    velocity = positive(B, "B")
+    if velocity <= 1.0:
         raise InputError(
             f"B must be above 1, for the stroke is 1 and the law starts and ends at rest; got {shortened(B)}"
         )
-    return found
+    return velocity

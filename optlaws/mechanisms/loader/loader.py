@@ -39,10 +39,10 @@ class Loader:
     Examples
     --------
     >>> from optlaws import smoothstep
-    >>> found = Loader(smoothstep(3))
-    >>> found
+    >>> balanced = Loader(smoothstep(3))
+    >>> balanced
     Loader(Y=0.754567, B=1.41481, C=5.65925, D=3.81152)
-    >>> found.law.b([0.0, 0.5, 1.0]).round(6).tolist()
+    >>> balanced.law.b([0.0, 0.5, 1.0]).round(6).tolist()
     [1.414812, 0.0, -1.414812]
     """
 
@@ -80,8 +80,8 @@ class Loader:
     @kept_property
     def turn(self) -> float:
         """The k at which the loader reverses: 1/2 for symmetric laws."""
-        found = tops(self.executive)
-        return found[len(found) // 2].first
+        places = tops(self.executive)
+        return places[len(places) // 2].first
 
     @kept_property
     def C_at_turn(self) -> float:
@@ -205,8 +205,8 @@ def loader(law: MotionLaw) -> Loader:
     Examples
     --------
     >>> from optlaws import catalogue
-    >>> found = loader(catalogue["0317(1,5)"].law)
-    >>> found, found.C_at_turn, found.peaks_at_turn
+    >>> balanced = loader(catalogue["0317(1,5)"].law)
+    >>> balanced, balanced.C_at_turn, balanced.peaks_at_turn
     (Loader(Y=1.07323, B=1.66389, C=4.9574, D=5.51213), 0.0, False)
     """
     return Loader(law)

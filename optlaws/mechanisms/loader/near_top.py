@@ -84,11 +84,11 @@ class Deficit:
     def energy(self, t: Array, B: float, order: int) -> list[Array]:
         """Derivatives 0 to `order` of w (2B - w) with respect to t > 0."""
         w = [_differentiated(self.coefficients, self.step, t, i) for i in range(order + 1)]
-        found = [w[0] * (2.0 * B - w[0])]
+        orders = [w[0] * (2.0 * B - w[0])]
         for n in range(1, order + 1):
             cross = sum(comb(n, i) * w[i] * w[n - i] for i in range(1, n))
-            found.append(2.0 * (B - w[0]) * w[n] - cross)
-        return found
+            orders.append(2.0 * (B - w[0]) * w[n] - cross)
+        return orders
 
 
 def deficit(derivative: Derivative, B: float, length: float, where: str) -> Deficit:
@@ -119,13 +119,13 @@ def deficit(derivative: Derivative, B: float, length: float, where: str) -> Defi
 
 def _taylor(derivative: Derivative, B: float, length: float) -> list[float] | None:
     """Terms 1 to TERMS of w in powers of t; None where the series is of no use on the length."""
-    found: list[float] = []
+    coefficients: list[float] = []
     for n in range(1, TERMS + 1):
-        one = -derivative(0.0, n) / factorial(n)
-        if n >= 3 and not (abs(one) / B) ** (1.0 / n) * SHORTEST * length <= 1.0:
+        coefficient = -derivative(0.0, n) / factorial(n)
+        if n >= 3 and not (abs(coefficient) / B) ** (1.0 / n) * SHORTEST * length <= 1.0:
             return None
-        found.append(one)
-    return found
+        coefficients.append(coefficient)
+    return coefficients
 
 
 def _made(w: list[float], step: float, B: float, *, reach: float, length: float, where: str) -> Deficit:
@@ -146,14 +146,14 @@ def _made(w: list[float], step: float, B: float, *, reach: float, length: float,
 
 def _radius(coefficients: list[float], scale: float) -> float:
     """An estimate from below of the radius of convergence."""
-    rates = [(abs(one) / scale) ** (1.0 / n) for n, one in enumerate(coefficients, 1) if n >= 3]
+    rates = [(abs(coefficient) / scale) ** (1.0 / n) for n, coefficient in enumerate(coefficients, 1) if n >= 3]
     return float(1.0 / max(*rates, 1e-3))
 
 
 def _power(derivative: Derivative, length: float) -> float | None:
     """The exponent of c where it is a power of t."""
     values = [derivative(length * 0.5**i, 1) for i in range(5)]
-    if not all(isfinite(one) and one < 0.0 for one in values):
+    if not all(isfinite(value) and value < 0.0 for value in values):
         return None
     exponents = [log2(high / low) for high, low in pairwise(values)]
     if max(exponents) - min(exponents) > 1e-9:

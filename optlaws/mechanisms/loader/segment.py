@@ -54,12 +54,12 @@ class LoaderSegment(Segment, kind="loader"):
         flat = np.atleast_1d(u)
         if nu == 0:
             from_origin = self._stretch.integral(self._times(flat))
-            found = self._stretch.integral(self._times(np.zeros(1))) - from_origin if self._back else from_origin
+            values = self._stretch.integral(self._times(np.zeros(1))) - from_origin if self._back else from_origin
         else:
-            found = self._stretch.value(self._times(flat), nu - 1)
+            values = self._stretch.value(self._times(flat), nu - 1)
             if self._back and nu % 2 == 0:
-                found = -found
-        return np.asarray(self.scale * found.reshape(np.shape(u)))
+                values = -values
+        return np.asarray(self.scale * values.reshape(np.shape(u)))
 
     def candidates(self, length: float, nu: int) -> Array:  # noqa: ARG002, D102
         return self._places(self._stretch.roots(nu)) if nu else np.empty(0)

@@ -48,17 +48,17 @@ class Stretch:
 
     def value(self, t: Array, order: int) -> Array:
         """Derivative of some order of g with respect to t."""
-        found = np.empty(t.shape)
+        values = np.empty(t.shape)
         near, between = t <= self._root_reach, (t > self._root_reach) & (t <= self._reach)
         far = ~(near | between)
         if self._deficit is not None:
             if near.any():
-                found[near] = self._deficit.root.derivative(t[near], order)
+                values[near] = self._deficit.root.derivative(t[near], order)
             if between.any():
-                found[between] = _root(self._deficit.energy(t[between], self.B, order))
+                values[between] = _root(self._deficit.energy(t[between], self.B, order))
         if far.any():
-            found[far] = _root(self._energy(t[far], order))
-        return found
+            values[far] = _root(self._energy(t[far], order))
+        return values
 
     def integral(self, t: Array) -> Array:
         """Integral of g from 0 to t."""
@@ -135,12 +135,12 @@ class Stretch:
     def _energy(self, t: Array, order: int) -> list[Array]:
         """Derivatives 0 to `order` of B² - b² with respect to t."""
         b = [self._executive(t, i) for i in range(order + 1)]
-        found = [(self.B - np.abs(b[0])) * (self.B + np.abs(b[0]))]
-        found[0] = np.maximum(found[0], 0.0)
+        energies = [(self.B - np.abs(b[0])) * (self.B + np.abs(b[0]))]
+        energies[0] = np.maximum(energies[0], 0.0)
         for n in range(1, order + 1):
             square = sum((comb(n, i) * b[i] * b[n - i] for i in range(n + 1)), np.zeros_like(t))
-            found.append(-square)
-        return found
+            energies.append(-square)
+        return energies
 
 
 @lru_cache(maxsize=256)

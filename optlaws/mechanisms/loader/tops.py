@@ -59,10 +59,11 @@ def tops(law: MotionLaw) -> tuple[Top, ...]:
     B = law.peak(1).value
     if not (isfinite(B) and B > 0.0):
         raise InputError(f"law must move with finite velocity to have a loader; its peak velocity B is {B:g}")
-    found = sorted(_regions(law, B, 0.0, 1.0))
-    places = tuple(_narrowed(law, B, *region) for region in found)
+    regions = sorted(_regions(law, B, 0.0, 1.0))
+    places = tuple(_narrowed(law, B, *region) for region in regions)
     said = ", ".join(
-        f"{one.first:.6g}" if one.first == one.last else f"{one.first:.6g} to {one.last:.6g}" for one in places
+        f"{place.first:.6g}" if place.first == place.last else f"{place.first:.6g} to {place.last:.6g}"
+        for place in places
     )
     if places[0].first <= 0.0 or places[-1].last >= 1.0:
         raise InputError(

@@ -38,16 +38,16 @@ def moments(sigma: Complex, count: int) -> Complex:
     >>> moments(np.array([-0.5 + 0.0j]), 2).real.round(9).tolist()
     [[0.632120559, 0.103638324]]
     """
-    found = np.empty((len(sigma), max(count, 2)), dtype=np.complex128)
+    table = np.empty((len(sigma), max(count, 2)), dtype=np.complex128)
     size = np.abs(sigma)
     order = np.argsort(size)
     low = 0
     while low < len(order):  # arguments of like size share the length of their recurrence
         high = max(low + 1, int(np.searchsorted(size[order], max(8.0, 1.5 * size[order[low]]), side="right")))
         some = order[low:high]
-        found[some] = _alike(sigma[some], found.shape[1], float(size[order[high - 1]]))
+        table[some] = _alike(sigma[some], table.shape[1], float(size[order[high - 1]]))
         low = high
-    return found[:, :count]
+    return table[:, :count]
 
 
 def _alike(sigma: Complex, count: int, largest: float) -> Complex:
@@ -66,12 +66,12 @@ def _alike(sigma: Complex, count: int, largest: float) -> Complex:
     second = (first - 0.5 * (decay + 1.0)) * inverse
     # the larger of the two is known without cancellation
     from_second = np.abs(second) > np.abs(first)
-    found = np.empty_like(kept)
-    found[:, 0] = first
-    found[:, 1] = np.where(from_second, second, first * kept[:, 1])
+    table = np.empty_like(kept)
+    table[:, 0] = first
+    table[:, 1] = np.where(from_second, second, first * kept[:, 1])
     for n in range(2, count):
-        found[:, n] = found[:, n - 1] * kept[:, n]
-    return found
+        table[:, n] = table[:, n - 1] * kept[:, n]
+    return table
 
 
 @lru_cache(maxsize=64)
@@ -86,7 +86,7 @@ def legendre_from_chebyshev(count: int) -> Array:
     x, weights = np.polynomial.legendre.leggauss(count)
     values = np.polynomial.legendre.legvander(x, count - 1)
     scale = np.arange(count) + 0.5
-    found: Array = scale[:, None] * (values.T @ (weights[:, None] * chebyshev.basis_values(x, count)))
-    found = np.triu(found)
-    found[np.add.outer(np.arange(count), np.arange(count)) % 2 == 1] = 0.0
-    return found
+    table: Array = scale[:, None] * (values.T @ (weights[:, None] * chebyshev.basis_values(x, count)))
+    table = np.triu(table)
+    table[np.add.outer(np.arange(count), np.arange(count)) % 2 == 1] = 0.0
+    return table

@@ -38,20 +38,20 @@ def velocity_transform(law: MotionLaw, w: Complex) -> Complex:
         if jump:
             total = total + jump * exponential(after.start)
     total = total - pieces[-1].derivative(np.array([pieces[-1].length]), 1)
-    for one in pieces:
-        total = total + exponential(one.start + one.length) * _acceleration_transform(one, w)
+    for piece in pieces:
+        total = total + exponential(piece.start + piece.length) * _acceleration_transform(piece, w)
     return np.asarray(total / w)
 
 
 def _acceleration_transform(piece: Forcing, w: Complex) -> Complex:
     """Integral over the piece of exp(w (length - s)) c(s)."""
-    found = _polynomial(piece.acceleration, piece.length, w)
-    for one in piece.sines:
-        wave = 1j * one.frequency
+    transform = _polynomial(piece.acceleration, piece.length, w)
+    for sine in piece.sines:
+        wave = 1j * sine.frequency
         for sign in (1.0, -1.0):
-            turn = np.exp(1j * sign * (one.frequency * piece.length + one.phase))
-            found += -0.5j * sign * one.amplitude * turn * piece.length * _mean((w - sign * wave) * piece.length)
-    return found
+            turn = np.exp(1j * sign * (sine.frequency * piece.length + sine.phase))
+            transform += -0.5j * sign * sine.amplitude * turn * piece.length * _mean((w - sign * wave) * piece.length)
+    return transform
 
 
 def _mean(z: Complex) -> Complex:

@@ -40,12 +40,12 @@ def peak_accelerations(law: MotionLaw, frequencies: Array, w: Complex) -> Array:
     array([13.76515])
     """
     pieces = forcings(law)
-    found = np.empty(len(frequencies))
+    peaks = np.empty(len(frequencies))
     order = np.argsort(frequencies)
     for low in range(0, len(order), CHUNK):
         some = order[low : low + CHUNK]
-        found[some] = _peaks(pieces, frequencies[some], w[some])
-    return found
+        peaks[some] = _peaks(pieces, frequencies[some], w[some])
+    return peaks
 
 
 def _peaks(pieces: tuple[Forcing, ...], nu: Array, w: Complex) -> Array:
@@ -130,9 +130,9 @@ def _highest(y: Array, y1: Array, y2: Array) -> Array:
         (first, np.zeros(len(y))),
         (last, np.ones(len(y))),
     ):
-        one = series[:, rows, chosen]
-        t = _polished(one, at)
-        best = np.maximum(best, np.abs(np.polynomial.polynomial.polyval(t, one, tensor=False)))
+        chosen_series = series[:, rows, chosen]
+        t = _polished(chosen_series, at)
+        best = np.maximum(best, np.abs(np.polynomial.polynomial.polyval(t, chosen_series, tensor=False)))
     return np.asarray(best)
 
 

@@ -162,8 +162,8 @@ def residual(
     Examples
     --------
     >>> from optlaws.laws.savin.savin import savin
-    >>> one = residual(nu=18)
-    >>> round(one.value(savin("III", 7.2)), 6)
+    >>> vibration = residual(nu=18)
+    >>> round(vibration.value(savin("III", 7.2)), 6)
     7.204401
     >>> wide = residual(nu=(18, 22), design=20)
     >>> wide, wide.peak(savin("III", 7.2))
@@ -172,7 +172,7 @@ def residual(
     pair = tuple(nu) if isinstance(nu, list | tuple) else (nu, nu)
     if len(pair) != 2:
         raise InputError(f"nu must be a frequency or two, (low, high), got {shortened(nu)}")
-    low, high = (positive(one, "nu") for one in pair)
+    low, high = (positive(number, "nu") for number in pair)
     if low > high or high - low > _WIDEST:
         raise InputError(f"nu must be an interval (low, high) no longer than {_WIDEST:g}, got {shortened(nu)}")
     ratio = not_negative(damping, "damping")
