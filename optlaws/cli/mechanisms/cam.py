@@ -23,12 +23,11 @@ def cam(file: Path, /, *, out: Path | None = None, as_json: AsJson = False) -> N
     """
     from optlaws.files.packaged import problem_of_job
     from optlaws.jobs.cam.cam import answer
-    from optlaws.jobs.cam.wishes import read
 
     source, results, data = problem_of_job(file, "cam")
     if not as_json:
         run(source, out=out or results)
         return
     with busy(f"{file}"):
-        told = answer(*read(data, source))
+        told = answer(data, source)
     print_json(told)

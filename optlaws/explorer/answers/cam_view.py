@@ -65,8 +65,11 @@ def _made(question: str) -> tuple[wishes.Study, DiscCam]:
     from optlaws.files.problem_file import convert
 
     data = json.loads(question)
+    if "barrel" in data:
+        raise InputError("the explorer shows disc cams: barrel cams are made by the command `optlaws cam`")
     check_axis(convert(data, wishes.Study, _WHERE).motion)
-    return wishes.read(data, _WHERE)
+    spec, cams = wishes.read(data, _WHERE)
+    return spec, cams.first
 
 
 def _view(spec: wishes.Study, cam: DiscCam) -> dict[str, Any]:
@@ -121,7 +124,7 @@ def _panels(spec: wishes.Study, cam: DiscCam, angles: Array) -> list[dict[str, A
     pressure = cam.extremes.greatest_pressure_angle
     limit = None if spec.pressure_angle is None else degrees(quantity(spec.pressure_angle, "angle", "pressure_angle"))
     radius = _MILLI * np.asarray(cam.radius_of_curvature(angles))
-    far = _FAR * _MILLI * quantity(spec.base_radius, "length", "base_radius")
+    far = _FAR * _MILLI * quantity(cam.base_radius, "length", "base_radius")
     bulging = cam.extremes.bulging_radius
     return [
         _panel("displacement", unit, turns, factor * np.asarray(cam.displacement(angles)), []),

@@ -18,6 +18,8 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.loads.forces import CamForces
 from optlaws.cams.loads.springs import Spring, least_spring
 from optlaws.cams.made.as_made import AsMade, UnreachedProfileError, as_made, with_error
+from optlaws.cycles.asked.programme import TURN
+from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text
@@ -92,7 +94,7 @@ class More(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     animation: bool = False
 
 
-def check(spec: More, cam: DiscCam) -> None:
+def check(spec: More, cam: DiscCam, cycle: Cycle) -> None:
     """Refuse what would be refused only after the work was done.
 
     Raises
@@ -108,15 +110,19 @@ def check(spec: More, cam: DiscCam) -> None:
         entries = one.asked()
         curve_of(cam, entries.pop("curve", None), entries.pop("cutter_radius", None))
         Cutting(**entries)
-    forces_of(spec, cam)
+    forces_of(spec, cam, cycle)
 
 
-def forces_of(spec: More, cam: DiscCam) -> CamForces | None:
-    """The cam's forces, if they were asked for."""
+def forces_of(spec: More, cam: DiscCam, cycle: Cycle) -> CamForces | None:
+    """The cam's forces at the speed of its cycle, if they were asked for."""
     asked = spec.forces
     if asked is None:
         return None
-    return CamForces(cam, friction=asked.friction, width=asked.width, materials=asked.materials)
+    # laws that were found for a cam are no cycle, but go as fast
+    beside: dict[str, Any] = (
+        {} if cam.motion is cycle else {"speed": f"{TURN / cycle.duration!r} rad/s", "drive": cycle.drive}
+    )
+    return CamForces(cam, friction=asked.friction, width=asked.width, materials=asked.materials, **beside)
 
 
 @dataclass(frozen=True)
@@ -125,18 +131,19 @@ class Found:
 
     spec: More
     cam: DiscCam
+    cycle: Cycle
 
     @kept_property
     def forces(self) -> CamForces | None:
         """The cam's forces."""
-        return forces_of(self.spec, self.cam)
+        return forces_of(self.spec, self.cam, self.cycle)
 
     @kept_property
     def spring(self) -> Spring | None:
         """The least spring; mass, gravity and friction are those of the motion's drive."""
         if self.spec.spring is None:
             return None
-        given = getattr(self.cam.motion, "drive", None) or {}
+        given = self.cycle.drive or {}
         load = {key: value for key, value in given.items() if key not in {"stiffness", "preload"}}
         return least_spring(self.cam, drive=load, **msgspec.structs.asdict(self.spec.spring))
 

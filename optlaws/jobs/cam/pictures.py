@@ -65,6 +65,47 @@ def draw_forces(forces: CamForces, title: str) -> Figure:
         return figure
 
 
+def draw_pair(first: DiscCam, second: DiscCam, title: str) -> Figure:
+    """Two cams on one shaft, in their common coordinates, with both followers at the start."""
+    colours = drawing.BLUES[3], drawing.WARM
+    with drawing.style():
+        figure = drawing.new_figure(5.6, 6.0)
+        axes = figure.subplots()
+        axes.set_aspect("equal")
+        for cam, colour, name in zip((first, second), colours, ("cam", "return cam"), strict=True):
+            profile = _MILLI * cam.profile(np.linspace(*cam.displacement.interval, _SAMPLES))
+            axes.plot(*profile.T, color=colour, zorder=4, label=name)
+            _draw_held(cam, axes, colour)
+        axes.plot(*_linked(first, second).T, color=drawing.GREY, linewidth=1.1, label="follower at the start")
+        axes.plot([0.0], [0.0], "+", color=drawing.GREY, markersize=9.0, zorder=5)
+        axes.set(xlabel="x of the cams, mm", ylabel="y of the cams, mm")
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=3)
+        figure.suptitle(title, x=0.01, ha="left", fontsize=11.0)
+        return figure
+
+
+def _draw_held(cam: DiscCam, axes: Axes, colour: str) -> None:
+    """The roller, or the face, at the start."""
+    if cam.contact.roller:
+        from matplotlib.patches import Circle
+
+        centre = tuple(_MILLI * cam.pitch_curve(np.array(0.0)))
+        axes.add_patch(Circle(centre, _MILLI * cam.contact.roller, fill=False, edgecolor=colour, zorder=3))
+        return
+    touched, normal = _MILLI * cam.profile(np.array(0.0)), cam.profile.normal(np.array(0.0))
+    reach = 0.6 * float(np.hypot(*touched)) * np.array([normal[1], -normal[0]])
+    axes.plot(*np.array([touched - reach, touched + reach]).T, color=colour, linewidth=1.1, zorder=3)
+
+
+def _linked(first: DiscCam, second: DiscCam) -> Array:
+    """From the one follower to the other, by the slide or by the pivot that they share."""
+    held = [_MILLI * cam.pitch_curve(np.array(0.0)) for cam in (first, second)]
+    if isinstance(first.contact, SwingingRoller | SwingingFace):
+        turned = _phase(first, 0.0)
+        held.insert(1, _MILLI * first.contact.distance * np.array([np.cos(turned), np.sin(turned)]))
+    return np.array(held)
+
+
 @draws("cam")
 def draw_cam(cam: DiscCam, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
     """Draw a cam with its follower around it, and displacement, pressure angle and curvature over the cam's angle.

@@ -3,17 +3,21 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 import msgspec
 
+from optlaws.cams.best_laws import BestBaseCircle, BestCam, best_base_circle, best_cam
+from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import Follower
 from optlaws.cams.followers.oscillating_flat import OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat
 from optlaws.cams.followers.translating_roller import TranslatingRoller
+from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.cam.more import More, check
@@ -39,6 +43,14 @@ class AskedFollower(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     face_offset: str | None = None
 
 
+class AskedPair(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The return cam: how its follower is fixed to the first one, and the follower where it is another."""
+
+    distance: str | None = None
+    angle: str | None = None
+    follower: AskedFollower | None = None
+
+
 class Study(More, kw_only=True, forbid_unknown_fields=True):
     """The problem file."""
 
@@ -46,7 +58,9 @@ class Study(More, kw_only=True, forbid_unknown_fields=True):
     title: Text
     motion: Axis
     follower: AskedFollower
-    base_radius: str
+    base_radius: str | None = None
+    best: Literal["laws", "base circle"] | None = None
+    pair: AskedPair | None = None
     speed: str | None = None
     period: str | None = None
     turning: str = "counterclockwise"
@@ -57,8 +71,30 @@ class Study(More, kw_only=True, forbid_unknown_fields=True):
     text: str = ""
 
 
-def read(data: Mapping[str, Any], file: Path) -> tuple[Study, DiscCam]:
-    """The entries of a file, and the cam.
+@dataclass(frozen=True)
+class Cams:
+    """What a file asks for.
+
+    Attributes
+    ----------
+    cycle
+        As the file gives it.
+    first
+        The cam; with the laws found where the best ones are sought.
+    best
+        How good these are, and the proof.
+    second
+        The return cam of a pair.
+    """
+
+    cycle: Cycle
+    first: DiscCam
+    best: BestCam | BestBaseCircle | None = None
+    second: DiscCam | None = None
+
+
+def read(data: Mapping[str, Any], file: Path) -> tuple[Study, Cams]:
+    """The entries of a file, and the cams.
 
     Raises
     ------
@@ -67,14 +103,45 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, DiscCam]:
     """
     spec = convert(data, Study, file)
     try:
-        cycle = cycle_of(spec.motion, spec.speed, spec.period)
-        cam = DiscCam(cycle, spec.base_radius, follower_of(spec.follower), turning=spec.turning)
+        cams = _made(spec)
         if spec.cutter_radius is not None:
-            cam.cutter_path(spec.cutter_radius)
-        check(spec, cam)
+            cams.first.cutter_path(spec.cutter_radius)
+        check(spec, cams.first, cams.cycle)
     except InputError as error:
         raise InputError(f"{file}: {error}") from None
-    return spec, cam
+    return spec, cams
+
+
+def _made(spec: Study) -> Cams:
+    follower = follower_of(spec.follower)
+    if spec.best != "base circle" and spec.base_radius is None:
+        raise InputError("base_radius is missing: give it, such as '60 mm', or ask for best = 'base circle'")
+    if spec.best == "base circle" and spec.base_radius is not None:
+        raise InputError("base_radius is what best = 'base circle' looks for: leave it out, or ask for best = 'laws'")
+    cycle = cycle_of(spec.motion, spec.speed, spec.period)
+    wanted: dict[str, Any] = {
+        "pressure_angle": spec.pressure_angle,
+        "radius_of_curvature": spec.radius_of_curvature,
+        "turning": spec.turning,
+    }
+    if spec.best is None:
+        cam = DiscCam(cycle, spec.base_radius, follower, turning=spec.turning)
+        return Cams(cycle, cam, None, _second(spec.pair, cam))
+    if spec.best == "laws":
+        found = best_cam(cycle, spec.base_radius, follower, **wanted)
+        return Cams(cycle, found.cam, found, _second(spec.pair, found.cam))
+    least = best_base_circle(cycle, follower, **wanted)
+    return Cams(cycle, least.least.cam, least, _second(spec.pair, least.least.cam))
+
+
+def _second(asked: AskedPair | None, cam: DiscCam) -> DiscCam | None:
+    if asked is None:
+        return None
+    follower = None if asked.follower is None else follower_of(asked.follower)
+    try:
+        return conjugate_cam(cam, follower, distance=asked.distance, angle=asked.angle)
+    except InputError as error:
+        raise InputError(f"pair: {error}") from None
 
 
 def follower_of(asked: AskedFollower) -> Follower:

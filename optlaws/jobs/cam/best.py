@@ -1,0 +1,94 @@
+"""What the job "cam" says of laws that are best for their cam: least acceleration under its limits, or least size."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from optlaws.cams.best_laws import BestCam
+from optlaws.cams.least_sizes import LeastBaseCircle, least_base_circle
+from optlaws.cycles.asked.quantities import quantity
+from optlaws.errors import InfeasibleProblem
+from optlaws.files import tables
+from optlaws.jobs.cam.extremes import Limits
+from optlaws.jobs.cam.wishes import Cams, Study
+from optlaws.jobs.cycle.cycle import objective_unit
+from optlaws.jobs.pages.page import Page
+
+_MILLI = 1e3
+_DIGITS = 6
+_MET = 1e-7  # of a base circle, where bound and size are said to meet
+_HEADINGS = ("what", "value", "no laws are below", "unit", "status")
+
+
+def told(cams: Cams) -> dict[str, Any]:
+    """What a program is told, in SI units; nothing where the laws are those of the cycle."""
+    found = cams.best
+    if found is None:
+        return {}
+    if isinstance(found, BestCam):
+        said = {"minimise": cams.cycle.minimise, "objective": found.objective, "status": found.status.value}
+        return {"best": said | {"lower_bound": found.lower_bound}}
+    radius = {"minimise": "base circle", "objective": found.least.radius, "status": _status_of_size(cams)}
+    return {"best": radius | {"lower_bound": found.lower_bound}}
+
+
+def limits_of(cams: Cams, spec: Study) -> Limits:
+    """The limits that the laws were made for; none where they are those of the cycle."""
+    if cams.best is None:
+        return Limits()
+    pressure, radius = spec.pressure_angle, spec.radius_of_curvature
+    return Limits(
+        None if pressure is None else quantity(pressure, "angle", "pressure_angle"),
+        None if radius is None else quantity(radius, "length", "radius_of_curvature"),
+    )
+
+
+def add(page: Page, cams: Cams, spec: Study) -> None:
+    """Put what was found on the page."""
+    found = cams.best
+    if found is None:
+        return
+    page.heading("Laws for the cam")
+    if isinstance(found, BestCam):
+        page.table(_HEADINGS, _law_rows(cams, found), digits=_DIGITS)
+        return
+    least = found.least
+    rows: list[list[tables.Cell]] = [
+        [
+            "least base circle of all laws",
+            _MILLI * least.radius,
+            _MILLI * found.lower_bound,
+            "mm",
+            _status_of_size(cams),
+        ]
+    ]
+    own = _own(cams, spec)
+    if own is not None:
+        rows.append([f"of the laws of least {cams.cycle.minimise}", _MILLI * own.radius, None, "mm", None])
+    page.table(_HEADINGS, rows, digits=_DIGITS)
+
+
+def _law_rows(cams: Cams, found: BestCam) -> list[list[tables.Cell]]:
+    name, unit = cams.cycle.minimise, objective_unit(cams.cycle)
+    return [
+        [f"least {name} under the limits of the cam", found.objective, found.lower_bound, unit, found.status.value],
+        [f"least {name} without them", cams.cycle.objective, cams.cycle.lower_bound, unit, cams.cycle.status.value],
+    ]
+
+
+def _status_of_size(cams: Cams) -> str:
+    found = cams.best
+    assert found is not None  # noqa: S101 - it was asked for
+    if isinstance(found, BestCam):
+        return found.status.value
+    met = found.least.radius - found.lower_bound <= _MET * found.least.radius
+    return "optimal" if met else "local"
+
+
+def _own(cams: Cams, spec: Study) -> LeastBaseCircle | None:
+    """The least base circle of the cycle's own laws."""
+    limits = {"pressure_angle": spec.pressure_angle, "radius_of_curvature": spec.radius_of_curvature}
+    try:
+        return least_base_circle(cams.cycle, cams.first.follower, turning=spec.turning, **limits)
+    except InfeasibleProblem:
+        return None

@@ -1,0 +1,85 @@
+"""Enclosed extremes as pages and programs are told them."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import degrees
+
+import numpy as np
+
+from optlaws.cams.disc import DiscCam
+from optlaws.cams.extremes.bounding import Extreme
+from optlaws.files import tables
+
+EXTREMES = ("what", "at least", "at most", "unit", "at, deg")
+_MILLI = 1e3
+_NOTHING = 1e-100
+_REACHED = 1e-7
+
+
+@dataclass(frozen=True)
+class Limits:
+    """Limits that laws were made for, in SI units: they touch them at several angles, of which none is the one.
+
+    Examples
+    --------
+    >>> Limits.reached(0.0100000000001, 0.01), Limits.reached(0.01, None)
+    (True, False)
+    """
+
+    pressure: float | None = None
+    radius: float | None = None
+
+    @staticmethod
+    def reached(value: float, limit: float | None) -> bool:
+        """Whether a value is that of a limit."""
+        return limit is not None and abs(abs(value) - limit) <= _REACHED * limit
+
+
+def extreme_rows(cam: DiscCam, limits: Limits) -> list[list[tables.Cell]]:
+    """Rows of a table of extreme pressure angles and radii of curvature."""
+    found = cam.extremes
+    angles = [
+        ("greatest pressure angle", found.greatest_pressure_angle),
+        ("pressure angle, least", found.pressure_angles[0]),
+        ("pressure angle, greatest", found.pressure_angles[1]),
+    ]
+    seen = [(name, one) for name, one in angles if found.greatest_pressure_angle.value > _NOTHING]
+    rows = [extreme_row(name, one, degrees(1.0), "deg", limits.pressure) for name, one in seen]
+    rows.append(extreme_row("least radius of curvature, bulging", found.bulging_radius, _MILLI, "mm", limits.radius))
+    if found.hollow_radius is not None:
+        rows.append(extreme_row("least radius of curvature, hollow", found.hollow_radius, _MILLI, "mm"))
+    return rows
+
+
+def extreme_row(name: str, one: Extreme, factor: float, unit: str, limit: float | None = None) -> list[tables.Cell]:
+    """One of them, in a unit of so many to the SI unit; its angle is left out where it is a limit that laws touch.
+
+    Examples
+    --------
+    >>> extreme_row("radius", Extreme(0.01, 0.01, 0.0), 1e3, "mm")
+    ['radius', 10.0, 10.0, 'mm', 0.0]
+    """
+    low, high = (plain(factor * value) for value in (one.low, one.high))
+    return [name, low, high if np.isfinite(high) else None, unit, _angle(one, limit, degrees(one.angle))]
+
+
+def enclosure(one: Extreme, limit: float | None = None) -> dict[str, float | None]:
+    """One of them for a program, in SI units."""
+    high = one.high if np.isfinite(one.high) else None
+    return {"low": one.low, "high": high, "angle": _angle(one, limit, one.angle)}
+
+
+def _angle(one: Extreme, limit: float | None, angle: float) -> float | None:
+    return None if Limits.reached(one.value, limit) else angle
+
+
+def plain(value: float) -> float:
+    """The value, or 0 where it is rounding.
+
+    Examples
+    --------
+    >>> plain(-3e-17), plain(0.5)
+    (0.0, 0.5)
+    """
+    return 0.0 if abs(value) < 1e-12 else value

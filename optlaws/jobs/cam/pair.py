@@ -1,0 +1,66 @@
+"""What the job "cam" says of the return cam of a pair: its extremes, its picture and its files."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from optlaws.cams.followers.follower import positive
+from optlaws.jobs.cam.extremes import EXTREMES, Limits, enclosure, extreme_rows
+from optlaws.jobs.cam.more import AskedFile
+from optlaws.jobs.cam.pictures import draw_pair
+from optlaws.jobs.cam.wishes import Cams
+from optlaws.jobs.pages.page import Page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+
+def told(cams: Cams) -> dict[str, Any]:
+    """What a program is told of the second cam, in metres and radians; nothing where there is none."""
+    if cams.second is None:
+        return {}
+    found = cams.second.extremes
+    return {
+        "return_cam": {
+            "base_radius": positive(cams.second.base_radius, "base_radius"),
+            "greatest_pressure_angle": enclosure(found.greatest_pressure_angle),
+            "bulging_radius": enclosure(found.bulging_radius),
+            "undercut": {"status": found.undercut.status, "simple": found.undercut.simple},
+        }
+    }
+
+
+def add(page: Page, cams: Cams, asked: Sequence[AskedFile]) -> Page:
+    """The page with the second cam."""
+    if cams.second is None:
+        return page
+    page.heading("Return cam").figure("pair", "Both cams on one shaft, with their followers at the start")
+    page.text(f"Undercut: {cams.second.extremes.undercut}.")
+    page.table(EXTREMES, extreme_rows(cams.second, Limits()), digits=7)
+    return page.text("\n".join(f"- [{name_of(one)}]({name_of(one)})" for one in asked))
+
+
+def figures(cams: Cams, title: str) -> dict[str, Figure]:
+    """The picture of both."""
+    return {} if cams.second is None else {"pair": draw_pair(cams.first, cams.second, title)}
+
+
+def files(cams: Cams, asked: Sequence[AskedFile], out: Path, about: str) -> list[Path]:
+    """Write the files that cut the second cam: as those of the first."""
+    second = cams.second
+    if second is None:
+        return []
+    return [second.export(out / name_of(one), one.format, about=about, **one.asked()) for one in asked]
+
+
+def name_of(asked: AskedFile) -> str:
+    """The name of the second cam's file beside that of the first.
+
+    Examples
+    --------
+    >>> name_of(AskedFile(name="cam.dxf"))
+    'return-cam.dxf'
+    """
+    return f"return-{asked.name}"

@@ -1,0 +1,161 @@
+"""Problem files of the job "cam" beside the single disc cam: best laws, least base circles, pairs, barrels."""
+
+import json
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws import (
+    BarrelCam,
+    Cycle,
+    Dwell,
+    OscillatingRoller,
+    Return,
+    Rise,
+    TranslatingFlat,
+    TranslatingRoller,
+    best_base_circle,
+    best_cam,
+    conjugate_cam,
+    drawing,
+)
+from optlaws.cams.disc import DiscCam
+from optlaws.errors import InputError
+from optlaws.files import reading
+from optlaws.jobs import job
+from optlaws.jobs.cam.cam import answer
+
+MOTION = """
+[motion]
+name = "slide"
+degree = 5
+[[motion.segment]]
+kind = "rise"
+by = "35 mm"
+duration = "120 deg"
+[[motion.segment]]
+kind = "dwell"
+duration = "90 deg"
+[[motion.segment]]
+kind = "return"
+duration = "100 deg"
+[[motion.segment]]
+kind = "dwell"
+"""
+HEAD = 'job = "cam"\ntitle = "Small"\nspeed = "200 rpm"\nrows = 13\n'
+ROLLER = '[follower]\nkind = "translating roller"\nradius = "12 mm"\n'
+LAWS = HEAD + 'base_radius = "50 mm"\npressure_angle = "25 deg"\nbest = "laws"\n' + ROLLER + MOTION
+BASE = HEAD + 'radius_of_curvature = "3 mm"\nbest = "base circle"\n[follower]\nkind = "translating flat"\n' + MOTION
+PAIR = HEAD + 'base_radius = "60 mm"\n[pair]\ndistance = "190 mm"\n' + ROLLER + MOTION
+BARREL = HEAD + '[barrel]\nouter_radius = "60 mm"\ndepth = "12 mm"\nroller_radius = "8 mm"\n' + MOTION
+
+
+def cycle() -> Cycle:
+    moves = [Rise("35 mm", "120 deg"), Dwell("90 deg"), Return(duration="100 deg"), Dwell()]
+    return Cycle(moves, speed="200 rpm", degree=5)
+
+
+@pytest.fixture(autouse=True)
+def drawn(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Pictures are made, but the contract of jobs writes them."""
+    monkeypatch.setattr(drawing, "save_pictures", lambda figures, out: [out / f"{name}.svg" for name in figures])
+
+
+def done(folder: Path, text: str) -> tuple[str, dict[str, Any], set[str]]:
+    """The page, what a program is told, and the names of the files."""
+    file = folder / "small.toml"
+    file.write_text(text, "utf-8")
+    written = job.run(file, folder / "out")
+    told = json.loads((folder / "out" / "cam.json").read_text("utf-8"))
+    return (folder / "out" / "cam.md").read_text("utf-8"), told, {one.name for one in written}
+
+
+def told_of(folder: Path, text: str) -> dict[str, Any]:
+    """What a program is told, without files."""
+    file = folder / "small.toml"
+    file.write_text(text, "utf-8")
+    return answer(reading.toml(file), file)
+
+
+def test_best_laws_are_those_of_the_library_and_bear_forces(tmp_path: Path) -> None:
+    drive = 'drive = { mass = "2 kg", preload = "100 N" }\n'
+    text = LAWS.replace("degree = 5\n", "degree = 5\n" + drive) + '[forces]\nwidth = "20 mm"\n'
+    told = told_of(tmp_path, text)
+    best = best_cam(cycle(), "50 mm", TranslatingRoller("12 mm"), pressure_angle="25 deg")
+    assert told["best"]["objective"] == pytest.approx(best.objective, rel=1e-9)
+    assert told["best"]["status"] == best.status.value == "optimal"
+    assert told["greatest_pressure_angle"]["high"] == pytest.approx(np.radians(25.0), rel=1e-7)
+    assert told["greatest_pressure_angle"]["angle"] is None
+    assert told["forces"]["speed"] == pytest.approx(2.0 * np.pi * 200 / 60)
+
+
+def test_the_least_base_circle_is_that_of_the_library(tmp_path: Path) -> None:
+    page, told, _ = done(tmp_path, BASE)
+    assert "of the laws of least acceleration" in page
+    best = best_base_circle(cycle(), TranslatingFlat(), radius_of_curvature="3 mm")
+    assert told["best"]["objective"] == pytest.approx(best.least.radius, rel=1e-9)
+    assert told["best"]["lower_bound"] == pytest.approx(best.lower_bound, rel=1e-9)
+    assert told["best"]["status"] == "optimal"
+
+
+def test_a_pair_has_its_second_cam_in_table_picture_and_files(tmp_path: Path) -> None:
+    asked = '[[file]]\nname = "cam.nc"\ntolerance = "0.1 mm"\ndecimals = 2\n'
+    page, told, written = done(tmp_path, PAIR.replace("[pair]", asked + "[pair]"))
+    first = DiscCam(cycle(), "60 mm", TranslatingRoller("12 mm"))
+    second = conjugate_cam(first, distance="190 mm")
+    table = np.genfromtxt(tmp_path / "out" / "cam.csv", delimiter=",", skip_header=2)
+    assert np.allclose(table[:, 6:8], 1e3 * second.pitch_curve(np.radians(table[:, 0])), atol=1e-5)
+    assert told["return_cam"]["undercut"]["status"] == second.extremes.undercut.status
+    assert {"pair.svg", "cam.nc", "return-cam.nc"} <= written
+    assert "[return-cam.nc]" in page
+
+
+def test_a_barrel_has_its_flanks_tabled(tmp_path: Path) -> None:
+    _, told, written = done(tmp_path, 'cutter_radius = "5 mm"\n' + BARREL)
+    cam = BarrelCam(cycle(), "60 mm", "12 mm", "8 mm")
+    table = np.genfromtxt(tmp_path / "out" / "cam.csv", delimiter=",", skip_header=2)
+    angles = np.radians(table[:, 0])
+    assert np.allclose(table[:, 4:7], 1e3 * cam.flank("upper")(angles), atol=1e-5)
+    assert np.allclose(table[:, 16:19], 1e3 * cam.cutter_path("5 mm")(angles), atol=1e-5)
+    assert told["undercut"] == {"status": cam.undercut}
+    assert told["largest_pressure_angle"]["high"] == pytest.approx(cam.pressure_angles[1].high, rel=1e-9)
+    assert written == {"cam.md", "cam.csv", "cam.json", "cam.svg"}
+
+
+@pytest.mark.parametrize(
+    ("text", "old", "new", "said"),
+    [
+        (LAWS, 'pressure_angle = "25 deg"\n', "", "pressure_angle"),
+        (LAWS, 'base_radius = "50 mm"\n', "", "base_radius is missing.*best = 'base circle'"),
+        (LAWS, '"laws"', '"law"', "best"),
+        (BASE, "speed", 'base_radius = "9 mm"\nspeed', "base_radius is what best = 'base circle' looks for"),
+        (PAIR, "distance", "angle", "pair: a pair of TranslatingRoller is given by its distance alone"),
+        (PAIR, '"190 mm"', '"90 mm"', "pair: .*distance"),
+        (BARREL, "depth", "deep", "deep.*depth"),
+        (BARREL, '"8 mm"', '"50 mm"', "roller_radius 50 mm is not less than the radius at the bottom"),
+        (BARREL, "[barrel]", ROLLER + "[barrel]", "follower"),
+    ],
+)
+def test_what_is_wrong_names_file_and_entry(tmp_path: Path, text: str, old: str, new: str, said: str) -> None:
+    assert old in text
+    file = tmp_path / "small.toml"
+    file.write_text(text.replace(old, new, 1), "utf-8")
+    with pytest.raises(InputError, match=rf"(?s)small\.toml.*{said}"):
+        job.run(file, tmp_path / "out")
+    assert not (tmp_path / "out").exists()
+
+
+def test_a_second_follower_may_be_another(tmp_path: Path) -> None:
+    text = (
+        PAIR.replace("translating", "oscillating")
+        .replace('"35 mm"', '"25 deg"')
+        .replace('radius = "12 mm"', 'radius = "12 mm"\narm = "110 mm"\npivot_distance = "140 mm"')
+    )
+    other = 'kind = "oscillating roller", radius = "9 mm", arm = "90 mm", pivot_distance = "140 mm"'
+    told = told_of(tmp_path, text.replace('distance = "190 mm"', f'angle = "85 deg"\nfollower = {{ {other} }}'))
+    swing = [Rise("25 deg", "120 deg"), Dwell("90 deg"), Return(duration="100 deg"), Dwell()]
+    first = DiscCam(Cycle(swing, speed="200 rpm", degree=5), "60 mm", OscillatingRoller("12 mm", "110 mm", "140 mm"))
+    second = conjugate_cam(first, OscillatingRoller("9 mm", "90 mm", "140 mm"), angle="85 deg")
+    assert told["return_cam"]["bulging_radius"]["low"] == pytest.approx(second.extremes.bulging_radius.low, rel=1e-9)
