@@ -63,9 +63,9 @@ class InfeasibleProblem(OptlawsError):  # noqa: N818
     def __init__(
         self, message: str, *, problem: object | None = None, tried: str = "", proof: object | None = None
     ) -> None:
-        super().__init__(message)
+        super().__init__(_readable(message, problem))
         self.problem = problem
-        self.tried = tried
+        self.tried = _readable(tried, problem)
         self.proof = proof
 
     def __str__(self) -> str:
@@ -93,12 +93,18 @@ class SolverFailure(OptlawsError, RuntimeError):  # noqa: N818
     """
 
     def __init__(self, message: str, *, problem: object | None = None, tried: str = "") -> None:
-        super().__init__(message)
+        super().__init__(_readable(message, problem))
         self.problem = problem
-        self.tried = tried
+        self.tried = _readable(tried, problem)
 
     def __str__(self) -> str:
         return _report(self.args[0], self.tried, self.problem)
+
+
+def _readable(message: str, problem: object | None) -> str:
+    """A message in which constants of the problem that have long texts are called by their titles."""
+    titled = getattr(problem, "titled", None)
+    return str(titled(message)) if callable(titled) else message
 
 
 def _report(message: str, tried: str, problem: object | None) -> str:
@@ -106,5 +112,5 @@ def _report(message: str, tried: str, problem: object | None) -> str:
     if tried:
         lines.append(f"tried: {tried}")
     if problem is not None:
-        lines.append(f"problem: {problem!r}")
+        lines.append(f"problem: {getattr(problem, 'as_code', None) or repr(problem)}")
     return "\n".join(lines)

@@ -323,7 +323,7 @@ def _marked(axes: Axes, mark: Mark) -> Artist:
 
 
 def _limit(by_order: Sequence[Axes], solution: Solution) -> list[Artist]:
-    name = str(solution.problem.minimise)
+    name = solution.problem.titled(str(solution.problem.minimise))
     if solution.limit is None or name not in PEAKS:
         return []
     nu = PEAKS.index(name)

@@ -77,7 +77,7 @@ class Solution:
     limit
         What no law of any degree can beat; None where it is not known.
     status, iterations, seconds
-        How it went: IPOPT's iterations (0 where a neighbour was continued) and the wall time.
+        How it went: iterations of the solver on points (0 where a neighbour was continued) and the wall time.
     starts
         Where the problem is not convex: the objectives that the starts led to, ascending.
     active_set
@@ -246,15 +246,16 @@ class Solution:
             "lower bound": self.lower_bound,
             "gap": f"{self.gap:.1e}",
             "limit": self.limit,
-            "problem": repr(self.problem),
+            "problem": self.problem.titled(repr(self.problem)),
         }
         return page("Solution", facts(known), table_of_constants(self.constants), drawings(self.law))
 
     def __repr__(self) -> str:
         limit = "" if self.limit is None else f"limit={self.limit:.9g}, "
+        problem = self.problem.titled(repr(self.problem))
         return (
             f"Solution(status={self.status.value!r}, objective={self.objective:.9g}, "
-            f"lower_bound={self.lower_bound:.9g}, gap={self.gap:.1e}, {limit}problem={self.problem!r})"
+            f"lower_bound={self.lower_bound:.9g}, gap={self.gap:.1e}, {limit}problem={problem})"
         )
 
 

@@ -52,18 +52,17 @@ def _summary(solution: optlaws.Solution) -> dict[str, Any]:
 def _show(solution: optlaws.Solution) -> None:
     facts = table()
     facts.add_row("status", f"{solution.status.value}: {solution.status.advice}")
-    facts.add_row(str(solution.problem.minimise), f"{solution.objective:.10g}")
+    facts.add_row(solution.problem.titled(str(solution.problem.minimise)), f"{solution.objective:.10g}")
     facts.add_row("lower bound", f"{solution.lower_bound:.10g} (gap {solution.gap:.1e})")
     if solution.limit is not None:
         facts.add_row("limit", f"{solution.limit:.10g}, which no law of any degree can beat")
     if solution.starts:
         facts.add_row("starts", f"{len(solution.starts)}, from {solution.starts[0]:.10g} to {solution.starts[-1]:.10g}")
     if solution.z is not None:
-        facts.add_row(
-            "Z(k)", " ".join(f"{coefficient:.9g}" for coefficient in solution.z) + f"  ({solution.problem.basis.name})"
-        )
-    facts.add_row("solved", f"{solution.problem!r}")
-    facts.add_row("", f"{solution.iterations} iterations of IPOPT, {1e3 * solution.seconds:.0f} ms")
+        coefficients = " ".join(f"{coefficient:.9g}" for coefficient in solution.z)
+        facts.add_row("Z(k)", f"{coefficients}  ({solution.problem.basis.name})")
+    facts.add_row("solved", solution.problem.titled(repr(solution.problem)))
+    facts.add_row("", f"{solution.iterations} iterations, {1e3 * solution.seconds:.0f} ms")
     show(facts, constants_table(solution.constants), *_remarks(solution))
 
 

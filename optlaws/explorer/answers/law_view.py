@@ -92,11 +92,11 @@ def wanted(problem: Problem) -> str:
     >>> wanted(Problem(order=4, minimise="C/4 + D/2.25"))
     '0.25*C + 0.4444*D'
     """
-    return _LONG_NUMBER.sub(lambda found: f"{float(found[0]):.4g}", str(problem.minimise))
+    return _LONG_NUMBER.sub(lambda found: f"{float(found[0]):.4g}", problem.titled(str(problem.minimise)))
 
 
 def _ranges(problem: Problem) -> list[tuple[str, Any]]:
-    bounds = [(constant.name, asked) for constant, asked in problem.bounds.items()]
+    bounds = [(constant.title, asked) for constant, asked in problem.bounds.items()]
     own = [(name, problem.range(name)) for name in ("J", "D", "C", "B")]
     return [(name, asked) for name, asked in (*bounds, *own) if asked is not None]
 

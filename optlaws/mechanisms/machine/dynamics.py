@@ -15,6 +15,7 @@ from math import ceil, inf, sqrt
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.series import chebyshev
 
 Array = NDArray[np.float64]
@@ -23,6 +24,9 @@ Complex = NDArray[np.complex128]
 RADIANS = 10.0  # of the fastest vibration in a panel
 DECAY = 40.0  # of the fastest decay in a panel, while it is not over
 SPARE = 32  # coefficients beyond those of the law that resolve a vibration on such a panel
+VIBRATING = 1e-6  # of a root's size: with less, it is a decay that rounding has split in two
+ROUNDING = 1e-12  # by which lengths of panels differ that are the same
+SAME = 1e-6  # of a root's size: what is no further away is the same vibration
 PER_ROOT_OF_DECAY = 6.5  # coefficients that an exponential needs for each root of its exponent
 
 
@@ -110,6 +114,19 @@ class Dynamics:
         self.load: Complex = self.into @ load
         self.roots: Complex = np.diag(self.triangle).copy()
 
+    @kept_property
+    def vibrations(self) -> list[Complex]:
+        """Roots that vibrate, those above the real axis, the slowest first; equal ones are together."""
+        upper = self.roots[self.roots.imag > VIBRATING * np.abs(self.roots)]
+        groups: list[list[complex]] = []
+        for root in upper[np.argsort(np.abs(upper))].tolist():
+            near = [group for group in groups if abs(group[0] - root) <= SAME * max(abs(root), 1.0)]
+            if near:
+                near[0].append(root)
+            else:
+                groups.append([root])
+        return [np.array(group) for group in groups]
+
     @property
     def fastest(self) -> float:
         """The fastest vibration, radians in the duration of the rise."""
@@ -134,14 +151,31 @@ class Dynamics:
             first, last = drive.ends
             state = state + np.outer(self.load[:, 2], first[1] - velocity)
             velocity = last[1]
-            edges = self.edges(drive.length, radians)
-            for low, high in pairwise(edges):
-                series = drive.within(low, high)
-                length = (high - low) * drive.length
-                states = self._solved(series, state, 0.5 * length)
-                state = states.sum(axis=0)
-                panels.append(Panel(drive.start + low * drive.length, length, states, series))
+            panels += self._over(drive, state, radians)
+            state = panels[-1].states.sum(axis=0)
         return panels, state
+
+    def _over(self, drive: Drive, initial: Complex, radians: float) -> list[Panel]:
+        """The motion over one drive: one triangular equation after the other, each over all panels."""
+        edges = self.edges(drive.length, radians)
+        parts = list(pairwise(edges))
+        lengths = [(high - low) * drive.length for low, high in parts]
+        series = [drive.within(low, high) for low, high in parts]
+        alike = _alike(lengths)
+        groups = [_Group(self, [series[j] for j in own], 0.5 * lengths[own[0]]) for own in alike]
+        place = {j: (group, at) for group, own in zip(groups, alike, strict=True) for at, j in enumerate(own)}
+        for i in range(len(self.roots) - 1, -1, -1):
+            for group in groups:
+                group.solve(i)
+            value = initial[i]
+            for j in range(len(parts)):
+                group, at = place[j]
+                value = group.begun(at, value)
+            for group in groups:
+                group.join(i)
+        starts = [drive.start + low * drive.length for low in edges[:-1]]
+        states = [place[j][0].states[:, :, place[j][1]].swapaxes(0, 1) for j in range(len(parts))]
+        return [Panel(*one) for one in zip(starts, lengths, states, series, strict=True)]
 
     def edges(self, length: float, radians: float) -> list[float]:
         """Shares of a stretch between which its panels lie: equal ones, and short ones at first for what decays."""
@@ -153,35 +187,73 @@ class Dynamics:
             reach *= 2.0
         return [*found, *((i + 1) / count for i in range(count))]
 
-    def _solved(self, drive: Array, initial: Complex, half: float) -> Complex:
-        roots, size = self.roots, len(self.roots)
-        decay = min(float(np.abs(roots.real).max()) * half, 2.0 * DECAY)
-        spare = SPARE + ceil(float(np.abs(roots.imag).max()) * half) + ceil(PER_ROOT_OF_DECAY * sqrt(decay))
-        count = len(drive) + spare
-        loads = np.zeros((count, size, drive.shape[2]), dtype=np.complex128)
-        loads[: len(drive)] = np.einsum("si,nic->nsc", self.load, drive)
-        states = np.empty_like(loads)
-        for i in range(size - 1, -1, -1):
-            load = loads[:, i]
-            if i + 1 < size:
-                load = load + np.tensordot(states[:, i + 1 :], self.triangle[i, i + 1 :], axes=(1, 0))
-            states[:, i] = scalar(complex(roots[i]) * half, half * load, initial[i])
-        return states
+    def terms(self, drive: int, half: float) -> int:
+        """Coefficients that resolve the motion on a panel of half that length, under a drive of so many."""
+        decay = min(float(np.abs(self.roots.real).max()) * half, 2.0 * DECAY)
+        return drive + SPARE + ceil(self.fastest * half) + ceil(PER_ROOT_OF_DECAY * sqrt(decay))
 
 
-def scalar(root: complex, load: Complex, initial: Complex) -> Complex:
-    """Chebyshev series of y' = root y + load on [-1, 1], y(-1) given, one column for each load.
+class _Group:
+    """Panels of one length: what drives them, and their states, shape (states, coefficients, panels, columns)."""
+
+    def __init__(self, dynamics: Dynamics, drives: list[Array], half: float) -> None:
+        self._dynamics, self._half = dynamics, half
+        drive = np.stack(drives, axis=2)
+        terms, _, panels, columns = drive.shape
+        shape = (len(dynamics.roots), dynamics.terms(terms, half), panels, columns)
+        self.states: Complex = np.zeros(shape, dtype=np.complex128)
+        self.states[:, :terms] = np.tensordot(half * dynamics.load, drive, axes=(1, 1))
+        self._free: Complex = np.empty(0, dtype=np.complex128)
+        self._ends: Complex = np.empty(0, dtype=np.complex128)
+        self._shares: Complex = np.empty((panels, columns), dtype=np.complex128)
+
+    def solve(self, i: int) -> None:
+        """One solution of equation i on every panel, and the free one; those after it are solved."""
+        row = self._dynamics.triangle[i, i + 1 :]
+        if len(row):
+            self.states[i] += np.tensordot(self._half * row, self.states[i + 1 :], axes=1)
+        count = self.states.shape[1]
+        root = complex(self._dynamics.roots[i]) * self._half
+        solved = solutions(root, self.states[i].reshape(count, -1))
+        self.states[i], self._free = solved[:, :-1].reshape(self.states[i].shape), solved[:, -1]
+        even, odd = solved[::2].sum(axis=0), solved[1::2].sum(axis=0)
+        self._ends = np.stack([even - odd, even + odd])
+
+    def begun(self, at: int, value: Complex) -> Complex:
+        """Begin the equation solved last on a panel with a value for each column; the values at its end."""
+        columns = self.states.shape[3]
+        first, last = self._ends[:, at * columns : (at + 1) * columns]
+        share = (value - first) / self._ends[0, -1]
+        self._shares[at] = share
+        values: Complex = last + share * self._ends[1, -1]
+        return values
+
+    def join(self, i: int) -> None:
+        """As much of the free solution on every panel as it was begun with."""
+        self.states[i] += np.multiply.outer(self._free, self._shares)
+
+
+def _alike(lengths: Sequence[float]) -> list[list[int]]:
+    """Which of some lengths are the same but for rounding."""
+    found = dict[float, list[int]]()
+    for j, length in enumerate(lengths):
+        same = next((known for known in found if abs(known - length) <= ROUNDING * length), length)
+        found.setdefault(same, []).append(j)
+    return list(found.values())
+
+
+def solutions(root: complex, load: Complex) -> Complex:
+    """Chebyshev series of solutions of y' = root y + load on [-1, 1], a column for each load, and one without load.
 
     Integrated once, each coefficient depends on its two neighbours, which leaves one free solution: the exponential. It
     is solved for beside the particular ones, from a coefficient 0, or a coefficient 1, that it is not without.
 
     Examples
     --------
-    >>> import numpy as np
     >>> load = np.zeros((3, 1), dtype=complex)
     >>> load[1] = 1.0
-    >>> scalar(0.0, load, np.array([0.0])).real.ravel().round(12).tolist()
-    [-0.25, 0.0, 0.25]
+    >>> solutions(0.0, load).real.round(12).tolist()
+    [[0.0, 1.0], [0.0, 0.0], [0.25, 0.0]]
     """
     from scipy.linalg import solve_banded
     from scipy.special import ive
@@ -208,6 +280,4 @@ def scalar(root: complex, load: Complex, initial: Complex) -> Complex:
     found[1:] = solved
     found[0] = solved[0]
     found[first, :-1], found[first, -1] = 0.0, 1.0
-    at_start = found[::2].sum(axis=0) - found[1::2].sum(axis=0)
-    series: Complex = found[:, :-1] + np.outer(found[:, -1], (initial - at_start[:-1]) / at_start[-1])
-    return series
+    return found

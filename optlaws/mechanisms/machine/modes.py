@@ -9,13 +9,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.mechanisms.machine.dynamics import SAME
 from optlaws.mechanisms.machine.state_space import StateSpace
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
 
-VIBRATING = 1e-6  # of a root's size: with less, it is a decay that rounding has split in two
-SAME = 1e-6  # of a root's size: what is no further away is the same vibration
 DEFECTIVE = 1e-6
 
 
@@ -58,7 +57,7 @@ def modes(machine: StateSpace) -> tuple[Mode, ...]:
     >>> modes(StateSpace([[-3.0]], [[3.0]], [[1.0]]))
     ()
     """
-    return tuple(_mode(i, group) for i, group in enumerate(_groups(machine), 1))
+    return tuple(_mode(i, group) for i, group in enumerate(machine.dynamics.vibrations, 1))
 
 
 def mode(machine: StateSpace, number: object) -> Mode:
@@ -110,19 +109,6 @@ def participation(machine: StateSpace, wanted: Mode, output: str) -> complex:
     part = driven[:size] - beside @ driven[size:]
     states, _ = machine.output_rows(output)
     return complex(2.0 * (states @ turn[:, :size]) @ part)
-
-
-def _groups(machine: StateSpace) -> list[Complex]:
-    roots = machine.dynamics.roots
-    upper = roots[roots.imag > VIBRATING * np.abs(roots)]
-    groups: list[list[complex]] = []
-    for root in upper[np.argsort(np.abs(upper))].tolist():
-        near = [group for group in groups if abs(group[0] - root) <= SAME * max(abs(root), 1.0)]
-        if near:
-            near[0].append(root)
-        else:
-            groups.append([root])
-    return [np.array(group) for group in groups]
 
 
 def _mode(number: int, group: Complex) -> Mode:

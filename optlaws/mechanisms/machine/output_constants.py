@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import dataclass, field
 from math import inf, nan
+from typing import ClassVar
 
 import numpy as np
 from numpy.polynomial import legendre
@@ -27,7 +28,7 @@ from optlaws.mechanisms.machine.over_time import (
     steady,
 )
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.mechanisms.machine.texts import check_repeats, check_rest, machine_of, text_of
+from optlaws.mechanisms.machine.texts import check_repeats, check_rest, machine_of, text_of, title_of
 from optlaws.numbers import numbers
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily
 from optlaws.synthesis.problem.constants import MAKERS, Functional
@@ -75,6 +76,25 @@ class OutputConstant(Functional):
         if self.cycle is not None:
             return MachineCycle(self.machine, law, law, self.cycle[0], 1.0, self.cycle[1])[self.output]
         return MachineResponse(self.machine, law, max(0.0, self.within[1] - 1.0))[self.output]
+
+    #: what of the output it is, in words
+    _what: ClassVar[str]
+
+    @property
+    def title(self) -> str:
+        """A few words for it; the name has the whole machine in it.
+
+        Examples
+        --------
+        >>> from optlaws import Machine
+        >>> Machine([[-2.0]], [[2.0]], [[1.0]], outputs=["speed"]).peak(within=(0, 1.5)).title
+        "peak of 'speed' of a machine of 1 state, times 0 to 1.5"
+        """
+        first, last = self.within
+        said = [] if self.cycle is not None or self.within == (0.0, 1.0) else [f"times {first:g} to {last:g}"]
+        said += [] if self.cycle is None else ["over a cycle with dwell {:g} and rest {:g}".format(*self.cycle)]
+        said += ["steady"] if self.steady else []
+        return title_of(self.machine, self._what, self.output, *said)
 
     @property
     def duration(self) -> float:
@@ -145,6 +165,8 @@ class OutputConstant(Functional):
 class OutputPeak(OutputConstant):
     """Greatest magnitude of an output; made by `Machine.peak`."""
 
+    _what: ClassVar[str] = "peak of"
+
     def value(self, law: MotionLaw) -> float:
         """The greatest magnitude over the whole time that counts."""
         curve = self.curve(law)
@@ -202,6 +224,8 @@ def _terms(series: Array) -> int:
 class OutputRms(OutputConstant):
     """Root mean square of an output; made by `Machine.rms`."""
 
+    _what: ClassVar[str] = "RMS of"
+
     def value(self, law: MotionLaw) -> float:
         """The root of the mean square over the whole time."""
         return self.curve(law).rms(0)
@@ -248,13 +272,12 @@ def _impulse(matrix: Array, entry: Array, row: Array) -> float:
     """Integral over [0, 1] of |row exp(matrix t) entry|, by samples."""
     from scipy.linalg import expm
 
-    step = expm(matrix / (_SAMPLES - 1))
-    state, values = entry, np.empty(_SAMPLES)
+    step, states = expm(matrix / (_SAMPLES - 1)), entry[:, None]
     with np.errstate(over="ignore", invalid="ignore"):
-        for i in range(_SAMPLES):
-            values[i] = abs(row @ state)
-            state = step @ state
-        total = float(np.trapezoid(values)) / (_SAMPLES - 1)
+        while states.shape[1] < _SAMPLES:
+            # as many times again, all of them as much later
+            states, step = np.hstack([states, step @ states]), step @ step
+        total = float(np.trapezoid(np.abs(row @ states[:, :_SAMPLES]))) / (_SAMPLES - 1)
     return total if np.isfinite(total) else inf
 
 

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field
+from functools import lru_cache
 from math import asin, ceil, nan
 
 import numpy as np
@@ -21,8 +22,8 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.mechanisms.machine.modes import mode, participation
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.mechanisms.machine.texts import check_rest, machine_of, text_of
-from optlaws.mechanisms.spectrum.laplace import velocity_transform
+from optlaws.mechanisms.machine.texts import check_rest, machine_of, text_of, title_of
+from optlaws.mechanisms.spectrum.laplace import velocity_transform_of
 from optlaws.mechanisms.spectrum.robust import gauss_rule
 from optlaws.numbers import not_negative, numbers
 from optlaws.series import chebyshev
@@ -63,8 +64,9 @@ class Edge:
         if self.single:
             return np.ones(1)
         ends = self.roots(np.array([-1.0, 1.0]))
-        count = ceil(0.75 * abs(ends[1] - ends[0])) + _SPARE
-        return chebyshev.nodes(count)
+        length = float(abs(ends[1] - ends[0]))
+        straight = self.first[1] == self.last[1]
+        return chebyshev.nodes(_terms_of_exponential(0.5 * length) if straight else ceil(0.75 * length) + _SPARE)
 
 
 @dataclass(frozen=True, repr=False)
@@ -87,13 +89,28 @@ class ModeResidual(Functional):
     spread: float
     dampings: tuple[float, float] | None
 
+    @property
+    def title(self) -> str:
+        """A few words for it; the name has the whole machine in it.
+
+        Examples
+        --------
+        >>> from optlaws import Machine
+        >>> Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["sway"]).residual(spread=0.1).title
+        "residual of mode 1 in 'sway' of a machine of 2 states, within 10 %"
+        """
+        said = [f"within {100.0 * self.spread:g} %"] if self.spread else []
+        said += [] if self.dampings is None else ["damping {:g} to {:g}".format(*self.dampings)]
+        return title_of(self.machine, f"residual of mode {self.mode} in", self.output, *said)
+
     def value(self, law: MotionLaw) -> float:
         """The greatest over the box."""
         return self.worst(law).value
 
     def worst(self, law: MotionLaw) -> Peak:
         """The greatest over the box; its `k` is the frequency at which it is, in radians in the rise's duration."""
-        found = [_greatest(edge, lambda roots: self.share * velocity_transform(law, roots)) for edge in self.edges]
+        transform = velocity_transform_of(law)
+        found = [_greatest(edge, lambda roots: self.share * transform(roots)) for edge in self.edges]
         value, root = max(found, key=lambda one: one[0])
         return Peak(value, abs(root))
 
@@ -150,6 +167,19 @@ class ModeResidual(Functional):
         series = chebyshev.from_values(transforms)
         kept = np.flatnonzero(np.abs(series).max(axis=1) > _NEGLIGIBLE * np.abs(series).max())
         return np.ascontiguousarray(series[: kept[-1] + 1])
+
+
+@lru_cache(maxsize=256)
+def _terms_of_exponential(half: float) -> int:
+    """How many Chebyshev coefficients of exp(w t) count, w over a straight line of twice that length, 0 <= t <= 1.
+
+    Where |exp(w t)| is at most 1 on the line the coefficient n is at most 2 (half / 2)^n / n!.
+    """
+    n, size = 0, 2.0
+    while size > _NEGLIGIBLE or n < half:
+        n += 1
+        size *= 0.5 * half / n
+    return n + 1
 
 
 def _greatest(edge: Edge, amplitude: Callable[[Complex], Complex]) -> tuple[float, complex]:
@@ -219,14 +249,15 @@ def mode_residual(
     said += [f"damping=({dampings[0]!r}, {dampings[1]!r})"] if dampings else []
     text = f"mode_residual({', '.join(said)})"
     pairs = None if dampings is None else (dampings[0], dampings[1])
-    return ModeResidual(text, nan, convex=True, machine=machine, output=name, mode=own, spread=share, dampings=pairs)
+    made = ModeResidual(text, nan, convex=True, machine=machine, output=name, mode=own, spread=share, dampings=pairs)
+    made.share  # noqa: B018 - a defective mode is refused at once
+    return made
 
 
 def _mode_number(machine: StateSpace, number: float, output: str) -> int:
     found = mode(machine, number)
     if found.frequency > _WIDEST * 10.0 or found.damping > _MOST_DAMPING:
         raise InputError(f"mode {found.number} hardly vibrates: ask for the peak of {output!r} in the dwell instead")
-    participation(machine, found, output)
     return found.number
 
 

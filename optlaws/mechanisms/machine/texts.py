@@ -27,6 +27,19 @@ def text_of(machine: StateSpace, output: str) -> str:
     return f"'{json.dumps(plain, separators=(',', ':'), ensure_ascii=False)}'"
 
 
+def title_of(machine: StateSpace, what: str, output: str, *said: str) -> str:
+    """What messages call a constant of a machine.
+
+    Examples
+    --------
+    >>> title_of(StateSpace([[-2.0]], [[2.0]], [[1.0]], outputs=["speed"]), "peak of", "speed", "over a cycle")
+    "peak of 'speed' of a machine of 1 state, over a cycle"
+    """
+    count = len(machine.A)
+    states = "1 state" if count == 1 else f"{count} states"
+    return ", ".join([f"{what} {output!r} of a machine of {states}", *said])
+
+
 def machine_of(given: Any) -> StateSpace:  # noqa: ANN401 - a machine, or what text calls one
     """The machine that is given, or that a text says.
 

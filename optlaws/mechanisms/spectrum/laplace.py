@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from functools import cache
 from itertools import pairwise
 
@@ -29,18 +30,40 @@ def velocity_transform(law: MotionLaw, w: Complex) -> Complex:
     >>> velocity_transform(smoothstep(1), np.array([-1.0 + 0.0j])).real.round(6)
     array([0.632121])
     """
+    return velocity_transform_of(law)(w)
+
+
+def velocity_transform_of(law: MotionLaw) -> Callable[[Complex], Complex]:
+    """The same as a function of w, for several w of one law.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> transform = velocity_transform_of(smoothstep(1))
+    >>> transform(np.array([-1.0 + 0.0j])).real.round(6)
+    array([0.632121])
+    """
     pieces = forcings(motion_law(law))
-    exponential = cache(lambda k: np.exp(w * (1.0 - k)))
     ends = np.array([0.0])
-    total = exponential(0.0) * pieces[0].derivative(ends, 1)
-    for before, after in pairwise(pieces):
-        jump = float(after.derivative(ends, 1)[0] - before.derivative(np.array([before.length]), 1)[0])
-        if jump:
-            total = total + jump * exponential(after.start)
-    total = total - pieces[-1].derivative(np.array([pieces[-1].length]), 1)
-    for piece in pieces:
-        total = total + exponential(piece.start + piece.length) * _acceleration_transform(piece, w)
-    return np.asarray(total / w)
+    begins = float(pieces[0].derivative(ends, 1)[0])
+    stops = float(pieces[-1].derivative(np.array([pieces[-1].length]), 1)[0])
+    jumps = [
+        (after.start, float(after.derivative(ends, 1)[0] - before.derivative(np.array([before.length]), 1)[0]))
+        for before, after in pairwise(pieces)
+    ]
+
+    def transform(w: Complex) -> Complex:
+        exponential = cache(lambda k: np.exp(w * (1.0 - k)))
+        total = exponential(0.0) * begins
+        for start, jump in jumps:
+            if jump:
+                total = total + jump * exponential(start)
+        total = total - stops
+        for piece in pieces:
+            total = total + exponential(piece.start + piece.length) * _acceleration_transform(piece, w)
+        return np.asarray(total / w)
+
+    return transform
 
 
 def _acceleration_transform(piece: Forcing, w: Complex) -> Complex:

@@ -209,7 +209,7 @@ def family_of(model: Model, constant: Functional) -> Family:
     """
     families = constant.families(model.space, np.zeros(model.program.size), 0.0)
     if len(families) != 1:
-        raise InputError(f"{constant!r} is made of {len(families)} families of rows: it cannot be bounded from below")
+        raise InputError(f"{constant.title} is of {len(families)} families of rows: it cannot be bounded from below")
     return replace(families[0], name=at_least(constant.name))
 
 

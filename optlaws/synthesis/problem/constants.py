@@ -100,9 +100,20 @@ class Functional(Term, ABC):
         return 0.0
 
     @property
+    def title(self) -> str:
+        """What messages and tables call it: its name, or a few words where that is long.
+
+        Examples
+        --------
+        >>> C.title
+        'C'
+        """
+        return self.name
+
+    @property
     def why(self) -> str:
         """Why it is convex or not."""
-        return f"{self.name} is {'convex' if self.convex else 'not convex'} in the law"
+        return f"{self.title} is {'convex' if self.convex else 'not convex'} in the law"
 
     @property
     def convexity(self) -> str:

@@ -65,7 +65,7 @@ class Expression:
             if not isinstance(term, Term):
                 raise InputError(f"an objective is made of constants of the law and maxima, got {shortened(term)}")
             if (number := real(weight)) is None or not 0.0 <= number <= MAGNITUDE_LIMIT:
-                raise _no_weight(weight, f" for {shortened(term)}")
+                raise _no_weight(weight, f" for {getattr(term, 'title', '') or shortened(term)}")
             gathered[term] = gathered.get(term, 0.0) + float(weight)
         pairs = tuple((weight, term) for term, weight in gathered.items())
         # nothing but zeros is kept as it is: it may yet be added to something

@@ -224,16 +224,57 @@ class Problem:
         """
         return cls(**from_entries(data))
 
+    @kept_property
+    def _titles(self) -> dict[str, str]:
+        """Titles of the constants that are not called by their names, by these."""
+        named = sorted(self.constants, key=lambda constant: constant.name)
+        return {one.name: one.title for one in named if one.title != one.name}
+
+    def titled(self, text: str) -> str:
+        """A text in which the problem's constants have their titles, which are short, in place of their names.
+
+        Examples
+        --------
+        >>> Problem(order=4).titled("the least C")
+        'the least C'
+        """
+        for name, title in self._titles.items():
+            text = text.replace(repr(name), repr(title)).replace(repr(name)[1:-1], title).replace(name, title)
+        return text
+
+    @property
+    def as_code(self) -> str:
+        """Python that makes the problem again: its repr, but that long names of constants stand after it, once each.
+
+        Examples
+        --------
+        >>> Problem(B=1.859, order=4).as_code
+        "Problem(B=1.859, order=4, basis=Chebyshev(degree=9), minimise='C')"
+        """
+        short = {name: f"constant_{i}" for i, name in enumerate(self._titles, 1)}
+        values = {name: getattr(self, name) for name in self._said}
+        texts = {name: repr(value) for name, value in values.items()}
+        if isinstance(self.minimise, str):
+            texts["minimise"] = _as_code(texts["minimise"], short)
+        if "bounds" in texts:
+            texts["bounds"] = _as_code(texts["bounds"], short)
+        code = f"Problem({', '.join(f'{name}={text}' for name, text in texts.items())})"
+        return "\n".join([code, *(f"where {one} = {name!r}" for name, one in short.items())])
+
     def _repr_html_(self) -> str:
         from optlaws.shown.showing import facts, page
 
-        asked = {f.name: getattr(self, f.name) for f in fields(self) if f.name in _ALWAYS or _given(self, f)}
-        texts = {name: "free" if value is None else str(value) for name, value in asked.items()}
+        asked = {name: getattr(self, name) for name in self._said}
+        texts = {name: "free" if value is None else self.titled(str(value)) for name, value in asked.items()}
         return page("Problem", facts(texts))
 
     def __repr__(self) -> str:
-        parts = [f"{f.name}={getattr(self, f.name)!r}" for f in fields(self) if f.name in _ALWAYS or _given(self, f)]
-        return f"Problem({', '.join(parts)})"
+        return f"Problem({', '.join(f'{name}={getattr(self, name)!r}' for name in self._said)})"
+
+    @property
+    def _said(self) -> list[str]:
+        """The entries that the problem says: some always, others where they are given."""
+        return [one.name for one in fields(self) if one.name in _ALWAYS or _given(self, one)]
 
 
 #: what a problem always says
@@ -246,6 +287,13 @@ _KEPT_ALONG_B = {one.name for one in fields(Problem)} | {"objective", "convex", 
 def _fixed_above_mean(wanted: Range | None) -> bool:
     """Whether B is fixed, to a value that laws with stroke 1 can have as the peak of their velocity alone."""
     return wanted is not None and wanted.fixed and wanted.low > 1.0
+
+
+def _as_code(code: str, short: Mapping[str, str]) -> str:
+    """Python in which variables stand for texts that are long names, and for these within a text."""
+    for name, one in short.items():
+        code = code.replace(repr(name), one).replace(repr(name)[1:-1], f"{{{one}}}")
+    return f"f{code}" if code.startswith(("'", '"')) and "{" in code else code
 
 
 def _given(problem: Problem, entry: Any) -> bool:  # noqa: ANN401 - a dataclass field

@@ -154,10 +154,10 @@ class Bounds(Mapping[Functional, Range]):
         for key, value in dict(asked).items():
             constant = _constant(key)
             if constant.name in {bounded.name for bounded in self._ranges}:
-                raise InputError(f"bounds name {shortened(constant.name)} twice")
-            limits = as_range(value, constant.name)
+                raise InputError(f"bounds name {shortened(constant.title)} twice")
+            limits = as_range(value, constant.title)
             if limits is not None and limits.high <= 0.0:
-                raise InputError(f"{constant.name} must be able to exceed 0, got {shortened(value)}")
+                raise InputError(f"{constant.title} must be able to exceed 0, got {shortened(value)}")
             if limits is not None and limits != Range():
                 self._ranges[constant] = limits
 

@@ -49,7 +49,8 @@ _TEXT = {
 
 def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFailure:
     """The error to raise; an elastic phase tells which constraints contradict each other, or a limit does."""
-    tried = f"IPOPT said {outcome.status!r} after {outcome.iterations} iterations, {outcome.rounds} rounds of exchange"
+    said, rounds = f"the solver said {outcome.status!r}", f"{outcome.rounds} rounds of exchange"
+    tried = f"{said} after {outcome.iterations} iterations, {rounds}"
     straight = _convex_part(problem)
     elastic = least_violation(straight)
     disagreement = _disagreement(elastic)

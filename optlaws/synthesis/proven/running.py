@@ -124,13 +124,13 @@ def _check_convex(problem: Problem) -> None:
     for constant in sorted(problem.constants, key=repr):
         if not constant.convex:
             raise InputError(
-                f"{constant!r} is not convex, so that two laws prove nothing of the laws between: pareto_front "
+                f"{constant.title} is not convex, so that two laws prove nothing of the laws between: pareto_front "
                 "exchanges it point by point"
             )
         asked = problem.range(constant.name)
         if constant.name != "B" and asked is not None and asked.low > 0.0:
             raise InputError(
-                f"{constant.name} is bounded from below, which laws between two laws need not keep: bound it from above"
+                f"{constant.title} is bounded from below, which laws between two need not keep: bound it from above"
             )
     velocity = problem.range("B")
     if velocity is not None and velocity.low > 0.0 and problem.peak_at is None:

@@ -1,6 +1,7 @@
 """Optimal laws for machines: proven, never beaten by linear programs on grids, and read again from what is stored."""
 
 import json
+from dataclasses import replace
 from itertools import pairwise
 
 import numpy as np
@@ -8,11 +9,13 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import linprog
 
+import optlaws
 from optlaws import (
     BoundaryConditions,
     Certificate,
     Chebyshev,
     Functional,
+    InfeasibleProblem,
     InputError,
     Link,
     Machine,
@@ -163,6 +166,26 @@ def test_a_stored_solution_needs_no_machine_beside_it() -> None:
     stored = json.loads(json.dumps(solution.to_dict()))
     assert Problem.from_dict(stored["problem"]) == problem
     assert Certificate.from_dict(stored["certificate"]).bound == pytest.approx(solution.lower_bound, rel=1e-12)
+
+
+def test_errors_call_a_machine_by_few_words_and_can_be_run_again() -> None:
+    machine = chain(2, masses=1)
+    residual, peak = machine.residual(1, "last acceleration", spread=0.1), machine.peak()
+    mixed, bounds = f"0.5*{peak.name} + C", {residual: at_most(1e-7)}
+    problem = Problem(order=3, basis=Chebyshev(5), minimise=mixed, C=at_most(20.0), bounds=bounds, symmetric=False)
+    with pytest.raises(InfeasibleProblem) as raised:
+        synthesize(problem)
+    said, *others = str(raised.value).split("\n")
+    assert "residual of mode 1 in 'last acceleration' of a machine of 2 states, within 10 % <= 1e-07" in said
+    (code,) = (line for line in others if line.startswith("problem: "))
+    texts = [line.removeprefix("where ") for line in others if line.startswith("where ")]
+    known = dict[str, object](vars(optlaws))
+    exec("\n".join(texts), known)  # noqa: S102 - what the error says can be run again
+    assert eval(code.removeprefix("problem: "), known) == problem  # noqa: S307
+    # each text stands once, and nowhere else
+    assert (str(raised.value).count('"A":'), len(texts), said.count('"A":'), code.count('"A":')) == (2, 2, 0, 0)
+    solution = synthesize(replace(problem, bounds={}))
+    assert '"A":' not in repr(solution) + solution._repr_html_() + problem._repr_html_()
 
 
 def test_verification_says_that_it_does_not_know_machines() -> None:

@@ -1,4 +1,4 @@
-"""Few points by an interior-point method, IPOPT, then the exact active set by Newton; else the true extrema join them.
+"""Few points by an interior-point method, IPOPT or Clarabel, then the exact active set by Newton; or extrema join.
 
 A linear or conic program that this does not end is ended by vertices.
 """
@@ -15,7 +15,7 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import Family, LinearFamily, Points, Program
-from optlaws.synthesis.method.on_points.conic import conic
+from optlaws.synthesis.method.on_points.conic import conic, optimum_on_points
 from optlaws.synthesis.method.on_points.grids import with_extrema
 from optlaws.synthesis.method.on_points.ipopt import Answer, solve_on_points
 from optlaws.synthesis.method.tolerances import LOST
@@ -76,13 +76,19 @@ class ByInteriorPoints(Way[list[Points], ActiveSet]):
         return None, with_extrema(self.program, held, answer.x)
 
     def _answer(self, points: list[Points]) -> Answer:
-        """IPOPT's answer; where a fine one is not usable, the usual."""
+        """Clarabel's answer to a conic program; else, or where it has none, IPOPT's, the usual where no fine one is."""
+        quick = optimum_on_points(self.program, points) if conic(self.program) else None
+        if quick is not None:
+            return self._noted(quick)
         fine = self.count > 1 and _only(self.program, LinearFamily, ConeFamily, EnergyFamily)
         answer = self._asked(points, fine=fine)
         return self._asked(points, fine=False) if fine and not answer.usable else answer
 
     def _asked(self, points: list[Points], *, fine: bool) -> Answer:
-        answer = solve_on_points(self.program, points, self.start, fine=fine)
+        return self._noted(solve_on_points(self.program, points, self.start, fine=fine))
+
+    def _noted(self, answer: Answer) -> Answer:
+        """The answer itself, its iterations counted."""
         self.iterations += answer.iterations
         self.status = answer.status
         return answer
