@@ -35,8 +35,8 @@ table: $(RUN) ## set everything up and regenerate the table of optimal laws
 test: $(DEV) ## run the tests, the doctests and the documents
 	$(BIN)/python -m pytest -n 2
 
-test-long: $(DEV) ## run the tests that take long
-	$(BIN)/python -m pytest -n 2 -m long || [ $$? -eq 5 ] # 5: there are none
+test-long: $(DEV) ## run the tests that take long, and those of random examples with all of them
+	$(BIN)/python -m pytest -n 2 -m "long or hypothesis"
 
 test-random: $(DEV) ## run the tests and the doctests in a random order (SEED=1)
 	$(BIN)/python -m pytest -n 2 -p randomly --randomly-seed=$(or $(SEED),1) tests optlaws

@@ -10,7 +10,7 @@ os.environ["MPLBACKEND"] = "Agg"
 
 import pytest
 from xdist.remote import Producer
-from xdist.scheduler import LoadScopeScheduling
+from xdist.scheduler import LoadFileScheduling
 
 from tests.documents import documents
 
@@ -18,7 +18,6 @@ from tests.documents import documents
 collect_ignore_glob = ["docs/examples/*.py", "docs/gallery/*"]
 
 _PACKAGE = Path(__file__).parent / "optlaws"
-_SHARING = ("tests/explorer/test_page.py", "tests/jobs/", "tests/studies/test_kills.py")
 _collect_document = documents.pytest()
 
 
@@ -42,18 +41,10 @@ def pytest_runtest_teardown() -> None:
         plt.close("all")
 
 
-class SharingScheduling(LoadScopeScheduling):  # type: ignore[misc]  # xdist is untyped
-    """Keeps in one process the blocks of a document, which use each other's names, and what shares a whole run.
-
-    Cases of one test go together too: the scheduler looks through all that was handed out whenever one ends.
-    """
-
-    def _split_scope(self, nodeid: str) -> str:
-        path = nodeid.partition("::")[0]
-        return path if path.endswith(".md") or path.startswith(_SHARING) else nodeid.partition("[")[0]
-
-
 @pytest.hookimpl(optionalhook=True)
-def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> SharingScheduling:
-    """Use the scheduling above; xdist's own groups (--dist=loadgroup) are lost under pytest 9.2."""
-    return SharingScheduling(config, log)
+def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> LoadFileScheduling:
+    """Keep a file in one process: blocks of a document use each other's names, tests what others have solved.
+
+    The files of most tests come first, so that small ones fill the end.
+    """
+    return LoadFileScheduling(config, log)

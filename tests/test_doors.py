@@ -22,6 +22,7 @@ from optlaws.studies.points.study_file import read_study
 from optlaws.studies.run import check
 from optlaws.synthesis.problem.fields import ENTRIES
 from tests.documents import ROOT
+from tests.sampling import examples
 
 DEEP: Any = 1
 for _ in range(3000):
@@ -36,7 +37,7 @@ TEXTS = st.sampled_from(
 SMALL = st.integers(0, 12) | st.floats(0.0, 2.0)
 ANY = st.one_of(NUMBERS, TEXTS, SMALL, st.none(), st.just(DEEP), st.just({}), st.lists(NUMBERS | SMALL, max_size=4))
 
-QUICK = settings(max_examples=60, deadline=None, database=None, suppress_health_check=list(HealthCheck))
+QUICK = settings(examples(60), database=None, suppress_health_check=list(HealthCheck))
 
 
 @contextmanager
@@ -85,7 +86,7 @@ def test_constructors(name: str, a: object, b: object, c: object, d: object) -> 
 
 
 @seed(15)
-@settings(QUICK, max_examples=400)
+@settings(QUICK, max_examples=examples(400).max_examples)
 @given(name=st.sampled_from(list(ENTRIES)), value=ANY, basis=st.sampled_from(["chebyshev", "bsplines", "pieces"]))
 @example(name="order", value=10**30, basis="chebyshev")
 @example(name="breaks", value=10**9, basis="pieces")
@@ -128,7 +129,7 @@ STORED: dict[str, tuple[Callable[[Any], object], Any]] = {
 
 @pytest.mark.parametrize("kind", STORED)
 @seed(15)
-@settings(QUICK, max_examples=200)
+@settings(QUICK, max_examples=examples(200).max_examples)
 @given(path=PATHS, value=ANY)
 def test_stored_values(kind: str, path: list[int], value: object) -> None:
     read, data = STORED[kind]
@@ -137,7 +138,7 @@ def test_stored_values(kind: str, path: list[int], value: object) -> None:
 
 
 @seed(15)
-@settings(QUICK, max_examples=300)
+@settings(QUICK, max_examples=examples(300).max_examples)
 @given(text=st.text(st.sampled_from(list("CDJB()+-*/=,.0129emax_ \t\n\0é")), max_size=40) | TEXTS)
 def test_objectives_as_text(text: str) -> None:
     with a_door():

@@ -79,6 +79,7 @@ def test_the_radius_under_a_flat_face_is_that_of_the_textbooks() -> None:
     assert np.allclose(cam.profile.radius_of_curvature(ANGLES), expected, rtol=1e-10)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("law", ["cycloidal", "polynomial 4-5-6-7", "modified sine"])
 @pytest.mark.parametrize(("kind", "turning"), BOTH)
 def test_curvature_and_derivatives_are_those_of_the_curves(kind: str, turning: str, law: str) -> None:

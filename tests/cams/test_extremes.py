@@ -52,6 +52,7 @@ def signed(values: Callable[[Any], Any], sign: float, angle: Array) -> Any:  # n
     return sign * np.asarray(values(angle))
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("kind", FOLLOWERS)
 @pytest.mark.parametrize("law", LAWS[:3])
 def test_extremes_are_those_that_a_search_finds(kind: str, law: str) -> None:

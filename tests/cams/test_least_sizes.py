@@ -37,6 +37,7 @@ def keeps(cam: DiscCam, pressure: float | None, radius: float | None) -> bool:
     return radius is None or bool(1e3 * sharpest >= radius and curvature.min() > -np.inf)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("follower", "stroke", "pressure", "radius"), CASES)
 def test_the_least_base_circle_is_that_of_a_bisection(
     follower: Follower, stroke: str, pressure: float | None, radius: float | None

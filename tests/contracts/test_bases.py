@@ -147,6 +147,7 @@ def test_symmetric_laws_without_freedom_are_refused(name: str) -> None:
                 basis.check(symmetric=True)
 
 
+@pytest.mark.sample(2)
 @every_basis
 def test_its_laws_keep_the_end_conditions_and_their_symmetry(basis: Basis) -> None:
     for space in spaces(basis):
@@ -160,6 +161,7 @@ def test_its_laws_keep_the_end_conditions_and_their_symmetry(basis: Basis) -> No
             assert law.a(K) + law.a(1.0 - K) == pytest.approx(1.0, abs=1e-11)
 
 
+@pytest.mark.sample(3)
 @every_basis
 def test_rows_are_the_law(basis: Basis) -> None:
     for space in spaces(basis):
@@ -186,6 +188,7 @@ def test_the_mirror_image_of_a_law_is_in_the_space_if_it_says_so(basis: Basis) -
     assert there == basis.mirrored
 
 
+@pytest.mark.sample(3)
 @every_basis
 def test_z_goes_there_and_back_and_makes_the_law(basis: Basis) -> None:
     for space in spaces(basis):

@@ -27,7 +27,6 @@ from optlaws.synthesis.problem.constants import ALIASES, FUNCTIONALS, MAKERS, PL
 from optlaws.synthesis.problem.named_constants import expression, is_named, named
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
-from tests import sampling
 from tests.contracts.kinds import kinds
 from tests.contracts.test_families import coordinates
 from tests.synthesis.judge import Judged
@@ -97,6 +96,11 @@ GRID = np.linspace(0.0, 1.0, 4001)
 X, WEIGHTS = np.polynomial.legendre.leggauss(60)
 
 every_constant = pytest.mark.parametrize("name", EXAMPLES)
+
+
+def kind_of(name: str) -> type:
+    """Of which kind a constant is."""
+    return type(EXAMPLES[name])
 
 
 @cache
@@ -216,6 +220,7 @@ def test_every_kind_name_and_maker_is_here() -> None:
     assert {*ALIASES.values()} <= {*FUNCTIONALS.values()}
 
 
+@pytest.mark.sample(3, kind=kind_of)
 @every_constant
 def test_its_value_is_that_of_a_grid_and_of_numpy(name: str) -> None:
     constant = EXAMPLES[name]
@@ -228,6 +233,7 @@ def test_its_value_is_that_of_a_grid_and_of_numpy(name: str) -> None:
             assert value == pytest.approx(Judged(law).value(constant), rel=1e-8), where
 
 
+@pytest.mark.sample(3, kind=kind_of)
 @every_constant
 def test_its_rows_hold_if_and_only_if_it_is_bounded(name: str) -> None:
     constant = EXAMPLES[name]
@@ -247,7 +253,8 @@ def test_its_rows_hold_if_and_only_if_it_is_bounded(name: str) -> None:
                 assert (max(family.extremes(full)[2].max() for family in rows) <= 0.0) == holds, where
 
 
-@pytest.mark.parametrize("name", sampling.sampled(EXAMPLES, 2))
+@pytest.mark.sample(4, kind=kind_of)
+@every_constant
 def test_it_is_convex_if_it_says_so(name: str) -> None:
     constant = EXAMPLES[name]
     # far from each other, and so near that hardly more than one place counts
@@ -267,6 +274,7 @@ def excess(name: str, where: str, seed: int, share: float) -> float:
     return (2.0 * middle - first - last) / (abs(first) + abs(last))
 
 
+@pytest.mark.sample(3, kind=kind_of)
 @every_constant
 def test_no_law_is_below_its_least_value_or_beyond_its_curbs(name: str) -> None:
     constant = EXAMPLES[name]

@@ -195,6 +195,7 @@ def test_derivatives_by_the_place_are_those_of_differences(family: Family) -> No
             assert got == pytest.approx(moved, rel=1e-6, abs=1e-7 * (1.0 + np.abs(got).max()))
 
 
+@pytest.mark.sample(3)
 @every_family
 def test_derivatives_by_the_variables_are_those_of_differences(family: Family) -> None:
     x, u = point(family), inside(family)
@@ -210,6 +211,7 @@ def test_derivatives_by_the_variables_are_those_of_differences(family: Family) -
         assert curved[i] == pytest.approx(wanted, rel=1e-7, abs=1e-8 * (1.0 + np.abs(wanted).max()))
 
 
+@pytest.mark.sample(2)
 @every_family
 def test_no_point_of_a_grid_is_above_the_extrema(family: Family) -> None:
     for seed in range(3):

@@ -83,6 +83,12 @@ MASSES: dict[str, MassMotion] = {
     ),
 }
 
+
+def shape(curve: Any) -> Any:  # noqa: ANN401 - of crossed parameters none is asked for
+    """What a curve is made of."""
+    return type(curve), frozenset(map(type, getattr(curve, "segments", ())))
+
+
 every_law = pytest.mark.parametrize("law", LAWS.values(), ids=LAWS.keys())
 every_order = pytest.mark.parametrize("nu", range(4))
 any_law = pytest.mark.parametrize("law", ALL.values(), ids=ALL.keys())
@@ -121,6 +127,7 @@ def size(law: MotionLaw, nu: int) -> float:
     return float(np.abs(dense(law, nu)).max())
 
 
+@pytest.mark.sample(2, kind=shape)
 @every_law
 @every_order
 def test_each_derivative_integrates_the_next(law: MotionLaw, nu: int) -> None:
@@ -164,6 +171,7 @@ def test_boundary_values_are_the_derivatives_at_the_ends(law: MotionLaw) -> None
     assert law.boundary_values(0) == ((), ())
 
 
+@pytest.mark.sample(2, kind=shape)
 @every_law
 @every_order
 def test_peak_is_no_less_than_samples_and_no_more_than_their_spacing_allows(law: MotionLaw, nu: int) -> None:
@@ -181,6 +189,7 @@ def test_power_peak_is_no_less_than_samples_and_no_more_than_their_spacing_allow
     assert sampled * (1 - 1e-13) <= law.power_peak().value <= sampled * (1 + 1e-13) + allowance
 
 
+@pytest.mark.sample(2, kind=shape)
 @every_law
 @every_order
 def test_extrema_bracket_the_samples_and_make_the_peak(law: MotionLaw, nu: int) -> None:
@@ -336,6 +345,7 @@ def inside(curve: Curve, count: int = 15) -> np.ndarray:
     return places[:-1, None] + np.diff(places)[:, None] * np.linspace(0.08, 0.92, count)
 
 
+@pytest.mark.sample(2, kind=shape)
 @everything
 def test_each_derivative_is_the_limit_of_differences(curve: Curve) -> None:
     k = inside(curve)
@@ -358,6 +368,7 @@ def test_named_derivatives_and_power(curve: Curve) -> None:
     assert curve.d(k) == pytest.approx(curve.b(k) * curve.c(k), rel=1e-12)
 
 
+@pytest.mark.sample(3, kind=shape)
 @everything
 def test_extrema_hold_on_both_sides_of_every_break_and_are_reached(curve: Curve) -> None:
     for nu in range(4):
@@ -379,6 +390,7 @@ def check_extrema(curve: Curve, nu: int) -> None:
             assert nearest <= 1e-3 * size  # no sample is far from what is said to be reached
 
 
+@pytest.mark.sample(3, kind=shape)
 @everything
 def test_the_power_is_within_its_peak(curve: Curve) -> None:
     k = np.concatenate([inside(curve, 101).ravel(), ends(curve)])
@@ -433,6 +445,7 @@ def test_samples_are_the_values_with_both_sides_of_breaks(curve: Curve) -> None:
         assert before == near or abs(before - near) <= 1e-5 * max(1.0, abs(near)) or not np.isfinite(before)
 
 
+@pytest.mark.sample(3, kind=shape)
 @everything
 def test_extrema_of_a_part_are_those_of_its_samples(curve: Curve) -> None:
     first, last = curve.interval
@@ -505,6 +518,7 @@ def test_above_the_first_jump_derivatives_are_impulses(law: MotionLaw) -> None:
     assert law.extrema(nu + 2)[0].value == -np.inf
 
 
+@pytest.mark.sample(2, kind=shape)
 @any_law
 def test_rough_laws_are_stored_copied_and_shown_as_all_are(law: MotionLaw) -> None:
     assert MotionLaw.from_json(law.to_json()) == law
@@ -528,6 +542,7 @@ def can_be_changed(law: MotionLaw) -> bool:
 K = np.linspace(0.0, 1.0, 203)[1:-1] + 1e-3 / np.pi  # none of them a break
 
 
+@pytest.mark.sample(3, kind=shape)
 @any_law
 def test_mirrored_reversed_and_scaled_laws_are_what_their_definitions_say(law: MotionLaw) -> None:
     if not can_be_changed(law):
@@ -573,6 +588,7 @@ def exact(law: PiecewiseLaw, i: int, nu: int) -> Any:  # noqa: ANN401 - a functi
     return c if nu == 2 else lambda s: mpmath.diff(c, s, nu - 2)
 
 
+@pytest.mark.sample(3, kind=shape)
 @pytest.mark.parametrize("name", [name for name, law in LAWS.items() if isinstance(law, PiecewiseLaw)])
 @pytest.mark.parametrize("nu", [2, 3])
 def test_peaks_are_those_of_many_digits(name: str, nu: int) -> None:

@@ -115,6 +115,7 @@ def test_every_closed_form_has_a_line() -> None:
     assert {one.constant for one in LIMITS.values()} == set(closed_forms.CONSTANTS)
 
 
+@pytest.mark.sample(3)
 @each
 @each_way
 def test_no_law_is_below(limits: Limit, monotone: bool) -> None:  # noqa: FBT001
@@ -126,6 +127,7 @@ def test_no_law_is_below(limits: Limit, monotone: bool) -> None:  # noqa: FBT001
     assert min(excess) <= 2.5
 
 
+@pytest.mark.sample(2)
 @each
 @each_way
 @pytest.mark.parametrize("B", VELOCITIES)
@@ -220,6 +222,7 @@ SOLVED: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("asked", SOLVED.values(), ids=SOLVED.keys())
 def test_the_limit_of_a_problem_is_below_what_is_found(asked: dict[str, Any]) -> None:
     problem = Problem(order=3, basis=Chebyshev(9), **asked)

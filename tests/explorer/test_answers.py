@@ -46,6 +46,7 @@ def with_law(name: str) -> list[dict[str, str]]:
 # --- laws and fronts ---
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("pair", front_view.PAIRS)
 def test_points_of_a_front_are_laws_of_their_own_problems(pair: tuple[str, str]) -> None:
     x, y = pair
@@ -253,6 +254,7 @@ def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:
         assert cam_view.answer(AskedCam(study=study | changed))["refused"]["word"] == "no such cam"
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("name", sorted(formats.FORMATS))
 def test_a_cam_is_saved_in_every_format(name: str) -> None:
     asked = AskedFile(kind="cut", view="cam", laws=[law(OPTIMAL)], cam=AskedCam(study=cam_view.example()), format=name)

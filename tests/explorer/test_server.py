@@ -7,13 +7,14 @@ from typing import Any
 from unittest.mock import patch
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws.errors import InputError
 from optlaws.explorer.application import MOST_BYTES, QUESTIONS, page
 from optlaws.explorer.server import opened, server
 from tests.explorer.talk import OPTIMAL, Server
+from tests.sampling import examples
 
 ANSWERS = {200, 400, 413, 422}
 PLAIN = st.none() | st.booleans() | st.integers(-9, 9) | st.floats(-3, 3) | st.text(max_size=6)
@@ -76,7 +77,7 @@ def test_a_long_question_is_refused(served: Server) -> None:
     assert str(MOST_BYTES) in served.ask("laws", b" " * (MOST_BYTES + 1), 413)["error"]
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(name=st.sampled_from(sorted(QUESTIONS)), question=VALUES | st.binary(max_size=12))
 def test_any_question_has_an_answer(served: Server, name: str, question: object) -> None:
     body = question if isinstance(question, bytes) else json.dumps(question).encode()
@@ -85,7 +86,7 @@ def test_any_question_has_an_answer(served: Server, name: str, question: object)
     assert isinstance(json.loads(said), dict)
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(
     entries=st.dictionaries(
         st.sampled_from(["B", "C", "J", "order", "degree", "minimise", "bounds", "windows", "start", "basis"]),

@@ -4,7 +4,7 @@ from fractions import Fraction
 
 import numpy as np
 import pytest
-from hypothesis import given, seed, settings
+from hypothesis import given, seed
 from hypothesis import strategies as st
 from scipy.interpolate import CubicSpline, PPoly
 
@@ -14,6 +14,7 @@ from optlaws.exports.pieces.law_pieces import polynomials_of_law
 from optlaws.exports.polynomials import PiecewiseMotion
 from optlaws.series import bernstein
 from tests.exports.motions import random_motion
+from tests.sampling import examples
 
 
 def as_ppoly(motion: PiecewiseMotion) -> PPoly:
@@ -21,7 +22,7 @@ def as_ppoly(motion: PiecewiseMotion) -> PPoly:
 
 
 @seed(16)
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(st.integers(0, 10**6), st.integers(1, 9), st.integers(0, 3))
 def test_extremes_are_those_of_all_critical_points(number: int, degree: int, nu: int) -> None:
     motion = random_motion(number, degree=degree)

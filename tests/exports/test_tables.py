@@ -88,6 +88,7 @@ def _table(made: Export) -> tuple[Array, readers.Curve]:
 TABLES = sorted(name for name in FORMATS if FORMATS[name].write.__module__.startswith("optlaws.exports.tables"))
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("motion", [one_shot, repeating], ids=["law", "cycle"])
 @pytest.mark.parametrize("name", TABLES)
 def test_a_table_read_back_is_what_is_run(name: str, motion: object) -> None:
@@ -110,6 +111,7 @@ def test_a_table_read_back_is_what_is_run(name: str, motion: object) -> None:
     assert apart >= 0.95 * made.report.deviation[0].value - 1e-12
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("name", TABLES)
 def test_the_best_number_of_points_is_chosen(name: str) -> None:
     made = export_motion(one_shot(), name)

@@ -4,7 +4,7 @@ import locale
 
 import numpy as np
 import pytest
-from hypothesis import given, seed, settings
+from hypothesis import given, seed
 from hypothesis import strategies as st
 
 from optlaws import smoothstep
@@ -12,6 +12,7 @@ from optlaws.exports.export import export_motion
 from optlaws.exports.motion import motion_of_law
 from optlaws.exports.tables.text_lines import plain
 from tests.exports import readers
+from tests.sampling import examples
 
 READERS = {
     "csv": lambda text, sign: readers.separated(text, ";" if sign == "," else ",", sign)[1][:2],
@@ -22,7 +23,7 @@ READERS = {
 
 
 @seed(7)
-@settings(max_examples=40, deadline=None)
+@examples(40)
 @given(
     to=st.sampled_from(sorted(READERS)),
     sign=st.sampled_from([".", ","]),
@@ -50,7 +51,7 @@ def test_numbers_come_back(
 
 @given(st.floats(allow_nan=False, allow_infinity=False, min_value=-1e15, max_value=1e15), st.integers(0, 17))
 @seed(8)
-@settings(max_examples=100, deadline=None)
+@examples(100)
 def test_a_number_has_no_exponent_and_is_itself(value: float, digits: int) -> None:
     assert float(plain(value)) == value
     assert float(plain(value, digits)) == pytest.approx(value, abs=0.51 * 10.0**-digits + 1e-15 * abs(value))

@@ -87,6 +87,7 @@ def built(name: str) -> tuple[PolynomialLaw, Exact]:
         return law, Exact(law)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", LAWS)
 def test_peak_constants_are_right_to_12_digits(name: str) -> None:
     law, exact = built(name)
@@ -110,6 +111,7 @@ def test_peaks_sit_where_the_slope_vanishes(name: str) -> None:
         assert k in {0, 1} or abs((c * c + b * j) / (3 * c * j + b * s)) < 1e-13
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("name", LAWS)
 def test_values_are_right_to_12_digits_of_the_peak(name: str) -> None:
     law, exact = built(name)

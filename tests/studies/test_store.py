@@ -24,6 +24,7 @@ from optlaws.studies.store.journal import Journal, StoreFailure
 from optlaws.studies.store.table import DamagedTable
 from optlaws.studies.study import Study
 from tests.documents import ROOT
+from tests.sampling import examples
 from tests.studies.sweeping import SMALL, rows, serially
 
 
@@ -45,7 +46,7 @@ def test_what_was_written_is_read(tmp_path: Path) -> None:
     assert [second.rows(number) for number in second.done] == [first.rows(number) for number in first.done]
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
+@settings(examples(60), suppress_health_check=[HealthCheck.function_scoped_fixture])
 @given(share=st.floats(0.0, 1.0))
 def test_a_journal_cut_anywhere_keeps_its_whole_chunks(tmp_path: Path, share: float) -> None:
     file = tmp_path / "journal"
@@ -64,7 +65,7 @@ def test_a_journal_cut_anywhere_keeps_its_whole_chunks(tmp_path: Path, share: fl
     assert again.rows(9) == [b'{"index":99,"status":"local"}']
 
 
-@settings(suppress_health_check=[HealthCheck.function_scoped_fixture], max_examples=60)
+@settings(examples(60), suppress_health_check=[HealthCheck.function_scoped_fixture])
 @example(share=0.47371880884884826, change=1)  # the end of a chunk's last line
 @given(share=st.floats(0.0, 1.0, exclude_max=True), change=st.integers(1, 255))
 def test_a_changed_byte_costs_its_chunk_alone(tmp_path: Path, share: float, change: int) -> None:

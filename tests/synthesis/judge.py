@@ -27,6 +27,10 @@ from tests.synthesis.independent import DENSE
 
 Array = NDArray[np.float64]
 
+#: constants of one derivative, by its order
+PEAKS = {"B": 1, "C": 2, "J": 3, "jounce": 4}
+SQUARES = {"rms_c": 2, "rms_j": 3}
+
 
 @dataclass(frozen=True)
 class Curve:
@@ -115,22 +119,17 @@ class Judged:
         """Root of the mean square."""
         return sqrt(self.derivatives[nu].mean_square())
 
-    @cached_property
-    def constants(self) -> dict[str, float]:
-        """Every constant by its name."""
-        lowest, highest = self.derivatives[2].extremes()
-        both = zip(self.derivatives[1].pieces, self.derivatives[2].pieces, strict=True)
-        return {
-            "B": self.peak(1),
-            "C": max(-lowest, highest),
-            "C_plus": highest,
-            "C_minus": -lowest,
-            "D": max(float(np.abs(_extremes(b, c)).max()) for b, c in both),
-            "J": self.peak(3),
-            "jounce": self.peak(4),
-            "rms_c": self.rms(2),
-            "rms_j": self.rms(3),
-        }
+    def constant(self, name: str) -> float:
+        """One that has a name of its own, as `C` or `rms_c`."""
+        if name in PEAKS:
+            return self.peak(PEAKS[name])
+        if name in SQUARES:
+            return self.rms(SQUARES[name])
+        if name == "D":
+            both = zip(self.derivatives[1].pieces, self.derivatives[2].pieces, strict=True)
+            return max(float(np.abs(_extremes(b, c)).max()) for b, c in both)
+        low, high = self.derivatives[2].extremes()
+        return {"C_plus": high, "C_minus": -low}[name]
 
     def value(self, constant: Functional) -> float:
         """Any constant there is, those of a cam and of a follower too."""
@@ -147,7 +146,7 @@ class Judged:
             return self.of_formula(constant)
         if isinstance(constant, OutputConstant | ModeResidual):
             return machine_value(constant, self.derivatives[0].pieces)
-        return self.constants[constant.name]
+        return self.constant(constant.name)
 
     def cam(self, frequency: float, damping: float) -> list[Curve]:
         """Derivatives of the cam law a + 2 damping b/frequency + c/frequency² from order 0 on, up to the jerk."""

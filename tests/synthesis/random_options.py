@@ -6,7 +6,7 @@ Problem that nothing here draws fails tests/synthesis/test_random_options.py.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from functools import partial
+from functools import cached_property, partial
 from math import inf, isfinite
 from typing import Any
 
@@ -282,8 +282,12 @@ class Guess:
 
     law: MotionLaw
 
+    @cached_property
+    def judged(self) -> Judged:
+        return Judged(self.law)
+
     def value(self, constant: Functional) -> float:
-        return Judged(self.law).value(constant)
+        return self.judged.value(constant)
 
 
 def _bounds(numbers: Numbers, frame: Frame, judged: Guess) -> dict[str, Any]:

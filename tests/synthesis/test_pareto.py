@@ -74,6 +74,7 @@ def test_points_with_power_agree_with_single_problems(power: Front) -> None:
     assert power[-1].objective == pytest.approx(synthesize(Problem(B=1.641, order=4, minimise="D")).objective, rel=1e-8)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("problem", "over", "between"),
     [

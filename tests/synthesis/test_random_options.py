@@ -13,15 +13,23 @@ from optlaws.synthesis.problem.constants import MAKERS
 from optlaws.synthesis.problem.windows import QUANTITIES
 from tests.synthesis.count_statuses import kinds, outcome, table
 from tests.synthesis.judge import Judged, as_range
-from tests.synthesis.random_options import ASKED, BASES, CONSTANTS, every_option
+from tests.synthesis.random_options import ASKED, BASES, CONSTANTS, Drawn, every_option
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
-DRAWN = every_option(18, 400)
-PROBLEMS = [one.problem for one in DRAWN]
 #: constants of formulas and of machines, whose own tests draw them at random
 FORMULAS = {"integral", "peak", "rms", "value"}
 MACHINES = {"mode_residual", "output_peak", "output_rms"}
 EVERY_CONSTANT = {*FUNCTIONALS, *MAKERS} - FORMULAS - MACHINES
+
+
+@pytest.fixture(scope="module")
+def drawn() -> list[Drawn]:
+    return every_option(18, 400)
+
+
+@pytest.fixture(scope="module")
+def problems(drawn: list[Drawn]) -> list[Problem]:
+    return [one.problem for one in drawn]
 
 
 def called(constant: object) -> str:
@@ -49,48 +57,48 @@ def manner(asked: float | Range | None) -> str | None:
     return "at_most" if wanted.low == 0.0 else "between"
 
 
-def test_every_entry_of_a_problem_is_drawn() -> None:
+def test_every_entry_of_a_problem_is_drawn(problems: list[Problem]) -> None:
     plain = Problem(order=4)
     for entry in fields(Problem):
-        values = {repr(getattr(problem, entry.name)) for problem in PROBLEMS}
+        values = {repr(getattr(problem, entry.name)) for problem in problems}
         assert len(values) >= 2, f"random problems never use {entry.name}"
         assert values - {repr(getattr(plain, entry.name))}, f"random problems never use {entry.name}"
 
 
-def test_every_constant_is_minimised_and_bounded() -> None:
+def test_every_constant_is_minimised_and_bounded(problems: list[Problem]) -> None:
     assert set(CONSTANTS) == EVERY_CONSTANT, "a new constant needs an entry in random_options.CONSTANTS"
-    assert {called(one) for problem in PROBLEMS for one in functionals(problem.objective)} == EVERY_CONSTANT
-    bounded = {called(one) for problem in PROBLEMS for one, _ in problem.bounded}
+    assert {called(one) for problem in problems for one in functionals(problem.objective)} == EVERY_CONSTANT
+    bounded = {called(one) for problem in problems for one, _ in problem.bounded}
     assert bounded == EVERY_CONSTANT - {"B"}
 
 
-def test_every_manner_of_asking_is_drawn() -> None:
+def test_every_manner_of_asking_is_drawn(problems: list[Problem]) -> None:
     for name in ("B", "C", "D", "J"):
-        manners = {manner(getattr(problem, name)) for problem in PROBLEMS}
+        manners = {manner(getattr(problem, name)) for problem in problems}
         assert manners >= ({*ASKED} if name == "B" else {"at_most"}), name
-    assert {manner(asked) for problem in PROBLEMS for _, asked in problem.bounded} == {*ASKED}
-    assert {manner(asked) for problem in PROBLEMS for asked in problem.bounds.values()} == {*ASKED}
+    assert {manner(asked) for problem in problems for _, asked in problem.bounded} == {*ASKED}
+    assert {manner(asked) for problem in problems for asked in problem.bounds.values()} == {*ASKED}
 
 
-def test_every_basis_is_drawn() -> None:
+def test_every_basis_is_drawn(problems: list[Problem]) -> None:
     # laws that repeat have no conditions at ends and are drawn with random cycles
     with_ends = set(Basis.kinds) - {"periodic"}
     assert set(BASES) == with_ends, "a new basis needs an entry in random_options.BASES"
-    assert {problem.basis.name for problem in PROBLEMS} == with_ends
+    assert {problem.basis.name for problem in problems} == with_ends
     for name in with_ends:
-        chosen = [problem.basis for problem in PROBLEMS if problem.basis.name == name]
+        chosen = [problem.basis for problem in problems if problem.basis.name == name]
         for entry in fields(chosen[0]):  # type: ignore[arg-type] # each basis is a dataclass
             assert len({getattr(basis, entry.name) for basis in chosen}) >= 3, f"{name} never varies {entry.name}"
 
 
-def test_every_kind_of_end_window_and_objective_is_drawn() -> None:
-    assert {problem.order for problem in PROBLEMS} == set(range(1, 7))
-    ends = [problem.boundary for problem in PROBLEMS if problem.boundary is not None]
+def test_every_kind_of_end_window_and_objective_is_drawn(problems: list[Problem]) -> None:
+    assert {problem.order for problem in problems} == set(range(1, 7))
+    ends = [problem.boundary for problem in problems if problem.boundary is not None]
     strokes = {float(one.end[0]) - float(one.start[0]) for one in ends}
     assert 0.0 in strokes
     assert min(strokes) < 0.0
     assert any(one.order > 1 and min(one.start[1], one.end[1]) < 0.0 for one in ends)
-    windows = [window for problem in PROBLEMS for window in problem.windows]
+    windows = [window for problem in problems for window in problem.windows]
     for quantity in QUANTITIES:
         own = [window for window in windows if window.quantity == quantity]
         assert {(window.value, window.low > -inf, window.high < inf) for window in own} == {
@@ -102,18 +110,18 @@ def test_every_kind_of_end_window_and_objective_is_drawn() -> None:
         assert len({(window.start < window.stop, window.value) for window in own}) >= 2
     shapes = Counter(
         (len(problem.objective.terms) > 1, any(isinstance(term, Maximum) for _, term in problem.objective.terms))
-        for problem in PROBLEMS
+        for problem in problems
     )
     assert len(shapes) == 4
 
 
-def test_most_problems_are_drawn_around_a_law_that_keeps_them() -> None:
-    assert sum(one.witness is not None for one in DRAWN) > len(DRAWN) / 2
+def test_most_problems_are_drawn_around_a_law_that_keeps_them(drawn: list[Drawn]) -> None:
+    assert sum(one.witness is not None for one in drawn) > len(drawn) / 2
 
 
-def test_a_constant_by_quadrature_is_the_laws_own() -> None:
+def test_a_constant_by_quadrature_is_the_laws_own(drawn: list[Drawn]) -> None:
     # the judge's own values of the constants of cams and followers
-    for one in DRAWN[:60]:
+    for one in drawn[:60]:
         if one.witness is not None:
             judged = Judged(one.witness)
             for constant in one.problem.constants:
@@ -121,9 +129,9 @@ def test_a_constant_by_quadrature_is_the_laws_own() -> None:
                 assert judged.value(constant) == pytest.approx(own, rel=1e-8, abs=1e-9), constant
 
 
-def test_a_table_of_outcomes_counts_each_problem() -> None:
+def test_a_table_of_outcomes_counts_each_problem(drawn: list[Drawn]) -> None:
     easy = [Problem(B=1.7, order=3, basis=Chebyshev(5)), Problem(order=2, boundary=BoundaryConditions.rest(2))]
-    found = [outcome(DRAWN[0].__class__(problem, None)) for problem in easy]
+    found = [outcome(drawn[0].__class__(problem, None)) for problem in easy]
     assert [one.status for one in found] == ["optimal", "optimal"]
     first, second, *_ = table(easy, found).splitlines()
     assert first.split() == ["optimal"]

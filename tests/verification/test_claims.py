@@ -8,7 +8,7 @@ from pathlib import Path as File
 from typing import Any
 
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from optlaws import Chebyshev, InputError, Pieces, Problem, pareto_front
@@ -17,6 +17,7 @@ from optlaws.errors import InfeasibleProblem
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.solve import synthesize
 from optlaws.verification import verify, verify_all
+from tests.sampling import examples
 from tests.verification.tampering import Data, Path, changed, data_of, places, value_at
 
 pytest.importorskip("flint")
@@ -146,7 +147,7 @@ def weaker(path: Path, old: Any, new: Any) -> bool:  # noqa: ANN401 - JSON
     return name == "k"
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.data())
 def test_no_altered_claim_passes(drawn: st.DataObject) -> None:
     sources = [

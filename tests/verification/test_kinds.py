@@ -5,7 +5,7 @@ from dataclasses import dataclass, replace
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
@@ -23,6 +23,7 @@ from optlaws.synthesis import Window, at_least, at_most, between
 from optlaws.synthesis.families.family import Family
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification import exact_bound, verify
+from tests.sampling import examples
 from tests.verification.tampering import data_of
 
 pytest.importorskip("flint")
@@ -47,6 +48,7 @@ KINDS = [
 ]
 
 
+@pytest.mark.sample(2)
 @pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 @pytest.mark.parametrize("problem", KINDS, ids=repr)
 def test_every_kind_is_proven(problem: Problem) -> None:
@@ -105,7 +107,7 @@ def test_an_own_constant_is_proven_like_the_others(B: float | None, symmetric: b
     assert abs(solution.certificate.bound / solution.objective - 1.0) < 1e-9
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(st.integers(0, 2**32 - 1), st.floats(1e-3, 10.0))
 def test_no_law_beats_the_bound_of_an_own_constant(seed: int, size: float) -> None:
     solution = synthesize(Problem(order=4, basis=DEGREE_9, minimise=HEATING))

@@ -5,7 +5,7 @@ from dataclasses import replace
 from functools import cache
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import (
@@ -21,6 +21,7 @@ from optlaws import (
 )
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.verification import exact_bound, verify
+from tests.sampling import examples
 from tests.synthesis.random_general import random_problems
 from tests.synthesis.random_options import every_option
 
@@ -91,16 +92,19 @@ def unproven(problem: Problem, status: str = "optimal") -> list[str] | None:
     return [str(claim) for claim in found.claims if not claim.proven]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", ONCE_REFUSED)
 def test_what_was_refused_is_proven(name: str) -> None:
     assert unproven(ONCE_REFUSED[name]) == []
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("name", OF_CAMS)
 def test_constants_of_cams_are_proven(name: str) -> None:
     assert unproven(OF_CAMS[name], "local" if "power" in name else "optimal") == []
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("name", RESIDUALS)
 def test_residuals_are_proven(name: str) -> None:
     assert unproven(RESIDUALS[name]) == []
@@ -126,7 +130,7 @@ def test_random_optima_of_every_option_are_proven(seed: int) -> None:
     assert {name: claims for name, claims in left.items() if claims} == {}
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.sampled_from(["one-sided", "below zero", "one-sided peaks in a sum", "power from below"]), st.data())
 def test_no_bound_of_constants_that_may_be_negative_exceeds_the_optimum(name: str, drawn: st.DataObject) -> None:
     solution = solved(name)

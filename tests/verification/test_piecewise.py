@@ -6,12 +6,13 @@ from dataclasses import replace
 from fractions import Fraction
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import BoundaryConditions, BSplines, Certificate, InfeasibleProblem, Pieces, Problem, synthesize
 from optlaws.synthesis import Window, at_most, via
 from optlaws.verification import exact_bound, verify
+from tests.sampling import examples
 from tests.verification.tampering import Data, data_of
 
 pytest.importorskip("flint")
@@ -39,6 +40,7 @@ PROBLEMS = [
 FIRST = PROBLEMS[0]
 
 
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("problem", PROBLEMS, ids=repr)
 def test_an_optimum_is_proven(problem: Problem) -> None:
     data = data_of(problem)
@@ -60,6 +62,7 @@ def test_with_d_the_relaxed_program_bounds_more_than_the_limit() -> None:
     assert found.bound > data["limit"] * (1.0 + 1e-3)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("basis", [Pieces(6), BSplines(6, 4)], ids=repr)
 @pytest.mark.parametrize("symmetric", [True, False])
 def test_power_alone_is_bounded_too(basis: Pieces | BSplines, symmetric: bool) -> None:  # noqa: FBT001
@@ -79,7 +82,7 @@ def test_that_no_law_exists_is_proven(basis: Pieces | BSplines) -> None:
     assert verify(caught.value.proof.to_dict()).infeasible
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.sampled_from(PROBLEMS), st.data())
 def test_whatever_a_certificate_says_no_bound_exceeds_the_optimum(problem: Problem, data: st.DataObject) -> None:
     solution = data_of(problem)

@@ -3,12 +3,13 @@
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import BSplines, Chebyshev, InputError, Pieces, Problem
 from optlaws.synthesis import Window, between
 from optlaws.verification import verify
+from tests.sampling import examples
 from tests.verification.tampering import changed, data_of, numbers, overstated, places, value_at
 
 pytest.importorskip("flint")
@@ -62,7 +63,7 @@ def test_no_changed_number_is_believed_in_any_kind_of_file(problem: Problem, bou
                 continue
 
 
-@settings(max_examples=25)
+@examples(25)
 @given(st.sampled_from(FILES), st.data())
 def test_whatever_stands_anywhere_ends_in_an_answer_or_an_error(
     file: tuple[Problem, str], drawn: st.DataObject
@@ -77,7 +78,7 @@ def test_whatever_stands_anywhere_ends_in_an_answer_or_an_error(
         assert str(error)  # noqa: PT017 - there may be none
 
 
-@settings(max_examples=30)
+@examples(30)
 @given(st.sampled_from(FILES), st.data())
 def test_whatever_is_missing_ends_in_an_answer_or_an_error(file: tuple[Problem, str], drawn: st.DataObject) -> None:
     data = data_of(*file)

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import (
@@ -27,6 +27,7 @@ from optlaws import (
 )
 from optlaws.synthesis import Window, at_most, via
 from optlaws.verification import Verification, enclosures, exact_bound, verify
+from tests.sampling import examples
 
 pytest.importorskip("flint")
 
@@ -82,6 +83,7 @@ def data_of(problem: Problem) -> Data:
     return found
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("problem", CONVEX, ids=repr)
 def test_an_optimum_is_proven(problem: Problem) -> None:
     data = data_of(problem)
@@ -107,6 +109,7 @@ def test_where_d_is_relaxed_the_gap_is_proven(problem: Problem) -> None:
     assert 0.0 < found.gap < 0.3
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("problem", INFEASIBLE, ids=repr)
 def test_that_no_law_exists_is_proven(problem: Problem) -> None:
     data = json.loads(proof_text(problem))
@@ -205,7 +208,7 @@ def test_a_tampered_file_fails(change: Callable[[Data], None]) -> None:
     assert any(name.startswith(TAMPER[change]) for name in failed), failed
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.sampled_from(CONVEX), st.data())
 def test_whatever_a_certificate_says_no_bound_exceeds_the_optimum(problem: Problem, data: st.DataObject) -> None:
     solution = data_of(problem)

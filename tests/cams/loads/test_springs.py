@@ -13,6 +13,7 @@ MASS = {"mass": "2 kg", "viscous": "12 N s/m", "dry": "4 N", "gravity": "5 N"}
 SPEEDS = ("60 rpm", "300 rpm")
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("said", [{}, {"preload": "40 N"}, {"stiffness": "1 N/mm"}, {"force": "15 N"}])
 def test_the_least_spring_keeps_the_follower_on_and_no_lesser_does(said: dict[str, str]) -> None:
     cam = cam_of("translating roller")

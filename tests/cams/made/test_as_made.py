@@ -32,6 +32,7 @@ RADII = [
 ]  # fmt: skip
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("points", "decimals", "ratio"), RADII)
 def test_digits_of_radii_raise_the_acceleration_as_measured(
     cam: DiscCam, points: int, decimals: int, ratio: float

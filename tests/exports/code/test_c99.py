@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from hypothesis import given, seed, settings
+from hypothesis import given, seed
 from hypothesis import strategies as st
 
 from optlaws import Pieces, Problem, smoothstep, synthesize
@@ -20,6 +20,7 @@ from optlaws.exports.code.heading import Labels
 from optlaws.exports.pieces.law_pieces import polynomials_of_law
 from optlaws.exports.polynomials import PiecewiseMotion
 from tests.exports.motions import random_motion
+from tests.sampling import examples
 
 COMPILER = shutil.which("gcc") or shutil.which("cc")
 STRICT = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-pedantic", "-Wconversion", "-Wdouble-promotion", "-O2"]
@@ -105,7 +106,7 @@ def test_outside_the_motion_its_ends_are_held_and_the_header_may_be_included_twi
 
 
 @seed(99)
-@settings(max_examples=25, deadline=None)
+@examples(25)
 @given(st.integers(0, 10**6), st.integers(0, 12), st.booleans())
 def test_the_bound_holds_for_horner_in_floating_point(number: int, degree: int, single: bool) -> None:  # noqa: FBT001
     motion = random_motion(number, pieces=2, degree=degree)

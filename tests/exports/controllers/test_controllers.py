@@ -72,6 +72,7 @@ def same(run: PiecewiseMotion, read: PPoly, tolerance: float = 1e-12) -> None:
             assert np.abs(run(x, nu) - read(x, nu)).max() <= tolerance * size
 
 
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("name", READ)
 @pytest.mark.parametrize("of", ["degree 17", "pieces of 6", "modified trapezoid"])
 def test_what_is_written_is_what_the_report_says(name: str, of: str) -> None:
@@ -88,6 +89,7 @@ def test_what_is_written_is_what_the_report_says(name: str, of: str) -> None:
     assert made.points <= {"siemens-points": 51, "br-acp10": 64}.get(name, 50)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("name", "degree"), EXACT.items())
 def test_a_law_optimised_in_the_pieces_of_the_target_is_exported_without_loss_and_with_its_proof(
     name: str, degree: int
@@ -104,6 +106,7 @@ def test_a_law_optimised_in_the_pieces_of_the_target_is_exported_without_loss_an
     assert proof in str(made)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("name", [*READ, "iec-st", "iec-st-real"])
 def test_a_whole_cycle_with_dwells_goes_through_every_format(name: str) -> None:
     motion = repeating()

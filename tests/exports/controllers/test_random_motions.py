@@ -9,6 +9,7 @@ from optlaws import BoundaryConditions, Powers, construct
 from optlaws.exports.export import export_motion
 from optlaws.exports.motion import Motion, motion_of_law
 from tests.exports.controllers.test_controllers import READ, same
+from tests.sampling import examples
 
 STROKES = ("35 mm", "-20 deg", "1200 mm", "7 deg")
 MASTERS = ("120 deg", "360 deg", "90 mm")
@@ -40,7 +41,7 @@ def test_random_motions_come_back(number: int) -> None:
 
 @pytest.mark.long
 @seed(2027)
-@settings(max_examples=60, deadline=None)
+@examples(60)
 @given(st.integers(0, 10**6))
 def test_many_random_motions_come_back(number: int) -> None:
     comes_back(number)

@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws.errors import InputError
@@ -21,6 +21,7 @@ from optlaws.laws.savin.savin import savin
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from tests.laws.examples import cut, random_law
+from tests.sampling import examples
 
 K = np.linspace(0.0, 1.0, 201)
 NODES, WEIGHTS = np.polynomial.legendre.leggauss(60)
@@ -67,7 +68,7 @@ def test_acceleration_is_the_product_and_the_stroke_stays(law: MotionLaw, y: Any
     assert isinstance(found, PiecewiseLaw) == isinstance(law, PiecewiseLaw)
 
 
-@settings(max_examples=30)
+@examples(30)
 @given(st.integers(0, 6), st.fractions(0, 1, max_denominator=1000))
 def test_quadratic_multipliers_give_savin_s_families(u: int, share: Fraction) -> None:
     family = SavinFamily(u)

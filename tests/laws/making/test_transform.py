@@ -35,6 +35,7 @@ def inside(law: MotionLaw) -> Array:
     return K[~near]
 
 
+@pytest.mark.sample(4)
 @every_law
 @pytest.mark.parametrize("b0", [-0.5, 0.0, 0.25, 1.0, 1.5])
 def test_an_end_velocity_is_the_formula(law: MotionLaw, b0: float) -> None:
@@ -56,6 +57,7 @@ def test_a_law_from_rest_then_has_the_velocity_at_both_ends(law: MotionLaw, b0: 
     assert changed.peak(1).value == pytest.approx((1 - b0) * law.peak(1).value + b0, rel=1e-14)
 
 
+@pytest.mark.sample(2)
 @every_law
 def test_reversed_and_mirrored_laws_are_the_formulas(law: MotionLaw) -> None:
     turned, mirrored = reversed_law(law), mirrored_law(law)

@@ -5,20 +5,21 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws.errors import InputError
 from optlaws.laws import smoothstep
 from optlaws.laws.catalogue.tyr_codes import canonical, coded
 from optlaws.laws.making.trapezoids import scca, trapezoid
+from tests.sampling import examples
 
 K = np.linspace(0.0, 1.0, 101)
 # a stretch below 1e-12 is left out, which moves C by as much against a short total
 shares = st.floats(0.0, 1.0).map(lambda share: share if share > 1e-9 else 0.0)
 
 
-@settings(max_examples=50)
+@examples(50)
 @given(shares, shares, shares, st.floats(0.05, 1.0))
 def test_scca_has_the_constants_of_its_closed_form(a: float, b: float, c: float, total: float) -> None:
     if a + b + c < 0.1:
@@ -40,7 +41,7 @@ def test_scca_has_the_constants_of_its_closed_form(a: float, b: float, c: float,
     assert law.jumps(1) == ()
 
 
-@settings(max_examples=50)
+@examples(50)
 @given(shares, shares, shares, st.floats(0.1, 0.5), st.sampled_from([0.5, 1.0, 1.5, 2.0, 1.75, 3.3]))
 def test_trapezoids_have_the_constants_of_their_closed_form(
     ramp: float, plateau: float, fall: float, total: float, p: float

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws.errors import InputError
@@ -14,6 +14,7 @@ from optlaws.laws import PolynomialLaw, smoothstep
 from optlaws.laws.savin.family import SavinFamily
 from optlaws.laws.savin.savin import alpha_range, savin
 from tests.laws.reference import rows
+from tests.sampling import examples
 
 PEAKS, LEAST, START = (rows(f"savin_{name}.csv") for name in ("peaks", "least", "start"))
 Powers = Callable[[Fraction], list[Any]]
@@ -98,6 +99,7 @@ def test_closed_forms_are_the_constants_of_the_law_to_rounding(u: int) -> None:
             assert found.k == pytest.approx(exact.k, abs=1e-7 if name == "B" else 1e-10)
 
 
+@pytest.mark.sample(3)
 @families
 def test_the_best_members_are_the_best(u: int) -> None:
     family = SavinFamily(u)
@@ -139,7 +141,7 @@ def test_members_rise_and_are_symmetric(u: int, share: float) -> None:
     assert law.c(k[:51]).min() >= -1e-12 * law.peak(2).value
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(st.integers(0, 8), st.floats(0.0, 1.0), st.sampled_from("BCD"))
 def test_members_are_found_by_their_peaks(u: int, share: float, name: str) -> None:
     family = SavinFamily(u)

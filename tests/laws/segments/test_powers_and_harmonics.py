@@ -47,6 +47,7 @@ def test_derivatives_are_those_of_the_formula(case: tuple[Segment, Any], k: floa
     assert PiecewiseLaw([0, 1], [segment])(k, nu) == pytest.approx(exact, rel=1e-13, abs=1e-14)
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("case", CASES, ids=["fall", "rise", "sines"])
 @pytest.mark.parametrize("nu", [1, 2, 3])
 def test_mean_squares_are_the_integrals(case: tuple[Segment, Any], nu: int) -> None:

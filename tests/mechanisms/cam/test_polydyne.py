@@ -4,7 +4,7 @@ from itertools import pairwise
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import (
@@ -27,6 +27,7 @@ from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.laws.segments.sine import SineSegment
 from tests.laws.examples import cut
 from tests.mechanisms.response_cases import Case, integrated
+from tests.sampling import examples
 
 K = np.linspace(0.0, 1.0, 41)
 ALPHAS = {"III": (-6.0, 12.0), "IV": (-5.5, 44 / 3)}
@@ -61,6 +62,7 @@ LAWS: dict[str, MotionLaw] = {
 }
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("damping", [0.0, 0.05, 0.6, 1.0, 1.3])
 @pytest.mark.parametrize("nu", [4.0, 20.0, 90.0])
 @pytest.mark.parametrize("name", LAWS)
@@ -114,7 +116,7 @@ def test_a_kind_of_segment_that_is_unknown_becomes_a_polynomial() -> None:
     assert made.derivative(u, 0.5, 2) == pytest.approx(wanted, abs=1e-11)
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(st.sampled_from(["III", "IV"]), st.floats(0.0, 1.0), st.floats(2.0, 200.0), st.floats(0.0, 1.5))
 def test_back_and_forth(family: str, part: float, nu: float, damping: float) -> None:
     low, high = ALPHAS[family]

@@ -6,7 +6,7 @@ from math import degrees, pi, radians
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
@@ -14,6 +14,7 @@ from optlaws import InputError, MotionLaw, catalogue, deg, dwell_mechanism, smoo
 from optlaws.mechanisms.dwell.mechanism import DwellMechanism
 from tests.laws.examples import free_function_law
 from tests.mechanisms.reference import rows
+from tests.sampling import examples
 
 K = catalogue["K"].law
 SIX_DIGITS = 5.1e-6
@@ -103,6 +104,7 @@ LAWS: dict[str, dict[str, object]] = {
 }
 
 
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("changed", LAWS.values(), ids=LAWS.keys())
 @pytest.mark.parametrize("kind", ["I", "II", "III"])
 def test_the_composed_motion_is_continuous_and_closes(kind: str, changed: dict[str, object]) -> None:
@@ -211,7 +213,7 @@ def test_wrong_data_are_refused(changed: dict[str, object], reason: str) -> None
         example("IV")
 
 
-@settings(max_examples=30)
+@examples(30)
 @given(dwell=st.floats(0.8, 2.0), clutch=st.floats(0.02, 0.3), radius=st.floats(0.3, 4.0), share=st.floats(0.25, 0.75))
 def test_size_and_residual_torque_are_traded(dwell: float, clutch: float, radius: float, share: float) -> None:
     data = {"dwell": dwell, "rise": pi - dwell, "clutch_angle": clutch, "radius_ratio": radius}

@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from optlaws import CycleResponse, Follower, InputError, PolynomialLaw, polydyne, savin, smoothstep
 from optlaws.laws.catalogue.catalogue import catalogue
 from tests.mechanisms.response_cases import random_case
+from tests.sampling import examples
 
 SHORT = st.one_of(st.just(0.0), st.floats(0.01, 2.0))
 
@@ -43,7 +44,7 @@ def test_a_transient_settles_to_the_cycle(nu: float, damping: float, dwell: floa
     )
 
 
-@settings(max_examples=25)
+@examples(25)
 @given(st.integers(0, 500), st.floats(2.0, 80.0), st.floats(1e-6, 1.5), st.floats(0.0, 2.0), st.floats(0.0, 2.0))
 def test_it_is_periodic_and_obeys_the_equation(seed: int, nu: float, damping: float, dwell: float, rest: float) -> None:
     law = random_case(2 * seed + 1).law

@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import Follower, InputError, MotionLaw, PiecewiseLaw, PolynomialLaw, savin, smoothstep
@@ -10,6 +10,7 @@ from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.segments.segment import PolynomialSegment
 from tests.laws.examples import EXAMPLES, cut, cut_power, cut_sine, random_law
 from tests.mechanisms.response_cases import CRITICAL, Case, exact, integrated, random_case
+from tests.sampling import examples
 
 K = np.linspace(0.0, 1.0, 41)
 NUS, DAMPINGS = (2.0, 7.3, 41.0, 200.0), (0.0, 0.05, 0.9, 1.0, 1.0 + 1e-9, 1.5)
@@ -25,6 +26,7 @@ def misses(case: Case) -> tuple[float, float]:
     return a / size, b / (size * case.nu)
 
 
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("seed", range(30))
 def test_random_laws_against_an_integrator(seed: int) -> None:
     assert max(misses(random_case(seed))) < 1e-9
@@ -36,6 +38,7 @@ def test_two_hundred_random_laws_against_an_integrator(seed: int) -> None:
     assert max(misses(random_case(seed))) < 1e-9
 
 
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("damping", DAMPINGS)
 @pytest.mark.parametrize("nu", NUS)
 @pytest.mark.parametrize("law", [smoothstep(2), savin("IV", 11.0), random_law(2, 30, 0.95)], ids=["S2", "IV", "30"])
@@ -59,6 +62,7 @@ def test_a_cycloid_in_closed_form_also_in_resonance(nu: float, damping: float) -
         assert found(K, order) == pytest.approx(same(K, order), abs=1e-12 * max(nu, 8.0) ** order)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("name", EXAMPLES)
 @pytest.mark.parametrize(("nu", "damping"), [(4.0, 0.1), (33.0, 0.0), (20.0, 1.0)])
 def test_the_equation_of_motion_holds(name: str, nu: float, damping: float) -> None:
@@ -109,7 +113,7 @@ def test_cutting_a_law_changes_nothing() -> None:
         assert pieces.peak(2).value == pytest.approx(whole.peak(2).value, rel=1e-12)
 
 
-@settings(max_examples=30)
+@examples(30)
 @given(
     st.integers(0, 1000),
     st.floats(2.0, 200.0),
@@ -130,7 +134,7 @@ def test_no_value_exceeds_the_extrema(seed: int, nu: float, damping: float, orde
     assert found.peak(order).value == pytest.approx(max(-low.value, high.value), rel=1e-12)
 
 
-@settings(max_examples=30)
+@examples(30)
 @given(st.integers(0, 1000), st.floats(2.0, 200.0), st.floats(0.0, 1.5), st.floats(-1.0, 1.0), st.floats(-1.0, 1.0))
 def test_responses_add(seed: int, nu: float, damping: float, displacement: float, speed: float) -> None:
     """The response to a law from a state is that from rest plus the free vibration of the state."""

@@ -57,6 +57,7 @@ def test_peaks_of_the_cams(row: dict[str, str]) -> None:
     assert law.extrema(1)[0].value == pytest.approx(0.0, abs=1e-12)  # monotone
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("row", OFF_DESIGN, ids=name)
 def test_off_design(row: dict[str, str]) -> None:
     law, nu = reference(row["law"]), float(row["nu_actual"])

@@ -5,12 +5,13 @@ from math import pi
 import mpmath  # type: ignore[import-untyped]
 import numpy as np
 import pytest
-from hypothesis import example, given, settings
+from hypothesis import example, given
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 from optlaws import InputError, MotionLaw, TorsionLever, deg
 from tests.mechanisms.lever.cases import apart
+from tests.sampling import examples
 
 LEVERS = {
     "softer": TorsionLever(0.75, 1, 0.15, 0.15, deg(60)),
@@ -48,6 +49,7 @@ def test_moment_is_the_printed_formula(one: TorsionLever) -> None:
         )
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("one", LEVERS.values(), ids=LEVERS)
 def test_potential_is_the_integral_of_the_moment(one: TorsionLever) -> None:
     for chi in (one.exact.chi01, one.exact.chi02):
@@ -171,7 +173,7 @@ def test_a_parallelogram_swings_harmonically() -> None:
 
 
 @example(beta=2.0, lam=0.1, rho=0.0, nu=0.0, swing=12.0)
-@settings(max_examples=60)
+@examples(60)
 @given(
     beta=st.floats(0.05, 4.0),
     lam=st.floats(-1.0, 1.2).map(lambda power: 10.0**power),

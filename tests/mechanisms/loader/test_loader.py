@@ -18,6 +18,7 @@ from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.mechanisms.loader.loader import Loader, loader
 from tests.laws.examples import free_function_law, random_law
 from tests.mechanisms.reference import rows
+from tests.sampling import examples
 
 TABLE = rows("loader_table12")
 K = np.linspace(0.0, 1.0, 501)
@@ -60,6 +61,7 @@ def test_the_loader_of_a_harmonic_law_is_harmonic() -> None:
         assert np.abs(law(K, nu) - expected).max() < 1e-13 * pi**nu
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("row", TABLE, ids=[row["code"] for row in TABLE])
 def test_the_table_of_twelve_laws(row: dict[str, str]) -> None:
     one = loader(coded(row["code"]))
@@ -81,6 +83,7 @@ def test_the_table_of_twelve_laws(row: dict[str, str]) -> None:
     assert one.peaks_at_turn == (row["k_of_Cbcm"] == "0.5")
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("name", [row["code"] for row in TABLE])
 def test_the_law_integrates_its_own_derivatives(name: str) -> None:
     law = loader(coded(name)).law
@@ -218,7 +221,7 @@ symmetric_laws = st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=4).map(
 )
 
 
-@settings(max_examples=25)
+@examples(25)
 @given(law=symmetric_laws, scale=st.floats(0.1, 10.0))
 def test_scaling_the_executive_stroke_leaves_the_loader_as_it_is(law: PolynomialLaw, scale: float) -> None:
     law = PolynomialLaw(law.acceleration, b0=-float(np.asarray(law.b(1.0))) / 2 + 3.0)

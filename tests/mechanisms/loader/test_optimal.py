@@ -293,6 +293,7 @@ def test_no_law_is_below_a_limit_or_a_tangent(first: list[float], second: list[f
     assert row @ np.append(x, one.B) <= right
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("name", CODES)
 def test_printed_laws_are_above_the_limits(name: str) -> None:
     one = loader(catalogue[name].law)

@@ -11,6 +11,7 @@ from tests.mechanisms.reference import rows
 NOMOGRAM = rows("loader_nomogram")
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("row", NOMOGRAM[::4], ids=[f"{row['e13']}-{row['gamma_w']}" for row in NOMOGRAM[::4]])
 def test_the_nomogram(row: dict[str, str]) -> None:
     one = TrapeziumSubstitute(float(row["e13"]), float(row["gamma_w"]))

@@ -100,6 +100,7 @@ def _amplitudes(machine: Machine, law: MotionLaw) -> NDArray[np.complex128]:
     return np.array(found)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("seed", range(6))
 def test_optima_are_proven_kept_and_right(seed: int) -> None:
     machine = chain(seed, masses=1 + seed % 3)

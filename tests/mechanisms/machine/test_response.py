@@ -35,6 +35,7 @@ def misses(seed: int) -> float:
     return float(np.abs(found - wanted).max() / max(1.0, np.abs(wanted).max()))
 
 
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("seed", range(2 * len(KINDS)))
 def test_random_machines_against_an_integrator(seed: int) -> None:
     assert misses(seed) < 1e-9
@@ -79,6 +80,7 @@ def test_random_machines_against_python_control(seed: int) -> None:
     assert np.abs(found - wanted).max() < 1e-9 * max(1.0, np.abs(wanted).max())
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize(("nu", "damping"), [(3.0, 0.0), (20.0, 0.05), (20.0, 1.0), (15.0, 3.0), (500.0, 0.01)])
 def test_a_follower_is_a_machine(law: str, nu: float, damping: float) -> None:

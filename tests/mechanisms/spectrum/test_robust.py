@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import (
@@ -25,11 +25,13 @@ from optlaws import (
 )
 from optlaws.laws import MotionLaw
 from tests.mechanisms.cam_programs import integrated, least_acceleration, residuals
+from tests.sampling import examples
 
 NU = np.linspace(18.0, 22.0, 2001)
 LAWS = [savin("III", 7.2), savin("IV", 11.0), catalogue["modified sine"].law, catalogue["cycloidal"].law]
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("law", LAWS, ids=["III", "IV", "modified sine", "cycloidal"])
 @pytest.mark.parametrize("damping", [0.0, 0.05, 0.7])
 def test_the_greatest_residual_is_that_of_a_fine_grid_and_of_the_response(law: MotionLaw, damping: float) -> None:
@@ -42,7 +44,7 @@ def test_the_greatest_residual_is_that_of_a_fine_grid_and_of_the_response(law: M
 
 
 @given(st.floats(2.0, 60.0), st.floats(0.0, 40.0), st.floats(0.0, 0.9))
-@settings(max_examples=25)
+@examples(25)
 def test_the_greatest_residual_of_any_interval(low: float, length: float, damping: float) -> None:
     law = savin("III", 7.2)
     found = residual(nu=(low, low + length), damping=damping).value(law)
@@ -71,6 +73,7 @@ CASES = [
 ]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("problem", CASES, ids=range(len(CASES)))
 def test_the_residual_of_a_robust_law_is_below_the_bound_everywhere(problem: Problem) -> None:
     ((constant, asked),) = problem.bounds.items()

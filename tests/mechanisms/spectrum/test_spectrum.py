@@ -25,7 +25,7 @@ from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.mechanisms.spectrum.bessel import legendre_from_chebyshev, moments
 from tests.laws.examples import EXAMPLES, cut_power, random_law
 from tests.mechanisms.response_cases import random_case
-from tests.sampling import sampled
+from tests.sampling import examples, sampled
 
 NUS = [2.0, 2 * np.pi, 20.0, 63.0, 200.0]
 
@@ -76,7 +76,7 @@ def test_the_residual_is_the_fourier_integral_of_the_acceleration(nu: float) -> 
     assert found.residual_acceleration[0] == pytest.approx(nu * np.hypot(real, imaginary), abs=1e-11)
 
 
-@settings(max_examples=40)
+@examples(40)
 @given(st.integers(0, 400), st.floats(2.0, 200.0), st.floats(0.0, 0.95))
 def test_the_functional_is_the_phasor(seed: int, nu: float, damping: float) -> None:
     law = random_case(2 * seed + 1).law

@@ -119,6 +119,7 @@ KINDS: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.filterwarnings("ignore::optlaws.NotNormalised")
 def test_any_number_of_a_problem_may_vary(kind: str) -> None:

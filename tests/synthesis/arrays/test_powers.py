@@ -47,6 +47,7 @@ KINDS: dict[str, dict[str, Any]] = {
 }
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.filterwarnings("ignore::optlaws.NotNormalised")
 def test_laws_of_least_power_are_those_solved_alone(kind: str) -> None:

@@ -60,6 +60,7 @@ CASES = [
 ]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("B", "monotone", "order"), CASES)
 def test_piecewise_constant_accelerations_approach_the_limit_from_above(
     B: float,
@@ -110,6 +111,7 @@ def test_the_least_of_all_limits_is_4_at_b_2() -> None:
     assert acceleration_limit(2) == 4.0
 
 
+@pytest.mark.sample(5)
 @pytest.mark.parametrize("B", [1.2, 1.641, 2.0, 2.3, 3.0])
 @pytest.mark.parametrize("monotone", [False, True])
 @pytest.mark.parametrize("order", [1, 2, 3])

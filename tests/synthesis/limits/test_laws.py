@@ -4,7 +4,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws.errors import InputError
@@ -13,6 +13,7 @@ from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.synthesis.limits.closed_forms import jerk_limit, limit
 from optlaws.synthesis.limits.laws import limit_law
+from tests.sampling import examples
 
 K = np.linspace(0.0, 1.0, 401)
 KINDS = [("C", 1), ("C", 3), ("D", 3), ("J", 2), ("J", 3), ("RMS", 3)]
@@ -42,9 +43,10 @@ def check_motion(law: PiecewiseLaw, B: float, *, monotone: bool, rest: bool = Tr
         assert law.extrema(1)[0].value >= -room
 
 
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("monotone", [False, True])
 @pytest.mark.parametrize(("constant", "order"), KINDS)
-@settings(deadline=None, max_examples=60)
+@examples(60)
 @given(B=velocities)
 def test_a_limit_law_has_the_limit_for_its_constant(constant: str, order: int, B: float, *, monotone: bool) -> None:
     law = limit_law(constant, B, order=order, monotone=monotone)
@@ -53,7 +55,7 @@ def test_a_limit_law_has_the_limit_for_its_constant(constant: str, order: int, B
 
 
 @pytest.mark.parametrize("monotone", [False, True])
-@settings(deadline=None, max_examples=80)
+@examples(80)
 @given(B=st.floats(1.05, 6.0), share=st.one_of(st.just(1.0), st.floats(1.0, 1.5), st.floats(1.0, 100.0)))
 def test_a_trapezoid_law_has_the_least_acceleration_and_the_jerk_allowed(
     B: float, share: float, *, monotone: bool

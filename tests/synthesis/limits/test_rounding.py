@@ -74,6 +74,7 @@ EXACT = {
 }
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("monotone", [False, True])
 @pytest.mark.parametrize(("constant", "order"), EXACT, ids=str)
 def test_limits_are_just_below_the_exact_values(constant: str, order: int, *, monotone: bool) -> None:
@@ -144,6 +145,7 @@ KINDS: list[dict[str, Any]] = [
 ]
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("kind", KINDS, ids=str)
 def test_no_bound_is_above_its_objective(kind: dict[str, Any]) -> None:
     solution = synthesize(Problem(**{"order": 3, **({} if "boundary" not in kind else {"order": 2}), **kind}))

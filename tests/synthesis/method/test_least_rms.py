@@ -41,6 +41,7 @@ ALONE = [
 ]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("problem", "least"), ALONE, ids=range(len(ALONE)))
 def test_what_is_minimised_is_proven_at_its_lower_bound(problem: Problem, least: float) -> None:
     solution = synthesize(problem)
@@ -49,6 +50,7 @@ def test_what_is_minimised_is_proven_at_its_lower_bound(problem: Problem, least:
     judge(solution)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("problem", "name"),
     [

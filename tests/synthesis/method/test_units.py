@@ -42,6 +42,7 @@ def assert_settling(ratios: list[float]) -> None:
         assert abs(after / before - 1.0) < 20.0 / B
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("place", range(len(asked(1e4))))
 def test_great_velocities_are_proven_to_nine_digits(place: int) -> None:
     ratios = []

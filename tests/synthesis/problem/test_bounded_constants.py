@@ -93,7 +93,7 @@ def test_a_law_that_cannot_be_is_refused_with_proof() -> None:
 
 def test_a_constant_can_be_held_up() -> None:
     solution = synthesize(problem(B=1.7, bounds={"rms_c": between(4.0, 4.2)}))
-    assert Judged(solution.law).constants["rms_c"] == pytest.approx(4.0, rel=1e-9)
+    assert Judged(solution.law).constant("rms_c") == pytest.approx(4.0, rel=1e-9)
     assert solution.status == "local"
 
 

@@ -108,6 +108,7 @@ def gridded(text: str, degree: int, count: int) -> float:
     return best
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     "text", ["peak(c + 0.2*b)", "peak(c^2 + 9*b^2)", "peak(b*c)", "peak((1 + a^2)*c + a*b^2)", "peak(c + 3*a*b)"]
 )
@@ -128,6 +129,7 @@ def test_products_are_bounded_where_derivatives_are() -> None:
     assert synthesize(replace(problem, minimise="D")).objective == pytest.approx(solution.objective, rel=1e-9)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("window", "minimise"),
     [

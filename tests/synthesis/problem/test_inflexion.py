@@ -39,6 +39,7 @@ def problem(**given: Any) -> Problem:  # noqa: ANN401
     return Problem(**{"basis": Chebyshev(11), "symmetric": False, "inflexion": 0.4, **order, **given})
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("given", CASES, ids=str)
 def test_the_peak_velocity_stands_at_the_inflexion(given: dict[str, Any]) -> None:
     one = problem(**given)
@@ -67,6 +68,7 @@ def _mirrored(given: dict[str, Any]) -> dict[str, Any]:
     return {}
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("k", [0.25, 0.4, 0.5, 0.7])
 @pytest.mark.parametrize("B", [1.6, 2.1])
 def test_highs_agrees(B: float, k: float) -> None:
@@ -87,6 +89,7 @@ def test_in_the_middle_it_is_the_law_without_it() -> None:
     assert Problem(B=1.8, order=3, inflexion=0.5) == Problem(B=1.8, order=3)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("k", "B"), [(0.1, 1.5), (0.2, 1.8), (0.4, 1.7), (0.35, 2.4)])
 def test_the_limit_of_uneven_laws_is_not_that_of_even_ones_and_holds(k: float, B: float) -> None:
     solution = synthesize(problem(B=B, inflexion=k, basis=Chebyshev(25)))

@@ -29,6 +29,7 @@ CASES = [
 ]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("problem", CASES, ids=range(len(CASES)))
 def test_windows_hold_on_the_whole_of_their_interval(problem: Problem) -> None:
     law = synthesize(problem).law

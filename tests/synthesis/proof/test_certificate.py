@@ -12,7 +12,7 @@ from typing import Any
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import (
@@ -31,7 +31,7 @@ from optlaws import (
     construct,
     synthesize,
 )
-from tests.sampling import sampled
+from tests.sampling import examples, sampled
 from tests.synthesis.duality import edge, weak_duality
 from tests.synthesis.independent import acceleration_of, extremes, polynomial, velocity_of, z_of
 
@@ -100,6 +100,7 @@ def proof_of(problem: Problem) -> Certificate:
 # --- what the certificate sums, from eq. 8 in rational numbers ---
 
 
+@pytest.mark.sample(3)
 @every_problem
 def test_the_bound_is_the_weak_duality_sum_of_eq_8(problem: Problem) -> None:
     solution = solution_of(problem)
@@ -120,6 +121,7 @@ def test_the_bound_is_the_weak_duality_sum_of_eq_8(problem: Problem) -> None:
         assert certificate.bound == pytest.approx(solution.objective, rel=1e-8)
 
 
+@pytest.mark.sample(6)
 @pytest.mark.parametrize("problem", [p for p in PROBLEMS if p.symmetric and "rms" not in str(p.minimise)], ids=shape)
 def test_with_its_mirror_image_the_sum_speaks_of_unsymmetric_laws_too(problem: Problem) -> None:
     certificate = solution_of(problem).certificate
@@ -130,6 +132,7 @@ def test_with_its_mirror_image_the_sum_speaks_of_unsymmetric_laws_too(problem: P
     assert certificate.bound == pytest.approx(float(found.constant), rel=1e-9)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("problem", INFEASIBLE, ids=shape)
 def test_a_proof_of_infeasibility_is_a_contradiction_in_eq_8(problem: Problem) -> None:
     proof = proof_of(problem)
@@ -297,6 +300,7 @@ def test_another_direction_of_an_rms_proves_nothing_false(seed: int, size: float
     assert altered(solution.certificate, index, turned).bound <= solution.objective * ROUNDING
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("program", ["objective", "relaxed", "violation", "wishful"])
 @every_problem
 def test_as_a_proof_of_another_kind_it_proves_nothing_false(problem: Problem, program: str) -> None:
@@ -309,6 +313,7 @@ def test_as_a_proof_of_another_kind_it_proves_nothing_false(problem: Problem, pr
         assert program == "wishful"
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("problem", INFEASIBLE, ids=shape)
 def test_a_proof_of_infeasibility_says_nothing_of_a_feasible_problem(problem: Problem) -> None:
     feasible = replace(problem, B=1.859, C=None, J=None, basis=Chebyshev(9), order=3)
@@ -431,7 +436,7 @@ def inner(problem: Problem) -> np.ndarray:
     return np.asarray(np.mean(parts, axis=0))
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(
     problem=st.sampled_from(PLAIN),
     seed=st.integers(0, 2**32 - 1),

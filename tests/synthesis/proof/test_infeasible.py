@@ -75,6 +75,7 @@ CONTRADICTIONS = [
 ]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(("problem", "named"), CONTRADICTIONS, ids=range(len(CONTRADICTIONS)))
 def test_contradictory_conditions_are_named_and_proven(problem: Problem, named: list[str]) -> None:
     with pytest.raises(InfeasibleProblem) as caught:

@@ -100,6 +100,7 @@ def test_a_new_basis_is_one_class() -> None:
 # --- starts ---
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("order", "degree", "monotone"), [(4, 3, False), (4, 9, False), (2, 15, False), (3, 9, True), (4, 19, False)]
 )
@@ -178,6 +179,7 @@ def test_an_even_degree_adds_nothing(order: int, degree: int) -> None:
     assert even.gap <= 1e-8
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("order", range(2, 7))
 @pytest.mark.parametrize("B", [1.53, 1.859, 2.4])
 def test_degree_41_is_solved_and_proven(order: int, B: float) -> None:

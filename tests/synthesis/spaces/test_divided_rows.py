@@ -28,6 +28,7 @@ def test_the_chord_of_unsymmetric_laws_is_what_it_says(order: int, degree: int) 
     assert family.value(x, np.zeros(1))[0] == pytest.approx(law.j(0.5) / 8, rel=1e-9)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("order", [2, 3, 4])
 @pytest.mark.parametrize("symmetric", [True, False], ids=["symmetric", "unsymmetric"])
 def test_the_forward_rows_of_pieces_are_what_they_say(order: int, symmetric: bool) -> None:  # noqa: FBT001
@@ -45,6 +46,7 @@ def test_the_forward_rows_of_pieces_are_what_they_say(order: int, symmetric: boo
     assert isinstance(space, PieceSpace)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("minimise", ["C", "J"])
 @pytest.mark.parametrize("B", [2.1548, 2.6])
 def test_pieces_that_never_move_back_agree_with_highs(minimise: str, B: float) -> None:

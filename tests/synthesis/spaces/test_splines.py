@@ -103,6 +103,7 @@ PROBLEMS = [
 ]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("problem", PROBLEMS, ids=range(len(PROBLEMS)))
 def test_laws_are_proven_and_their_z_makes_them(problem: Problem) -> None:
     solution = synthesize(problem)

@@ -42,6 +42,7 @@ def greatest(order: int, sign: int) -> mpmath.mpf:
     return sign * cam(k, order)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("name", "order", "signs"),
     [("B", 1, (1, -1)), ("C", 2, (1, -1)), ("C_plus", 2, (1,)), ("C_minus", 2, (-1,)), ("J", 3, (1, -1))],

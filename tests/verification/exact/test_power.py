@@ -28,6 +28,7 @@ def proof(problem: Problem) -> PowerCertificate:
     return found
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("problem", PROBLEMS, ids=str)
 def test_what_doubles_prove_is_proven_in_balls(problem: Problem) -> None:
     solution = synthesize(problem, bound="tight")

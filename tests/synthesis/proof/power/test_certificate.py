@@ -7,7 +7,7 @@ from math import inf, isfinite
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import (
@@ -28,6 +28,7 @@ from optlaws.synthesis.proof.power.box import Box
 from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step
 from optlaws.synthesis.proof.power.rows import Anchors, PowerRows, velocity_brackets
 from optlaws.synthesis.proof.power.search import searched
+from tests.sampling import examples
 from tests.synthesis.power_proof import proven_exactly
 
 FIRST = Problem(B=1.641, order=4, basis=Chebyshev(9), minimise="D")
@@ -46,6 +47,7 @@ def certificate(solution: Solution) -> PowerCertificate:
     return found
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("degree", [3, 9])
 @pytest.mark.parametrize("B", [1.53, 2.297])
 def test_least_power_is_proven_optimal(B: float, degree: int) -> None:
@@ -58,6 +60,7 @@ def test_least_power_is_proven_optimal(B: float, degree: int) -> None:
     assert tight.lower_bound <= tight.objective
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "problem",
     [
@@ -191,7 +194,7 @@ def test_the_search_comes_upon_a_better_law_than_it_was_given(first: Solution) -
 
 
 @given(seed=st.integers(0, 10**6))
-@settings(max_examples=30)
+@examples(30)
 def test_laws_in_a_box_obey_its_rows(seed: int) -> None:
     random = np.random.default_rng(seed)
     space = model_of(MIXED).space
@@ -220,7 +223,7 @@ def test_laws_in_a_box_obey_its_rows(seed: int) -> None:
 
 
 @given(seed=st.integers(0, 10**6))
-@settings(max_examples=30)
+@examples(30)
 def test_velocities_known_at_some_k_bracket_those_at_others(seed: int) -> None:
     random = np.random.default_rng(seed)
     law = model_of(MIXED).space.law(random.normal(size=3))

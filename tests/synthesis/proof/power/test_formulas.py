@@ -51,6 +51,7 @@ def test_power_as_a_formula_has_the_optimum_of_power() -> None:
     assert formula.lower_bound == pytest.approx(power.lower_bound, rel=1e-8)
 
 
+@pytest.mark.sample(4)
 @pytest.mark.parametrize("problem", PROBLEMS, ids=repr)
 def test_no_law_in_a_box_is_below_a_plane(problem: Problem) -> None:
     assert applies(problem)

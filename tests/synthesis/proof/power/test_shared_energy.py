@@ -6,7 +6,7 @@ from functools import cache
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import Chebyshev, InputError, MotionLaw, PowerCertificate, Problem, Solution, at_most, loader, synthesize
@@ -17,6 +17,7 @@ from optlaws.synthesis.proof.power.lines_above import above_inverse, above_root
 from optlaws.synthesis.proof.power.rows_of_problem import rows_of
 from optlaws.synthesis.proof.power.search import _points
 from optlaws.verification import verify
+from tests.sampling import examples
 
 PROBLEM = Problem(B=1.7, order=3, basis=Chebyshev(7), monotone=True, minimise="C_loader")
 OBJECTIVES = ("C_loader", "D_loader", "0.5*C/4 + 0.5*C_loader/4", "D_loader/2 + C_loader/4 + B_loader + C/20")
@@ -49,7 +50,7 @@ def values(boxes: BoxRows, law: MotionLaw) -> np.ndarray:
     return np.array([*law.b(boxes.points), *own, 0.5 / loader(law).Y])
 
 
-@settings(max_examples=60)
+@examples(60)
 @given(st.sampled_from(OBJECTIVES), SHARES, SEEDS, st.floats(-6.0, 0.0), PLACES)
 def test_no_law_in_a_box_breaks_a_row(
     minimise: str, shares: list[float], seed: int, size: float, k: list[float]
@@ -77,7 +78,7 @@ def test_no_law_in_a_box_breaks_a_row(
     assert all(row @ point <= 1e-9 for _, row in boxes.beside(box))
 
 
-@settings(max_examples=100)
+@examples(100)
 @given(st.floats(1.01, 4.0), st.floats(0.0, 1.0), st.floats(0.0, 1.0), st.floats(0.0, 0.999))
 def test_lines_are_above_and_touch(B: float, t: float, first: float, last: float) -> None:
     most = B / max(t * t, 0.02) * 0.999
