@@ -118,7 +118,7 @@ def copied(place: Path) -> None:
 def command(module: str) -> str:
     """What runs a module's tests."""
     tests = " ".join([*TESTS[module], str(file_of(module).relative_to(ROOT))])
-    return f"{sys.executable} -m pytest -x -q -p no:cacheprovider {tests}"
+    return f"{sys.executable} -m pytest -x -q -m 'not long or sample' -p no:cacheprovider {tests}"
 
 
 def passes(module: str) -> bool:
