@@ -28,7 +28,7 @@ _DEEPEST = 12
 #: no more laws than these are worth nodes of their own
 _FEW = 20
 #: of the size of what is interpolated: one step of Newton's method makes the square of it
-_TAIL = 1e-8
+_TAIL = 1e-7
 #: laws at a time, and bytes of their matrices
 _CHUNKS = (128, 1024)
 _AT_HAND = 2**21
@@ -38,8 +38,8 @@ _GAP = 1e-10
 _EXACT = 1e-9
 #: a step of more than this share is followed by another
 _ROUGH = 1e-7
-#: of the path: how far beyond the end of a segment its laws are tried
-_BESIDE = 1e-8
+#: of the path: how far beyond the ends of a segment its laws are tried, where no segment is known
+_BESIDE = 2e-3
 
 
 def laws_along(path: Path, t: Array) -> Found:
@@ -66,28 +66,34 @@ def laws_on(path: Path, segments: list[Segment], t: Array) -> Found:
     most = max((segment.structure.count for segment in segments), default=0)
     program = path.model.program
     found = Found.none(len(t), program.size, most, len(program.right))
-    reach = segments[-1].end - segments[0].begin if segments else 0.0
-    begins = np.array([segment.begin for segment in segments])
-    owner = np.searchsorted(begins, t, side="right") - 1
-    for i, segment in enumerate(segments):
-        # what lies between two segments, nearer than they are known, is tried with the first
-        places = np.flatnonzero((owner == i) & (t <= segment.end + _BESIDE * reach))
+    for segment in segments:
+        places = np.flatnonzero((t >= segment.begin) & (t <= segment.end))
         if len(places):
             _fill(found, path, segment, places, t[places])
+    beside = _BESIDE * (segments[-1].end - segments[0].begin) if segments else 0.0
+    for segment in segments:
+        # what lies between two segments is tried with both
+        places = np.flatnonzero((t >= segment.begin - beside) & (t <= segment.end + beside) & ~found.solved)
+        if len(places):
+            _enter(found, path, segment, places, (t[places], segment.interpolated(t[places])))
     return found
 
 
 def _fill(found: Found, path: Path, segment: Segment, places: NDArray[np.intp], t: Array) -> None:
-    structure = segment.structure
-    if structure.affine and path.one_cost and segment.begin < segment.end:
+    if segment.structure.affine and path.one_cost and segment.begin < segment.end:
         _affine(found, path, segment, places, t)
         return
     for own, guess in _guesses(path, segment, t, (segment.begin, segment.end)):
-        size = _chunk(structure)
-        for i in range(0, len(own), size):
-            chunk = own[i : i + size]
-            laws = _Laws(found, path, structure, places[chunk], path.numbers(t[chunk]))
-            laws.solve(guess.taken(slice(i, i + size)))
+        _enter(found, path, segment, places[own], (t[own], guess))
+
+
+def _enter(found: Found, path: Path, segment: Segment, places: NDArray[np.intp], near: tuple[Array, States]) -> None:
+    """Enter laws at some t, with states near to theirs, as far as they are proven."""
+    (t, guess), size = near, _chunk(segment.structure)
+    for i in range(0, len(t), size):
+        own = slice(i, i + size)
+        laws = _Laws(found, path, segment.structure, places[own], path.numbers(t[own]))
+        laws.solve(guess.taken(own))
 
 
 def _chunk(structure: Structure) -> int:
@@ -140,8 +146,7 @@ def _guesses(
 ) -> Iterator[tuple[NDArray[np.intp], States]]:
     """Which of some t, with states near to theirs: interpolated on pieces of a segment as short as they need to be."""
     begin, end = ends
-    inside = (t <= end) | (end == segment.end)
-    own = np.flatnonzero(inside & ((t > begin) | (begin == segment.begin)))
+    own = np.flatnonzero((t <= end) & ((t > begin) | (begin == segment.begin)))
     if not len(own):
         return
     if len(own) <= _FEW or begin >= end or depth == _DEEPEST:
@@ -171,10 +176,6 @@ def _settled(rows: Array) -> bool:
 def _affine(found: Found, path: Path, segment: Segment, places: NDArray[np.intp], t: Array) -> None:
     """Enter laws between the ends of a segment along which they are affine."""
     structure = segment.structure
-    inside = t <= segment.end
-    places, t = places[inside], t[inside]
-    if not len(t):
-        return
     ends = States.unpacked(segment.rows[[0, -1]], structure)
     numbers = path.numbers(np.array([segment.begin, segment.end]))
     excess = float(judged(path, structure, numbers, ends).excess.max())

@@ -7,16 +7,18 @@ from __future__ import annotations
 
 from contextlib import suppress
 from dataclasses import dataclass, replace
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.arrays.programs import Numbers
-from optlaws.synthesis.arrays.rows import Structure
+from optlaws.synthesis.arrays.rows import Structure, product, weighted, with_one
 
 Array = NDArray[np.float64]
 
-_STEPS = 8
+#: what is given up: a step that is greater than the next ones could mend
+_SIZES = (1e3, 1e3, 10.0, 1.0, 0.3, 0.05, 1e-3, 1e-4)
 #: convergence is quadratic: what is left after a step of this share is rounding
 _CONVERGED = 1e-9
 _FAR = 1.05
@@ -47,32 +49,32 @@ class States:
     def unpacked(cls, rows: Array, structure: Structure) -> States:
         """States from what `packed` gave."""
         size, count = structure.model.program.size, structure.count
-        parts = np.split(rows, [size, size + count, size + 2 * count], axis=1)
-        return cls(*parts)
+        ends = (0, size, size + count, size + 2 * count, rows.shape[1])
+        return cls(*(rows[:, low:high] for low, high in pairwise(ends)))
 
 
 def step(structure: Structure, numbers: Numbers, states: States) -> tuple[States, Array]:
     """The states one step of Newton's method further, and the size of each step; infinite where there is none."""
-    program, free = structure.model.program, structure.free
-    jets = _Jets.of(structure, states)
-    off = _at(jets.value, states.x) - numbers.bounds[:, structure.family]
-    turned = _at(jets.slope[:, free], states.x)
+    program, free = structure.model.program, structure.moving
+    jets, point = _Jets.of(structure, states), with_one(states.x)
+    turned = product(jets.slope, point)
     shift, pull = turned / jets.bend, states.weights[:, free] / jets.bend
-    rows, slopes = jets.value[:, :, :-1], jets.slope[:, free, :-1]
+    rows, slopes = jets.value[:, :, :-1], jets.slope[:, :, :-1]
     size, count, equations = program.size, structure.count, len(program.equalities)
     last = size + count
-    system = _system(structure, states, jets)
-    system[:, size + np.flatnonzero(free), :size] -= slopes * shift[:, :, None]
+    system = _system(structure, states, jets, pull)
     defect = np.empty((len(states), last + equations, 1))
-    balance = numbers.cost + np.einsum("mpi,mp->mi", rows, states.weights) + states.equations @ program.equalities
-    defect[:, :size, 0] = balance - np.einsum("mpi,mp->mi", slopes, pull * turned)
-    defect[:, size:last, 0] = off
-    defect[:, size + np.flatnonzero(free), 0] -= turned * shift
+    balance = numbers.cost + weighted(states.weights, rows) + states.equations @ program.equalities
+    defect[:, :size, 0] = balance - weighted(pull * turned, slopes)
+    defect[:, size:last, 0] = product(jets.value, point) - numbers.bounds[:, structure.family]
+    if len(free):
+        system[:, size + free, :size] -= slopes * shift[:, :, None]
+        defect[:, size + free, 0] -= turned * shift
     defect[:, last:, 0] = states.x @ program.equalities.T - numbers.right
     moved = -_solved(system, defect)[:, :, 0]
     dx = moved[:, :size]
     u = states.u.copy()
-    u[:, free] -= shift + np.einsum("mpi,mi->mp", slopes, dx) / jets.bend
+    u[:, free] -= shift + np.matmul(slopes, dx[:, :, None])[:, :, 0] / jets.bend
     further = States(states.x + dx, u, states.weights + moved[:, size:last], states.equations + moved[:, last:])
     sizes = np.abs(moved).max(axis=1) / np.maximum(1.0, np.abs(states.packed).max(axis=1))
     wild = ~np.isfinite(sizes) | (np.abs(u).max(axis=1, initial=0.0) > _FAR)
@@ -81,7 +83,7 @@ def step(structure: Structure, numbers: Numbers, states: States) -> tuple[States
 
 @dataclass(frozen=True, eq=False)
 class _Jets:
-    """Planes of the contacts' rows, less the right sides' variables, and of their slopes; how the free ones bend."""
+    """Planes of the contacts' rows, less the right sides' variables; of free ones their slopes and how they bend."""
 
     value: Array
     slope: Array
@@ -91,20 +93,21 @@ class _Jets:
     def of(cls, structure: Structure, states: States) -> _Jets:
         value, slope, bend = structure.jets(states.x, states.u)
         value[:, :, :-1] -= structure.slack
-        bent = bend[:, structure.free]
-        return cls(value, slope, np.where(bent == 0.0, np.inf, bent))
+        if not structure.free.all():
+            slope, bend = slope[:, structure.moving], bend[:, structure.moving]
+        return cls(value, slope, np.where(bend == 0.0, np.inf, bend))
 
 
-def _system(structure: Structure, states: States, jets: _Jets) -> Array:
+def _system(structure: Structure, states: States, jets: _Jets, pull: Array) -> Array:
     """Derivatives of the optimality conditions by variables and multipliers, with the places eliminated."""
-    program, free = structure.model.program, structure.free
-    rows, slopes = jets.value[:, :, :-1], jets.slope[:, free, :-1]
+    program = structure.model.program
+    rows, slopes = jets.value[:, :, :-1], jets.slope[:, :, :-1]
     size, last = program.size, program.size + structure.count
     whole = last + len(program.equalities)
     system = np.zeros((len(states), whole, whole))
-    pull = states.weights[:, free] / jets.bend
-    system[:, :size, :size] = -np.matmul((slopes * pull[:, :, None]).transpose(0, 2, 1), slopes)
-    system[:, :size, :size] += structure.hessian(states.x, states.u, states.weights)
+    np.matmul((slopes * -pull[:, :, None]).transpose(0, 2, 1), slopes, out=system[:, :size, :size])
+    if program.curved:
+        system[:, :size, :size] += structure.hessian(states.x, states.u, states.weights)
     system[:, :size, size:last] = rows.transpose(0, 2, 1)
     system[:, :size, last:] = program.equalities.T
     system[:, size:last, :size] = rows
@@ -118,7 +121,8 @@ def best_nearby(structure: Structure, states: States) -> NDArray[np.bool_]:
     Along what the rows leave free the objective bends upward if and only if the conditions' matrix has as many
     negative eigenvalues as there are rows.
     """
-    system = _system(structure, states, _Jets.of(structure, states))
+    jets = _Jets.of(structure, states)
+    system = _system(structure, states, jets, states.weights[:, structure.moving] / jets.bend)
     known = np.isfinite(system).all(axis=(1, 2))
     found = np.zeros(len(states), dtype=np.bool_)
     rows = system.shape[1] - structure.model.program.size
@@ -131,13 +135,13 @@ def converged(structure: Structure, numbers: Numbers, states: States) -> tuple[S
     done = np.zeros(len(states), dtype=np.bool_)
     going = np.ones(len(states), dtype=np.bool_)
     rows = states.packed.copy()
-    for _ in range(_STEPS):
+    for most in _SIZES:
         places = np.flatnonzero(going)
         if not len(places):
             break
         further, sizes = step(structure, numbers.taken(places), States.unpacked(rows[places], structure))
         rows[places] = further.packed
-        going[places] = np.isfinite(sizes) & (sizes > _CONVERGED)
+        going[places] = (sizes <= most) & (sizes > _CONVERGED)
         done[places] = sizes <= _CONVERGED
     return States.unpacked(rows, structure), done
 
@@ -146,10 +150,6 @@ def clipped(structure: Structure, states: States) -> States:
     """The states with the places that rounding took out of their domain put on its end."""
     low, high = structure.domains.T
     return replace(states, u=np.minimum(np.maximum(states.u, low), high))
-
-
-def _at(rows: Array, x: Array) -> Array:
-    return np.asarray(np.einsum("mpi,mi->mp", rows[:, :, :-1], x) + rows[:, :, -1])
 
 
 def _solved(system: Array, right: Array) -> Array:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -55,14 +56,24 @@ class Structure:
     @kept_property
     def slack(self) -> Array:
         """Right sides of the contacts' rows in the variables."""
-        families = self.model.program.families
-        return np.array([families[i].slack for i in self.family]).reshape(self.count, -1)
+        return np.asarray(self.slacks[self.family])
+
+    @kept_property
+    def slacks(self) -> Array:
+        """Right sides of all families in the variables."""
+        program = self.model.program
+        return np.array([one.slack for one in program.families]).reshape(-1, program.size)
 
     @kept_property
     def domains(self) -> Array:
         """The least and the greatest place of each contact's row."""
         families = self.model.program.families
         return np.array([families[i].domain for i in self.family]).reshape(-1, 2)
+
+    @kept_property
+    def moving(self) -> NDArray[np.intp]:
+        """Which contacts may move."""
+        return np.flatnonzero(self.free)
 
     @kept_property
     def held(self) -> NDArray[np.bool_]:
@@ -76,13 +87,15 @@ class Structure:
         return np.array([columns[i].rounding for i in self.family]).reshape(self.count, -1)
 
     @kept_property
+    def of_families(self) -> list[slice]:
+        """Which contacts are those of each family; none of some."""
+        ends = np.searchsorted(self.family, np.arange(len(self.model.program.families) + 1)).tolist()
+        return [slice(low, high) for low, high in pairwise(ends)]
+
+    @kept_property
     def _own(self) -> list[tuple[int, slice]]:
         """The families that have contacts, each with which these are."""
-        found = []
-        for i in np.unique(self.family).tolist():
-            mine = np.flatnonzero(self.family == i)
-            found.append((i, slice(int(mine[0]), int(mine[-1]) + 1)))
-        return found
+        return [(i, own) for i, own in enumerate(self.of_families) if own.start < own.stop]
 
     def jets(self, x: Array, u: Array) -> tuple[Array, Array, Array]:
         """Planes of s f and of their derivatives by the place, (laws, contacts, variables + 1), and second derivatives.
@@ -123,6 +136,16 @@ def structure_of(model: Model, optimum: ActiveSet) -> tuple[Structure, NDArray[n
 def with_one(x: Array) -> Array:
     """The variables of many laws and 1."""
     return np.concatenate([x, np.ones((len(x), 1))], axis=1)
+
+
+def product(planes: Array, point: Array) -> Array:
+    """What planes of each law are at its variables and 1, shape (laws, planes)."""
+    return np.asarray(np.matmul(planes, point[:, :, None])[:, :, 0])
+
+
+def weighted(weights: Array, rows: Array) -> Array:
+    """The sum of the rows of each law, weighted."""
+    return np.asarray(np.matmul(weights[:, None, :], rows)[:, 0])
 
 
 def columns_of(model: Model) -> Sequence[Columns | CurvedTangents]:

@@ -27,13 +27,15 @@ Array = NDArray[np.float64]
 _FIRST = 0.02
 _STRIDES = np.array([0.25, 0.5, 1.0, 2.0, 4.0, 8.0])
 _CLOSER = np.array([1e-1, 1e-2, 1e-4, 1e-6])
+#: laws beyond an event that tell where it is
+_KNOWN = 3
 #: so near to an event no more than this can be broken: where more is, Newton's method went astray
 _ASTRAY = 1e-3
-#: of the path: an event is known to lie in no wider a stretch
-_SHARP = 1e-9
+#: of the path: an event is known to lie in no wider a stretch; laws in it are tried with the segments on both sides
+_SHARP = 5e-8
 _ROUNDS = 24
 #: of the path: a longer stretch between two segments is walked from its other end too
-_BETWEEN = 1e-8
+_BETWEEN = 9e-8
 _NEAR = 4
 #: states that are nearer to each other than this share of the way to where one is guessed are as one
 _APART = 0.2
@@ -43,7 +45,7 @@ _AS_ONE = 1e-5
 #: contacts that are nearer to each other may be two of one
 _SAME = 0.02
 _AT_END = 1e-8
-_BEYOND = (1e-8, 1e-6, 1e-4, 1e-3)
+_BEYOND = (4e-8, 1e-6, 1e-4, 1e-3)
 
 
 @dataclass(eq=False)
@@ -146,7 +148,8 @@ class Walk:
 
     def _begun(self, t: float, optimum: ActiveSet) -> Segment | None:
         """A segment that begins with one law; None where that is not proven optimal."""
-        for one in (optimum, _merged(optimum)):
+        merged = _merged(optimum)
+        for one in (optimum,) if len(merged.u) == len(optimum.u) else (optimum, merged):
             structure, order = structure_of(self.path.model, one)
             own = (one.x, _on_ends(structure, one.u[order]), one.multipliers[order], one.equality_multipliers)
             rows, sound, _ = self._solved(structure, np.array([t]), States(*(part[None] for part in own)))
@@ -218,7 +221,7 @@ class Walk:
                 (at, off) for at, off in zip(t[count:].tolist(), worst[count:].tolist(), strict=True) if not isnan(off)
             ]
             if known:
-                broken = sorted([*broken, *known], key=lambda one: abs(one[0] - good))[:2]
+                broken = sorted([*broken, *known], key=lambda one: abs(one[0] - good))[:_KNOWN]
                 bad = broken[0][0]
             if min(abs(bad - good), stride) <= _SHARP * self.reach:
                 if not broken or broken[0][1] <= _ASTRAY or not self._met(segment, bad):
@@ -286,10 +289,9 @@ def _merged(optimum: ActiveSet) -> ActiveSet:
 def _probes(good: float, bad: float, stride: float, broken: list[tuple[float, float]]) -> Array:
     """Where to look next beyond a law that holds: around where what is broken begins to be, or some strides on."""
     found = good + stride * _STRIDES
-    if len(broken) == 2:
-        (near, less), (far, more) = broken
-        if more > less > 0.0:
-            event = near - less * (far - near) / (more - less)
+    if len(broken) > 1:
+        near, event = broken[0][0], _event(broken)
+        if event is not None:
             found = np.concatenate([found[:2], event + (near - event) * _CLOSER, event + (good - event) * _CLOSER])
     elif len(broken) == 1:
         found = np.concatenate([found, bad + (good - bad) * _CLOSER])
@@ -302,6 +304,18 @@ def _probes(good: float, bad: float, stride: float, broken: list[tuple[float, fl
         kept = np.array([(good + bad) / 2.0])
     found = np.unique(kept)
     return found if bad > good else found[::-1]
+
+
+def _event(broken: list[tuple[float, float]]) -> float | None:
+    """Where what is broken begins to be, by the polynomial through t of what is broken; None where it does not grow."""
+    t, off = zip(*broken, strict=True)
+    count = len(off)
+    while count > 1 and not all(more > less > 0.0 for less, more in pairwise(off[:count])):
+        count -= 1
+    if count == 1:
+        return None
+    shares = [prod(off[j] / (off[j] - off[i]) for j in range(count) if j != i) for i in range(count)]
+    return float(np.dot(t[:count], shares))
 
 
 def gaps(segments: list[Segment]) -> list[tuple[float, float]]:

@@ -20,10 +20,10 @@ from optlaws import (
     synthesize,
     synthesize_array,
 )
-from optlaws.synthesis.arrays.along import laws_along
+from optlaws.synthesis.arrays.along import laws_along, laws_on
 from optlaws.synthesis.arrays.newton_steps import converged
 from optlaws.synthesis.arrays.programs import Path, between
-from optlaws.synthesis.arrays.walk import Segment, Walk
+from optlaws.synthesis.arrays.walk import Segment, Walk, _event
 from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.verification import verify
 from tests.bench.plain import Rows, highs
@@ -79,6 +79,38 @@ def test_states_that_are_nearly_one_do_not_spoil_what_is_interpolated() -> None:
     exact, done = converged(segment.structure, path.numbers(asked), segment.guessed(asked))
     assert done.all()
     np.testing.assert_allclose(segment.interpolated(asked).packed, exact.packed, rtol=1e-5, atol=1e-5)
+
+
+def shortened(path: Path, segment: Segment, begin: float, end: float) -> Segment:
+    """A segment of which less is known."""
+    ends = np.array([begin, end])
+    states, done = converged(segment.structure, path.numbers(ends), segment.interpolated(ends))
+    assert done.all()
+    kept = (segment.t > begin) & (segment.t < end)
+    found = Segment(segment.structure, segment.t[kept], segment.rows[kept])
+    found.joined(ends, states.packed)
+    return found
+
+
+def test_laws_between_segments_that_are_known_less_far_are_tried_with_both() -> None:
+    path = path_of(5)
+    first, second, *others = walked(path)
+    event, t = first.end, np.linspace(0.0, 1.0, 100)
+    beside = np.sort(np.append(t, event + 1e-4 * np.arange(-2.0, 3.0)))
+    known = laws_on(path, [first, second, *others], beside)
+    less = [shortened(path, first, 0.0, event - 1e-3), shortened(path, second, event + 1e-3, second.end), *others]
+    found = laws_on(path, less, beside)
+    assert known.solved.all()
+    assert found.solved.all()
+    np.testing.assert_allclose(found.objective, known.objective, rtol=1e-12)
+
+
+def test_where_an_event_is_follows_from_what_is_broken_beyond_it() -> None:
+    assert _event([(1.2, 0.2), (1.5, 0.5)]) == pytest.approx(1.0)
+    curved = [(1.0 + off + off**2, off) for off in (0.1, 0.2, 0.4)]
+    assert _event(curved) == pytest.approx(1.0, abs=1e-12)
+    assert _event([(1.2, 0.2), (1.5, 0.1)]) is None
+    assert _event([(1.2, 0.2), (1.5, 0.5), (2.0, 0.3)]) == pytest.approx(1.0)
 
 
 @pytest.mark.parametrize("degree", [5, 9, 19])

@@ -8,8 +8,10 @@ Cells in which neither shows are halved.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import lru_cache
+from itertools import pairwise
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -17,7 +19,7 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.synthesis.arrays.columns import Columns
-from optlaws.synthesis.arrays.programs import Numbers
+from optlaws.synthesis.families.family import LinearFamily
 
 Array = NDArray[np.float64]
 Flags = NDArray[np.bool_]
@@ -32,6 +34,8 @@ _MARGIN = 1e-12
 #: terms of a cell's series with which it is looked into; the others are charged
 _LOOKED_AT = 14
 _JOINED = 4
+#: cells at a time that are looked into
+_GATHERED = 256
 _HALVINGS = 12
 _STEPS = 8
 #: of the greatest term: by more a tangent at the lowest place may not fall
@@ -40,36 +44,64 @@ _FALLS = 1e-13
 
 @dataclass(frozen=True, eq=False)
 class Cells:
-    """The columns of a family on cells of its domain, as Chebyshev series in each cell's own coordinate."""
+    """The columns of some families on cells of their domains, as Chebyshev series in each cell's own coordinate.
 
-    columns: Columns
+    Families whose rows hold with both signs come first; the others are turned so that they hold upward.
+    """
+
+    columns: tuple[Columns, ...]
 
     @kept_property
-    def edges(self) -> Array:
-        """The ends of the cells, ascending."""
-        low, high = np.arccos(np.array(self.columns.family.domain)[::-1])
-        count = max(_LEAST_CELLS, int(np.ceil(_DENSITY * len(self.columns.family.series) * (high - low) / np.pi)))
-        found = np.cos(np.linspace(low, high, count + 1))[::-1].copy()
-        found[0], found[-1] = self.columns.family.domain
+    def order(self) -> list[int]:
+        """The families in the order of their cells."""
+        return sorted(range(len(self.columns)), key=lambda i: len(self.columns[i].family.signs) == 1)
+
+    @kept_property
+    def edges(self) -> list[Array]:
+        """The ends of each family's cells, ascending; in the order of the cells."""
+        return [_edges(self.columns[i].family) for i in self.order]
+
+    @kept_property
+    def blocks(self) -> list[slice]:
+        """Which cells are each family's, in their order."""
+        ends = np.cumsum([0] + [len(edges) - 1 for edges in self.edges]).tolist()
+        return [slice(low, high) for low, high in pairwise(ends)]
+
+    @kept_property
+    def family(self) -> NDArray[np.intp]:
+        """Whose each cell is."""
+        return np.repeat(self.order, [block.stop - block.start for block in self.blocks])
+
+    @kept_property
+    def twofold(self) -> int:
+        """How many cells are of families whose rows hold with both signs."""
+        return sum(len(self.columns[i].family.signs) == 2 for i in self.family.tolist())
+
+    @kept_property
+    def begins(self) -> Flags:
+        """Which cells have no neighbour before them."""
+        found = np.zeros(len(self.family), dtype=np.bool_)
+        found[[block.start for block in self.blocks]] = True
         return found
 
-    @property
-    def reach(self) -> float:
-        """How far from a contact its tangent is relied on."""
-        return (_JOINED + 1) * float(np.diff(self.edges).max())
+    @kept_property
+    def reach(self) -> Array:
+        """How far from a contact of each family its tangent is relied on."""
+        found = np.empty(len(self.columns))
+        found[self.order] = [(_JOINED + 1) * float(np.diff(edges).max()) for edges in self.edges]
+        return found
 
     @kept_property
     def series(self) -> Array:
         """Coefficients of the columns on each cell, shape (coefficients, cells, variables + 1)."""
-        family = self.columns.family
-        count = max(len(family.series), _WEIGHED)
-        angle = (np.arange(count) + 0.5) * (np.pi / count)
-        middle, half = (self.edges[1:] + self.edges[:-1]) / 2.0, (self.edges[1:] - self.edges[:-1]) / 2.0
-        places = middle + half * np.cos(angle)[:, None]
-        values = family.columns(places.reshape(-1))[0].reshape(count, -1)
-        back = np.cos(np.outer(np.arange(count), angle)) * (2.0 / count)
-        back[0] /= 2.0
-        return np.asarray((back @ values).reshape(count, len(middle), -1))
+        parts = [_upward(self.columns[i].family, edges) for i, edges in zip(self.order, self.edges, strict=True)]
+        count = max(map(len, parts))
+        return np.concatenate([np.pad(one, ((0, count - len(one)), (0, 0), (0, 0))) for one in parts], axis=1)
+
+    @kept_property
+    def by_cell(self) -> Array:
+        """The same cell by cell, shape (cells, coefficients, variables + 1)."""
+        return np.ascontiguousarray(self.series.transpose(1, 0, 2))
 
     @kept_property
     def weighed(self) -> Array:
@@ -84,34 +116,46 @@ class Cells:
         return sizes.sum(axis=0), np.einsum("n,nci->ci", _bends(len(self.series))[_WEIGHED:], sizes)
 
 
-@dataclass(frozen=True, eq=False)
-class Touching:
-    """Contacts of a family in many laws: their places, shape (laws, contacts), and which may be relied on."""
+def _edges(family: LinearFamily) -> Array:
+    low, high = np.arccos(np.array(family.domain)[::-1])
+    count = max(_LEAST_CELLS, int(np.ceil(_DENSITY * len(family.series) * (high - low) / np.pi)))
+    found = np.cos(np.linspace(low, high, count + 1))[::-1].copy()
+    found[0], found[-1] = family.domain
+    return found
 
-    u: Array
-    sound: Flags
+
+def _upward(family: LinearFamily, edges: Array) -> Array:
+    """Coefficients of a family's columns on its cells, shape (coefficients, cells, variables + 1)."""
+    count = max(len(family.series), _WEIGHED)
+    angle = (np.arange(count) + 0.5) * (np.pi / count)
+    middle, half = (edges[1:] + edges[:-1]) / 2.0, (edges[1:] - edges[:-1]) / 2.0
+    places = middle + half * np.cos(angle)[:, None]
+    values = family.columns(places.reshape(-1))[0].reshape(count, -1)
+    back = np.cos(np.outer(np.arange(count), angle)) * (2.0 / count)
+    back[0] /= 2.0
+    upward = family.signs[0] if len(family.signs) == 1 else 1.0
+    return np.asarray((upward * back @ values).reshape(count, len(middle), -1))
 
 
-def excess(cells: Cells, x: Array, numbers: Numbers, family: int, touching: Touching) -> Array:
-    """By how much each law may break a family's rows anywhere, relative to the right side or 1; 0 where it does not.
+def excess(cells: Cells, point: Array, room: Array, touching: Sequence[Array]) -> Array:
+    """By how much each law may break rows of the families anywhere, relative to the right side or 1; 0 where none.
 
     Parameters
     ----------
     cells
-        Of the family.
-    x, numbers, family
-        The laws' variables, their programs' numbers and which of the families it is.
+        Of the families.
+    point, room
+        The laws' variables and 1, and the right sides of the families in each law, shape (laws, families).
     touching
-        Contacts whose own residuals are accounted for elsewhere.
+        For each family the places of contacts whose own residuals are accounted for elsewhere, shape (laws, contacts).
     """
-    family_rows = cells.columns.family
-    room = x @ family_rows.slack + numbers.bounds[:, family]
-    point = np.concatenate([x, np.ones((len(x), 1))], axis=1)
-    if family_rows.domain[0] == family_rows.domain[1]:
-        value = point @ family_rows.columns(np.array(family_rows.domain[:1]))[0, 0]
-        broken = np.max([sign * value - room for sign in family_rows.signs], axis=0)
-    else:
-        broken = _Residuals(cells, point, room, touching).broken()
+    return _Residuals(cells, point, room, touching).broken()
+
+
+def excess_at(family: LinearFamily, point: Array, room: Array) -> Array:
+    """The same of a family whose domain is one place."""
+    value = point @ family.columns(np.array(family.domain[:1]))[0, 0]
+    broken = np.max([sign * value - room for sign in family.signs], axis=0)
     return np.asarray(np.maximum(broken, 0.0) / np.maximum(1.0, np.abs(room)))
 
 
@@ -122,34 +166,53 @@ class _Residuals:
     cells: Cells
     point: Array
     room: Array
-    touching: Touching
+    touching: Sequence[Array]
 
     def broken(self) -> Array:
         """By how much each law may break the rows."""
         found = np.zeros(len(self.point))
         law, cell, sign = self._doubtful()
         if len(law):
-            np.maximum.at(found, law, self._looked_into(law, cell, sign))
+            room = self.room[law, self.cells.family[cell]]
+            below = _below_zero(self._series(law, cell, sign, room))
+            np.maximum.at(found, law, np.maximum(below, 0.0) / np.maximum(1.0, np.abs(room)))
         return found
 
     def _doubtful(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
         """Laws, cells and signs for which neither the first terms nor a contact shows that rows are kept."""
-        signs = self.cells.columns.family.signs
+        both = self.cells.twofold
         first = (self.point @ self.cells.weighed).reshape(len(self.point), _WEIGHED, -1)
         beyond, bent = self._rest()
-        value, sizes = first[:, 0], np.abs(first[:, 1:])
-        sign = np.where(value < 0.0, -1.0, 1.0) if len(signs) == 2 else np.full(value.shape, signs[0])
-        spread = sizes[:, 0] + sizes[:, 1] + sizes[:, 2] + sizes[:, 3] + beyond
-        room = (self.room - _MARGIN * np.maximum(1.0, np.abs(self.room)))[:, None]
-        left = sign * value + spread >= room
-        convex = -4.0 * sign * first[:, 2] - 24.0 * sizes[:, 2] - 80.0 * sizes[:, 3] > bent
-        law, cell = np.nonzero(left & ~_joined(self.cells.edges, convex, self.touching))
-        toward = sign[law, cell]
-        if len(signs) == 2:
-            other, there = np.nonzero(spread - sign * value >= room)
+        size = np.empty_like(first[:, 0])
+        spread = np.abs(first[:, 1]) + beyond
+        for n in range(2, _WEIGHED):
+            spread += np.abs(first[:, n], out=size)
+        most = first[:, 0] + spread
+        np.add(np.abs(first[:, 0, :both], out=size[:, :both]), spread[:, :both], out=most[:, :both])
+        law, cell = np.nonzero(self._reached(most))
+        sign = np.where((cell < both) & (first[law, 0, cell] < 0.0), -1.0, 1.0)
+        second, third, fourth = (first[law, n, cell] for n in (2, 3, 4))
+        convex = -4.0 * sign * second - 24.0 * np.abs(third) - 80.0 * np.abs(fourth) > bent[cell]
+        left = ~self._joined(law, cell, convex)
+        law, cell, sign = law[left], cell[left], sign[left]
+        if both and spread[:, :both].max(initial=0.0) >= self._limit.min(initial=np.inf):
+            spread[:, :both] -= size[:, :both]
+            spread[:, both:] = -np.inf
+            other, there = np.nonzero(self._reached(spread))
+            sign = np.concatenate([sign, np.where(first[other, 0, there] < 0.0, 1.0, -1.0)])
             law, cell = np.concatenate([law, other]), np.concatenate([cell, there])
-            toward = np.concatenate([toward, -sign[other, there]])
-        return law, cell, toward
+        return law, cell, sign
+
+    @property
+    def _limit(self) -> Array:
+        return np.asarray(self.room - _MARGIN * np.maximum(1.0, np.abs(self.room)))
+
+    def _reached(self, most: Array) -> Flags:
+        """On which cells the room is not known to be kept."""
+        limit, found = self._limit, np.empty(most.shape, dtype=np.bool_)
+        for i, block in zip(self.cells.order, self.cells.blocks, strict=True):
+            np.greater_equal(most[:, block], limit[:, i, None], out=found[:, block])
+        return found
 
     def _rest(self) -> tuple[Array, Array]:
         """What the terms that are not weighed can add on each cell in any of the laws: in their mean, and beside it."""
@@ -160,40 +223,42 @@ class _Residuals:
         bends = _bends(len(self.cells.series))[_WEIGHED:]
         return of_mean.sum(axis=0) + value @ away, bends @ of_mean + bend @ away
 
-    def _looked_into(self, law: NDArray[np.intp], cell: NDArray[np.intp], sign: Array) -> Array:
-        """How far the residual may be above 0 on cells of some laws, halved until a bound shows it."""
-        series = self.cells.series
-        kept = min(_LOOKED_AT, len(series))
-        rows, beyond = np.empty((len(law), kept)), np.zeros(len(law))
-        for one in np.unique(cell).tolist():
-            mine = np.flatnonzero(cell == one)
-            terms = self.point[law[mine]] @ series[:, one].T
-            rows[mine] = -sign[mine, None] * terms[:, :kept]
-            beyond[mine] = np.abs(terms[:, kept:]).sum(axis=1)
-        rows[:, 0] += self.room[law] - beyond
-        return _below_zero(rows)
+    def _joined(self, law: NDArray[np.intp], cell: NDArray[np.intp], convex: Flags) -> Flags:
+        """Which of some laws' cells have a contact and a residual that is convex, or are joined to such by others."""
+        shape = (len(self.point), len(self.cells.family))
+        bent, found = np.zeros(shape, dtype=np.bool_), np.zeros(shape, dtype=np.bool_)
+        bent[law[convex], cell[convex]] = True
+        for i, edges, block in zip(self.cells.order, self.cells.edges, self.cells.blocks, strict=True):
+            u = self.touching[i]
+            own = np.minimum(np.maximum(np.searchsorted(edges, u, side="right") - 1, 0), len(edges) - 2)
+            found[np.arange(len(u))[:, None], block.start + own] = True
+        found &= bent
+        apart = self.cells.begins[1:]
+        for _ in range(_JOINED):
+            grown = found.copy()
+            grown[:, 1:] |= found[:, :-1] & ~apart
+            grown[:, :-1] |= found[:, 1:] & ~apart
+            found = grown & bent
+        return np.asarray(found[law, cell])
+
+    def _series(self, law: NDArray[np.intp], cell: NDArray[np.intp], sign: Array, room: Array) -> Array:
+        """The residuals on cells of some laws: their first terms, less what the others can be."""
+        series = self.cells.by_cell
+        kept = min(_LOOKED_AT, series.shape[1])
+        rows = np.empty((len(law), kept))
+        for i in range(0, len(law), _GATHERED):
+            own = slice(i, i + _GATHERED)
+            terms = np.matmul(series[cell[own]], self.point[law[own]][:, :, None])[:, :, 0]
+            rows[own] = -sign[own, None] * terms[:, :kept]
+            rows[own, 0] -= np.abs(terms[:, kept:]).sum(axis=1)
+        rows[:, 0] += room
+        return rows
 
 
 def _bends(count: int) -> Array:
     """The greatest second derivatives of Chebyshev polynomials."""
     square = np.arange(count) ** 2.0
     return np.asarray(square * (square - 1.0) / 3.0)
-
-
-def _joined(edges: Array, convex: Flags, touching: Touching) -> Flags:
-    """Cells with a contact in which the residual is convex, and their neighbours as far as it is."""
-    found = np.zeros_like(convex)
-    if touching.u.shape[1]:
-        cell = np.clip(np.searchsorted(edges, touching.u, side="right") - 1, 0, len(edges) - 2)
-        law = np.broadcast_to(np.arange(len(convex))[:, None], cell.shape)
-        found[law[touching.sound], cell[touching.sound]] = True
-    found &= convex
-    for _ in range(_JOINED):
-        grown = found.copy()
-        grown[:, 1:] |= found[:, :-1]
-        grown[:, :-1] |= found[:, 1:]
-        found = grown & convex
-    return found
 
 
 def _below_zero(rows: Array) -> Array:
@@ -231,15 +296,19 @@ def _lowest(rows: Array) -> Array:
 def _by_tangent(rows: Array) -> Array:
     """Lower bounds of convex series: the lowest end of the tangent where each is least; NaN where that was not met."""
     series = rows.T
-    slope = chebyshev.chebder(series)
-    bend = chebyshev.chebder(slope)
-    at = np.zeros(len(rows))
+    jets = np.zeros((3, *series.shape))
+    jets[0] = series
+    jets[1, :-1] = chebyshev.chebder(series)
+    jets[2, :-2] = chebyshev.chebder(series, 2)
+    at, order = np.zeros(len(rows)), np.arange(rows.shape[1])[:, None]
     for _ in range(_STEPS):
-        first = chebyshev.chebval(at, slope, tensor=False)
-        second = chebyshev.chebval(at, bend, tensor=False)
-        at = np.clip(at - first / np.where(second > 0.0, second, np.inf), -1.0, 1.0)
-    first = chebyshev.chebval(at, slope, tensor=False)
-    value = chebyshev.chebval(at, series, tensor=False)
+        value, first, second = (jets * np.cos(order * np.arccos(at))).sum(axis=1)
+        step = first / np.where(second > 0.0, second, np.inf)
+        further = np.minimum(np.maximum(at - step, -1.0), 1.0)
+        if (further == at).all():
+            break
+        at = further
+    value, first, _ = (jets * np.cos(order * np.arccos(at))).sum(axis=1)
     # from the place itself to the end toward which the tangent falls
     fall = np.abs(first) * np.where(first > 0.0, 1.0 + at, 1.0 - at)
     return np.where(fall <= _FALLS * np.abs(rows).max(axis=1), value - fall, np.nan)

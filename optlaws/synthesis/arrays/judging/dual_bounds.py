@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.arrays.newton_steps import States
 from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.arrays.rows import Structure
+from optlaws.synthesis.arrays.rows import Structure, weighted
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.below_claim import greatest_values, least_values, moments
 
@@ -40,21 +40,17 @@ def lower_bounds(path: Path, structure: Structure, numbers: Numbers, states: Sta
     weights, equations = np.maximum(states.weights, 0.0), states.equations
     cost = numbers.cost[: len(states)]
     rows = value[:, :, :-1]
-    slope = cost + _weighted(weights, rows) + equations @ program.equalities
+    slope = cost + weighted(weights, rows) + equations @ program.equalities
     right = value[:, :, -1] - numbers.bounds[:, structure.family]
     plain = (weights * right).sum(axis=1) - (equations * numbers.right).sum(axis=1)
     count = _UNIT * (_IN_A_ROW + structure.count + len(program.equalities) + 2)
     sizes = np.abs(equations)
-    blur = _weighted(weights, np.abs(rows)) + sizes @ np.abs(program.equalities) + np.abs(cost)
+    blur = weighted(weights, np.abs(rows)) + sizes @ np.abs(program.equalities) + np.abs(cost)
     blur = count * blur + weights @ structure.rounding[:, :-1]
     hidden = (weights * np.abs(right)).sum(axis=1) + (sizes * np.abs(numbers.right)).sum(axis=1)
     hidden = count * hidden + weights @ structure.rounding[:, -1]
     claim = path.model.unit * float(plain.max(initial=0.0))
     return np.asarray(path.model.unit * (plain - hidden - _charge(path, slope, blur, claim)))
-
-
-def _weighted(weights: Array, rows: Array) -> Array:
-    return np.asarray(np.matmul(weights[:, None, :], rows)[:, 0])
 
 
 def _charge(path: Path, slope: Array, blur: Array, claim: float) -> Array:

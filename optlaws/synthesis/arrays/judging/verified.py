@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.synthesis.arrays.columns import Columns, CurvedTangents
-from optlaws.synthesis.arrays.judging.cells import Cells, Touching, excess
+from optlaws.synthesis.arrays.judging.cells import Cells, excess, excess_at
 from optlaws.synthesis.arrays.judging.dual_bounds import lower_bounds
 from optlaws.synthesis.arrays.newton_steps import States, best_nearby
 from optlaws.synthesis.arrays.programs import Numbers, Path
-from optlaws.synthesis.arrays.rows import Structure, columns_of, with_one
+from optlaws.synthesis.arrays.rows import Structure, columns_of, product, with_one
+from optlaws.synthesis.program.writer import Model
 
 Array = NDArray[np.float64]
 
@@ -68,67 +71,104 @@ _SMALL = 1e-6
 
 def judged(path: Path, structure: Structure, numbers: Numbers, states: States) -> Judgement:
     """What states of one structure are worth; NaN and infinities are no laws."""
-    program = path.model.program
+    program, kept = path.model.program, checks_of(path.model)
     value, slope, _ = structure.jets(states.x, states.u)
     value[:, :, :-1] -= structure.slack
-    residual = _at(value, states.x) - numbers.bounds[:, structure.family]
-    turned = _at(slope, states.x)
+    point = with_one(states.x)
+    residual = product(value, point) - numbers.bounds[:, structure.family]
+    turned = product(slope, point)
     # toward the inside of the domain
     inward = np.where(states.u >= structure.domains[:, 1], -turned, turned)
     held = structure.held
     tangent = np.where(structure.free, np.abs(turned), np.where(held, np.maximum(inward, 0.0), 0.0))
-    reach = np.array([_reach(columns) for columns in columns_of(path.model)])[structure.family]
-    room = np.maximum(1.0, np.abs(states.x @ structure.slack.T + numbers.bounds[:, structure.family]))
-    broken = (np.maximum(residual, 0.0) + reach * tangent) / room
+    room = states.x @ structure.slacks.T + numbers.bounds
+    unit = np.maximum(1.0, np.abs(room))[:, structure.family]
+    broken = (np.maximum(residual, 0.0) + kept.reach[structure.family] * tangent) / unit
     off = np.abs(states.x @ program.equalities.T - numbers.right)
     worst = np.maximum(broken.max(axis=1, initial=0.0), off.max(axis=1, initial=0.0))
-    for i, columns in enumerate(columns_of(path.model)):
-        worst = np.maximum(worst, _excess(columns, i, structure, numbers, states))
+    touching = [states.u[:, own] for own in structure.of_families]
     greatest = np.abs(states.weights).max(axis=1, initial=0.0)
     pull = -(states.weights / np.where(greatest == 0.0, 1.0, greatest)[:, None]).min(axis=1, initial=np.inf)
-    proving = all(columns.proving for columns in columns_of(path.model))
     return Judgement(
-        best=np.ones(len(states), dtype=np.bool_) if proving else best_nearby(structure, states),
+        best=np.ones(len(states), dtype=np.bool_) if kept.proving else best_nearby(structure, states),
         objective=path.model.unit * (states.x * numbers.cost).sum(axis=1),
         bound=lower_bounds(path, structure, numbers, states, value),
-        excess=worst,
+        excess=np.maximum(worst, kept.excess(point, room, touching)),
         pull=np.where(np.isfinite(pull), pull, 0.0),
         inward=np.where(held, inward, -np.inf).max(axis=1, initial=-np.inf),
     )
 
 
-def _reach(columns: Columns | CurvedTangents) -> float:
-    """How far from a contact its tangent is relied on: nowhere, where peaks are recomputed over the whole interval."""
-    return 0.0 if isinstance(columns, CurvedTangents) else cells_of(columns).reach
+@dataclass(frozen=True, eq=False)
+class Checks:
+    """What shows whether laws keep the rows of families, whatever the laws.
+
+    Attributes
+    ----------
+    columns
+        Of the families.
+    """
+
+    columns: Sequence[Columns | CurvedTangents]
+
+    @kept_property
+    def proving(self) -> bool:
+        """Whether multipliers prove bounds."""
+        return all(one.proving for one in self.columns)
+
+    @kept_property
+    def _affine(self) -> list[tuple[int, Columns]]:
+        return [(i, one) for i, one in enumerate(self.columns) if isinstance(one, Columns)]
+
+    @kept_property
+    def _wide(self) -> list[int]:
+        """The affine families that hold on an interval."""
+        return [i for i, one in self._affine if one.family.domain[0] < one.family.domain[1]]
+
+    @kept_property
+    def _cells(self) -> Cells:
+        return Cells(tuple(one for i, one in self._affine if i in self._wide))
+
+    @kept_property
+    def reach(self) -> Array:
+        """How far from a contact of each family its tangent is relied on: nowhere, but where cells are looked at."""
+        found = np.zeros(len(self.columns))
+        if self._wide:
+            found[self._wide] = self._cells.reach
+        return found
+
+    def excess(self, point: Array, room: Array, touching: Sequence[Array]) -> Array:
+        """By how much each law may break the rows of any family, relative to the right side or 1.
+
+        Parameters
+        ----------
+        point, room
+            The laws' variables and 1, and the right sides of the families, shape (laws, families).
+        touching
+            For each family the places of contacts whose own residuals are accounted for elsewhere.
+        """
+        found = np.zeros(len(point))
+        if self._wide:
+            found = excess(self._cells, point, room[:, self._wide], [touching[i] for i in self._wide])
+        for i, one in enumerate(self.columns):
+            if isinstance(one, CurvedTangents):
+                over = np.maximum(one.greatest(point) - room[:, i], 0.0) / np.maximum(1.0, np.abs(room[:, i]))
+                found = np.maximum(found, over)
+            elif i not in self._wide:
+                found = np.maximum(found, excess_at(one.family, point, room[:, i]))
+        return found
 
 
-def _excess(
-    columns: Columns | CurvedTangents, family: int, structure: Structure, numbers: Numbers, states: States
-) -> Array:
-    """By how much each law may break the rows of one family anywhere, relative to the right side or 1."""
-    if not isinstance(columns, CurvedTangents):
-        mine = structure.family == family
-        touching = Touching(states.u[:, mine], np.isfinite(states.u[:, mine]))
-        return excess(cells_of(columns), states.x, numbers, family, touching)
-    own = structure.model.program.families[family]
-    room = states.x @ own.slack + numbers.bounds[:, family]
-    over = columns.greatest(with_one(states.x)) - room
-    return np.asarray(np.maximum(over, 0.0) / np.maximum(1.0, np.abs(room)))
-
-
-def cells_of(columns: Columns) -> Cells:
-    """The cells of a family, kept with its columns."""
+def checks_of(model: Model) -> Checks:
+    """What checks laws of a program, kept with its columns."""
+    columns = columns_of(model)
     key = id(columns)
     if key not in _KEPT or _KEPT[key].columns is not columns:
         if len(_KEPT) >= _MOST:
             _KEPT.clear()
-        _KEPT[key] = Cells(columns)
+        _KEPT[key] = Checks(columns)
     return _KEPT[key]
 
 
-_KEPT: dict[int, Cells] = {}
-_MOST = 256
-
-
-def _at(rows: Array, x: Array) -> Array:
-    return np.asarray(np.einsum("mpi,mi->mp", rows[:, :, :-1], x) + rows[:, :, -1])
+_KEPT: dict[int, Checks] = {}
+_MOST = 64
