@@ -7,7 +7,7 @@ between Chebyshev nodes and one step of Newton's method makes it exact.
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, replace
 
 import numpy as np
@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.arrays.found import Found
 from optlaws.synthesis.arrays.judging.dual_bounds import lower_bounds
-from optlaws.synthesis.arrays.judging.verified import judged
+from optlaws.synthesis.arrays.judging.verified import Judgement, judged
 from optlaws.synthesis.arrays.newton_steps import States, clipped, converged, step
 from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.arrays.rows import Structure
@@ -122,21 +122,23 @@ class _Laws:
             rows = states.packed
             rows[rough] = better.packed
             states = States.unpacked(rows, self.structure)
-        left = self.entered(states, np.flatnonzero(np.isfinite(sizes)))
+        left = self.entered(states, np.flatnonzero(np.isfinite(sizes)), lambda judgement: judgement.sharp)
         if len(left):
             rest = replace(self, places=self.places[left], numbers=self.numbers.taken(left))
             states, done = converged(self.structure, rest.numbers, guess.taken(left))
-            rest.entered(states, np.flatnonzero(done))
+            rest.entered(states, np.flatnonzero(done), lambda judgement: judgement.sound)
 
-    def entered(self, states: States, known: NDArray[np.intp]) -> NDArray[np.intp]:
+    def entered(
+        self, states: States, known: NDArray[np.intp], proven: Callable[[Judgement], NDArray[np.bool_]]
+    ) -> NDArray[np.intp]:
         """Enter those of the known states that are proven optimal; which are left."""
         left = np.ones(len(states), dtype=np.bool_)
         if len(known):
             own = clipped(self.structure, states.taken(known))
             judgement = judged(self.path, self.structure, self.numbers.taken(known), own)
-            sound = judgement.sound
-            proven = (judgement.objective[sound], judgement.bound[sound], judgement.excess[sound])
-            _put(self.found, self.structure, self.places[known[sound]], own.taken(sound), proven)
+            sound = proven(judgement)
+            values = (judgement.objective[sound], judgement.bound[sound], judgement.excess[sound])
+            _put(self.found, self.structure, self.places[known[sound]], own.taken(sound), values)
             left[known[sound]] = False
         return np.flatnonzero(left)
 

@@ -7,6 +7,8 @@ from math import inf
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.arrays.judging.sums import sums_of_rows
+from optlaws.synthesis.arrays.rows import weighted
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.below_claim import greatest_values, least_values, moments
@@ -16,8 +18,8 @@ from optlaws.synthesis.solved_parts import Part
 Array = NDArray[np.float64]
 
 _UNIT = 2.0**-53
-#: roundings in a row before it is weighted, as certificates count them, and in the sum beside one for each term
-_IN_A_ROW, _IN_THE_SUM = 9, 4
+#: roundings in a row before it is weighted, as certificates count them, and what sums are off by beyond
+_IN_A_ROW, _SQUARES = 9, 2.0**-20
 
 
 def lower_lines(part: Part, values: Array, number: RunningNumber, ends: tuple[float, float]) -> Array | None:
@@ -34,37 +36,39 @@ def lower_lines(part: Part, values: Array, number: RunningNumber, ends: tuple[fl
     if number.name != "B" or not all(isinstance(one, LinearFamily) for one in families):
         return None
     model = model_of(number.at(ends[1]))
-    weights, equations = np.maximum(part.found.multiplier, 0.0), part.found.equations
-    rows, bounds = _rows(part)
-    # of the equations the first alone has B on its right side, and there B itself
-    right = np.tile(model.program.right, (len(values), 1))
-    right[:, 0] += values - ends[1]
-    sides = np.abs(model.program.equalities)
-    count = _UNIT * (_IN_A_ROW + _IN_THE_SUM + weights.shape[1] + len(sides))
-    slope = model.program.objective + _weighted(weights, rows) + equations @ model.program.equalities
-    blur = count * (np.abs(model.program.objective) + _weighted(weights, np.abs(rows)) + np.abs(equations) @ sides)
-    plain = -(weights * bounds).sum(axis=1) - (equations * right).sum(axis=1)
-    widest = np.maximum(np.abs(right), np.abs(model.program.right))
-    hidden = count * ((weights * np.abs(bounds)).sum(axis=1) + (np.abs(equations) * widest).sum(axis=1))
-    rise = -equations[:, 0]
+    both = np.concatenate([np.maximum(part.found.multiplier, 0.0), part.found.equations], axis=1)
+    every = _rows(part, model, values - ends[1])
+    total = sums_of_rows(np.append(model.program.objective, 0.0), both, every)
+    # nowhere between the ends is a right side greater
+    sizes = np.abs(every)
+    sizes[:, part.found.u.shape[1] :, -1] = np.maximum(
+        sizes[:, part.found.u.shape[1] :, -1], np.abs(model.program.right)
+    )
+    hidden = _UNIT * (_IN_A_ROW + _SQUARES) * weighted(np.abs(both), sizes)
+    # the entries of the variables are exact, and so is a sum that is zero
+    slope, places = total[:, :-1], list(model.places.values())
+    hidden[:, places] = 0.0
+    slope[:, places] = np.where(slope[:, places] == 0.0, 0.0, np.nextafter(slope[:, places], -inf))
+    plain, rise = total[:, -1], -part.found.equations[:, 0]
     claim = max(float((plain + rise * (end - values)).max()) for end in ends)
-    charge = _charges(model, model.unit * claim, slope, blur)
-    return model.unit * np.column_stack([plain - hidden - charge, rise])
+    charge = _charges(model, model.unit * claim, slope, hidden[:, :-1])
+    return model.unit * np.column_stack([plain - hidden[:, -1] - charge, rise])
 
 
-def _rows(part: Part) -> tuple[Array, Array]:
-    """The rows of the contacts of each law, and their right sides; those of no contact are 0."""
-    found, size = part.found, part.model.program.size
-    rows, bounds = np.zeros((*found.u.shape, size)), np.zeros(found.u.shape)
+def _rows(part: Part, model: Model, further: Array) -> Array:
+    """The rows of the contacts and of the equations, with the opposites of their right sides; of no contact 0."""
+    found, contacts, size = part.found, part.found.u.shape[1], part.model.program.size
+    rows = np.zeros((len(further), contacts + len(model.program.right), size + 1))
     for i, family in enumerate(part.model.program.families):
-        own = found.family == i
-        if own.any() and isinstance(family, LinearFamily):
-            rows[own], bounds[own] = family.rows(np.clip(found.u[own], *family.domain), found.sign[own])
-    return rows, bounds
-
-
-def _weighted(weights: Array, rows: Array) -> Array:
-    return np.asarray(np.matmul(weights[:, None, :], rows)[:, 0])
+        law, place = np.nonzero(found.family == i)
+        if len(law) and isinstance(family, LinearFamily):
+            u = np.clip(found.u[law, place], *family.domain)
+            rows[law, place, :-1], right = family.rows(u, found.sign[law, place])
+            rows[law, place, -1] = -right
+    rows[:, contacts:, :-1], rows[:, contacts:, -1] = model.program.equalities, -model.program.right
+    # of the equations the first alone has B on its right side, and there B itself
+    rows[:, contacts, -1] -= further
+    return rows
 
 
 def _charges(model: Model, claim: float, slope: Array, blur: Array) -> Array:

@@ -35,8 +35,8 @@ _FIRST, _MOST_PIECES = 17, 8
 _AIM = 0.9
 #: of the range: laws nearer to each other than this are one
 _NARROWEST = 1e-12
-#: of the objective: laws whose own gap is greater are looked at alone
-_PROVEN = 1e-10
+#: of the objective, and of the wanted gap: laws whose own gap is greater than both are looked at alone
+_PROVEN, _LEFT = 1e-10, 0.4
 _CHUNK = 4096
 
 #: by how much above its least value a number begins, where nearer to it too little is proven
@@ -119,7 +119,7 @@ class _Refined:
         """Put laws between others until every gap is small enough."""
         parts = np.array([_FIRST - 1])
         while (parts > 1).any():
-            self._insert(parts)
+            self._insert(parts, gap)
             self._check(gap)
             gaps = interval_gaps(self.values, self.known, concave=self.number.concave)
             pieces = np.clip(np.ceil(np.sqrt(np.maximum(gaps, gap) / (_AIM * gap))), 2, _MOST_PIECES)
@@ -139,7 +139,7 @@ class _Refined:
         assert isinstance(found, Solution)  # noqa: S101 - others are solved again
         return found
 
-    def _insert(self, parts: NDArray[np.int_]) -> None:
+    def _insert(self, parts: NDArray[np.int_], gap: float) -> None:
         """Cut each interval into so many parts."""
         new = np.concatenate(
             [
@@ -148,15 +148,15 @@ class _Refined:
                 if count > 1
             ]
         )
-        laws, known = self._solved(new)
+        laws, known = self._solved(new, max(_PROVEN, _LEFT * gap))
         together = np.concatenate([self.values, new])
         order = np.argsort(together)
         every = self.laws + laws
         self.laws = [every[i] for i in order.tolist()]
         self.values, self.known = together[order], np.concatenate([self.known, known])[order]
 
-    def _solved(self, values: Array) -> tuple[list[_Law], Array]:
-        """Laws at some values, and what is known there: as arrays where they were found so."""
+    def _solved(self, values: Array, most: float) -> tuple[list[_Law], Array]:
+        """Laws at some values, and what is known there: as arrays where they were found so, with no greater gap."""
         laws: list[_Law] = []
         known = np.full((len(values), 3), np.nan)
         for begin in range(0, len(values), _CHUNK):
@@ -167,7 +167,7 @@ class _Refined:
                 if lines is not None:
                     known[begin + part.places] = np.column_stack([part.found.objective, lines])
             laws += [(found, i) for i in range(len(some))]
-        for i in np.flatnonzero(~(known[:, 0] - known[:, 1] <= _PROVEN * known[:, 0])).tolist():
+        for i in np.flatnonzero(~(known[:, 0] - known[:, 1] <= most * known[:, 0])).tolist():
             laws[i] = self._alone(float(values[i]), laws[i])
             known[i] = self._known(float(values[i]), laws[i])
         return laws, known

@@ -203,6 +203,18 @@ def test_beyond_the_first_problem_without_a_law_none_has_one() -> None:
         synthesize(laws.problems[0])
 
 
+def test_laws_next_to_the_least_velocity_whose_multipliers_are_great_are_proven_together() -> None:
+    laws = synthesize_array(ProblemArray(B=np.linspace(1.1296918, 1.1304, 300), order=4))
+    assert not laws.others
+    for place in (0, 1, 40):
+        alone, one = synthesize(laws.problems.problem(place)), laws.result(place)
+        assert isinstance(one, Solution)
+        assert one.objective == pytest.approx(alone.objective, rel=1e-9)
+        assert one.status is alone.status
+        assert one.gap <= 1.1 * alone.gap
+        assert one.lower_bound <= one.certificate.bound + 1e-10 * one.objective
+
+
 def judged_by_another_solver(laws: SolutionArray, place: int) -> None:
     """A linear program on points is a relaxation: what it claims is below the law's C, and not by much."""
     problem = laws.problems.problem(place)

@@ -8,17 +8,19 @@ from math import ceil, inf, log
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.arrays.judging.sums import sums_of_rows
 from optlaws.synthesis.arrays.newton_steps import States
 from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.arrays.rows import Structure, weighted
+from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.below_claim import greatest_values, least_values, moments
 
 Array = NDArray[np.float64]
 
 _UNIT = 2.0**-53
-#: roundings in a row before it is weighted, as certificates count them
-_IN_A_ROW = 9
+#: roundings in a row before it is weighted, as certificates count them, and what sums are off by beyond
+_IN_A_ROW, _SQUARES = 9, 2.0**-20
 #: claims are taken from a geometric row, upward: what is known of laws below them is known of all before
 _CLAIMS, _ABOVE = 1.01, 1.0 + 2.0**-40
 
@@ -51,6 +53,39 @@ def lower_bounds(path: Path, structure: Structure, numbers: Numbers, states: Sta
     hidden = count * hidden + weights @ structure.rounding[:, -1]
     claim = path.model.unit * float(plain.max(initial=0.0))
     return np.asarray(path.model.unit * (plain - hidden - _charge(path, slope, blur, claim)))
+
+
+def sharp_bounds(path: Path, structure: Structure, numbers: Numbers, states: States) -> Array:
+    """The same of programs of affine rows, whose sums are rounded once: less is lost where multipliers are great."""
+    program, places = path.model.program, list(path.model.places.values())
+    weights = np.maximum(states.weights, 0.0)
+    rows = _with_right_sides(structure, numbers, states)
+    sides = np.broadcast_to(program.equalities, (len(rows), *program.equalities.shape))
+    every = np.concatenate([rows, np.concatenate([sides, -numbers.right[:, :, None]], axis=2)], axis=1)
+    both = np.concatenate([weights, states.equations], axis=1)
+    total = sums_of_rows(np.concatenate([numbers.cost, np.zeros((len(rows), 1))], axis=1), both, every)
+    hidden = _UNIT * (_IN_A_ROW + _SQUARES) * weighted(np.abs(both), np.abs(every))
+    # the entries of the variables are exact, and so is a sum that is zero
+    slope, blur = total[:, :-1], hidden[:, :-1]
+    blur[:, places] = 0.0
+    slope[:, places] = np.where(slope[:, places] == 0.0, 0.0, np.nextafter(slope[:, places], -inf))
+    plain = total[:, -1] - hidden[:, -1]
+    claim = path.model.unit * float(plain.max(initial=0.0))
+    return np.asarray(path.model.unit * (plain - _charge(path, slope, blur, claim)))
+
+
+def _with_right_sides(structure: Structure, numbers: Numbers, states: States) -> Array:
+    """The rows of the contacts with the opposites of their right sides."""
+    laws, size = states.x.shape
+    found = np.zeros((laws, structure.count, size + 1))
+    for i, (family, own) in enumerate(zip(structure.model.program.families, structure.of_families, strict=True)):
+        u = states.u[:, own]
+        if u.size and isinstance(family, LinearFamily):
+            found[:, own] = family.columns(u.reshape(-1))[0].reshape(*u.shape, size + 1)
+            found[:, own] *= structure.sign[own, None]
+            found[:, own, :-1] -= family.slack
+            found[:, own, -1] -= numbers.bounds[:, i, None]
+    return found
 
 
 def _charge(path: Path, slope: Array, blur: Array, claim: float) -> Array:

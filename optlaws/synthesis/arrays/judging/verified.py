@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from optlaws.kept import kept_property
 from optlaws.synthesis.arrays.columns import Columns, CurvedTangents
 from optlaws.synthesis.arrays.judging.cells import Cells, excess, excess_at
-from optlaws.synthesis.arrays.judging.dual_bounds import lower_bounds
+from optlaws.synthesis.arrays.judging.dual_bounds import lower_bounds, sharp_bounds
 from optlaws.synthesis.arrays.newton_steps import States, best_nearby
 from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.arrays.rows import Structure, columns_of, product, with_one
@@ -21,8 +21,8 @@ Array = NDArray[np.float64]
 
 #: of a right side, or 1: by so much a row may be broken
 _EXCESS = 1e-11
-#: of the objective
-_GAP = 9e-11
+#: of the objective, and what rounding may leave of it where multipliers are great: it is then reckoned more sharply
+_GAP, _ROUNDED = 9e-11, 1e-9
 #: of the greatest multiplier: by so much one may be below 0, for which the bound counts it as 0
 _PULL = 1e-12
 
@@ -44,6 +44,8 @@ class Judgement:
     best
         Whether no law beside it is better, where that does not follow from the bound: of problems that are not convex
         the bound is that of their rows' planes at the law.
+    affine
+        Whether all rows are affine, so that a gap that is left is one of rounding.
     """
 
     objective: Array
@@ -52,6 +54,7 @@ class Judgement:
     pull: Array
     inward: Array
     best: NDArray[np.bool_]
+    affine: bool
 
     @property
     def broken(self) -> Array:
@@ -61,12 +64,28 @@ class Judgement:
     @property
     def sound(self) -> NDArray[np.bool_]:
         """Which are laws, and proven optimal, or locally so where the problem is not convex."""
-        unit = np.where(np.abs(self.objective) > _SMALL, np.abs(self.objective), 1.0)
-        meets = np.abs(self.objective - self.bound) <= _GAP * unit
+        meets = self.gap <= (_ROUNDED if self.affine else _GAP)
         return np.asarray(meets & (self.excess <= _EXCESS) & (self.pull <= _PULL) & self.best)
 
+    @property
+    def sharp(self) -> NDArray[np.bool_]:
+        """Which are proven so nearly that Newton's method has nothing left to do."""
+        return np.asarray(self.sound & (self.gap <= _GAP))
 
-_SMALL = 1e-6
+    @property
+    def gap(self) -> Array:
+        """Between objective and bound, as a share of the objective."""
+        unit = np.where(np.abs(self.objective) > _SMALL, np.abs(self.objective), 1.0)
+        return np.asarray(np.abs(self.objective - self.bound) / unit)
+
+    @property
+    def blurred(self) -> NDArray[np.intp]:
+        """Laws that nothing but rounding may keep from being proven optimal."""
+        wide = (self.gap > _GAP) & (self.gap < _WIDE) & (self.excess <= _EXCESS) & (self.pull <= _PULL)
+        return np.flatnonzero(wide & self.affine)
+
+
+_SMALL, _WIDE = 1e-6, 1e-7
 
 
 def judged(path: Path, structure: Structure, numbers: Numbers, states: States) -> Judgement:
@@ -89,14 +108,19 @@ def judged(path: Path, structure: Structure, numbers: Numbers, states: States) -
     touching = [states.u[:, own] for own in structure.of_families]
     greatest = np.abs(states.weights).max(axis=1, initial=0.0)
     pull = -(states.weights / np.where(greatest == 0.0, 1.0, greatest)[:, None]).min(axis=1, initial=np.inf)
-    return Judgement(
+    found = Judgement(
         best=np.ones(len(states), dtype=np.bool_) if kept.proving else best_nearby(structure, states),
         objective=path.model.unit * (states.x * numbers.cost).sum(axis=1),
         bound=lower_bounds(path, structure, numbers, states, value),
         excess=np.maximum(worst, kept.excess(point, room, touching)),
         pull=np.where(np.isfinite(pull), pull, 0.0),
         inward=np.where(held, inward, -np.inf).max(axis=1, initial=-np.inf),
+        affine=not program.curved,
     )
+    blurred = found.blurred
+    if len(blurred):
+        found.bound[blurred] = sharp_bounds(path, structure, numbers.taken(blurred), states.taken(blurred))
+    return found
 
 
 @dataclass(frozen=True, eq=False)
