@@ -5,9 +5,10 @@
 - ```` ```toml ```` must parse.
 - ```` ```console ```` has lines `$ optlaws ...`: they are run, must succeed, and must print what the block
   shows below them, if it shows anything. `...` stands for any text, numbers agree to the digits shown, and a
-  last line `[2]` says that exit status 2 is expected. Commands that set up a machine (make, pip, git, ...)
-  are not run; nor is `optlaws run FILE` of a problem of the repository that shows nothing, for that the file is
-  there is seen here, and `make check-results` runs every one.
+  last line `[2]` says that exit status 2 is expected. The first page runs them as a reader does, each in a process
+  of its own; the others in this one, which has imported what they need. Commands that set up a machine (make, pip,
+  git, ...) are not run; nor is `optlaws run FILE` of a problem of the repository that shows nothing, for that the
+  file is there is seen here, and `make check-results` runs every one.
 
 A document runs in a temporary directory of its own that holds a copy of problems/.
 """
@@ -20,20 +21,27 @@ import subprocess
 import sys
 import tempfile
 import tomllib
+import warnings
 from collections.abc import Iterable, Iterator
-from contextlib import ExitStack, chdir
+from contextlib import ExitStack, chdir, redirect_stderr, redirect_stdout
 from dataclasses import dataclass, field
 from doctest import ELLIPSIS, NORMALIZE_WHITESPACE
+from io import StringIO
 from pathlib import Path
+from unittest.mock import patch
 
 from sybil import Document, Example, Region, Sybil
 from sybil.evaluators.doctest import NUMBER, DocTestEvaluator, OutputChecker
 from sybil.parsers.abstract.doctest import DocTestStringParser
 from sybil.parsers.myst import CodeBlockParser, PythonCodeBlockParser, SkipParser
 
+from optlaws.cli import exit_code
+
 ROOT = Path(__file__).resolve().parents[1]
 FLAGS = ELLIPSIS | NORMALIZE_WHITESPACE | NUMBER
 PROGRAMS = {"optlaws": [sys.executable, "-m", "optlaws"], "cat": ["cat"]}
+FIRST_PAGE = ROOT / "README.md"
+ENVIRONMENT = {"COLUMNS": "100", "NO_COLOR": "1", "TERM": "dumb", "PYTHONUTF8": "1"}
 NOT_RUN = {"cd", "git", "make", "pip", "python", "python3", "source", "uv"}
 SHELL_SYNTAX = {"|", "||", "&", "&&", ";", ">", ">>", "<"}
 WORKSPACE = "__workspace__"
@@ -66,8 +74,8 @@ def commands(block: str) -> Iterator[Command]:
         yield command
 
 
-def failure(command: Command) -> str | None:
-    """Run a command; say what is wrong with it, if anything is."""
+def failure(command: Command, *, alone: bool = True) -> str | None:
+    """Run a command, in a process of its own or in this one; say what is wrong with it, if anything is."""
     words = shlex.split(command.line)
     if words[0] in NOT_RUN or _is_run_elsewhere(words, command.output):
         return None
@@ -76,9 +84,19 @@ def failure(command: Command) -> str | None:
         return f"$ {command.line}\nis neither run nor known to need no running; known are {known}"
     if SHELL_SYNTAX.intersection(words):
         return f"$ {command.line}\nneeds a shell; console blocks are run without one"
-    shown, status = "\n".join(command.output).strip("\n"), 0
+    shown, wanted = "\n".join(command.output).strip("\n"), 0
     if stated := re.search(r"(?:\A|\n)\[(\d+)\]\Z", shown):
-        shown, status = shown[: stated.start()], int(stated[1])
+        shown, wanted = shown[: stated.start()], int(stated[1])
+    status, printed = _in_a_process(words) if alone or words[0] != "optlaws" else _in_this_process(words)
+    if status != wanted:
+        return f"$ {command.line}\nended with exit status {status}, not {wanted}:\n{printed}"
+    if shown and not OutputChecker().check_output(shown + "\n", printed.strip("\n") + "\n", FLAGS):
+        return f"$ {command.line}\nshould print\n{shown}\nbut prints\n{printed}"
+    return None
+
+
+def _in_a_process(words: list[str]) -> tuple[int, str]:
+    """Exit status and output of a program."""
     done = subprocess.run(
         [*PROGRAMS[words[0]], *words[1:]],
         check=False,
@@ -88,13 +106,23 @@ def failure(command: Command) -> str | None:
         text=True,
         encoding="utf-8",
         timeout=SECONDS,
-        env=os.environ | {"COLUMNS": "100", "NO_COLOR": "1", "TERM": "dumb", "PYTHONUTF8": "1"},
+        env=os.environ | ENVIRONMENT,
     )
-    if done.returncode != status:
-        return f"$ {command.line}\nended with exit status {done.returncode}, not {status}:\n{done.stdout}"
-    if shown and not OutputChecker().check_output(shown + "\n", done.stdout.strip("\n") + "\n", FLAGS):
-        return f"$ {command.line}\nshould print\n{shown}\nbut prints\n{done.stdout}"
-    return None
+    return done.returncode, done.stdout
+
+
+def _in_this_process(words: list[str]) -> tuple[int, str]:
+    """Exit status and output of the command `optlaws`, whose warnings are shown as everywhere else."""
+    printed = StringIO()
+    with (
+        patch.dict(os.environ, ENVIRONMENT),
+        redirect_stdout(printed),
+        redirect_stderr(printed),
+        warnings.catch_warnings(),
+    ):
+        warnings.resetwarnings()
+        status = exit_code(words[1:])
+    return status, printed.getvalue()
 
 
 def _is_run_elsewhere(words: list[str], output: list[str]) -> bool:
@@ -105,7 +133,9 @@ def _is_run_elsewhere(words: list[str], output: list[str]) -> bool:
 
 
 def evaluate_console(example: Example) -> str | None:
-    failures = [text for text in map(failure, commands(str(example.parsed))) if text is not None]
+    alone = Path(example.path) == FIRST_PAGE
+    said = (failure(command, alone=alone) for command in commands(str(example.parsed)))
+    failures = [text for text in said if text is not None]
     return "\n".join(failures) or None
 
 

@@ -13,6 +13,7 @@ from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.jobs import job
 from tests.jobs.examples import EXAMPLES
+from tests.sampling import sampled
 
 #: those whose own tests do them each time, and make check-results at full size
 SLOW = {"atlas", "fronts", "loader optimal", "machine laws", "optimal polydyne"}
@@ -55,6 +56,7 @@ def test_a_job_is_imported_when_it_runs() -> None:
     assert said == f"True {len(EXAMPLES)} ['optlaws.jobs.job']\n"
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "name", [pytest.param(name, marks=[pytest.mark.long] if name in SLOW else []) for name in EXAMPLES]
 )
@@ -76,7 +78,7 @@ def test_a_job_writes_sealed_files_and_the_same_again(
     assert {file: file.read_bytes() for file in (tmp_path / "out").iterdir()} == first
 
 
-@pytest.mark.parametrize("name", ["savin families", "lever drawing"])
+@pytest.mark.parametrize("name", sampled(["savin families", "lever drawing"]))
 def test_what_another_machine_rounds_otherwise_changes_no_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:

@@ -99,7 +99,7 @@ def test_a_cluster_gives_the_rows_of_a_serial_run(small: Study, tmp_path: Path) 
     from distributed import Client, LocalCluster
 
     # a free port: the dashboard's own may be taken by another run
-    shape: dict[str, Any] = {"n_workers": 2, "threads_per_worker": 1, "dashboard_address": "127.0.0.1:0"}
+    shape: dict[str, Any] = {"n_workers": 1, "threads_per_worker": 1, "dashboard_address": "127.0.0.1:0"}
     with LocalCluster(**shape) as cluster, Client(cluster) as client:
         assert rows(run_study(SMALL, tmp_path, executor=client.get_executor(), workers=2)) == rows(small)
 

@@ -269,6 +269,7 @@ def _flipped(data: bytes) -> bytes:
     return data[:40] + bytes([data[40] ^ 4]) + data[41:]
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize("damage", [_emptied, _cut, _flipped])
 @pytest.mark.parametrize("checksum", [True, False])
 def test_a_damaged_table_is_refused_by_name(

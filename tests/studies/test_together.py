@@ -17,6 +17,7 @@ from optlaws.studies.run import task
 from optlaws.studies.solving import together
 from optlaws.studies.solving.executors import Serial
 from optlaws.studies.solving.solving import Task, blocks, rows
+from tests.sampling import sampled
 
 ASKED: dict[str, Any] = {
     "problem": {"basis": "chebyshev"},
@@ -119,22 +120,24 @@ def test_text_with_a_place_for_B_is_no_line_along_it() -> None:
     assert array[1] == Problem(order=4, minimise="J", B=1.6)
 
 
-def test_any_number_may_run_and_the_rows_are_those_of_each_alone() -> None:
+@pytest.mark.parametrize("weights", sampled([[0.5], [0.5, 1.0]]))
+def test_any_number_may_run_and_the_rows_are_those_of_each_alone(weights: list[float]) -> None:
+    length = 130 * len(weights)
     asked = {
         "problem": {"order": 4, "degree": 5},
         "vary": {
             "minimise": ["C", "{w}*C/4 + J/32"],
-            "w": [0.5, 1.0],
+            "w": weights,
             "J": [[0.0, J] for J in np.linspace(57.0, 90.0, 130).tolist()],
         },
-        "chunk": 520,
+        "chunk": 2 * length,
     }
     asked["problem"] |= {"B": 1.7}  # type: ignore[operator]
     (one,) = tasks(asked)
-    assert [len(block) for block in blocks(one)] == [260, 260]
+    assert [len(block) for block in blocks(one)] == [length, length]
     many = [msgspec.json.decode(row) for row in rows(one)]
     (alone,) = tasks(asked, alone=True)
-    picked = [0, 129, 260, 300, 519]
+    picked = [0, 129, length, length + 40, 2 * length - 1]
     turned = msgspec.structs.replace(alone, points=[alone.points[i] for i in picked])
     for i, row in zip(picked, map(msgspec.json.decode, rows(turned)), strict=True):
         assert all(many[i][name] == row[name] for name in ("index", "key", "inputs", "status"))
