@@ -31,6 +31,8 @@ _load, __dir__, __all__ = face(
         "optlaws.exports.pieces.best_breaks": "best_breaks",
         "optlaws.exports.polynomials": "PiecewiseMotion",
         "optlaws.laws.catalogue.catalogue": "catalogue",
+        "optlaws.laws.catalogue.reading": "read_law",
+        "optlaws.laws.making.through_points": "law_through",
         "optlaws.laws.constants": "Constants",
         "optlaws.laws.law": "MotionLaw",
         "optlaws.laws.making.input_shaping": "shaped_law",

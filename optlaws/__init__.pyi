@@ -44,11 +44,13 @@ from optlaws.errors import SolverFailure as SolverFailure
 from optlaws.exports.pieces.best_breaks import best_breaks as best_breaks
 from optlaws.exports.polynomials import PiecewiseMotion as PiecewiseMotion
 from optlaws.laws.catalogue.catalogue import catalogue as catalogue
+from optlaws.laws.catalogue.reading import read_law as read_law
 from optlaws.laws.constants import Constants as Constants
 from optlaws.laws.law import MotionLaw as MotionLaw
 from optlaws.laws.making.input_shaping import shaped_law as shaped_law
 from optlaws.laws.making.multiplier import multiplied as multiplied
 from optlaws.laws.making.multiplier import multiplier_for as multiplier_for
+from optlaws.laws.making.through_points import law_through as law_through
 from optlaws.laws.making.transform import mirrored_law as mirrored_law
 from optlaws.laws.making.transform import reversed_law as reversed_law
 from optlaws.laws.making.transform import with_end_velocity as with_end_velocity
@@ -258,6 +260,7 @@ __all__ = [
     "greatest_roller",
     "integral",
     "jounce",
+    "law_through",
     "least_base_circle",
     "least_spring",
     "limit",
@@ -276,6 +279,7 @@ __all__ = [
     "peak",
     "polydyne",
     "proven_front",
+    "read_law",
     "residual",
     "residual_functional",
     "residual_phasor",

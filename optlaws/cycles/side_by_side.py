@@ -123,7 +123,7 @@ def compare(
     ----------
     laws
         Each a law, what has one (an entry of the catalogue, a solution), or a text that names one: a name of the
-        catalogue, a member such as "III(7.2)", a JSON file.
+        catalogue, a member such as "III(7.2)", a JSON or CSV file.
     stroke, time
         Stroke and duration with their units, such as "35 mm" (or "45 deg") and "0.1 s", for the peaks in the machine:
         v = B h/T, a = C h/T², j = J h/T³.

@@ -44,7 +44,7 @@ def _laws(*laws: dict[str, Any]) -> dict[str, Any]:
 
 def _of_law_file(file: Path) -> dict[str, Any]:
     """The problem of a solution, so that it can be changed; else the law."""
-    data = reading.json_file(file)
+    data = None if file.suffix.lower() == ".csv" else reading.json_file(file)
     if isinstance(data, dict) and isinstance(data.get("problem"), dict):
         return _laws(_problem(data["problem"], file))
     return _laws({"law": read_law(str(file)).to_dict(), "title": file.stem[:60]})

@@ -29,8 +29,8 @@ def law(
     Parameters
     ----------
     name
-        A name in any language or of a controller, a code such as "0317(1,5)", a member such as "III(7.2)", or a JSON
-        file of a law or of `optlaws solve --output`.
+        A name in any language or of a controller, a code such as "0317(1,5)", a member such as "III(7.2)", a JSON file
+        of a law or of `optlaws solve --output`, or a CSV file with a table of points.
     alpha
         Member of the family I, II, III or IV.
     peak_velocity

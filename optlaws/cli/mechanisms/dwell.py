@@ -41,7 +41,7 @@ def dwell(
     Parameters
     ----------
     name
-        Executive law: a name or code of the catalogue, or a JSON file with a law or a solution.
+        Executive law: a name or code of the catalogue, or a JSON or CSV file with a law.
     dwell
         Upper dwell, degrees.
     rise

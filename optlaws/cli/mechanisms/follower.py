@@ -40,8 +40,8 @@ def follower(
     Parameters
     ----------
     law
-        Law meant for the mass: a name of the catalogue, a member such as III(7.2), or a JSON file of a law or of
-        `optlaws solve --output`.
+        Law meant for the mass: a name of the catalogue, a member such as III(7.2), a JSON file of a law or of
+        `optlaws solve --output`, or a CSV file with a table of points.
     alpha
         Member of the family, where the law is I, II, III or IV.
     nu

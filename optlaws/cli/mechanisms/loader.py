@@ -26,7 +26,7 @@ def loader(
     Parameters
     ----------
     name
-        Executive law: a name or code of the catalogue, or a JSON file with a law or a solution.
+        Executive law: a name or code of the catalogue, or a JSON or CSV file with a law.
     executive_mass
         Mass that the executive link moves, kg (or moment of inertia, kg m²).
     executive_stroke

@@ -1,4 +1,4 @@
-"""Laws as people name them: a law itself, a name of the catalogue, a JSON file that holds one."""
+"""Laws as people name them: a law itself, a name of the catalogue, a file that holds one."""
 
 from __future__ import annotations
 
@@ -8,7 +8,7 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
-from optlaws.laws.catalogue.reading import read_law
+from optlaws.laws.catalogue.reading import is_file, read_law
 
 STROKE = 1e-9
 
@@ -43,5 +43,5 @@ def _of_name(name: str) -> MotionLaw:
 
 def _read(given: Any) -> MotionLaw:  # noqa: ANN401
     if not isinstance(given, str):
-        raise InputError(f"a law, a name of the catalogue, a JSON file or 'optimal', got {shortened(given)}")
-    return read_law(given) if given.endswith(".json") else _of_name(given)
+        raise InputError(f"a law, a name of the catalogue, a JSON or CSV file or 'optimal', got {shortened(given)}")
+    return read_law(given) if is_file(given) else _of_name(given)

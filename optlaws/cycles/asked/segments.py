@@ -69,7 +69,7 @@ class Move(CycleSegment):
     to
         Position instead of a displacement.
     law
-        A law, the name of one in the catalogue, a JSON file that holds one, or "optimal".
+        A law, the name of one in the catalogue, a JSON or CSV file that holds one, or "optimal".
     limits
         Of an optimal law, in machine units: `{"velocity": "616 mm/s", "acceleration": "90 m/s^2", "jerk": ...}`.
     start_velocity, end_velocity

@@ -1,4 +1,4 @@
-"""A law by what a person calls it: a name of the catalogue, a member of Savin's families, a stored file."""
+"""A law by what a person calls it: a name of the catalogue, a member of Savin's families, a stored file, a table."""
 
 from __future__ import annotations
 
@@ -10,11 +10,13 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files import reading
 from optlaws.laws.catalogue.catalogue import catalogue
+from optlaws.laws.catalogue.point_file import law_of_points
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.savin.family import FAMILIES, SavinFamily
 
 _MEMBER = re.compile(r"\s*(?:family\s+)?(IV|I{1,3})\s*(?:\((.*)\))?\s*", re.IGNORECASE)
-_ENDING = ".json"
+_TABLE = ".csv"
+_ENDINGS = (".json", _TABLE)
 _LONGEST = 100
 
 
@@ -25,7 +27,8 @@ def read_law(text: str) -> MotionLaw:
     ----------
     text
         A name or code of the catalogue ("modified sine", "0317(1,5)"), a member of Savin's families by alpha or B
-        ("III(7.2)", "III(B=1.8)"), or a JSON file with a law, alone or of a solution.
+        ("III(7.2)", "III(B=1.8)"), a JSON file with a law, alone or of a solution, a CSV file with a table of
+        points.
 
     Raises
     ------
@@ -47,14 +50,14 @@ def read_law(text: str) -> MotionLaw:
 
 
 def is_file(text: str) -> bool:
-    """Whether a text is taken for a file: it ends in .json, or is no law's name and a file is there.
+    """Whether a text is taken for a file: it ends in .json or .csv, or is no law's name and a file is there.
 
     Examples
     --------
     >>> is_file("law.json"), is_file("modified sine")
     (True, False)
     """
-    if text.lower().endswith(_ENDING):
+    if text.lower().endswith(_ENDINGS):
         return True
     return text not in catalogue and reading.storable(text) and Path(text).is_file()
 
@@ -98,13 +101,15 @@ def member(text: str) -> tuple[SavinFamily, float] | None:
 
 
 def stored_law(file: Path) -> MotionLaw:
-    """The law in a JSON file: alone, or under "law" as in what `optlaws solve --output` writes.
+    """The law in a JSON file, alone or under "law" as in what `optlaws solve --output` writes, or of a table in CSV.
 
     Raises
     ------
     InputError
         If the file cannot be read or holds no law.
     """
+    if file.suffix.lower() == _TABLE:
+        return law_of_points(file)
     data: Any = reading.json_file(file)
     if isinstance(data, dict) and "kind" not in data and "law" in data:
         data = data["law"]
