@@ -13,6 +13,8 @@ from optlaws.series.chebyshev import derivative, from_values, interpolated, node
 Array = NDArray[np.float64]
 
 _DEEPEST, _DENSE = 12, 129
+#: of the greatest value: quotients of small numbers are rounded more than others
+_BLUR = 1e-8
 
 
 def series_between(
@@ -42,7 +44,7 @@ def series_between(
     if count is not None:
         return from_values(of_local(nodes(count)))
     try:
-        return interpolated(of_local, "the function")
+        return interpolated(of_local, "the function", _BLUR)
     except InputError:
         return None
 

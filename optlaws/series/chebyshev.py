@@ -19,6 +19,7 @@ Values = TypeVar("Values", Array, NDArray[np.complex128])
 
 NEGLIGIBLE = 2.0**-52
 FEWEST, MOST = 17, 1025
+_PLATEAU = 4.0  # times the greatest of the last half: what rounding makes of coefficients before these
 RESOLVED = 2.0**-50  # what is left of the last tenth of the coefficients, relative to the largest
 _LONGEST, _SHORTER = 160, 0.9
 _CUT = -0.004849834917525  # no place that anybody would choose for a root
@@ -63,10 +64,11 @@ def _transform(count: int) -> Array:
     return matrix
 
 
-def interpolated(function: Callable[[Array], Array], name: str) -> Array:
+def interpolated(function: Callable[[Array], Array], name: str, blur: float = RESOLVED) -> Array:
     """Series in x, |x| <= 1, of a smooth function of an array of x, to rounding; `name` is what an error calls it.
 
-    The number of nodes is doubled until the last coefficients are rounding; those are then left out.
+    The number of nodes is doubled until the last coefficients are rounding; those are then left out. Where they never
+    are, since the function's own values are rounded more, they may be up to `blur` of the greatest value.
 
     Raises
     ------
@@ -84,9 +86,12 @@ def interpolated(function: Callable[[Array], Array], name: str) -> Array:
         if not np.isfinite(values).all():
             raise InputError(f"{name} must have finite values on the whole interval")
         series = from_values(values)
-        noise = RESOLVED * float(np.abs(values).max())
-        if np.abs(series[-max(2, count // 10) :]).max() <= noise:
-            return shortened(series, noise)
+        size, tail = float(np.abs(values).max()), float(np.abs(series[-max(2, count // 10) :]).max())
+        if tail <= RESOLVED * size:
+            return shortened(series, RESOLVED * size)
+        rounding = _PLATEAU * float(np.abs(series[count // 2 :]).max())
+        if count >= MOST and rounding <= blur * size:
+            return shortened(series, rounding)
         if count >= MOST:
             raise InputError(f"{name} must be smooth on the whole interval: {count} points do not resolve it")
         count = 2 * count - 1

@@ -148,8 +148,8 @@ class Walk:
 
     def _begun(self, t: float, optimum: ActiveSet) -> Segment | None:
         """A segment that begins with one law; None where that is not proven optimal."""
-        merged = _merged(optimum)
-        for one in (optimum,) if len(merged.u) == len(optimum.u) else (optimum, merged):
+        merged = optimum.merged(_SAME)
+        for one in (optimum,) if merged is optimum else (optimum, merged):
             structure, order = structure_of(self.path.model, one)
             own = (one.x, _on_ends(structure, one.u[order]), one.multipliers[order], one.equality_multipliers)
             rows, sound, _ = self._solved(structure, np.array([t]), States(*(part[None] for part in own)))
@@ -262,28 +262,6 @@ def _on_ends(structure: Structure, u: Array) -> Array:
     ends = structure.domains
     nearest = np.where(np.abs(u - ends[:, 0]) < np.abs(u - ends[:, 1]), ends[:, 0], ends[:, 1])
     return np.where(~structure.free & (np.abs(u - nearest) < _AT_END), nearest, u)
-
-
-def _merged(optimum: ActiveSet) -> ActiveSet:
-    """The same with contacts of one row that are near to each other as one: they are met where two become one."""
-    if not len(optimum.u):
-        return optimum
-    order = np.lexsort((optimum.u, optimum.s, optimum.family))
-    family = optimum.family[order]
-    u, s, weights = (one[order] for one in (optimum.u, optimum.s, optimum.multipliers))
-    near = (np.diff(family) == 0) & (np.diff(s) == 0.0) & (np.diff(u) < _SAME)
-    first = np.flatnonzero(np.concatenate([[True], ~near]))
-    total = np.add.reduceat(weights, first)
-    middle = np.add.reduceat(weights * u, first) / np.where(total == 0.0, 1.0, total)
-    alone = np.diff(np.append(first, len(u))) == 1
-    return replace(
-        optimum,
-        family=family[first],
-        u=np.where(alone | (total == 0.0), u[first], middle),
-        s=s[first],
-        free=optimum.free[order][first],
-        multipliers=total,
-    )
 
 
 def _probes(good: float, bad: float, stride: float, broken: list[tuple[float, float]]) -> Array:

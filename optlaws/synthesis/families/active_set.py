@@ -42,3 +42,26 @@ class ActiveSet:
             free=np.append(self.free, free),
             multipliers=np.append(self.multipliers, 0.0),
         )
+
+    def merged(self, near: float) -> ActiveSet:
+        """With contacts of one row that are nearer than this to each other as one: an extremum may show as two."""
+        if not len(self.u):
+            return self
+        order = np.lexsort((self.u, self.s, self.family))
+        family = self.family[order]
+        u, s, weights = (one[order] for one in (self.u, self.s, self.multipliers))
+        close = (np.diff(family) == 0) & (np.diff(s) == 0.0) & (np.diff(u) < near)
+        if not close.any():
+            return self
+        first = np.flatnonzero(np.concatenate([[True], ~close]))
+        total = np.add.reduceat(weights, first)
+        middle = np.add.reduceat(weights * u, first) / np.where(total == 0.0, 1.0, total)
+        alone = np.diff(np.append(first, len(u))) == 1
+        return replace(
+            self,
+            family=family[first],
+            u=np.where(alone | (total == 0.0), u[first], middle),
+            s=s[first],
+            free=self.free[order][first],
+            multipliers=total,
+        )

@@ -179,10 +179,16 @@ class CurvedFamily(OfFormula):
         return self.slopes.value(self._at(np.array(values), u))
 
     def stationary(self, x: Array) -> Array:
-        """Places among which every stationary point is, and the edges."""
+        """Places among which every stationary point of the domain is, and the edges; beyond it f may have no value."""
         count = None if self.degree is None else self.degree + 1
-        inner = [candidates(lambda u: self.value(x, u), (low, high), count) for high, low in pairwise(self.edges)]
+        inner = [candidates(lambda u: self.value(x, u), ends, count) for ends in self._stretches]
         return np.concatenate([*inner, self.edges])
+
+    @property
+    def _stretches(self) -> list[tuple[float, float]]:
+        """Between which u of the domain it is smooth."""
+        low, high = self.domain
+        return [(max(a, low), min(b, high)) for b, a in pairwise(self.edges) if a < high and b > low]
 
     def nodes(self) -> Array | None:
         """Those of its parts, or as many as its degree asks for."""
@@ -190,7 +196,7 @@ class CurvedFamily(OfFormula):
         if low == high:
             return None
         count = _PLACES_PER_DEGREE * max(len(part.slack) for _, part in self.parts) + 8
-        within = [(max(a, low), min(b, high)) for b, a in pairwise(self.edges) if a < high and b > low]
+        within = self._stretches
         local = np.cos(np.linspace(0.0, np.pi, max(count // len(within), 4)))
         return np.unique(np.concatenate([a + (b - a) * (local + 1.0) / 2.0 for a, b in within]))
 

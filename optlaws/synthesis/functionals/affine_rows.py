@@ -55,7 +55,9 @@ def sides(motion: Motion, name: str, signs: tuple[float, ...], *, symmetric: boo
             return [Side(name, first, signs)]
         if np.abs(here + there).max() <= size:
             return [Side(name, first, tuple(dict.fromkeys((*signs, *(-sign for sign in signs)))))]
-    return [Side(name, first, signs), Side(mirrored(name), other, signs)]
+    # the first sign is that which laws reach more often, and gets more points: c changes its own at the middle
+    turned = signs[::-1] if max(motion.orders) % 2 == 0 else signs
+    return [Side(name, first, signs), Side(mirrored(name), other, turned)]
 
 
 def _sampled(motion: Motion) -> Array:

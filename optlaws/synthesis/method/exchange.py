@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.family import Program
 from optlaws.synthesis.method.equations import contradiction, independent
-from optlaws.synthesis.method.guesses import lifted, norms_only, vanishing
+from optlaws.synthesis.method.guesses import lifted, sizes_only, vanishing
 from optlaws.synthesis.method.on_points.grids import first_points
 from optlaws.synthesis.method.units import units_of
 from optlaws.synthesis.method.ways.contacts import polished
@@ -97,7 +97,7 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
         if nothing_left is not None:
             return Outcome(nothing_left, 0, 0, "nothing left")
         start = lifted(program, points)
-        guess = norms_only(program, start)
+        guess = sizes_only(program, start)
         optimum = polished(program, guess, holds) if guess is not None else None
         if optimum is not None:
             return Outcome(optimum, 0, 0, "least squares")

@@ -7,7 +7,8 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.family import NormFamily, Points, Program
+from optlaws.synthesis.families.curved import IntegralFamily
+from optlaws.synthesis.families.family import Family, NormFamily, Points, Program
 from optlaws.synthesis.method.tolerances import EXCESS, VANISHED
 
 Array = NDArray[np.float64]
@@ -50,26 +51,41 @@ def lifted(program: Program, points: list[Points]) -> Array:
     return x
 
 
-def norms_only(program: Program, x: Array) -> ActiveSet | None:
-    """A guess in which RMS alone bind, where they alone are minimised: it may need no IPOPT, which dislikes norms."""
-    norms = {i: family for i, family in enumerate(program.families) if isinstance(family, NormFamily)}
-    bounded = {int(variable) for family in norms.values() for variable in np.flatnonzero(family.slack)}
+def sizes_only(program: Program, x: Array) -> ActiveSet | None:
+    """A guess in which RMS and integrals alone bind, where they alone are minimised: it may need no IPOPT."""
+    sizes = {i: family for i, family in enumerate(program.families) if _is_size(family)}
+    bounded = {int(variable) for family in sizes.values() for variable in np.flatnonzero(family.slack)}
     if bounded != set(np.flatnonzero(program.objective).tolist()):
         return None
-    numbers = np.array(list(norms), dtype=np.intp)
+    numbers = np.array(list(sizes), dtype=np.intp)
     ones = np.ones(len(numbers))
-    x = x + _least_squares(program, list(norms.values()))
+    x = x + _least(program, list(sizes.values()))
     free = np.zeros(len(numbers), dtype=np.bool_)
     return ActiveSet(x, numbers, ones, ones, free, ones, np.zeros(len(program.right)))
 
 
-def _least_squares(program: Program, norms: list[NormFamily]) -> Array:
-    """Coordinates that make the sum of the squares of the norms least under the equations."""
-    if not norms:
+def _is_size(family: Family) -> bool:
+    return isinstance(family, NormFamily) or (isinstance(family, IntegralFamily) and family.convex)
+
+
+def _least(program: Program, sizes: list[Family]) -> Array:
+    """Coordinates that make the sum of integrals and of squares of norms least under the equations, to second order."""
+    if not sizes:
         return np.zeros(program.size)
-    matrix = np.vstack([norm.matrix for norm in norms])
-    square = matrix[:, :-1].T @ matrix[:, :-1]
+    models = [_second_order(family, program.size) for family in sizes]
+    square, slope = (np.sum(parts, axis=0) for parts in zip(*models, strict=True))
     count = len(program.right)
     system = np.block([[square, program.equalities.T], [program.equalities, np.zeros((count, count))]])
-    right = np.concatenate([-matrix[:, :-1].T @ matrix[:, -1], program.right])
+    right = np.concatenate([-slope, program.right])
     return np.asarray(np.linalg.lstsq(system, right, rcond=None)[0][: program.size], dtype=np.float64)
+
+
+def _second_order(family: Family, size: int) -> tuple[Array, Array]:
+    """Second derivatives and slope, at the base law, of an integral or of half the square of a norm."""
+    if isinstance(family, NormFamily):
+        free, base = family.matrix[:, :-1], family.matrix[:, -1]
+        return free.T @ free, free.T @ base
+    one, nothing = np.ones(1), np.zeros(size)
+    bent = family.hessian(nothing, one, one)
+    slope = family.jet(nothing, one, one).gradient[0] + family.slack
+    return (np.zeros((size, size)) if bent is None else bent), slope

@@ -17,12 +17,19 @@ from optlaws.synthesis.method.ways.contacts import completed, polished
 
 Array = NDArray[np.float64]
 
+#: times the variables: contacts that are nearer to each other may be one that IPOPT's tolerance shows as two
+_OF_SPACING = 1.0
+
 
 def optimum_near(
     program: Program, holds: Callable[[Array], bool] | None, points: list[Points], answer: Answer
 ) -> ActiveSet | None:
     """The optimum that an answer is near to; None where the contacts are not plain yet."""
-    optimum = polished(program, _identified(program, points, answer), holds)
+    guess = _identified(program, points, answer)
+    optimum = polished(program, guess, holds)
+    if optimum is None:
+        fewer = guess.merged(_OF_SPACING / program.size)
+        optimum = polished(program, fewer, holds) if fewer is not guess else None
     sharp = _sharpened(program, points, answer) if optimum is None else None
     return sharp if sharp is not None and completed(program, sharp) is sharp else optimum
 
