@@ -9,6 +9,7 @@ from typing import TypeVar
 
 import numpy as np
 from numpy.polynomial.chebyshev import chebpts1
+from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
@@ -95,6 +96,22 @@ def interpolated(function: Callable[[Array], Array], name: str, blur: float = RE
         if count >= MOST:
             raise InputError(f"{name} must be smooth on the whole interval: {count} points do not resolve it")
         count = 2 * count - 1
+
+
+@lru_cache(maxsize=64)
+def gauss(count: int) -> tuple[Array, Array]:
+    """Places in [-1, 1] and weights of Gauss's rule, exact for polynomials of degree 2 count - 1.
+
+    Examples
+    --------
+    >>> places, weights = gauss(2)
+    >>> float(weights @ places**2)
+    0.666666666...
+    """
+    places, weights = leggauss(count)
+    for one in (places, weights):
+        one.setflags(write=False)
+    return places, weights
 
 
 def shortened(series: Array, noise: float) -> Array:

@@ -73,6 +73,12 @@ def _slope(formula: Formula, at: Mapping[str, Array]) -> Array:
     return np.where(np.isnan(values), 0.0, values)
 
 
+def _bent(bend: Array, rows: Array) -> Array:
+    """Second derivatives by the variables, of those by the names (names, names, places) and the names' rows."""
+    turned = np.einsum("ijp,jpn->ipn", bend, rows)
+    return np.asarray(np.tensordot(rows, turned, axes=((0, 1), (0, 1))))
+
+
 @dataclass(frozen=True, eq=False, kw_only=True)
 class OfFormula(Family):
     """What families of formulas that are not affine have in common: a formula of derivatives of the law and of k."""
@@ -170,8 +176,7 @@ class CurvedFamily(OfFormula):
         """Of the formula, weighted."""
         columns = self.columns(u)[:, 0]
         bend = self.slopes.hessian(self._at(columns @ np.append(x, 1.0), u))[:-1, :-1]
-        rows = columns[:, :, :-1]
-        return np.asarray(np.einsum("ijp,p,ipn,jpm->nm", bend, weights, rows, rows, optimize=True))
+        return _bent(bend * weights, columns[:, :, :-1])
 
     def value(self, x: Array, u: Array) -> Array:
         """f at the points u."""
@@ -287,8 +292,7 @@ class IntegralFamily(OfFormula):
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002 - it has no place
         """Of f, times the sum of weights."""
         total, by_x, at = self._sum(x)
-        rows = self.columns[:, :, :-1]
-        bent = np.einsum("ijp,p,ipn,jpm->nm", self.slopes.hessian(at), self.weights, rows, rows, optimize=True)
+        bent = _bent(self.slopes.hessian(at) * self.weights, self.columns[:, :, :-1])
         if self.root:
             share, size = self._outer(total)
             bent = share * bent - np.outer(by_x, by_x) / (4.0 * size**3)

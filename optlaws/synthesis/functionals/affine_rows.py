@@ -7,12 +7,12 @@ from itertools import pairwise
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from optlaws.formulas.affine import degree
 from optlaws.formulas.of_motion import Motion
 from optlaws.series.chebyshev import from_values, interpolated, nodes
+from optlaws.series.chebyshev import gauss as gauss_rule
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.families.names import mirrored
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
@@ -151,7 +151,7 @@ def gauss(space: LawSpace, motion: Motion) -> tuple[Array, Array]:
     inner = [u for u in edges_of(space, motion) if low < u < high]
     places, weights = [], []
     for ends in pairwise([high, *inner, low]):
-        x, weight = legendre.leggauss(count_of(space, motion, ends) + 1)
+        x, weight = gauss_rule(count_of(space, motion, ends) + 1)
         places.append(_between(ends, x))
         weights.append(weight * (ends[0] - ends[1]) / 4.0)
     return np.concatenate(places), np.concatenate(weights)

@@ -5,7 +5,6 @@ from __future__ import annotations
 from itertools import pairwise
 
 import numpy as np
-from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from optlaws.formulas.of_motion import Motion
@@ -14,7 +13,7 @@ from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
 from optlaws.series.candidates import candidates, series_between
-from optlaws.series.chebyshev import value
+from optlaws.series.chebyshev import gauss, value
 from optlaws.series.peaks import Peak, extremes
 
 Array = NDArray[np.float64]
@@ -95,6 +94,6 @@ def _integral(motion: Motion, law: MotionLaw, ends: tuple[float, float], *, squa
     series = series_between(lambda k: _on(motion, law, ends, k)[1], ends, _count(motion, law, ends))
     if series is None:
         return float("inf")
-    x, weights = legendre.leggauss(len(series) + 1)
+    x, weights = gauss(len(series) + 1)
     values = np.asarray(value(series, x))
     return float(weights @ (values**2 if square else values)) * (ends[1] - ends[0]) / 2.0

@@ -9,7 +9,6 @@ from itertools import product as every
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
 from optlaws.formulas.convexity import Judge
@@ -17,6 +16,7 @@ from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.quadratic import quadratic
 from optlaws.formulas.tree import Formula, Name, Negative, Number, Power, number, product, total
 from optlaws.formulas.vocabulary import ORDERS
+from optlaws.series.chebyshev import gauss
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import Family
@@ -108,7 +108,7 @@ def integral_rows(
 def integral_rule(space: LawSpace, motion: Motion) -> tuple[Array, Array]:
     """Gauss's places k over the formula's part and their weights; exact where the formula is a polynomial of k."""
     count = rule_length(space, motion)
-    x, share = legendre.leggauss(count)
+    x, share = gauss(count)
     places, weights = [], []
     for low, high in pairwise(rule_edges(space, motion)):
         places.append(low + (high - low) * (1.0 + x) / 2.0)
