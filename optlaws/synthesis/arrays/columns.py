@@ -11,12 +11,12 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.synthesis.arrays.constants import peaks, product
-from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily, RatioFamily, RootFamily
+from optlaws.synthesis.families.family import LinearFamily, NormFamily, ProductFamily, RatioFamily, RootFamily
 
 Array = NDArray[np.float64]
 
 #: of a row: what rounding may hide of it, as a share of the sum of its parts' sizes
-_ROUNDING = 4 * 2.0**-53
+ROUNDING = 4 * 2.0**-53
 _NO_NORM = 1e-300
 #: of fewer polynomials' values cosines are quicker than the recurrence
 _SMALL = 4096
@@ -35,10 +35,9 @@ class Tangents(ABC):
         The places of a law are a row of `u`, its variables and 1 a row of `point`.
         """
 
-    @property
     @abstractmethod
-    def rounding(self) -> Array:
-        """What rounding may hide of each entry of a plane."""
+    def hidden(self, weights: Array, u: Array, point: Array) -> Array:
+        """What rounding may hide of each entry of the sum of weights times planes, (laws, variables + 1)."""
 
     def hessian(self, u: Array, point: Array, weights: Array) -> Array | None:  # noqa: ARG002 - of what is affine
         """Second derivatives by the variables of the sum of weights times f; None where f is affine."""
@@ -73,7 +72,11 @@ class Columns(Tangents):
     @kept_property
     def rounding(self) -> Array:
         """What rounding may hide of each entry of a row."""
-        return np.asarray(_ROUNDING * np.abs(self.family.series).sum(axis=0))
+        return np.asarray(ROUNDING * np.abs(self.family.series).sum(axis=0))
+
+    def hidden(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - the same everywhere
+        """What rounding may hide of rows, whatever the place."""
+        return weights.sum(axis=1)[:, None] * self.rounding
 
     def at(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """The rows themselves, whatever the law."""
@@ -98,10 +101,9 @@ class Products(CurvedTangents):
     def _factors(self) -> tuple[Columns, Columns]:
         return Columns(self.family.first), Columns(self.family.second)
 
-    @kept_property
-    def rounding(self) -> Array:
+    def hidden(self, weights: Array, u: Array, point: Array) -> Array:
         """Of planes that prove nothing: that of their rows."""
-        return self._factors[0].rounding + self._factors[1].rounding
+        return np.asarray(sum(factor.hidden(weights, u, point) for factor in self._factors))
 
     def at(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """Planes by the product rule."""
@@ -131,10 +133,10 @@ class Norms(CurvedTangents):
 
     family: NormFamily
 
-    @kept_property
-    def rounding(self) -> Array:
-        """What rounding may hide of each entry of a unit vector times the matrix."""
-        return np.asarray(len(self.family.matrix) * _ROUNDING * np.abs(self.family.matrix).sum(axis=0))
+    def hidden(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - it has no place
+        """Of a unit vector times the matrix."""
+        own = len(self.family.matrix) * ROUNDING * np.abs(self.family.matrix).sum(axis=0)
+        return np.asarray(weights.sum(axis=1)[:, None] * own)
 
     def at(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """What the direction of each law shows of the norm; no law's norm is less."""
@@ -156,15 +158,6 @@ class Norms(CurvedTangents):
     def greatest(self, point: Array) -> Array:
         """The norm of each law."""
         return self._shown(point)[0]
-
-
-def tangents_of(family: Family) -> Columns | CurvedTangents | None:
-    """The tangents of a family's rows; None of a kind that is not known here."""
-    if isinstance(family, LinearFamily):
-        return Columns(family)
-    if isinstance(family, ProductFamily):
-        return Products(family)
-    return Norms(family) if isinstance(family, NormFamily) else None
 
 
 def _polynomials(u: Array, count: int) -> Array:

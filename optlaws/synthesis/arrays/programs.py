@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.arrays.rows import tangents_of
+from optlaws.synthesis.families.curved import OfFormula
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily, Program
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
@@ -110,10 +112,8 @@ def between(first: Problem, last: Problem, model: Callable[[Problem], Model] = m
     return Path(begin, (first, last), here, slope)
 
 
-def _alike(one: object, other: object) -> bool:
-    if type(one) is not type(other) or not isinstance(one, LinearFamily | ProductFamily | NormFamily):
-        return False
-    if not isinstance(other, LinearFamily | ProductFamily | NormFamily):
+def _alike(one: Family, other: Family) -> bool:
+    if type(one) is not type(other) or tangents_of(one) is None:
         return False
     plain = (one.name, one.signs, one.domain, one.held) == (other.name, other.signs, other.domain, other.held)
     return plain and np.array_equal(one.slack, other.slack) and _same_rows(one, other)
@@ -126,4 +126,6 @@ def _same_rows(one: Family, other: Family) -> bool:
         return np.array_equal(one.matrix, other.matrix)
     if isinstance(one, LinearFamily) and isinstance(other, LinearFamily):
         return one.series is other.series or np.array_equal(one.series, other.series)
+    if isinstance(one, OfFormula) and isinstance(other, OfFormula):
+        return one is other or one.same_rows(other)
     return False

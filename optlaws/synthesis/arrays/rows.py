@@ -10,10 +10,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.synthesis.arrays.columns import Columns, CurvedTangents, tangents_of
+from optlaws.synthesis.arrays.columns import Columns, CurvedTangents, Norms, Products
+from optlaws.synthesis.arrays.formula_columns import formula_tangents
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.families.family import Family, LinearFamily
+from optlaws.synthesis.families.curved import OfFormula
+from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily
 from optlaws.synthesis.program.writer import Model
+from optlaws.synthesis.spaces.pieces.rows import PieceFamily
 
 Array = NDArray[np.float64]
 
@@ -80,11 +83,13 @@ class Structure:
         """Which contacts are held at an end off which they could move."""
         return np.asarray(~self.free & (self.domains[:, 0] != self.domains[:, 1]))
 
-    @kept_property
-    def rounding(self) -> Array:
-        """What rounding may hide of each entry of each contact's row."""
-        columns = columns_of(self.model)
-        return np.array([columns[i].rounding for i in self.family]).reshape(self.count, -1)
+    def hidden(self, x: Array, u: Array, weights: Array) -> Array:
+        """What rounding may hide of each entry of the sum of weights times rows, (laws, variables + 1)."""
+        point, columns = with_one(x), columns_of(self.model)
+        found = np.zeros(point.shape)
+        for i, own in self._own:
+            found += columns[i].hidden(weights[:, own], u[:, own], point)
+        return found
 
     @kept_property
     def of_families(self) -> list[slice]:
@@ -170,6 +175,18 @@ def _known(family: Family) -> Columns | CurvedTangents:
     if found is None:
         raise TypeError(f"rows of {type(family).__name__} are not solved in arrays")
     return found
+
+
+def tangents_of(family: Family) -> Columns | CurvedTangents | None:
+    """The tangents of a family's rows; None of a kind that is not known here."""
+    if isinstance(family, LinearFamily):
+        # contacts at kinks are neither held at an end nor free
+        return None if isinstance(family, PieceFamily) else Columns(family)
+    if isinstance(family, ProductFamily):
+        return Products(family)
+    if isinstance(family, OfFormula):
+        return formula_tangents(family)
+    return Norms(family) if isinstance(family, NormFamily) else None
 
 
 _KEPT: dict[tuple[object, ...], list[Columns | CurvedTangents]] = {}

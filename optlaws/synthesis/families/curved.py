@@ -93,6 +93,10 @@ class OfFormula(Family):
     def tangent_row(self, u: float, sign: float, point: tuple[float, ...]) -> Array | None:
         """The affine function of the variables that touches f there, the constant last; None where f may be below."""
 
+    @abstractmethod
+    def same_rows(self, other: OfFormula) -> bool:
+        """Whether f is the same function of the variables and the place."""
+
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class CurvedFamily(OfFormula):
@@ -195,6 +199,15 @@ class CurvedFamily(OfFormula):
         low, high = self.domain
         return [(max(a, low), min(b, high)) for b, a in pairwise(self.edges) if a < high and b > low]
 
+    def same_rows(self, other: OfFormula) -> bool:
+        """The same formula of the same series."""
+        if not isinstance(other, CurvedFamily) or (self.formula, self.names) != (other.formula, other.names):
+            return False
+        rows = (
+            np.array_equal(one.series, two.series) for (_, one), (_, two) in zip(self.parts, other.parts, strict=True)
+        )
+        return (self.tangents, self.edges) == (other.tangents, other.edges) and all(rows)
+
     def nodes(self) -> Array | None:
         """Those of its parts, or as many as its degree asks for."""
         low, high = self.domain
@@ -252,6 +265,13 @@ class IntegralFamily(OfFormula):
     def _at(self, values: Array) -> dict[str, Array]:
         return {**dict(zip(self.names, values, strict=True)), "k": self.places}
 
+    def same_rows(self, other: OfFormula) -> bool:
+        """The same formula of the same rows at the same nodes."""
+        if not isinstance(other, IntegralFamily) or (self.formula, self.names) != (other.formula, other.names):
+            return False
+        arrays = ((self.columns, other.columns), (self.places, other.places), (self.weights, other.weights))
+        return (self.root, self.convex) == (other.root, other.convex) and all(np.array_equal(*two) for two in arrays)
+
     def touching(self, x: Array, u: float) -> tuple[float, ...]:  # noqa: ARG002 - it has no place
         """What the names are at the nodes in a law, one name after the other."""
         return tuple((self.columns @ np.append(x, 1.0)).ravel().tolist())
@@ -264,27 +284,27 @@ class IntegralFamily(OfFormula):
         at = self._at(values)
         gradient = self.slopes.gradient(at) * self.weights
         total = float(self.weights @ self.slopes.value(at))
-        share, value = self._outer(total)
+        value, share = self.outer(np.array(total))
         row = share * np.einsum("ip,ipn->n", gradient, self.columns)
         row[-1] += value - share * float((gradient * values).sum())
         return np.asarray(row)
 
-    def _outer(self, total: float) -> tuple[float, float]:
-        """The derivative of f by the sum, and f."""
+    def outer(self, total: Array) -> tuple[Array, Array]:
+        """What f is where the sum over the nodes is this, and its derivative by the sum."""
         if not self.root:
-            return 1.0, total
-        size = float(np.sqrt(max(total, _LEAST_ROOT**2)))
-        return 0.5 / size, size
+            return total, np.ones_like(total)
+        size = np.sqrt(np.maximum(total, _LEAST_ROOT**2))
+        return size, 0.5 / size
 
-    def _sum(self, x: Array) -> tuple[float, Array, dict[str, Array]]:
+    def _sum(self, x: Array) -> tuple[Array, Array, dict[str, Array]]:
         at = self._at(self.columns @ np.append(x, 1.0))
         gradient = self.slopes.gradient(at) * self.weights
-        return float(self.weights @ self.slopes.value(at)), np.einsum("ip,ipn->n", gradient, self.columns)[:-1], at
+        return np.asarray(self.weights @ self.slopes.value(at)), np.einsum("ip,ipn->n", gradient, self.columns)[:-1], at
 
     def jet(self, x: Array, u: Array, s: Array) -> Jet:
         """The residual with its gradient."""
         total, by_x, _ = self._sum(x)
-        share, value = self._outer(total)
+        value, share = self.outer(total)
         nothing = np.zeros(len(u))
         gradient = s[:, None] * (share * by_x) - self.slack
         return Jet(s * value - self.room(x), nothing, nothing, gradient, np.zeros((len(u), len(x))))
@@ -294,13 +314,13 @@ class IntegralFamily(OfFormula):
         total, by_x, at = self._sum(x)
         bent = _bent(self.slopes.hessian(at) * self.weights, self.columns[:, :, :-1])
         if self.root:
-            share, size = self._outer(total)
+            size, share = self.outer(total)
             bent = share * bent - np.outer(by_x, by_x) / (4.0 * size**3)
         return np.asarray(bent * float(weights.sum()))
 
     def value(self, x: Array, u: Array) -> Array:
         """f."""
-        return np.full(len(u), self._outer(self._sum(x)[0])[1])
+        return np.full(len(u), self.outer(self._sum(x)[0])[0])
 
     def stationary(self, x: Array) -> Array:  # noqa: ARG002
         """Nothing: it has no place."""

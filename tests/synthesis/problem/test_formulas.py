@@ -25,7 +25,9 @@ from optlaws import (
     value,
     via,
 )
+from optlaws.synthesis.families.curved import CurvedFamily
 from optlaws.synthesis.problem.named_constants import named
+from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.verification import verify
 from tests.sampling import sampled
@@ -119,6 +121,23 @@ def test_another_solver_on_a_grid_finds_nothing_better(text: str) -> None:
     assert solution.objective == pytest.approx(other, rel=2e-3)
     assert solution.lower_bound <= other * (1.0 + 2e-3)
     assert (solution.status.value == "optimal") == named(text).convex
+
+
+def test_extremes_are_sought_where_a_formula_counts_and_has_values() -> None:
+    problem = replace(PROBLEM, minimise=peak("c/b", start=0.1, stop=0.9))
+    solution = synthesize(problem)
+    assert broken(problem, solution.law) == []
+    assert solution.objective == pytest.approx(Judged(solution.law).worth(problem.objective), rel=1e-8)
+    family = model_of(problem).program.families[0]
+    assert isinstance(family, CurvedFamily)
+    low, high = family.domain
+    places = family.stationary(np.linspace(-0.2, 0.3, len(family.slack)))
+    assert (((places >= low) & (places <= high)) | np.isin(places, family.edges)).all()
+
+
+def test_a_formula_that_no_half_of_a_law_has_alone_needs_one_round() -> None:
+    for text in ("peak(c + 0.2*b)", "peak((1 + k)*c)"):
+        assert synthesize(replace(PROBLEM, minimise=text)).rounds == 1
 
 
 def test_products_are_bounded_where_derivatives_are() -> None:

@@ -48,9 +48,10 @@ def lower_bounds(path: Path, structure: Structure, numbers: Numbers, states: Sta
     count = _UNIT * (_IN_A_ROW + structure.count + len(program.equalities) + 2)
     sizes = np.abs(equations)
     blur = weighted(weights, np.abs(rows)) + sizes @ np.abs(program.equalities) + np.abs(cost)
-    blur = count * blur + weights @ structure.rounding[:, :-1]
+    unseen = structure.hidden(states.x, states.u, weights)
+    blur = count * blur + unseen[:, :-1]
     hidden = (weights * np.abs(right)).sum(axis=1) + (sizes * np.abs(numbers.right)).sum(axis=1)
-    hidden = count * hidden + weights @ structure.rounding[:, -1]
+    hidden = count * hidden + unseen[:, -1]
     claim = path.model.unit * float(plain.max(initial=0.0))
     return np.asarray(path.model.unit * (plain - hidden - _charge(path, slope, blur, claim)))
 
