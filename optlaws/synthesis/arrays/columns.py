@@ -25,8 +25,10 @@ _SMALL = 4096
 class Tangents(ABC):
     """What the optimality conditions of many laws need of one family."""
 
-    #: whether no law is beyond the planes, so that multipliers prove bounds
-    proving = True
+    @property
+    def proving(self) -> bool:
+        """Whether no law is beyond the planes, so that multipliers prove bounds."""
+        return True
 
     @abstractmethod
     def at(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
@@ -76,7 +78,7 @@ class Columns(Tangents):
 
     def hidden(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - the same everywhere
         """What rounding may hide of rows, whatever the place."""
-        return weights.sum(axis=1)[:, None] * self.rounding
+        return np.asarray(weights.sum(axis=1)[:, None] * self.rounding)
 
     def at(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
         """The rows themselves, whatever the law."""
@@ -94,8 +96,12 @@ class Columns(Tangents):
 class Products(CurvedTangents):
     """The power b c: a product of two affine families, which is not convex."""
 
-    proving = False
     family: ProductFamily
+
+    @property
+    def proving(self) -> bool:
+        """Nowhere."""
+        return False
 
     @kept_property
     def _factors(self) -> tuple[Columns, Columns]:
