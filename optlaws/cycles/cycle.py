@@ -10,7 +10,7 @@ from typing import Any
 from optlaws.cycles.asked.conversion import Piece
 from optlaws.cycles.asked.joints import Layout, layout
 from optlaws.cycles.asked.programme import TURN, Programme, is_optimal, period_of, programme
-from optlaws.cycles.asked.quantities import quantity
+from optlaws.cycles.asked.quantities import quantity, written
 from optlaws.cycles.asked.segments import CycleSegment
 from optlaws.cycles.best.aims import (
     FORCE,
@@ -100,6 +100,8 @@ class Cycle(Handed, Stated):
         if not isinstance(self.segments, list | tuple) or not self.segments:
             raise InputError("a cycle is a list of segments such as [Rise('35 mm', '120 deg'), Dwell(), ...]")
         object.__setattr__(self, "segments", tuple(self.segments))
+        for entry in ("speed", "period", "start", "advance"):
+            object.__setattr__(self, entry, written(getattr(self, entry)))
         check_objective(self.minimise, self._load)
         if all(one.fixed for one in self.programme.stretches):
             self._layout  # noqa: B018 - velocities that do not meet are refused at once

@@ -7,6 +7,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import fields
 from typing import Any, Self
 
+from optlaws.cycles.asked.quantities import written
 from optlaws.cycles.asked.segments import ConstantVelocity, CycleSegment, Dwell, Free, Move, Return, Rise
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -182,7 +183,7 @@ def _plain(value: Any) -> Any:  # noqa: ANN401 - whatever a person gave
         return {str(key): _plain(one) for key, one in value.items()}
     if isinstance(value, list | tuple):
         return [_plain(one) for one in value]
-    return value if value is None or isinstance(value, bool | int | float) else str(value)
+    return value if value is None or isinstance(value, bool | int | float) else str(written(value))
 
 
 def _text(text: str) -> str:

@@ -74,7 +74,8 @@ def quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - 
     Parameters
     ----------
     value
-        Text: a number and its unit. Angles are no bare numbers: 45 deg, 0.5 rad, 1 turn.
+        Text: a number and its unit; or a quantity of pint, of any registry. Angles are no bare numbers: 45 deg,
+        0.5 rad, 1 turn.
     dimension
         What is asked, one of `DIMENSIONS`.
     name
@@ -93,6 +94,7 @@ def quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - 
     Traceback (most recent call last):
     optlaws.errors.InputError: limit must be a velocity such as '616 mm/s', but '35 mm' is a length
     """
+    value = written(value)
     number, unit = _parts(value, dimension, name)
     asked = _registry().parse_units(DIMENSIONS[dimension][0])
     if unit.dimensionality != asked.dimensionality:
@@ -113,12 +115,31 @@ def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, flo
     >>> either("0.1 s", ("angle", "time"), "duration")
     ('time', 0.1)
     """
+    value = written(value)
     _, unit = _parts(value, dimensions[0], name)
     for dimension in dimensions:
         if unit.dimensionality == _registry().parse_units(DIMENSIONS[dimension][0]).dimensionality:
             return dimension, quantity(value, dimension, name)
     kinds = " or ".join(f"{_article(one)} such as {DIMENSIONS[one][1]!r}" for one in dimensions)
     raise InputError(f"{name} must be {kinds}, but {shortened(value)} is {_kind(unit)}")
+
+
+def written(value: Any) -> Any:  # noqa: ANN401 - whatever is given
+    """A quantity of pint as the text that says the same, in SI units where its own are not known here; else the value.
+
+    Examples
+    --------
+    >>> from pint import Quantity
+    >>> written(Quantity(35, "mm/s")), written("35 mm")
+    ('35.0 mm/s', '35 mm')
+    """
+    if type(value).__module__.partition(".")[0] != "pint" or not hasattr(value, "units"):
+        return value
+    unit = f"{value.units:~C}"
+    if _known_unit(unit) is None:
+        value = value.to_base_units()
+        unit = f"{value.units:~C}"
+    return f"{float(value.magnitude)!r} {unit}"
 
 
 class Given(NamedTuple):
@@ -153,7 +174,7 @@ def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:
     Given(dimension='length', number=35.0, unit='mm')
     """
     dimension, _ = either(value, dimensions, name)
-    match = _NUMBER.fullmatch(value)
+    match = _NUMBER.fullmatch(written(value))
     if match is None:
         raise AssertionError  # it has been read above
     return Given(dimension, float(match[1]), match[2].strip())
@@ -174,6 +195,13 @@ def _parts(value: Any, dimension: str, name: str) -> tuple[float, Any]:  # noqa:
 
 
 def _unit(text: str, value: str, dimension: str, name: str) -> Any:  # noqa: ANN401 - pint's
+    unit = _known_unit(text)
+    if unit is None:
+        raise InputError(f"{_asks(dimension, name)}, but the unit of {shortened(value)} is not known")
+    return unit
+
+
+def _known_unit(text: str) -> Any:  # noqa: ANN401 - pint's, or None
     """The unit that a text means; only names, their powers, products and quotients are read, so nothing runs away."""
     from pint.errors import PintError
 
@@ -183,7 +211,7 @@ def _unit(text: str, value: str, dimension: str, name: str) -> Any:  # noqa: ANN
             return _registry().parse_units(words.replace("^", "**"))
         except (PintError, ValueError, TypeError):
             pass
-    raise InputError(f"{_asks(dimension, name)}, but the unit of {shortened(value)} is not known")
+    return None
 
 
 def _asks(dimension: str, name: str) -> str:

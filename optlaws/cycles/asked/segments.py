@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, fields
 from typing import Any
 
+from optlaws.cycles.asked.quantities import written
 from optlaws.laws import MotionLaw
 
 OPTIMAL = "optimal"
@@ -20,6 +21,10 @@ class CycleSegment:
 
     duration: Any
     name: str
+
+    def __post_init__(self) -> None:
+        for entry in fields(self):  # type: ignore[arg-type] # its heirs are dataclasses
+            object.__setattr__(self, entry.name, written(getattr(self, entry.name)))
 
     @property
     def label(self) -> str:

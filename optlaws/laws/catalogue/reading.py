@@ -20,7 +20,7 @@ _ENDINGS = (".json", _TABLE)
 _LONGEST = 100
 
 
-def read_law(text: str) -> MotionLaw:
+def read_law(text: str | Path) -> MotionLaw:
     """The law that a text names.
 
     Parameters
@@ -42,6 +42,8 @@ def read_law(text: str) -> MotionLaw:
     >>> read_law("III(7.2)") == SavinFamily.of("III").law(7.2)
     True
     """
+    if isinstance(text, Path):
+        return stored_law(text)
     chosen = member(text)
     if chosen is not None:
         family, alpha = chosen

@@ -63,13 +63,13 @@ def law_through(k: Many, a: Many, tolerance: Any = 0.0, *, rest: bool = True) ->
     >>> round(law_through(degrees, table).constants.C.value, 2)  # through the rounded points
     10.16
     """
-    places, heights = _points(k, a)
-    room = not_negative(tolerance, "tolerance") / abs(float(a[-1]) - float(a[0]))
+    places, heights, stroke = _points(k, a)
+    room = not_negative(tolerance, "tolerance") / stroke
     return _through(places, heights, rest=rest) if room == 0.0 else _within(places, heights, room, rest=rest)
 
 
-def _points(k: Many, a: Many) -> tuple[Array, Array]:
-    """The points of a law from 0 to 1."""
+def _points(k: Many, a: Many) -> tuple[Array, Array, float]:
+    """The points of a law from 0 to 1, and the stroke that they had."""
     times, positions = np.array(numbers(k, "k")), np.array(numbers(a, "a"))
     if times.shape != positions.shape or len(times) <= _DEGREE:
         raise InputError(f"a law goes through at least 6 points, as many k as a, got {len(times)} and {len(positions)}")
@@ -79,7 +79,7 @@ def _points(k: Many, a: Many) -> tuple[Array, Array]:
     stroke = positions[-1] - positions[0]
     if stroke == 0.0:
         raise InputError("a law ends elsewhere than it begins: give the rise and the return by themselves")
-    return (times - times[0]) / (times[-1] - times[0]), (positions - positions[0]) / stroke
+    return (times - times[0]) / (times[-1] - times[0]), (positions - positions[0]) / stroke, abs(float(stroke))
 
 
 def _through(places: Array, heights: Array, *, rest: bool) -> PiecewiseLaw:

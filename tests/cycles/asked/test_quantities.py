@@ -1,10 +1,12 @@
 """Quantities with units: what they are in SI, and what errors say of those that are wrong."""
 
 from math import pi
+from typing import Any
 
 import pytest
+from pint import UnitRegistry
 
-from optlaws import InputError
+from optlaws import Cycle, Dwell, InputError, Return, Rise
 from optlaws.cycles.asked.quantities import DIMENSIONS, either, quantity
 
 
@@ -64,3 +66,26 @@ def test_what_is_wrong_is_said(given: object, said: str) -> None:
 def test_of_several_dimensions_the_error_names_all() -> None:
     with pytest.raises(InputError, match=r"duration must be an angle such as '45 deg' or a time such as '0\.3 s', but"):
         either("3 mm", ("angle", "time"), "duration")
+
+
+def test_quantities_of_pint_are_taken_as_their_texts() -> None:
+    units: UnitRegistry[Any] = UnitRegistry()
+    for given, dimension, expected in (
+        (35 * units.mm, "length", 0.035),
+        (2 * units.ft, "length", 0.6096),
+        (200 * units.rpm, "angular velocity", 200.0 * pi / 30.0),
+        (3 * units.N / units.mm, "stiffness", 3000.0),
+        (9 * units.lbf, "force", 9 * 4.4482216152605),
+        (0.4 * units.N * units.m, "torque", 0.4),
+    ):
+        assert quantity(given, dimension, "it") == pytest.approx(expected, rel=1e-12)
+    for wrong, told in ((35 * units.mm / units.s, "'35.0 mm/s' is a velocity"), (3 * units.K, "'3.0 K' is not known")):
+        with pytest.raises(InputError, match=told):
+            quantity(wrong, "length", "it")
+    asked = [("35 mm", "0.1 s"), (35 * units.mm, 0.1 * units.s)]
+    texts, foreign = (
+        Cycle([Rise(by=by, duration=time), Dwell(time), Return(duration=time)], period=3 * time if i else "0.3 s")
+        for i, (by, time) in enumerate(asked)
+    )
+    assert Cycle.from_json(foreign.to_json()) == foreign
+    assert foreign.peaks == texts.peaks
