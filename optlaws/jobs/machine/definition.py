@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 import msgspec
 
@@ -72,6 +72,8 @@ class Measure(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     dwell: float = 0.0
     spread: Spread = 0.0
     damping: Pair | None = None
+    side: Literal["both", "high", "low"] = "both"
+    offset: float = 0.0
 
     def constant(self, machine: Machine) -> Functional:
         """The constant of this machine.
@@ -86,9 +88,9 @@ class Measure(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
                 "a constant of the machine is one of peak and rms, each of an output, and residual of a mode"
             )
         if self.peak is not None:
-            return machine.peak(self.peak, within=self.within, cycle=self.cycle)
+            return machine.peak(self.peak, within=self.within, cycle=self.cycle, side=self.side, offset=self.offset)
         if self.rms is not None:
-            return machine.rms(self.rms, dwell=self.dwell, cycle=self.cycle)
+            return machine.rms(self.rms, dwell=self.dwell, cycle=self.cycle, offset=self.offset)
         return machine.residual(self.residual or 0, self.output, spread=self.spread, damping=self.damping)
 
 

@@ -279,8 +279,10 @@ class Machine(StateSpace):
         *,
         within: tuple[float, float] = (0.0, 1.0),
         cycle: tuple[float, float] | None = None,
+        side: str = "both",
+        offset: float = 0.0,
     ) -> OutputPeak:
-        """The greatest magnitude of an output as a constant of the law, to be minimised or bounded; convex.
+        """The peak of an output as a constant of the law, to be minimised or bounded; convex.
 
         Parameters
         ----------
@@ -291,11 +293,15 @@ class Machine(StateSpace):
             it, (0, 1.5) both.
         cycle
             The dwell and the rest of a cycle of rise, dwell, return and rest that repeats; then all of it counts.
+        side
+            "both" for the greatest magnitude, "high" for the greatest value, "low" for the greatest opposite.
+        offset
+            What is added to the output, in its units: a constant load, such as the weight that the drive holds.
 
         Raises
         ------
         InputError
-            If there is no such output, or a time is out of range.
+            If there is no such output or side, or a number is out of range.
 
         Examples
         --------
@@ -309,10 +315,15 @@ class Machine(StateSpace):
         """
         from optlaws.mechanisms.machine.output_constants import output_peak
 
-        return output_peak(of=self, within=within, cycle=cycle, output=output)
+        return output_peak(of=self, within=within, cycle=cycle, output=output, side=side, offset=offset)
 
     def rms(
-        self, output: str | None = None, *, dwell: float = 0.0, cycle: tuple[float, float] | None = None
+        self,
+        output: str | None = None,
+        *,
+        dwell: float = 0.0,
+        cycle: tuple[float, float] | None = None,
+        offset: float = 0.0,
     ) -> OutputRms:
         """The root mean square of an output as a constant of the law, to be minimised or bounded; convex.
 
@@ -324,11 +335,13 @@ class Machine(StateSpace):
             How much of the dwell after the rise counts too, in durations of the rise.
         cycle
             The dwell and the rest of a cycle of rise, dwell, return and rest that repeats; then all of it counts.
+        offset
+            What is added to the output, in its units: a constant load.
 
         Raises
         ------
         InputError
-            If there is no such output, or a time is out of range.
+            If there is no such output, or a number is out of range.
 
         Examples
         --------
@@ -338,7 +351,7 @@ class Machine(StateSpace):
         """
         from optlaws.mechanisms.machine.output_constants import output_rms
 
-        return output_rms(of=self, dwell=dwell, cycle=cycle, output=output)
+        return output_rms(of=self, dwell=dwell, cycle=cycle, output=output, offset=offset)
 
     def residual(
         self,

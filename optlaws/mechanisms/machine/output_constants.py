@@ -2,21 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from abc import abstractmethod
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
-from math import inf, nan
+from math import inf, nan, sqrt
 from typing import ClassVar
 
 import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.machine import drives
-from optlaws.mechanisms.machine.dynamics import Panel
+from optlaws.mechanisms.machine.dynamics import Panel, inverse_gain
 from optlaws.mechanisms.machine.output_curve import OutputCurve
 from optlaws.mechanisms.machine.over_time import (
     BRIEF,
@@ -28,22 +28,24 @@ from optlaws.mechanisms.machine.over_time import (
     steady,
 )
 from optlaws.mechanisms.machine.state_space import StateSpace
-from optlaws.mechanisms.machine.texts import check_repeats, check_rest, machine_of, text_of, title_of
-from optlaws.numbers import numbers
+from optlaws.mechanisms.machine.texts import asked_of_output, check_repeats, check_rest, time_of, title_of
+from optlaws.suggest import unknown_key
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily
+from optlaws.synthesis.functionals.sizes import Reach, by_norm, reach_of
 from optlaws.synthesis.problem.constants import MAKERS, Functional
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 from optlaws.synthesis.spaces.pieces.rows import PieceFamily, PieceSeries
 from optlaws.synthesis.spaces.space import LawSpace
 
 Array = NDArray[np.float64]
 
 _RADIANS = 40.0  # of the fastest vibration on one piece of the rows
-_LATEST = 100.0
-_SAMPLES = 4001
 _MOST_GAIN = 1e6
-_RANK = 1e-12
 _NEGLIGIBLE = 2.0**-54
-_ROOM = 1.01  # for what the sum over samples misses of an integral
+_ROUNDED = 1e-12
+_KNOWN = 3  # end conditions of which the acceleration is one
+SIDES = {"both": (1.0, -1.0), "high": (1.0,), "low": (-1.0,)}
+_SIDE = {signs: side for side, signs in SIDES.items()}
 
 
 @dataclass(frozen=True, repr=False)
@@ -60,6 +62,8 @@ class OutputConstant(Functional):
         The dwell and the rest of a cycle of rise, dwell, return and rest; None for one rise.
     steady
         Whether the law is itself a whole cycle that repeats; its duration is then the unit of time.
+    offset
+        What is added to the output.
     """
 
     machine: StateSpace = field(compare=False)
@@ -67,9 +71,13 @@ class OutputConstant(Functional):
     within: tuple[float, float]
     cycle: tuple[float, float] | None
     steady: bool = False
+    offset: float = 0.0
 
     def curve(self, law: MotionLaw) -> OutputCurve:
-        """The output under a law, over all that counts and what is before it."""
+        """The output under a law with its offset, over all that counts and what is before it."""
+        return self._moved_by(law).plus(self.offset)
+
+    def _moved_by(self, law: MotionLaw) -> OutputCurve:
         if self.steady:
             check_repeats(self.name, self.machine, float(law.a(1.0)) - float(law.a(0.0)))
             return RepeatedMotion(self.machine, tuple(drives.of_law(law)), tuple(jumps(law)))[self.output]
@@ -94,6 +102,7 @@ class OutputConstant(Functional):
         said = [] if self.cycle is not None or self.within == (0.0, 1.0) else [f"times {first:g} to {last:g}"]
         said += [] if self.cycle is None else ["over a cycle with dwell {:g} and rest {:g}".format(*self.cycle)]
         said += ["steady"] if self.steady else []
+        said += [f"{self.offset:+g}"] if self.offset else []
         return title_of(self.machine, self._what, self.output, *said)
 
     @property
@@ -105,20 +114,46 @@ class OutputConstant(Functional):
         """The time of a place."""
         return f"time {k * self.duration:.4g}"
 
-    def curbs(self) -> tuple[tuple[int, float], ...]:
-        """The derivative that enters the output directly is the response of the inverse machine to it."""
-        alone = self.cycle is None and not self.steady
-        return self._curbs if alone and self.within[0] == 0.0 and self.within[1] >= 1.0 else ()
-
     @kept_property
-    def _curbs(self) -> tuple[tuple[int, float], ...]:
-        order, gain = inverse_gain(self.machine, self.output)
+    def _gain(self) -> tuple[int, float] | None:
+        """An order and by how much its mean exceeds that of the output: the inverse machine's response to it."""
+        whole = self.cycle is None and not self.steady and self.within[0] == 0.0 and self.within[1] >= 1.0
+        place = self.machine.place(self.output)
+        rows = np.array(self.machine.C[place]), self.machine.direct[place]
+        order, gain = inverse_gain(np.array(self.machine.A), self.machine.load, *rows) if whole else (0, inf)
         # of a part [0, 1] of the time, whose mean is at most so much more
-        return ((order, gain * self.duration),) if gain < _MOST_GAIN else ()
+        return (order, gain * self.duration) if gain < _MOST_GAIN else None
 
     def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:
-        """Of a law that repeats: its acceleration is bounded by the output, for it determines the law in the space."""
-        return steady_sizes(self, space) if self.steady else super().sizes(space)
+        """How large a law is: its output determines a derivative at once, or all of it among the laws of the space."""
+        if self.steady and self.both:
+            return by_norm(space, self.rows_of_output(space))
+        if self._gain is not None and self.both:
+            order, factor = self._gain
+            return ((order, factor, factor * abs(self.offset)),)
+        found = space.cached(("size", self.name), lambda: np.array(self._reached(space) or ()))
+        return ((int(found[0]), float(found[1]), float(found[2])),) if len(found) else ()
+
+    @property
+    def both(self) -> bool:
+        """Whether it is small only where the output is."""
+        return True
+
+    @abstractmethod
+    def _reached(self, space: LawSpace) -> tuple[int, float, float] | None:
+        """A bound of the law from places of the output, if they determine it."""
+
+    def reach(self, space: LawSpace) -> Reach | None:
+        """By how much the output at places moves a law of a space."""
+        values, weights = zip(*self._samples(space), strict=True)
+        return reach_of(space, np.vstack(values), np.concatenate(weights))
+
+    def _samples(self, space: LawSpace) -> Iterator[tuple[Array, Array]]:
+        """Columns of the output at Gauss points of each panel that counts, and their weights."""
+        for start, length, series in self.panels(space):
+            x, weights = legendre.leggauss(len(series))
+            own = start + 0.5 * length * (x + 1.0) >= self.within[0]
+            yield np.polynomial.chebyshev.chebvander(x, len(series) - 1)[own] @ series, 0.5 * length * weights[own]
 
     def panels(self, space: LawSpace) -> list[tuple[float, float, Array]]:
         """Start, length and series of the output on short stretches, a column for each function of a space."""
@@ -129,7 +164,10 @@ class OutputConstant(Functional):
         if self.machine.output_rows(self.output)[1][2] and getattr(space, "continuity", 2) < 1:
             raise InputError(f"{self.output!r} is beyond every bound where the velocity jumps: ask a continuity of 1")
         states, direct = self.machine.output_rows(self.output)
-        return [(one.start, one.length, one.output(states, direct)) for one in self._moved(space)]
+        panels = [(panel.start, panel.length, panel.output(states, direct)) for panel in self._moved(space)]
+        for *_, series in panels:
+            series[0, -1] += self.offset
+        return panels
 
     def _moved(self, space: LawSpace) -> list[Panel]:
         rise = drives.of_space(space)
@@ -147,13 +185,9 @@ class OutputConstant(Functional):
 
     def rows_of_output(self, space: LawSpace) -> Array:
         """A column for each function of a space: the RMS of the output is the norm of their sum."""
-        panels = self.panels(space)
-        total = sum(length for _, length, _ in panels)
-        rows = []
-        for _, length, series in panels:
-            x, weights = legendre.leggauss(len(series))
-            values = np.polynomial.chebyshev.chebvander(x, len(series) - 1) @ series
-            rows.append(np.sqrt(0.5 * weights * length / total)[:, None] * values)
+        samples = list(self._samples(space))
+        total = sum(float(weights.sum()) for _, weights in samples)
+        rows = [np.sqrt(weights / total)[:, None] * values for values, weights in samples]
         # a norm is that of the triangle alone
         return np.ascontiguousarray(np.linalg.qr(np.vstack(rows), mode="r"))
 
@@ -163,15 +197,44 @@ class OutputConstant(Functional):
 
 @dataclass(frozen=True, repr=False)
 class OutputPeak(OutputConstant):
-    """Greatest magnitude of an output; made by `Machine.peak`."""
+    """Greatest magnitude of an output, or of one side; made by `Machine.peak`."""
 
     _what: ClassVar[str] = "peak of"
+    signs: tuple[float, ...] = (1.0, -1.0)
+
+    @property
+    def title(self) -> str:
+        """As of others, and which side."""
+        return super().title + ("" if self.both else f", side {_SIDE[self.signs]}")
+
+    @property
+    def both(self) -> bool:
+        """Whether it is small only where the output is."""
+        return len(self.signs) == 2
+
+    def floor(self, conditions: BoundaryConditions) -> float:
+        """A peak of one side may be below 0, but not below the output of the machine at rest where it begins."""
+        if self.both:
+            return 0.0
+        place, level = self.machine.place(self.output), conditions.start[0]
+        begins = self.cycle is None and not self.steady and self.within[0] == 0.0
+        if not begins or (len(conditions.start) < _KNOWN and self.machine.direct[place][2]):
+            return -inf
+        states, direct = self.machine.output_rows(self.output)
+        still = (states @ self.machine.settled(np.array([level]))).real[0]
+        value = float(still) + direct[0] * level + self.offset
+        size = abs(float(still)) + abs(direct[0] * level) + abs(self.offset)
+        return float(self.signs[0] * value - _ROUNDED * size)
+
+    def _reached(self, space: LawSpace) -> tuple[int, float, float] | None:
+        reach = self.reach(space)
+        return None if reach is None else reach.by_peak() if self.both else reach.by_one_sign(self.signs[0])
 
     def value(self, law: MotionLaw) -> float:
         """The greatest magnitude over the whole time that counts."""
         curve = self.curve(law)
         low, high = curve.extrema(0, None if self.cycle is not None else (self.within[0], curve.interval[1]))
-        return max(high.value, -low.value)
+        return max(high.value if sign > 0.0 else -low.value for sign in self.signs)
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """The output's series, on pieces where it has many."""
@@ -183,12 +246,12 @@ class OutputPeak(OutputConstant):
         unit = self.unit(space)
         slack, bound, wide = slack / unit, bound / unit, wide / unit
         if len(wide) == 1:
-            return (LinearFamily(self.name, slack, bound, (1.0, -1.0), domain, series=wide[0]),)
+            return (LinearFamily(self.name, slack, bound, self.signs, domain, series=wide[0]),)
         pieces = PieceSeries(np.append(breaks, -1.0), wide)
         nothing = np.zeros((1, 1))
         return (
             PieceFamily(
-                self.name, slack, bound, (1.0, -1.0), domain, series=nothing, pieces=pieces, jumps=self._jumps(space)
+                self.name, slack, bound, self.signs, domain, series=nothing, pieces=pieces, jumps=self._jumps(space)
             ),
         )
 
@@ -226,6 +289,13 @@ class OutputRms(OutputConstant):
 
     _what: ClassVar[str] = "RMS of"
 
+    def _reached(self, space: LawSpace) -> tuple[int, float, float] | None:
+        reach = self.reach(space)
+        if reach is None:
+            return None
+        order, factor, offset = reach.by_square()
+        return order, factor * sqrt(self.duration), offset
+
     def value(self, law: MotionLaw) -> float:
         """The root of the mean square over the whole time."""
         return self.curve(law).rms(0)
@@ -238,73 +308,6 @@ class OutputRms(OutputConstant):
         return (NormFamily(self.name, slack / unit, bound / unit, matrix=wide),)
 
 
-def inverse_gain(machine: StateSpace, output: str) -> tuple[int, float]:
-    """An order and a factor: the mean of |a^(order)| from rest on is at most the factor times that of |output|.
-
-    The highest derivative that enters the output directly is what the inverse machine makes of the output: as much as
-    is fed through, and the integral of its response to an impulse at most. Infinite where nothing enters directly.
-    """
-    place = machine.place(output)
-    A, load, states, direct = np.array(machine.A), machine.load, np.array(machine.C[place]), machine.direct[place]
-    feeds, loads = direct.copy(), load.copy()
-    for order in (2, 1, 0):
-        if feeds[order]:
-            break
-        if order == 0:
-            return 0, inf
-        # x - load a^(order - 1) has no derivative of this order in its equation
-        feeds[order - 1] += states @ loads[:, order]
-        loads[:, order - 1] += A @ loads[:, order]
-        loads[:, order] = 0.0
-    size = len(A)
-    # the states, then what is integrated from the derivative: a, or a and b
-    whole = np.zeros((size + order, size + order))
-    whole[:size, :size], whole[:size, size:] = A, loads[:, :order]
-    whole[size:, size:] = np.eye(order, k=1)
-    entry, row = np.zeros(size + order), np.concatenate([states, feeds[:order]])
-    entry[:size] = loads[:, order]
-    entry[size:] += np.eye(order)[-1] if order else 0.0
-    inverse = whole - np.outer(entry, row) / feeds[order]
-    return order, _ROOM * (1.0 / abs(feeds[order]) + _impulse(inverse, entry, row) / feeds[order] ** 2)
-
-
-def _impulse(matrix: Array, entry: Array, row: Array) -> float:
-    """Integral over [0, 1] of |row exp(matrix t) entry|, by samples."""
-    from scipy.linalg import expm
-
-    step, states = expm(matrix / (_SAMPLES - 1)), entry[:, None]
-    with np.errstate(over="ignore", invalid="ignore"):
-        while states.shape[1] < _SAMPLES:
-            # as many times again, all of them as much later
-            states, step = np.hstack([states, step @ states]), step @ step
-        total = float(np.trapezoid(np.abs(row @ states[:, :_SAMPLES]))) / (_SAMPLES - 1)
-    return total if np.isfinite(total) else inf
-
-
-def steady_sizes(constant: OutputConstant, space: LawSpace) -> tuple[tuple[int, float, float], ...]:
-    """What the RMS of c is at most in laws of a space with such an output: by the least singular value of the way back.
-
-    Nothing where the output does not determine the law.
-    """
-    rows = constant.rows_of_output(space)
-    rule = space.quadrature(2)
-    bent = np.sqrt(rule.weights)[:, None] * rule.values
-    asked = space.equations()
-    matrix = np.array([one.row for one in asked]).reshape(-1, space.terms)
-    right = np.array([one.right for one in asked])
-    kept = np.append(np.linalg.lstsq(matrix, right, rcond=None)[0], 1.0)
-    _, sizes, turn = np.linalg.svd(matrix)
-    free = turn[int((sizes > _RANK * sizes.max(initial=1.0)).sum()) :].T
-    way: Array = np.asarray(np.linalg.qr(bent[:, :-1] @ free, mode="r"))
-    if np.linalg.matrix_rank(way) < way.shape[1]:
-        return ()
-    least = float(np.linalg.svd(rows[:, :-1] @ free @ np.linalg.inv(way), compute_uv=False)[-1])
-    if least * _MOST_GAIN < float(np.linalg.norm(rows)) / max(float(np.linalg.norm(bent)), 1.0):
-        return ()
-    factor = _ROOM / least
-    return ((2, factor, _ROOM * float(np.linalg.norm(bent @ kept)) + factor * float(np.linalg.norm(rows @ kept))),)
-
-
 def output_peak(
     *,
     of: str | StateSpace,
@@ -312,8 +315,10 @@ def output_peak(
     cycle: tuple[float, float] | None = None,
     output: str | None = None,
     steady: bool = False,
+    side: str = "both",
+    offset: float = 0.0,
 ) -> OutputPeak:
-    """The greatest magnitude of an output of a machine.
+    """The greatest magnitude of an output of a machine, or its greatest or least value.
 
     Parameters
     ----------
@@ -327,11 +332,15 @@ def output_peak(
         Which output; the first one unless given.
     steady
         Whether the law is itself a whole cycle that repeats, such as one of `PeriodicPieces`.
+    side
+        "both" for the greatest magnitude, "high" for the greatest value, "low" for the greatest opposite.
+    offset
+        What is added to the output, in its units: a constant load.
 
     Raises
     ------
     InputError
-        If there is no such output, or a time is out of range.
+        If there is no such output or side, or a number is out of range.
 
     Examples
     --------
@@ -339,20 +348,14 @@ def output_peak(
     >>> machine = Machine([[0, 1], [-400, -2]], [[0], [400]], [[-400, -2]], [[400]], outputs=["acceleration"])
     >>> output_peak(of=machine).value(smoothstep(4)), output_peak(of=machine, within=(1, 2)).value(smoothstep(4))
     (10.254029, 1.620669)
+    >>> output_peak(of=machine, side="low").value(smoothstep(4))
+    9.523921
     """
-    machine, name, times, pauses, said = _asked(of, within, cycle, output)
-    said += _steady(steady, times, pauses)
-    text = f"output_peak({', '.join(said)})"
-    return OutputPeak(text, nan, convex=True, machine=machine, output=name, within=times, cycle=pauses, steady=steady)
-
-
-def _steady(steady: object, times: tuple[float, float], pauses: tuple[float, float] | None) -> list[str]:
-    """How a text says that the law repeats."""
-    if not isinstance(steady, bool):
-        raise InputError(f"steady must be True or False, got {shortened(steady)}")
-    if steady and (pauses is not None or times != (0.0, 1.0)):
-        raise InputError("steady is of a law that is a whole cycle: leave within, dwell and cycle out")
-    return ["steady=True"] if steady else []
+    if side not in tuple(SIDES):
+        raise InputError(unknown_key(side, SIDES, "side"))
+    asked, said = asked_of_output(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
+    said += [] if side == "both" else [f"side={side}"]
+    return OutputPeak(f"output_peak({', '.join(said)})", nan, convex=True, **asked, signs=SIDES[side])
 
 
 def output_rms(
@@ -362,6 +365,7 @@ def output_rms(
     cycle: tuple[float, float] | None = None,
     output: str | None = None,
     steady: bool = False,
+    offset: float = 0.0,
 ) -> OutputRms:
     """The root mean square of an output of a machine, over the rise and a dwell after it, or over a cycle.
 
@@ -377,11 +381,13 @@ def output_rms(
         Which output; the first one unless given.
     steady
         Whether the law is itself a whole cycle that repeats.
+    offset
+        What is added to the output, in its units: a constant load.
 
     Raises
     ------
     InputError
-        If there is no such output, or a time is out of range.
+        If there is no such output, or a number is out of range.
 
     Examples
     --------
@@ -390,44 +396,10 @@ def output_rms(
     >>> output_rms(of=machine).value(smoothstep(4))
     0.29...
     """
-    machine, name, times, pauses, said = _asked(of, (0.0, 1.0 + _time(dwell, "dwell")), cycle, output)
-    said = [one for one in said if not one.startswith("within")]
-    said += [f"dwell={float(dwell)!r}"] if dwell and cycle is None else []
-    said += _steady(steady, times, pauses)
-    text = f"output_rms({', '.join(said)})"
-    return OutputRms(text, nan, convex=True, machine=machine, output=name, within=times, cycle=pauses, steady=steady)
-
-
-def _asked(
-    of: str | StateSpace, within: object, cycle: object, output: str | None
-) -> tuple[StateSpace, str, tuple[float, float], tuple[float, float] | None, list[str]]:
-    """What is asked of an output, checked, and its text."""
-    machine = machine_of(of)
-    name = machine.outputs[machine.place(output)]
-    first, last = _pair(within, "within")
-    if not first < last:
-        raise InputError(f"within must be two times, the first before the last, got {shortened(within)}")
-    said = [f"of={text_of(machine, name)}"]
-    if cycle is not None:
-        dwell, rest = _pair(cycle, "cycle")
-        period = 2.0 + dwell + rest
-        return machine, name, (0.0, period), (dwell, rest), [*said, f"cycle=({dwell!r}, {rest!r})"]
-    said += [f"within=({first!r}, {last!r})"] if (first, last) != (0.0, 1.0) else []
-    return machine, name, (first, last), None, said
-
-
-def _pair(value: object, name: str) -> tuple[float, float]:
-    found = numbers(value, name) if isinstance(value, list | tuple) else ()
-    if len(found) != 2:
-        raise InputError(f"{name} must be two times in durations of the rise, got {shortened(value)}")
-    return _time(found[0], name), _time(found[1], name)
-
-
-def _time(value: float, name: str) -> float:
-    (found,) = numbers([value], name)
-    if not 0.0 <= found <= _LATEST:
-        raise InputError(f"{name}: times are durations of the rise, from 0 to {_LATEST:g}, got {shortened(value)}")
-    return found
+    within = (0.0, 1.0 + time_of(dwell, "dwell"))
+    asked, said = asked_of_output(of, output, within=within, cycle=cycle, steady=steady, offset=offset)
+    text = ", ".join(f"dwell={float(dwell)!r}" if part.startswith("within") else part for part in said)
+    return OutputRms(f"output_rms({text})", nan, convex=True, **asked)
 
 
 MAKERS.setdefault("output_peak", output_peak)

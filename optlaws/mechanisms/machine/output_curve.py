@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -46,6 +46,19 @@ class OutputCurve(Curve):
     @property
     def _breaks(self) -> tuple[float, ...]:
         return (*self.starts.tolist(), self.interval[1])
+
+    def plus(self, offset: float) -> OutputCurve:
+        """The curve with a number added to it, in its units: a constant load, such as a weight that is held.
+
+        Examples
+        --------
+        >>> from optlaws import Machine, smoothstep
+        >>> curve = Machine([[-2.0]], [[2.0]], [[1.0]]).response(smoothstep(3))["output 1"]
+        >>> curve(1.0), curve.plus(-1.0)(1.0)
+        (0.605102, -0.394898)
+        """
+        added = [np.concatenate([part[:1] + offset, part[1:]]) for part in self.parts]
+        return replace(self, parts=tuple(added)) if offset else self
 
     def __repr__(self) -> str:
         low, high = self.extrema(0)

@@ -3,14 +3,16 @@
 from __future__ import annotations
 
 import json
-from typing import Any
+from typing import Any, TypedDict
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.machine.state_space import StateSpace
+from optlaws.numbers import numbers
 from optlaws.synthesis.spaces.space import LawSpace
 
 _CLOSED = 1e-9
+_LATEST = 100.0
 
 
 def text_of(machine: StateSpace, output: str) -> str:
@@ -91,3 +93,73 @@ def check_rest(name: str, space: LawSpace) -> None:
     if space.start_velocity != 0.0 or space.velocity_change != 0.0 or space.boundary.order < 2:
         short = name.partition("(")[0]
         raise InputError(f"{short} of a machine needs laws from rest to rest, of order 2 at least")
+
+
+class Asked(TypedDict):
+    """What constants of an output have alike, as their classes take it."""
+
+    machine: StateSpace
+    output: str
+    within: tuple[float, float]
+    cycle: tuple[float, float] | None
+    steady: bool
+    offset: float
+
+
+def asked_of_output(
+    of: str | StateSpace, output: str | None, *, within: object, cycle: object, steady: object, offset: object
+) -> tuple[Asked, list[str]]:
+    """What is asked of an output, checked, and how a text says it.
+
+    Raises
+    ------
+    InputError
+        If there is no such output, or a number is out of range.
+    """
+    machine = machine_of(of)
+    name = machine.outputs[machine.place(output)]
+    times, pauses = _pair(within, "within"), None
+    if not times[0] < times[1]:
+        raise InputError(f"within must be two times, the first before the last, got {shortened(within)}")
+    said = [f"of={text_of(machine, name)}"]
+    if cycle is not None:
+        pauses = _pair(cycle, "cycle")
+        times = 0.0, 2.0 + sum(pauses)
+        said.append(f"cycle=({pauses[0]!r}, {pauses[1]!r})")
+    elif times != (0.0, 1.0):
+        said.append(f"within=({times[0]!r}, {times[1]!r})")
+    repeats = _repeats(steady, alone=pauses is None and times == (0.0, 1.0))
+    said += ["steady=True"] if repeats else []
+    (added,) = numbers([offset], "offset")
+    said += [f"offset={added!r}"] if added else []
+    asked = Asked(machine=machine, output=name, within=times, cycle=pauses, steady=repeats, offset=added)
+    return asked, said
+
+
+def _repeats(steady: object, *, alone: bool) -> bool:
+    if not isinstance(steady, bool):
+        raise InputError(f"steady must be True or False, got {shortened(steady)}")
+    if steady and not alone:
+        raise InputError("steady is of a law that is a whole cycle: leave within, dwell and cycle out")
+    return steady
+
+
+def _pair(value: object, name: str) -> tuple[float, float]:
+    pair = numbers(value, name) if isinstance(value, list | tuple) else ()
+    if len(pair) != 2:
+        raise InputError(f"{name} must be two times in durations of the rise, got {shortened(value)}")
+    return time_of(pair[0], name), time_of(pair[1], name)
+
+
+def time_of(value: float, name: str) -> float:
+    """A time in durations of the rise.
+
+    Raises
+    ------
+    InputError
+        If it is none.
+    """
+    (time,) = numbers([value], name)
+    if not 0.0 <= time <= _LATEST:
+        raise InputError(f"{name}: times are durations of the rise, from 0 to {_LATEST:g}, got {shortened(value)}")
+    return time

@@ -22,8 +22,11 @@ Array = NDArray[np.float64]
 _ROUNDED = 1.0 + 1e-6
 _INVERSE = 1e-6
 _ORDER = 2
-_POSITIVE = 1e-3
+_POSITIVE = 1e-4
+_TINY = 1e-300
 _RANK = 1e-12
+_MOST_GAIN = 1e6
+_ROOM = 1.01
 #: beyond this a bound says nothing
 _LARGEST = 1e13
 
@@ -74,7 +77,11 @@ def reach(space: LawSpace, parts: tuple[Motion, ...]) -> Reach | None:
     """
     rules = [gauss(space, part) for part in parts]
     values = np.vstack([columns(space, part, u) for part, (u, _) in zip(parts, rules, strict=True)])
-    weights = np.concatenate([weight for _, weight in rules])
+    return reach_of(space, values, np.concatenate([weight for _, weight in rules]))
+
+
+def reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
+    """The same of anything that is affine in the law, by its columns at places and the weights of these."""
     fixed, free = _kept(space)
     rows, right = values[:, :-1] @ free, -(values[:, :-1] @ fixed + values[:, -1])
     inverse = np.linalg.pinv(rows)
@@ -90,6 +97,25 @@ def reach(space: LawSpace, parts: tuple[Motion, ...]) -> Reach | None:
     return Reach(pulls, offset, weights, _turning(rows, right, weights))
 
 
+def by_norm(space: LawSpace, rows: Array) -> tuple[tuple[int, float, float], ...]:
+    """What the RMS of c is at most in laws of a space, by the norm of rows: the least singular value of the way back.
+
+    Nothing where the rows do not determine the law.
+    """
+    rule = space.quadrature(2)
+    bent = np.sqrt(rule.weights)[:, None] * rule.values
+    fixed, free = _kept(space)
+    kept = np.append(fixed, 1.0)
+    way: Array = np.asarray(np.linalg.qr(bent[:, :-1] @ free, mode="r"))
+    if np.linalg.matrix_rank(way) < way.shape[1]:
+        return ()
+    least = float(np.linalg.svd(rows[:, :-1] @ free @ np.linalg.inv(way), compute_uv=False)[-1])
+    if least * _MOST_GAIN < float(np.linalg.norm(rows)) / max(float(np.linalg.norm(bent)), 1.0):
+        return ()
+    factor = _ROOM / least
+    return ((2, factor, _ROOM * float(np.linalg.norm(bent @ kept)) + factor * float(np.linalg.norm(rows @ kept))),)
+
+
 def _kept(space: LawSpace) -> tuple[Array, Array]:
     """Coordinates that keep the space's equations, and in which directions they may be left without breaking one."""
     equations = space.equations()
@@ -102,13 +128,39 @@ def _kept(space: LawSpace) -> tuple[Array, Array]:
 
 
 def _turning(rows: Array, right: Array, weights: Array) -> tuple[Array, float] | None:
-    """Weights of the places whose sum with f is the same in every law: of these those nearest to the rule's own."""
-    roots = np.sqrt(weights)
-    scaled = roots[:, None] * rows
-    turning = roots * (roots - scaled @ np.linalg.lstsq(scaled, roots, rcond=None)[0])
+    """Weights above 0 of the places whose sum with f is the same in every law, near to the rule's own if such are."""
+    turning = _balanced(rows, weights, weights)
+    if (turning <= _POSITIVE * weights).any():
+        even = _evenly(rows, weights)
+        turning = turning if even is None else _balanced(rows, weights, even)
     if (turning <= _POSITIVE * weights).any():
         return None
     return turning, -float(turning @ right)
+
+
+def _balanced(rows: Array, weights: Array, near: Array) -> Array:
+    """The weights nearest to given ones that no law moves."""
+    roots = np.sqrt(weights)
+    scaled = roots[:, None] * rows
+    moved: Array = near - roots * (scaled @ np.linalg.lstsq(scaled, near / roots, rcond=None)[0])
+    return moved
+
+
+def _evenly(rows: Array, weights: Array) -> Array | None:
+    """Of the weights that no law moves those whose least share of the rule's own is greatest; None if there are none.
+
+    They are above 0 wherever no direction lowers f at every place.
+    """
+    from scipy.optimize import linprog
+
+    # the rule's own times the least share, and what there is more
+    moved = (weights[:, None] * rows).T
+    matrix = np.vstack([np.column_stack([moved, moved.sum(axis=1)]), np.append(weights, weights.sum())])
+    matrix[:-1] /= np.maximum(np.abs(matrix[:-1]).max(axis=1, keepdims=True), _TINY)
+    right, cost = np.zeros(len(matrix)), np.zeros(matrix.shape[1])
+    right[-1], cost[-1] = weights.sum(), -1.0
+    found = linprog(cost, A_eq=matrix, b_eq=right, method="highs")
+    return None if found.x is None else weights * (found.x[:-1] + found.x[-1])
 
 
 def known_values(motion: Motion, conditions: BoundaryConditions) -> list[tuple[float, float]]:

@@ -92,7 +92,10 @@ class Functional(Term, ABC):
         return ()
 
     def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:  # noqa: ARG002 - some depend on it
-        """The same with an offset, in every law of a space: at most factor times the constant plus the offset."""
+        """The same with an offset, in every law of a space: at most factor times the constant plus the offset.
+
+        A constant below 0, as a peak of one side may be, counts as 0.
+        """
         return tuple((nu, factor, 0.0) for nu, factor in self.curbs())
 
     def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002 - a constant may depend on them

@@ -5,11 +5,12 @@ product = factor { ("*" | "/") factor }
 factor  = number | constant | "max" "(" sum { "," sum } ")" | "(" sum ")"
 constant = name [ "(" argument { "," argument } ")" ]
 argument = name "=" value, or first a formula, whose grammar is that of optlaws.formulas, perhaps in quotes
-value   = number | name | "(" number "," number ")" | "'{" anything but a quote "}'"
+value   = ["-"] number | name | "(" value "," value ")" | "'{" anything but a quote "}'"
 """
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable, Mapping
 
 from optlaws.errors import InputError
@@ -24,6 +25,9 @@ Argument = float | str | tuple[float, float]
 
 _DEPTH = 40
 _LONGEST = 10_000
+_LONGEST_WITH_TABLES = 1_000_000
+#: machines, which are numbers for the greatest part
+_TABLE = re.compile(r"'\{[^']*\}'")
 _SIGNS = frozenset("+-*/(),=")
 #: what makes a constant of a formula, which comes first among its arguments
 OF_FORMULAS = frozenset({"integral", "peak", "rms", "value"})
@@ -54,8 +58,10 @@ def parse(text: str, names: Mapping[str, Term], makers: Makers | None = None) ->
     >>> parse("0.5*C/4 + 0.5*D/2", FUNCTIONALS)
     0.125*C + 0.25*D
     """
-    if len(text) > _LONGEST:
-        raise InputError(f"an objective may have {_LONGEST} characters, got {len(text)}")
+    length = len(_TABLE.sub("", text))
+    if length > _LONGEST or len(text) > _LONGEST_WITH_TABLES:
+        most = f"{_LONGEST} characters, {_LONGEST_WITH_TABLES} with its machines"
+        raise InputError(f"an objective may have {most}, got {length} and {len(text)}")
     try:
         return _objective(text, names, makers or {})
     except FormulaError as error:
@@ -221,9 +227,13 @@ class _Reader(Scanner):
         return low, high
 
     def _number(self) -> float:
+        negative = self.token.text == "-"
+        if negative:
+            self.take()
         if self.token.kind != "number":
             self.refuse("expected a number")
-        return float(self.take().text)
+        size = float(self.take().text)
+        return -size if negative else size
 
     def _maximum(self) -> Expression:
         self.take()

@@ -122,7 +122,8 @@ def means(problem: Problem, space: LawSpace, greatest: Mapping[str, float]) -> l
         known += [(1, stroke)]
     for constant in problem.constants:
         size = greatest.get(constant.name, inf)
-        root = size**0.5 if isinstance(constant, Power) else size
+        # a peak of one side may be below 0: then nothing is above
+        root = size**0.5 if isinstance(constant, Power) else max(size, 0.0)
         known += [(nu, factor * root + offset) for nu, factor, offset in constant.sizes(space)]
     least: dict[int, float] = {}
     for nu, mean in known:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
+from math import nextafter
 
 import numpy as np
 
@@ -16,8 +17,18 @@ from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, relaxed, relaxed_power
-from optlaws.synthesis.proof.certificate import OBJECTIVE, RELAXED, VIOLATION, Certificate, Contact
+from optlaws.synthesis.proof.below_claim import least_values
+from optlaws.synthesis.proof.certificate import (
+    OBJECTIVE,
+    RELAXED,
+    VIOLATION,
+    Certificate,
+    Contact,
+    row_of,
+    weighted_rows,
+)
 from optlaws.synthesis.proof.directions import turned
+from optlaws.synthesis.proof.duality import summed
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 
 _TANGENTS = 4
@@ -25,6 +36,7 @@ _PLACES = 256
 _NEAR = 0.9
 _NO_NORM = 1e-300
 _NOTHING = 1e-14
+_MORE = 2.0  # times as much as rounding lets go
 
 
 def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | None) -> Certificate:
@@ -113,7 +125,27 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
             place = float(min(max(k, 0.0), 1.0))
             contacts.append(Contact(family.name, float(optimum.s[j]), place, multiplier, direction))
     equations = tuple(optimum.equality_multipliers.tolist())
-    return turned(model, Certificate(model.problem, tuple(contacts), equations, program, tangent))
+    return _held(model, turned(model, Certificate(model.problem, tuple(contacts), equations, program, tangent)))
+
+
+def _held(model: Model, proof: Certificate) -> Certificate:
+    """The certificate with multipliers that hold what may fall for ever: a peak of one side, which rounding lets go."""
+    least = least_values(model.problem, model.space)
+    falling = [name for name in model.places if least.get(name) == -np.inf]
+    if not falling or proof.program == VIOLATION:
+        return proof
+    slope = summed(model, weighted_rows(proof)[1]).slope
+    contacts = list(proof.contacts)
+    for name in falling:
+        own = [i for i, contact in enumerate(contacts) if contact.constraint == name and contact.multiplier > 0.0]
+        place = model.places[name]
+        if own and slope[place] > 0.0:
+            most = max(own, key=lambda i: contacts[i].multiplier)
+            pull = -float(row_of(model.program, contacts[most])[0][place])
+            greater = contacts[most].multiplier + _MORE * float(slope[place]) / pull
+            contacts[most] = replace(contacts[most], multiplier=nextafter(greater, np.inf))
+    held = replace(proof, contacts=tuple(contacts))
+    return held if held.bound > proof.bound else proof
 
 
 def violation_certificate(model: Model, optimum: ActiveSet) -> Certificate:

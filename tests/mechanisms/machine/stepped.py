@@ -104,18 +104,20 @@ def output_value(constant: OutputConstant, pieces: Sequence[Chebyshev]) -> float
     machine = constant.machine
     place = machine.outputs.index(constant.output)
     row, direct, A, B = np.array(machine.C[place]), machine.direct[place], np.array(machine.A), machine.load
-    squares, total, greatest = 0.0, 0.0, 0.0
+    squares, total, greatest = 0.0, 0.0, -np.inf
+    signs = constant.signs if isinstance(constant, OutputPeak) else ()
     for times, states, drive in motion(constant, pieces):
         padded = np.vstack([drive, np.zeros((TERMS + 3, len(times)))])
         jets, moved = [], states
         for i in range(TERMS):  # the output's derivatives, of which its Taylor series is made
             jets.append(row @ moved + direct @ padded[i : i + 3])
             moved = A @ moved + B @ padded[i : i + 3]
+        jets[0] = jets[0] + constant.offset
         length = times[1] - times[0]
         taylor = np.array([one / factorial(i) for i, one in enumerate(jets)])
         inside = (times >= constant.within[0] - 1e-12) & (times <= constant.duration + 1e-12)
         if isinstance(constant, OutputPeak):
-            greatest = max(greatest, _highest(taylor[:, inside], length))
+            greatest = max([greatest, *(_highest(sign * taylor[:, inside], length) for sign in signs)])
         else:
             x = 0.5 * length * (X + 1.0)
             values = np.polynomial.polynomial.polyval(x, taylor[:, :-1])
@@ -126,17 +128,17 @@ def output_value(constant: OutputConstant, pieces: Sequence[Chebyshev]) -> float
 
 def _highest(taylor: Array, length: float) -> float:
     if not taylor.shape[1]:
-        return 0.0
-    sizes = np.abs(taylor[0])
-    best = int(np.argmax(sizes))
-    low, high = (0.0 if best == 0 else -length), (0.0 if best == len(sizes) - 1 else length)
+        return -np.inf
+    values = taylor[0]
+    best = int(np.argmax(values))
+    low, high = (0.0 if best == 0 else -length), (0.0 if best == len(values) - 1 else length)
     finer = minimize_scalar(
-        lambda s: -abs(np.polynomial.polynomial.polyval(s, taylor[:, best])),
+        lambda s: -np.polynomial.polynomial.polyval(s, taylor[:, best]),
         bounds=(low, high),
         method="bounded",
         options={"xatol": 1e-12},
     )
-    return max(float(sizes[best]), -float(finer.fun))
+    return max(float(values[best]), -float(finer.fun))
 
 
 def residual_value(constant: ModeResidual, pieces: Sequence[Chebyshev]) -> float:

@@ -3,6 +3,7 @@
 import json
 from dataclasses import replace
 from itertools import pairwise
+from typing import Any
 
 import numpy as np
 import pytest
@@ -23,10 +24,13 @@ from optlaws import (
     Pieces,
     Problem,
     at_most,
+    smoothstep,
     synthesize,
 )
+from optlaws.synthesis.proof.below_claim import means
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.verification import verify
+from tests.sampling import sampled
 from tests.synthesis.judge import Judged
 
 Array = NDArray[np.float64]
@@ -189,6 +193,66 @@ def test_errors_call_a_machine_by_few_words_and_can_be_run_again() -> None:
     assert '"A":' not in repr(solution) + solution._repr_html_() + problem._repr_html_()
 
 
+def test_machines_of_many_states_are_stored_too() -> None:
+    rng = np.random.default_rng(1)
+    A = rng.normal(size=(40, 40))
+    machine = Machine(A - 20.0 * np.eye(40), np.ones((40, 1)), np.ones((1, 40)))
+    assert len(machine.peak().name) > 30_000
+    problem = Problem(order=3, minimise=machine.peak(), bounds={machine.rms(): at_most(1.0)})
+    assert Problem.from_dict(json.loads(json.dumps(problem.to_dict()))) == problem
+
+
+def one_sided(seed: int) -> tuple[Functional, Problem]:
+    """A peak of one side of an output, with a constant load."""
+    machine = chain(seed, masses=1 + seed % 3)
+    whens: list[dict[str, Any]] = [{}, {"within": (0.0, 1.3)}, {"cycle": (0.2, 0.3)}]
+    peak = machine.peak(side=("high", "low")[seed % 2], offset=2.0 * (seed % 3 - 1), **whens[seed % 3])
+    return peak, Problem(order=3, basis=Chebyshev(7 + seed % 2), minimise=peak, symmetric=False)
+
+
+@pytest.mark.parametrize("seed", sampled(range(12), each=4))
+def test_peaks_of_one_side_are_proven(seed: int) -> None:
+    peak, problem = one_sided(seed)
+    solution = synthesize(problem)
+    assert solution.status.value == "optimal"
+    judged = Judged(solution.law).value(peak)
+    assert judged == pytest.approx(solution.objective, rel=1e-8, abs=1e-8)
+    # no law near it is better: the rows have no part in this
+    space = space_of(problem.basis, problem.conditions, symmetric=False)
+    rng = np.random.default_rng(seed)
+    for _ in range(20):
+        other = space.law(solution.active_set.x[: space.terms] + 1e-3 * rng.normal(size=space.terms))
+        assert peak.value(other) >= solution.lower_bound
+
+
+def test_peaks_of_one_side_below_0_do_not_make_laws_small() -> None:
+    machine = chain(2, masses=1)
+    peak = machine.peak(side="high", offset=-200.0)
+    problem = Problem(order=3, basis=Chebyshev(7), minimise=peak, symmetric=False)
+    space = space_of(problem.basis, problem.conditions, symmetric=False)
+    rng = np.random.default_rng(3)
+    for _ in range(10):
+        law = space.law(rng.normal(size=space.terms))
+        assert peak.value(law) < 0.0
+        ((order, mean),) = means(problem, space, {peak.name: peak.value(law)})
+        assert np.abs(law(GRID, order)).mean() <= mean
+    solution = synthesize(problem)
+    assert solution.status.value == "optimal"
+    assert solution.objective < -100.0
+
+
+def test_a_constant_load_is_added_and_sides_are_those_of_the_output() -> None:
+    machine, law = chain(1), smoothstep(4)
+    low, high = machine.response(law).extrema("motor torque")
+    assert machine.peak(side="high").value(law) == high.value
+    assert machine.peak(side="low").value(law) == -low.value
+    assert machine.peak(offset=100.0).value(law) == pytest.approx(100.0 + high.value, rel=1e-14)
+    assert machine.peak(side="low", offset=-3.0).value(law) == pytest.approx(3.0 - low.value, rel=1e-14)
+    # the mean square with a load: the mean is what the masses' momentum at the end says
+    plain, loaded, opposite = (machine.rms(offset=load).value(law) ** 2 for load in (0.0, 2.0, -2.0))
+    assert loaded + opposite == pytest.approx(2.0 * plain + 8.0, rel=1e-13)
+
+
 def test_verification_says_that_it_does_not_know_machines() -> None:
     machine = chain(2, masses=1)
     for constant in (machine.peak(), machine.rms(), machine.residual(1, "last acceleration")):
@@ -206,6 +270,8 @@ def test_verification_says_that_it_does_not_know_machines() -> None:
         ("the first before the last", lambda machine: machine.peak(within=(1.0, 1.0))),
         ("two times", lambda machine: machine.peak(within=3.0)),
         ("durations of the rise, from 0", lambda machine: machine.rms(dwell=-1.0)),
+        ("did you mean 'low'", lambda machine: machine.peak(side="lwo")),
+        ("offset", lambda machine: machine.peak(offset="heavy")),
         ("spread is a share", lambda machine: machine.residual(spread=10.0)),
         ("damping must be a ratio", lambda machine: machine.residual(damping=(0.2, 0.1))),
         ("rest to rest", lambda machine: synthesize(Problem(order=1, minimise=machine.peak()))),
