@@ -3,6 +3,7 @@
 Under a slide with a roller a limit of the pressure angle, |s' - e| <= tan(alpha) (height + s), is linear in the law,
 and so is rho = r0 + s + s'' under a flat face: such laws are proven optimal as all others are. For an arm with a roller
 the limit is s' <= G(s) with a sine G: laws below lines under it are found, laws below lines over it give the bound.
+The radius of curvature under rollers is a formula of the law that is not convex; planes below it give the bound.
 """
 
 from __future__ import annotations
@@ -10,11 +11,12 @@ from __future__ import annotations
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import hypot, sqrt, tan
-from typing import Any, TypeAlias
+from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.cams.curved_limits import RollerCurvature, bound_under, curvature_of
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.disc import TURNINGS, DiscCam
 from optlaws.cams.followers.contact import Contact
@@ -36,7 +38,27 @@ from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import synthesize
 
 Array = NDArray[np.float64]
-Solved: TypeAlias = list[tuple[Piece, Solution | None]]
+
+
+class Found(NamedTuple):
+    """A piece of a cycle with its law.
+
+    Attributes
+    ----------
+    piece
+        With the law.
+    solution
+        None where the law is given.
+    bound
+        What no other law is below; that of the solution unless a better one is known.
+    """
+
+    piece: Piece
+    solution: Solution | None
+    bound: float | None = None
+
+
+Solved: TypeAlias = list[Found]
 
 _ROUNDS, _GAIN = 8, 1e-4
 _KEPT = 1e-7  # by how much limits of the cam may be broken by the law's rounding, relative
@@ -97,8 +119,9 @@ def best_cam(
 ) -> BestCam:
     """The optimal laws of a cycle under limits of its cam, at a given base circle.
 
-    Displacements stay between those of the cycle's joints. A limit that is not convex in the law, such as that of the
-    curvature under a roller, is held against the laws found: where they keep it, they are the best with it, too.
+    Displacements stay between those of the cycle's joints. The curvature under a roller is no convex limit of the law:
+    where the best laws without it break it, laws that keep it are found, and the bound, which holds for all laws, is a
+    little below them; the status then is "local".
 
     Parameters
     ----------
@@ -116,7 +139,7 @@ def best_cam(
     InfeasibleProblem
         If no law keeps them; with proof, where they are linear in the law.
     SolverFailure
-        If a limit that is not convex is broken by the best laws without it.
+        If no law was found that keeps a limit which is not convex, though none was shown not to exist.
 
     Examples
     --------
@@ -136,12 +159,13 @@ def best_cam(
         return BestCam(given, cycle.objective, bound, cycle.status, cycle.solutions)
     inner = _solved(cycle, given, limits, below=True)
     outer = _solved(cycle, given, limits, below=False) if isinstance(given.contact, SwingingRoller) else inner
-    pieces = tuple(piece for piece, _ in inner)
+    inner, outer = _bent(cycle, given, limits, inner, outer)
+    pieces = tuple(one.piece for one in inner)
     cam = replace(given, motion=CamMotion.of_pieces(pieces, cycle.duration, cycle.axis))
     _check_kept(cam, limits)
     objective, bound = _objective(cycle, inner), _bound(cycle, outer)
-    solutions = tuple(solution for _, solution in inner if solution is not None)
-    proven = all(one.status is Status.OPTIMAL for one in solutions) and objective - bound <= 1e-6 * objective
+    solutions = tuple(one.solution for one in inner if one.solution is not None)
+    proven = objective - bound <= 1e-6 * objective
     return BestCam(cam, objective, bound, Status.OPTIMAL if proven else Status.LOCAL, solutions)
 
 
@@ -188,7 +212,7 @@ def best_base_circle(
     if set(limits) != {limit}:
         raise InputError(f"the least base circle of all laws under this follower takes one limit: {_NAMED[limit]}")
     needs, solutions, pieces = [], [], []
-    for piece, solution in _with_solutions(cycle):
+    for piece, solution, _ in _with_solutions(cycle):
         walls = walls_of(piece, contact, limits, cycle.duration, below=True)
         if solution is None:
             needs += [abs(piece.stroke) * wall.needed().value(piece.law) for wall in walls]
@@ -229,15 +253,15 @@ def _with_solutions(cycle: Cycle) -> Solved:
     if OBJECTIVES[cycle.minimise][0] < 0:
         raise InputError(f"cycle: minimise a peak or a root mean square of the motion, not the {cycle.minimise}")
     known = {id(one.law): one for one in cycle.solutions}
-    return [(piece, known.get(id(piece.law))) for piece in cycle.pieces]
+    return [Found(piece, known.get(id(piece.law))) for piece in cycle.pieces]
 
 
 def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool) -> Solved:
     """The pieces with laws that keep lines below the limits, or above them."""
     found: Solved = []
-    for piece, solution in _with_solutions(cycle):
+    for piece, solution, _ in _with_solutions(cycle):
         if solution is None:
-            found.append((piece, None))
+            found.append(Found(piece, None))
             continue
         best = _best(piece, solution.problem, cam.contact, limits, cycle.duration, below=below)
         for _ in range(_ROUNDS if below and isinstance(cam.contact, SwingingRoller) else 0):
@@ -245,8 +269,36 @@ def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool
             best = _best(guide, solution.problem, cam.contact, limits, cycle.duration, below=True)
             if best.objective > last * (1.0 - _GAIN):
                 break
-        found.append((replace(piece, law=best.law), best))
+        found.append(Found(replace(piece, law=best.law), best))
     return found
+
+
+def _bent(cycle: Cycle, cam: DiscCam, limits: dict[str, float], inner: Solved, outer: Solved) -> tuple[Solved, Solved]:
+    """The pieces with laws whose curvature under a roller keeps its limit, and with what it costs at least."""
+    if CURVATURE not in limits:
+        return inner, outer
+    kept, bounded = [], []
+    for one, beyond in zip(inner, outer, strict=True):
+        curvature = curvature_of(one.piece, cam.contact, limits[CURVATURE], cycle.duration)
+        if one.solution is None or beyond.solution is None or curvature is None or not curvature.broken():
+            kept.append(one)
+            bounded.append(beyond)
+            continue
+        best = _curved(one.solution.problem, curvature)
+        kept.append(Found(replace(one.piece, law=best.law), best))
+        bounded.append(beyond._replace(bound=bound_under(curvature, beyond.solution.problem, best.objective)))
+    return kept, bounded
+
+
+def _curved(problem: Problem, curvature: RollerCurvature) -> Solution:
+    try:
+        return synthesize(replace(problem, windows=(*problem.windows, curvature.window())))
+    except (InfeasibleProblem, SolverFailure):
+        raise SolverFailure(
+            f"no law was found from {curvature.piece.start:.6g} s on that keeps the least radius of curvature, and"
+            " under this follower its limit is not convex in the law: make the base circle larger, the limits wider,"
+            " or the motion longer"
+        ) from None
 
 
 def _best(
@@ -296,32 +348,32 @@ def _check_kept(cam: DiscCam, limits: dict[str, float]) -> None:
     if CURVATURE in limits and found.bulging_radius.high < limits[CURVATURE] * (1.0 - _KEPT):
         raise SolverFailure(
             f"the best laws under the other limits have a radius of curvature of {shown(found.bulging_radius.value)},"
-            " and under this follower its limit is not convex in the law: make the base circle larger or drop the limit"
+            " and what a dwell or a given law has no other law can mend: make the base circle larger or drop the limit"
         )
 
 
 def _objective(cycle: Cycle, solved: Solved) -> float:
     nu, mean = OBJECTIVES[cycle.minimise]
     if mean:
-        return sqrt(sum(piece.duration * piece.mean_square(nu) for piece, _ in solved) / cycle.duration)
-    return max(abs(piece.stroke) / piece.duration**nu * piece.law.peak(nu).value for piece, _ in solved)
+        return sqrt(sum(one.piece.duration * one.piece.mean_square(nu) for one in solved) / cycle.duration)
+    return max(abs(one.piece.stroke) / one.piece.duration**nu * one.piece.law.peak(nu).value for one in solved)
 
 
 def _bound(cycle: Cycle, solved: Solved) -> float:
     nu, mean = OBJECTIVES[cycle.minimise]
     sizes = [
-        (piece.duration, abs(piece.stroke) / piece.duration**nu * _least(piece, solution, nu, mean=mean))
-        for piece, solution in solved
+        (one.piece.duration, abs(one.piece.stroke) / one.piece.duration**nu * _least(one, nu, mean=mean))
+        for one in solved
     ]
     if mean:
         return sqrt(sum(time * size**2 for time, size in sizes) / cycle.duration)
     return max(size for _, size in sizes)
 
 
-def _least(piece: Piece, solution: Solution | None, nu: int, *, mean: bool) -> float:
+def _least(one: Found, nu: int, *, mean: bool) -> float:
     """What the constant of a piece's law is at least; what it is where the law is given."""
-    if solution is not None:
-        return solution.lower_bound
-    if piece.stroke == 0.0:
+    if one.solution is not None:
+        return one.solution.lower_bound if one.bound is None else one.bound
+    if one.piece.stroke == 0.0:
         return 0.0
-    return piece.law.rms(nu) if mean else piece.law.peak(nu).value
+    return one.piece.law.rms(nu) if mean else one.piece.law.peak(nu).value

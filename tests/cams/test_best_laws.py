@@ -4,25 +4,34 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 from scipy.optimize import linprog
 
+from optlaws.cams import curved_limits
 from optlaws.cams.best_laws import best_base_circle, best_cam
+from optlaws.cams.curved_limits import curvature_of
+from optlaws.cams.curves.jets import Jet
+from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.oscillating_flat import OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller, SwingingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat
-from optlaws.cams.followers.translating_roller import TranslatingRoller
+from optlaws.cams.followers.translating_roller import SlidingRoller, TranslatingRoller
 from optlaws.cams.law_lines import walls_of
 from optlaws.cams.least_sizes import PRESSURE
 from optlaws.cycles.asked.conversion import Piece
 from optlaws.cycles.asked.segments import Dwell, Return, Rise
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.laws import smoothstep
 from optlaws.synthesis.solution import Status
+
+Array = NDArray[np.float64]
 
 PRESS = Cycle([Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()], period="0.3 s")
 VALVE = Cycle([Rise("10 mm", "70 deg"), Return("10 mm", "70 deg"), Dwell()], speed="3000 rpm")
 ROCKER = Cycle([Rise("25 deg", "110 deg"), Dwell("60 deg"), Return("25 deg", "130 deg"), Dwell()], speed="120 rpm")
+SWING = Cycle([Rise("25 deg", "60 deg"), Return("25 deg", "70 deg"), Dwell()], speed="120 rpm")
 ARM = OscillatingRoller("14 mm", "110 mm", "140 mm")
 
 
@@ -101,6 +110,82 @@ def test_curvature_under_a_roller_is_held_against_the_laws() -> None:
         best_cam(sharp, "25 mm", TranslatingRoller("8 mm"), radius_of_curvature="20 mm")
     kept = best_cam(PRESS, "60 mm", TranslatingRoller("8 mm"), radius_of_curvature="8 mm")
     assert kept.objective == pytest.approx(PRESS.objective, rel=1e-9)
+
+
+SHORT = Cycle(
+    [Rise("35 mm", "160 deg", law="cycloidal"), Dwell("50 deg"), Return("35 mm", "100 deg"), Dwell()],
+    period="0.3 s",
+    degree=7,
+)
+BENT = {
+    "short": (SHORT, "50 mm", TranslatingRoller("12 mm"), {"radius_of_curvature": "37.5 mm"}),
+    "both": (
+        PRESS,
+        "50 mm",
+        TranslatingRoller("12 mm"),
+        {"radius_of_curvature": "37.5 mm", "pressure_angle": "27 deg"},
+    ),
+    "offset": (PRESS, "45 mm", TranslatingRoller("12 mm", "-6 mm"), {"radius_of_curvature": "32.8 mm"}),
+    "arm": (SWING, "65 mm", ARM, {"radius_of_curvature": "30 mm"}),
+}
+
+
+@pytest.mark.parametrize(
+    "case", ["short", *(pytest.param(name, marks=pytest.mark.long) for name in ("both", "offset", "arm"))]
+)
+def test_curvature_under_a_roller_is_imposed_and_bounded(monkeypatch: pytest.MonkeyPatch, case: str) -> None:
+    if case == "short":
+        monkeypatch.setattr(curved_limits, "_PARTS", 8)
+    cycle, base, follower, limits = BENT[case]
+    best = best_cam(cycle, base, follower, **limits)
+    wanted = 1e-3 * float(limits["radius_of_curvature"].split()[0])
+    assert best.cam.extremes.bulging_radius.low == pytest.approx(wanted, rel=1e-7)
+    if "pressure_angle" in limits:
+        assert np.degrees(best.cam.extremes.greatest_pressure_angle.high) <= 27.0 + 1e-6
+    assert DiscCam(cycle, base, follower).extremes.bulging_radius.high < 0.999 * wanted
+    assert cycle.objective * 1.0001 < best.lower_bound <= best.objective < 1.02 * best.lower_bound
+    assert best.status is Status.LOCAL
+
+
+@pytest.mark.parametrize("turning", [1.0, -1.0])
+@pytest.mark.parametrize("kind", ["slide", "arm"])
+def test_planes_are_nowhere_above_what_the_curvature_needs(kind: str, turning: float) -> None:
+    """Where the pitch curve bends as much as it may, by the contact's own curvature, every plane says it may."""
+    roller = {
+        "slide": SlidingRoller(turning, 0.0, 0.05, 0.006, 0.012),
+        "arm": SwingingRoller(turning, 0.0, 0.5, 0.11, 0.14, 0.014),
+    }[kind]
+    stroke = 0.035 if kind == "slide" else 0.4
+    piece = Piece(0.0, 0.3, 0.1 * stroke, -0.8 * stroke, smoothstep(3))
+    curvature = curvature_of(piece, roller, 0.03, 1.0)
+    assert curvature is not None
+    k = np.linspace(0.0, 1.0, 9)
+    rng = np.random.default_rng(5)
+    middles = 0.5 * (k[:-1] + k[1:])
+    pairs = [
+        [(one - 0.02, one + 0.02) for one in np.asarray(law(middles)).tolist()] for law in (piece.law.a, piece.law.b)
+    ]
+    planes = curvature.planes(k.tolist(), *pairs)
+    assert len(planes) == 8
+    for plane, first, second in zip(planes, *pairs, strict=True):
+        at, rate = (rng.uniform(low, high, 200) for low, high in (first, second))
+        s, slope = piece.offset + piece.stroke * at, piece.stroke * rate / (2 * np.pi * piece.duration)
+
+        def bent(bend: float, s: Array = s, slope: Array = slope) -> Array:
+            return np.asarray(roller.curvature(Jet((s, slope, 0.5 * bend * np.ones(200)))).terms[0])
+
+        # the curvature is affine in s''
+        none, one = bent(0.0), bent(1.0)
+        least = (1.0 / (0.03 + roller.roller) - none) / (one - none)
+        c = least * (2 * np.pi * piece.duration) ** 2 / piece.stroke
+        assert plane.motion is not None
+        values = evaluate(plane.motion.formula, {"a": at, "b": rate, "c": c}, NUMPY)
+        limit = curvature.window().motion
+        assert limit is not None
+        exact = evaluate(limit.formula, {"a": at, "b": rate, "c": c}, NUMPY)
+        assert np.abs(exact).max() < 1e-9
+        assert (values <= plane.high + 1e-9).all()
+        assert values.max() > plane.high - 0.02
 
 
 def test_what_has_no_best_law_says_the_remedy() -> None:

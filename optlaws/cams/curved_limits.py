@@ -1,0 +1,237 @@
+"""The least radius of curvature under a roller as a limit of laws: a formula that is not convex, and planes below it.
+
+The pitch curve bends by no more than 1/rho where s'' >= G(s, s'), for rollers on slides and on arms. What that costs at
+least is bounded in two steps: between which values every law runs that is no worse than a known one, and, in each part
+of the time, a plane that is nowhere above G between these values.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import combinations_with_replacement, pairwise
+from math import isfinite
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.followers.contact import Contact
+from optlaws.cams.followers.oscillating_roller import SwingingRoller
+from optlaws.cams.followers.translating_roller import SlidingRoller
+from optlaws.cycles.asked.conversion import Piece
+from optlaws.cycles.asked.programme import TURN
+from optlaws.errors import InfeasibleProblem, OptlawsError
+from optlaws.formulas.arithmetic import NUMPY, evaluate
+from optlaws.formulas.intervals import Interval, enclosed
+from optlaws.formulas.reading import read
+from optlaws.formulas.slopes import derivative
+from optlaws.formulas.tree import Formula
+from optlaws.kept import kept_property
+from optlaws.synthesis.functionals.makers import value
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.ranges import at_most
+from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.solve import synthesize
+
+Array = NDArray[np.float64]
+Pair = tuple[float, float]
+
+_PARTS = 24
+_ROUNDED = 2.0**-40  # of what a formula's value and slopes amount to
+_ROOM = 1e-9
+_MET = 1e-6  # where bound and objective are as good as one
+
+
+@dataclass(frozen=True)
+class RollerCurvature:
+    """A greatest curvature of a roller's pitch curve as a limit of one piece's law: G(a, b) - c s''(1) <= 0.
+
+    Parameters
+    ----------
+    piece
+        With its displacement.
+    contact
+        The roller, on a slide or an arm.
+    radius
+        The least radius of curvature of the pitch curve where it bulges, m.
+    period
+        Of a turn, in the unit of the piece's duration.
+    """
+
+    piece: Piece
+    contact: SlidingRoller | SwingingRoller
+    radius: float
+    period: float
+
+    @property
+    def _slope(self) -> float:
+        """What s' is where b is 1."""
+        return self.piece.stroke * self.period / (TURN * self.piece.duration)
+
+    @property
+    def factor(self) -> float:
+        """What s'' is where c is 1, in strokes; G is in strokes, too."""
+        return float(np.sign(self.piece.stroke)) * (self.period / (TURN * self.piece.duration)) ** 2
+
+    @property
+    def ends(self) -> Pair:
+        """The velocities at both ends, which are given."""
+        return float(self.piece.law.b(0.0)), float(self.piece.law.b(1.0))
+
+    @kept_property
+    def least(self) -> str:
+        """G as a text in a and b, in strokes."""
+        slope = f"({self._slope!r}*b)"
+        moved = f"({self.piece.offset - self.contact.lowest!r} + ({self.piece.stroke!r})*a)"
+        one = self.contact
+        parts = _on_slide(one, moved, slope) if isinstance(one, SlidingRoller) else _on_arm(one, moved, slope)
+        along, across, turned, held = parts
+        square = f"({along}^2 + {across}^2)"
+        return f"({turned} - {square}^1.5/{self.radius!r})/({held}*{abs(self.piece.stroke)!r})"
+
+    def window(self) -> Window:
+        """The limit as a window of a problem that is not convex."""
+        return Window(f"{self.least} - ({self.factor!r})*c", high=0.0)
+
+    def broken(self) -> bool:
+        """Whether the piece's law breaks it somewhere on a grid."""
+        k = np.linspace(0.0, 1.0, 50 * _PARTS + 1)
+        a, b, c = (np.asarray(quantity(k)) for quantity in (self.piece.law.a, self.piece.law.b, self.piece.law.c))
+        needed = np.asarray(evaluate(self._formula, {"a": a, "b": b}, NUMPY))
+        return bool((needed > self.factor * c + _ROOM).any())
+
+    def planes(self, k: Sequence[float], a: Sequence[Pair], b: Sequence[Pair]) -> list[Window]:
+        """In each part of the time a plane that is nowhere above G where a and b are between their values there."""
+        low, high = np.array([a, b])[:, :, 0], np.array([a, b])[:, :, 1]
+        at, reach = 0.5 * (low + high), 0.5 * (high - low)
+        values = dict(zip("ab", at, strict=True))
+        height = np.asarray(evaluate(self._formula, values, NUMPY)) + 0.0 * at[0]
+        slopes = np.array([np.asarray(evaluate(one, values, NUMPY)) + 0.0 * at[0] for one in self._slopes])
+        within = {name: Interval(*ends) for name, *ends in zip("ab", low, high, strict=True)}
+        size = np.abs(height) + (np.abs(slopes) * np.maximum(np.abs(low), np.abs(high))).sum(axis=0)
+        base = height - (slopes * at).sum(axis=0) - self._taken(within, reach) - _ROUNDED * size
+        known = np.isfinite(base) & np.isfinite(slopes).all(axis=0)
+        return [
+            Window(f"({m!r})*a + ({n!r})*b - ({self.factor!r})*c", high=-one, start=start, stop=stop)
+            for m, n, one, (start, stop), sure in zip(*slopes.tolist(), base.tolist(), pairwise(k), known, strict=True)
+            if sure
+        ]
+
+    def _taken(self, within: dict[str, Interval], reach: Array) -> Array:
+        """What second derivatives can take from a plane that touches G in the middle: Taylor's formula."""
+        taken = np.zeros(reach.shape[1])
+        for i, j in combinations_with_replacement(range(2), 2):
+            bend = enclosed(derivative(self._slopes[i], "ab"[j]), within)
+            worst = 0.5 * np.maximum(-bend.low, 0.0) if i == j else np.maximum(np.abs(bend.low), np.abs(bend.high))
+            taken = taken + worst * reach[i] * reach[j]
+        return taken
+
+    @kept_property
+    def _formula(self) -> Formula:
+        return read(self.least)
+
+    @kept_property
+    def _slopes(self) -> list[Formula]:
+        return [derivative(self._formula, name) for name in "ab"]
+
+
+Parts = tuple[str, str, str, str]
+
+
+def _on_slide(contact: SlidingRoller, moved: str, slope: str) -> Parts:
+    """Along, across, the cubed speed times the curvature where s'' is 0, and what s'' takes off that for each 1."""
+    along = f"({slope} - ({contact.turning * contact.offset!r}))"
+    across = f"({contact.height!r} + {moved})"
+    return along, across, f"{along}^2 + {across}^2 + {along}*{slope}", across
+
+
+def _on_arm(contact: SwingingRoller, moved: str, slope: str) -> Parts:
+    """The same of an arm."""
+    arm, distance, turning = contact.arm, contact.distance, contact.turning
+    psi = f"({contact.first!r} + {moved})"
+    along = f"({arm!r}*({slope} + ({turning!r})) - ({turning * distance!r})*cos({psi}))"
+    across = f"({distance!r}*sin({psi}))"
+    turned = f"(1 + ({turning!r})*{slope})*({along}^2 + {across}^2)"
+    swung = f"({distance!r}*{along}*cos({psi}) - ({turning * distance!r})*sin({psi})*{across})*{slope}"
+    return along, across, f"{turned} + {swung}", f"({arm!r}*{across})"
+
+
+def curvature_of(piece: Piece, contact: Contact, least: float, period: float) -> RollerCurvature | None:
+    """The limit of a piece's law where the profile is to have a least radius of curvature in m; None under a face."""
+    if not isinstance(contact, SlidingRoller | SwingingRoller) or piece.stroke == 0.0:
+        return None
+    return RollerCurvature(piece, contact, least + contact.roller, period)
+
+
+def bound_under(curvature: RollerCurvature, problem: Problem, most: float) -> float:
+    """What the objective of a problem is at least under a limit of curvature, where a law has the objective `most`.
+
+    Laws that are better run in a tube: their b is between values at 25 times, each the optimum of a convex problem,
+    and in between no further from these than their greatest acceleration takes it. There planes below G are limits
+    that are convex. Where nothing bounds the acceleration, the bound is that of the problem itself.
+
+    Parameters
+    ----------
+    curvature
+        The limit, which the problem does not hold.
+    problem
+        Convex.
+    most
+        Of its objective.
+    """
+    least = synthesize(problem).lower_bound
+    greatest = _most_acceleration(problem, most)
+    if greatest is None or most - least <= _MET * most:
+        return least
+    try:
+        k, a, b = _tube(replace(problem, C=at_most(greatest)), greatest, curvature.ends)
+        planes = curvature.planes(k, a, b)
+        better = synthesize(replace(problem, windows=(*problem.windows, *planes))).lower_bound
+    except InfeasibleProblem:
+        return most  # no law is better than the one known
+    except OptlawsError:
+        return least
+    return min(most, max(least, better))
+
+
+def _most_acceleration(problem: Problem, most: float) -> float | None:
+    asked = problem.range("C")
+    found = [most] if problem.minimise == "C" else []
+    found += [asked.high] if asked is not None and isfinite(asked.high) else []
+    return min(found) * (1.0 + _ROOM) if found else None
+
+
+def _tube(problem: Problem, greatest: float, ends: Pair) -> tuple[list[float], list[Pair], list[Pair]]:
+    """Ends of parts of the time, and between which values a and b of all laws of a problem are in each."""
+    k = np.linspace(0.0, 1.0, _PARTS + 1).tolist()
+    b = [(ends[0],) * 2, *(_range_at(problem, "b", one) for one in k[1:-1]), (ends[1],) * 2]
+    width = 1.0 / _PARTS
+    change = greatest * width
+    velocities = [
+        (-_highest(-one[0], -other[0], change), _highest(one[1], other[1], change)) for one, other in pairwise(b)
+    ]
+    # between two velocities a goes no further than with half of what the acceleration can change on the way
+    least = [width * (0.5 * (one[0] + other[0]) - 0.25 * change) for one, other in pairwise(b)]
+    most = [width * (0.5 * (one[1] + other[1]) + 0.25 * change) for one, other in pairwise(b)]
+    a = [
+        (max(sum(least[:i]), 1.0 - sum(most[i:])), min(sum(most[:i]), 1.0 - sum(least[i:]))) for i in range(_PARTS + 1)
+    ]
+    displacements = [
+        (
+            max(one[0] + min(low, 0.0) * width, other[0] - max(high, 0.0) * width),
+            min(one[1] + max(high, 0.0) * width, other[1] - min(low, 0.0) * width),
+        )
+        for (one, other), (low, high) in zip(pairwise(a), velocities, strict=True)
+    ]
+    return k, displacements, velocities
+
+
+def _highest(first: float, last: float, change: float) -> float:
+    """The greatest value between two known ones of what changes by so much at most on the whole way."""
+    first, last = min(first, last + change), min(last, first + change)
+    return 0.5 * (first + last + change)
+
+
+def _range_at(problem: Problem, name: str, k: float) -> Pair:
+    low = synthesize(replace(problem, minimise=value(name, at=k))).lower_bound
+    return low, -synthesize(replace(problem, minimise=value(f"-{name}", at=k))).lower_bound
