@@ -147,11 +147,16 @@ def _series(space: LawSpace, motion: Motion, ends: tuple[float, float]) -> Array
 
 def gauss(space: LawSpace, motion: Motion) -> tuple[Array, Array]:
     """Places u in the formula's part and weights that add up to its length in k; exact for squares of the formula."""
-    low, high = 1.0 - 2.0 * motion.stop, 1.0 - 2.0 * motion.start
-    inner = [u for u in edges_of(space, motion) if low < u < high]
     places, weights = [], []
-    for ends in pairwise([high, *inner, low]):
-        x, weight = gauss_rule(count_of(space, motion, ends) + 1)
+    for ends, count in gauss_parts(space, motion):
+        x, weight = gauss_rule(count)
         places.append(_between(ends, x))
         weights.append(weight * (ends[0] - ends[1]) / 4.0)
     return np.concatenate(places), np.concatenate(weights)
+
+
+def gauss_parts(space: LawSpace, motion: Motion) -> list[tuple[tuple[float, float], int]]:
+    """Between which u, descending, how many places of Gauss's rule are."""
+    low, high = 1.0 - 2.0 * motion.stop, 1.0 - 2.0 * motion.start
+    inner = [u for u in edges_of(space, motion) if low < u < high]
+    return [(ends, count_of(space, motion, ends) + 1) for ends in pairwise([high, *inner, low])]

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from optlaws.formulas.convexity import Judge
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.quadratic import quadratic
-from optlaws.formulas.tree import Formula, Name, Negative, Number, Power, number, product, total
+from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Power, number, product, total
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.series.chebyshev import gauss
 from optlaws.synthesis.families import names
@@ -28,6 +28,8 @@ if TYPE_CHECKING:
 Array = NDArray[np.float64]
 
 _SPARE = 40
+# what two rules in a row may differ by, relative, and how often parts are cut in two
+_AGREED, _MOST_POWER = 1e-13, 5
 _MOST = 8
 
 #: between which values derivatives are, by name
@@ -107,13 +109,13 @@ def integral_rows(
 
 def integral_rule(space: LawSpace, motion: Motion) -> tuple[Array, Array]:
     """Gauss's places k over the formula's part and their weights; exact where the formula is a polynomial of k."""
-    count = rule_length(space, motion)
+    return _rule(rule_edges(space, motion), rule_length(space, motion))
+
+
+def _rule(edges: list[float], count: int) -> tuple[Array, Array]:
     x, share = gauss(count)
-    places, weights = [], []
-    for low, high in pairwise(rule_edges(space, motion)):
-        places.append(low + (high - low) * (1.0 + x) / 2.0)
-        weights.append(share * (high - low) / 2.0)
-    return np.concatenate(places), np.concatenate(weights)
+    low, width = np.array(edges[:-1])[:, None], np.diff(edges)[:, None]
+    return (low + width * (1.0 + x) / 2.0).ravel(), (share * width / 2.0).ravel()
 
 
 def rule_length(space: LawSpace, motion: Motion) -> int:
@@ -124,11 +126,36 @@ def rule_length(space: LawSpace, motion: Motion) -> int:
 
 
 def rule_edges(space: LawSpace, motion: Motion) -> list[float]:
-    """The k between which the formula is smooth along every law, over its part."""
+    """The k between which the rule has its places: the formula is smooth there along every law, over its part.
+
+    Where it is no polynomial they are as near as the space's own law asks for, and nearer, for others are less smooth.
+    """
     edges = [(1.0 - u) / 2.0 for u in space.edges]
     both = {*edges, *(1.0 - k for k in edges)} if space.symmetric else set(edges)
     inner = {k for k in (*both, *motion.kinks) if motion.start < k < motion.stop}
-    return sorted({motion.start, motion.stop, *inner})
+    found = sorted({motion.start, motion.stop, *inner})
+    if motion.degree(dict.fromkeys(ORDERS, 1)) is not None:
+        return found
+    cells = space.cached(("cells", motion), lambda: np.array(_cells(space, motion, found)))
+    return _cut(found, int(cells))
+
+
+def _cells(space: LawSpace, motion: Motion, edges: list[float]) -> int:
+    """Into how many cells the parts between edges are cut."""
+    count, before = rule_length(space, motion), np.nan
+    for power in range(_MOST_POWER + 1):
+        k, weights = _rule(_cut(edges, 1 << power), count)
+        names = {name: columns_at(space, name, k)[:, -1] for name in ORDERS if name in motion.formula.names()}
+        values = np.broadcast_to(motion.values({**names, "k": k}), k.shape)
+        if abs(weights @ values - before) <= _AGREED * float(weights @ np.abs(values)):
+            return 1 if power == 1 else 1 << power
+        before = float(weights @ values)
+    return 1 << _MOST_POWER
+
+
+def _cut(edges: list[float], cells: int) -> list[float]:
+    inner = (low + (high - low) * i / cells for low, high in pairwise(edges) for i in range(cells))
+    return [*inner, edges[-1]]
 
 
 def columns_at(space: LawSpace, name: str, k: Array) -> Array:
@@ -196,5 +223,14 @@ def _plain(value: float) -> Formula:
 
 
 def squared(motion: Motion) -> Motion:
-    """The square of a formula."""
-    return replace(motion, formula=Power(motion.formula, Number(2.0)))
+    """The square of a formula; of a norm what has no root in it.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.of_motion import of_text
+    >>> squared(of_text("norm(b, 2*c)")).formula
+    b^2 + (2*c)^2
+    """
+    formula, two = motion.formula, Number(2.0)
+    sizes = formula.arguments if isinstance(formula, Call) and formula.function in {"abs", "norm"} else (formula,)
+    return replace(motion, formula=total([Power(part, two) for part in sizes]))

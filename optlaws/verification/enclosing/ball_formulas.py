@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import replace
 from functools import reduce
 from itertools import pairwise
 from typing import Any
 
-from flint import arb, arb_series, fmpq, fmpq_poly
+from flint import arb, arb_poly, arb_series, ctx, fmpq, fmpq_poly
 
-from optlaws.formulas.arithmetic import Arithmetic, horner, pieces
-from optlaws.formulas.tree import Table
+from optlaws.formulas.arithmetic import Arithmetic, evaluate, horner, pieces
+from optlaws.formulas.tree import Formula, Table
 from optlaws.verification.enclosing.balls import ball, rational
 
-_NAMES = ("sin", "cos", "tan", "exp", "log", "sqrt", "atan")
+_NAMES = ("sin", "cos", "tan", "exp", "log", "atan")
 
 
 def _method(name: str) -> Any:  # noqa: ANN401 - a function of whatever has the method
@@ -27,32 +28,86 @@ def _tanh(x: Any) -> Any:  # noqa: ANN401 - a ball or a series
 
 def _power(base: Any, exponent: Any) -> Any:  # noqa: ANN401 - balls or series
     """A whole exponent is one of repeated multiplication, so that the base may be negative."""
-    plain = exponent[0] if isinstance(exponent, arb_series) else exponent
+    plain = _plain(exponent)
     if plain.is_integer():
         whole = int(str(plain.unique_fmpz()))
         found = reduce(lambda one, _: one * base, range(abs(whole)), base * 0 + 1)
         return found if whole >= 0 else 1 / found
+    if plain > 0 and _may_vanish(_plain(base)):
+        most = _plain(base).upper()
+        return _kinked(base, [arb(0).union((most.log() * plain).exp()) if most > 0 else arb(0)])
     return (base.log() * exponent).exp()
 
 
+def _sqrt(x: Any) -> Any:  # noqa: ANN401 - a ball or a series
+    """Where its argument reaches 0, which it is not below, a value and no slope."""
+    if _may_vanish(_plain(x)):
+        return _kinked(x, [arb(0).union(_plain(x).upper().sqrt())])
+    return x.sqrt()
+
+
 def _norm(x: Any, y: Any) -> Any:  # noqa: ANN401 - balls or series
-    return (x * x + y * y).sqrt()
+    return _sqrt(x * x + y * y)
+
+
+def _abs(x: Any) -> Any:  # noqa: ANN401 - a ball or a series
+    plain = _plain(x)
+    if plain >= 0 or plain <= 0:
+        return x if plain >= 0 else -x
+    return _kinked(x, [abs(plain), *[one.union(-one) for one in _coefficients(x)[1:2]]])
+
+
+def _max(x: Any, y: Any) -> Any:  # noqa: ANN401 - balls or series
+    one, other = _plain(x), _plain(y)
+    if one >= other or one <= other:
+        # one of them is a number perhaps, where the other is a series
+        return x + y * 0 if one >= other else y + x * 0
+    slopes = [p.union(q) for p, q in zip(_coefficients(x + y * 0)[1:2], _coefficients(y + x * 0)[1:2], strict=True)]
+    return _kinked(x + y, [one.max(other), *slopes])
+
+
+def _min(x: Any, y: Any) -> Any:  # noqa: ANN401 - balls or series
+    return -_max(-x, -y)
+
+
+def _may_vanish(x: arb) -> bool:
+    return not x > 0 and not x < 0
+
+
+def _plain(x: Any) -> arb:  # noqa: ANN401 - a ball or a series
+    """The value, without what a series says of its neighbourhood."""
+    return x[0] if isinstance(x, arb_series) else x
+
+
+def _coefficients(x: Any) -> list[arb]:  # noqa: ANN401 - a ball or a series
+    return [x[i] for i in range(ctx.cap)] if isinstance(x, arb_series) else [x]
+
+
+def _kinked(like: Any, known: list[arb]) -> Any:  # noqa: ANN401 - a ball or a series
+    """A value with the slopes that are known; a series has no others."""
+    if not isinstance(like, arb_series):
+        return known[0]
+    return arb_series([*known, *[arb.nan()] * (ctx.cap - len(known))])
 
 
 def _exactly(value: float) -> arb:
     return ball(float(value))
 
 
-def _on_pieces(table: Table, at: arb) -> arb:
-    """The values of all pieces that the ball may be on."""
-    places = [ball(place) for place in table.places]
+def _on_pieces(table: Table, at: Any) -> Any:  # noqa: ANN401 - a ball or a series
+    """The values of all pieces that the ball may be on, and of a series those slopes that they bound together."""
+    places, plain = [ball(place) for place in table.places], _plain(at)
     found = []
     for i, row in enumerate(exact_pieces(table)):
-        if (i and at < places[i]) or (i + 2 < len(places) and at > places[i + 1]):
+        if (i and plain < places[i]) or (i + 2 < len(places) and plain > places[i + 1]):
             continue
-        found.append(horner([arb(value) for value in row], at - places[i]))
-    whole: arb = reduce(lambda one, other: one.union(other), found)
-    return whole
+        found.append(horner([arb(value) for value in row], at - places[i]) + 0 * at)
+    if len(found) == 1:
+        return found[0]
+    # a slope that jumps is between those on both sides, one that is an impulse has no bounds
+    smooth = max((3 if table.smooth else 1) - table.order, 0) + 1
+    united = (reduce(arb.union, several) for several in zip(*map(_coefficients, found), strict=True))
+    return _kinked(at, list(united)[:smooth])
 
 
 def exact_pieces(table: Table) -> list[list[fmpq]]:
@@ -82,9 +137,10 @@ BALLS = Arithmetic(
     functions={
         **{name: _method(name) for name in _NAMES},
         "tanh": _tanh,
-        "abs": abs,
-        "max": lambda x, y: x.max(y),
-        "min": lambda x, y: x.min(y),
+        "sqrt": _sqrt,
+        "abs": _abs,
+        "max": _max,
+        "min": _min,
         "norm": _norm,
     },
     power=_power,
@@ -112,3 +168,33 @@ POLYNOMIALS = Arithmetic(
     power=_polynomial_power,
     table=_polynomial_table,
 )
+
+
+def series_of(formula: Formula, names: Mapping[str, arb_series]) -> arb_series:
+    """The Taylor series of a formula where its names have theirs; of no number where a divisor may be 0.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.tree import Name, Number, Power
+    >>> found = series_of(Power(Name("k"), Number(2.0)), {"k": arb_series([arb(3), arb(1)])})
+    >>> [float(found[i]) for i in range(3)]
+    [9.0, 6.0, 1.0]
+    """
+    try:
+        found: arb_series = evaluate(formula, names, BALLS) + arb_series([arb(0)])
+    except ValueError:
+        return arb_series([arb.nan()] * ctx.cap)
+    return found
+
+
+def composed(polynomial: fmpq_poly, x: arb_series) -> arb_series:
+    """The Taylor series of a polynomial of what is affine; about the middle of a ball first, which hardly widens it.
+
+    Examples
+    --------
+    >>> float(composed(fmpq_poly([0, -1, 1]), arb_series([arb(1, 2.0**-20), arb(1)]))[0].rad()) < 1.01 * 2.0**-20
+    True
+    """
+    middle = x[0].mid()
+    about = arb_poly(polynomial)(arb_poly([middle, x[1]]))
+    return arb_series(about(arb_poly([(x[0] - middle) / x[1], arb(1)])).coeffs())

@@ -170,9 +170,9 @@ def bisected(derivative: Derivative, start: Fraction, stop: Fraction) -> Extreme
         middle = (low + high) / 2
         x, centre = ball(low).union(ball(high)), ball(middle)
         # Taylor's formula about the middle: sharp where several derivatives vanish together
-        jet = [derivative(i, centre) for i in range(_TERMS)]
-        rest = derivative(_TERMS, x)
-        if not _taylor([*jet[1:], rest], x - centre).contains(0):
+        order, rest = _bounded(derivative, x)
+        jet = [derivative(i, centre) for i in range(order)]
+        if jet and not _taylor([*jet[1:], rest], x - centre).contains(0):
             continue
         whole = _taylor([*jet, rest], x - centre)
         if float(whole.rad()) < narrow or count > _MOST:
@@ -180,6 +180,15 @@ def bisected(derivative: Derivative, start: Fraction, stop: Fraction) -> Extreme
         else:
             left += [(low, middle), (middle, high)]
     return least_and_greatest(values)
+
+
+def _bounded(derivative: Derivative, x: arb) -> tuple[int, arb]:
+    """The highest derivative that counts and is bounded over a ball, and its values; beside a kink few are."""
+    for order in range(_TERMS, 0, -1):
+        rest = derivative(order, x)
+        if rest.is_finite():
+            return order, rest
+    return 0, derivative(0, x)
 
 
 def _taylor(derivatives: list[arb], off: arb) -> arb:

@@ -3,22 +3,32 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
+from operator import mul
 
-from flint import arb
+import numpy as np
+from flint import arb, arb_series, ctx, fmpq, fmpq_poly
+from numpy.polynomial import legendre
+from numpy.typing import NDArray
 
-from optlaws.errors import InputError
-from optlaws.formulas.affine import degree
 from optlaws.formulas.arithmetic import evaluate
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.slopes import derivative
-from optlaws.formulas.tree import Call, Formula
+from optlaws.formulas.tree import Formula
 from optlaws.formulas.vocabulary import ORDERS
-from optlaws.synthesis.functionals.curved_rows import Branch
-from optlaws.verification.enclosing.ball_formulas import BALLS
-from optlaws.verification.enclosing.balls import ball
+from optlaws.kept import kept_property
+from optlaws.synthesis.functionals.affine_rows import gauss_parts
+from optlaws.synthesis.functionals.curved_rows import Branch, rule_edges, rule_length
+from optlaws.synthesis.spaces.of_basis import space_of
+from optlaws.verification.enclosing.ball_formulas import BALLS, composed, series_of
+from optlaws.verification.enclosing.balls import ball, rational
+from optlaws.verification.enclosing.integrals import integrals
+from optlaws.verification.enclosing.on_parts import kinks, on_part
 from optlaws.verification.exact.space import ExactSpace
+
+Array = NDArray[np.float64]
 
 
 def formula_columns(space: ExactSpace, motion: Motion, k: Fraction) -> list[arb]:
@@ -56,97 +66,163 @@ def tangent_columns(space: ExactSpace, branch: Branch, point: Sequence[float], k
 
 
 def tangent_integral(space: ExactSpace, motion: Motion, point: Sequence[float], *, root: bool) -> list[arb]:
-    """The affine function that touches the integral of a convex polynomial formula, or its root; nowhere above it.
+    """An affine function that touches the integral of a convex formula, or its root, nearly; nowhere above it.
 
-    Raises
-    ------
-    InputError
-        If the formula is no polynomial of k along a law. LookupError unless the point gives every derivative at every
-        place of Gauss's rule.
+    The derivatives at the places of the product's rule say near which law. With `root` the formula is the square of one
+    whose mean square is meant: that is at least the integral of its tangent times whatever has a square that integrates
+    to 1. LookupError unless the point gives every derivative at every place.
     """
     used = sorted(motion.formula.names() & ORDERS.keys())
-    rule = list(_rule(space, motion))
-    if len(point) != len(used) * len(rule):
+    laws = space_of(space.problem.basis, space.problem.conditions, symmetric=space.problem.symmetric)
+    edges, count = rule_edges(laws, motion), rule_length(laws, motion)
+    if len(point) != len(used) * count * (len(edges) - 1):
         raise LookupError
-    found, total = [arb(0)] * (space.terms + 1), arb(0)
-    slopes = {name: derivative(motion.formula, name) for name in used}
-    for i, (k, weight) in enumerate(rule):
-        at = {name: ball(point[j * len(rule) + i]) for j, name in enumerate(used)} | {"k": k}
-        total += weight * evaluate(motion.formula, at, BALLS)
-        for name in used:
-            slope = weight * evaluate(slopes[name], at, BALLS)
-            values = derivative_anywhere(space, name, k)
-            found = [one + slope * value for one, value in zip(found, values, strict=True)]
-            found[-1] -= slope * at[name]
-    if not root:
-        found[-1] += total
-        return found
-    size = total.sqrt()
-    found = [one / (2 * size) for one in found]
-    found[-1] += size
-    return found
+    values = np.array(point).reshape(len(used), -1, count)
+    found = [arb(0)] * (space.terms + 2)
+    for ends, i in _within(space, motion, [Fraction(k) for k in edges]):
+        degrees = [min(space.degree_of(ORDERS[name]), count - 1) for name in used]
+        local = [
+            fitted(one[i], degree)(_inner((Fraction(edges[i]), Fraction(edges[i + 1])), ends))
+            for one, degree in zip(values, degrees, strict=True)
+        ]
+        tangent = _Tangent(on_part(motion.formula, *ends), dict(zip(used, local, strict=True)), ends, root=root)
+        several = integrals(tangent.series, tangent.columns(space), ends, ctx.prec // 4, tangent.rough)
+        found = [one + other for one, other in zip(found, several, strict=True)]
+    *row, size = found
+    if root:
+        return [value / size.sqrt() for value in row]
+    return row
 
 
-def _rule(space: ExactSpace, motion: Motion) -> Iterator[tuple[arb, arb]]:
-    """Gauss's places and weights on every piece, as many as make the rule exact for the formula."""
-    degrees = {name: space.degree_of(nu) for name, nu in ORDERS.items() if name in motion.formula.names()}
-    degree_along = motion.degree(degrees)
-    if degree_along is None or any(isinstance(part, Call) and part.names() for part in motion.formula.walk()):
-        raise InputError(f"exact verification integrates polynomials of k along a law, not {motion.formula}")
-    breaks = {*space.breaks, *(1 - k for k in space.breaks)} if space.problem.symmetric else set(space.breaks)
-    inner = {k for k in (*breaks, *map(Fraction, motion.kinks)) if motion.start < k < motion.stop}
-    count = degree_along // 2 + 1
-    points = sorted((arb.legendre_p_root(count, i, weight=True) for i in range(count)), key=lambda p: float(p[0]))
-    for low, high in pairwise(sorted({Fraction(motion.start), Fraction(motion.stop), *inner})):
-        for x, weight in points:
-            yield ball((low + high) / 2) + ball((high - low) / 2) * x, weight * ball((high - low) / 2)
+@dataclass(frozen=True)
+class _Tangent:
+    """The tangent of a formula along derivatives that are polynomials of what runs from -1 to 1 between two k."""
+
+    formula: Formula
+    along: dict[str, fmpq_poly]
+    ends: tuple[Fraction, Fraction]
+    root: bool
+
+    @kept_property
+    def _slopes(self) -> list[Formula]:
+        return [derivative(self.formula, name) for name in self.along]
+
+    def columns(self, space: ExactSpace) -> list[list[fmpq_poly]]:
+        """What the slopes, what is left and the formula are multiplied with, for each function; last for its size."""
+        nothing, one = fmpq_poly([0]), fmpq_poly([1])
+        several = [polynomials_between(space, ORDERS[name], self.ends) for name in self.along]
+        columns = [[*column, nothing, nothing] for column in zip(*several, strict=True)]
+        columns[-1][-2] = one
+        return [*columns, [*[nothing] * (len(several) + 1), one]]
+
+    def series(self, k: arb_series) -> list[arb_series]:
+        """The slopes, what the tangent is beside them, and the formula; half the slopes of a square."""
+        low, high = self.ends
+        local = (k - ball((low + high) / 2)) / ball((high - low) / 2)
+        at = {name: composed(one, local) for name, one in self.along.items()}
+        value = series_of(self.formula, {**at, "k": k})
+        slopes = [series_of(one, {**at, "k": k}) / (2 if self.root else 1) for one in self._slopes]
+        return [*slopes, value - sum(map(mul, slopes, at.values()), arb_series([0])), value]
+
+    def rough(self, k: arb) -> list[arb]:
+        """The same of a tangent that touches elsewhere; nothing of a mean square."""
+        if self.root:
+            return [arb(0)] * (len(self.along) + 2)
+        at = dict.fromkeys(self.along, arb(1))
+        try:
+            value = evaluate(self.formula, {**at, "k": k}, BALLS)
+            slopes = [evaluate(one, {**at, "k": k}, BALLS) for one in self._slopes]
+        except ValueError:
+            return [arb.nan()] * (len(self.along) + 2)
+        return [*slopes, value - sum(slopes, arb(0)), value]
 
 
-def derivative_anywhere(space: ExactSpace, name: str, k: arb) -> list[arb]:
-    """A derivative at any place in [0, 1]: of symmetric laws the second half is the first one's mirror image."""
-    nu, later = ORDERS[name], space.problem.symmetric and bool(k > ball(Fraction(1, 2)))
-    at = 1 - k if later else k
-    piece = max(i for i, start in enumerate(space.breaks[:-1]) if not at < ball(start))
-    found = space.on_piece(nu, piece, 2 * at - 1)
-    if later and nu % 2 == 0:
-        found = [-value for value in found]
-        if nu == 0:
-            found[-1] += 1
-    return found
+def norm_columns(space: ExactSpace, parts: Sequence[Motion], direction: Sequence[float]) -> list[arb]:
+    """An affine function that the root of the integrals of squares of affine formulas is nowhere below.
 
-
-def formula_gauss(space: ExactSpace, motion: Motion) -> list[tuple[list[arb], arb]]:
-    """Values at Gauss points of every piece, with weights that add up to the part's length; exact for squares.
-
-    Raises
-    ------
-    InputError
-        If a factor is no polynomial of k between the places of its tables.
+    It is the integral of the formulas times a function whose square integrates to 1: piece by piece the polynomial
+    through the direction, which is given at the places of the product's rule, each with the root of its weight.
+    LookupError unless the direction has as many components as there are places.
     """
-    inner = {k for k in (*space.breaks, *map(Fraction, motion.kinks)) if motion.start < k < motion.stop}
-    edges = sorted({Fraction(motion.start), Fraction(motion.stop), *inner})
-    found = []
-    for low, high in pairwise(edges):
-        count = 2 + max(_length(space, motion))
-        middle, half = ball((low + high) / 2), ball((high - low) / 2)
-        # the solver's points ascend in 1 - 2k on each piece
-        points = sorted((arb.legendre_p_root(count, i, weight=True) for i in range(count)), key=lambda p: -float(p[0]))
-        piece = space.piece((low + high) / 2)
-        found += [(_columns(space, motion, middle + half * x, piece), weight * half) for x, weight in points]
-    return found
+    laws = space_of(space.problem.basis, space.problem.conditions, symmetric=space.problem.symmetric)
+    rules = [gauss_parts(laws, motion) for motion in parts]
+    if len(direction) != sum(count for rule in rules for _, count in rule):
+        raise LookupError
+    found, size, left = [arb(0)] * (space.terms + 1), arb(0), list(direction)
+    for motion, rule in zip(parts, rules, strict=True):
+        inner = [(1 - Fraction(u)) / 2 for _, u in [ends for ends, _ in rule][:-1]]
+        edges = [Fraction(motion.start), *inner, Fraction(motion.stop)]
+        taken = [[left.pop(0) for _ in range(count)] for _, count in rule]
+        factors = [_through(one, edges[i + 1] - edges[i]) for i, one in enumerate(taken)]
+        for ends, i in _within(space, motion, edges):
+            factor = factors[i](_inner((edges[i], edges[i + 1]), ends))
+            square = (factor * factor).integral()
+            size += arb((square(fmpq(1)) - square(fmpq(-1))) * rational((ends[1] - ends[0]) / 2))
+            several = _weighted(space, motion, factor, ends)
+            found = [one + other for one, other in zip(found, several, strict=True)]
+    return [value / size.sqrt() for value in found]
 
 
-def _length(space: ExactSpace, motion: Motion) -> list[int]:
-    """Degrees of the terms in k."""
-    factors: list[tuple[Formula, int]] = [(motion.rest, 0)]
-    factors += [(factor, space.degree_of(nu)) for nu, factor in motion.weights.items()]
-    found = []
-    for factor, of_law in factors:
-        own = degree(factor, {"k": 1})
-        if own is None or any(isinstance(part, Call) and part.names() for part in factor.walk()):
-            raise InputError(
-                f"exact verification of an RMS needs factors that are polynomials of k or tables, not {factor}: what "
-                "bounds it is checked with numpy alone, by Certificate.bound"
-            )
-        found.append(own + of_law)
+def _weighted(space: ExactSpace, motion: Motion, factor: fmpq_poly, ends: tuple[Fraction, Fraction]) -> list[arb]:
+    """The integral over a part of an affine formula times a factor, for each function."""
+    several = [polynomials_between(space, nu, ends) for nu in motion.weights]
+    columns = [[*(factor * one for one in column), fmpq_poly([0])] for column in zip(*several, strict=True)]
+    columns[-1][-1] = factor
+    formulas = [on_part(one, *ends) for one in (*motion.weights.values(), motion.rest)]
+    return integrals(lambda k: [series_of(one, {"k": k}) for one in formulas], columns, ends, ctx.prec // 4)
+
+
+def _through(values: Sequence[float], length: Fraction) -> fmpq_poly:
+    """The polynomial through values that are times the roots of their weights, of what runs from -1 to 1."""
+    _, weights = legendre.leggauss(len(values))
+    # the solver's places ascend in 1 - 2k
+    plain = np.array(values) / np.sqrt(weights * float(length) / 2.0)
+    return fitted(plain[::-1], len(values) - 1)
+
+
+def fitted(values: Array, degree: int) -> fmpq_poly:
+    """The polynomial of a degree nearest to values at the places of Gauss's rule, of what runs from -1 to 1.
+
+    Examples
+    --------
+    >>> fitted(np.array([1.0, 1.0, 1.0]), 0)
+    1
+    """
+    x, weights = legendre.leggauss(len(values))
+    factors = (np.arange(degree + 1) + 0.5) * (legendre.legvander(x, degree).T @ (weights * values))
+    terms = (rational(float(value)) * fmpq_poly.legendre_p(m) for m, value in enumerate(factors))
+    return sum(terms, fmpq_poly([0]))
+
+
+def _within(
+    space: ExactSpace, motion: Motion, edges: Sequence[Fraction]
+) -> Iterator[tuple[tuple[Fraction, Fraction], int]]:
+    """The parts between edges cut where laws have breaks and what depends on k alone has kinks, with which part."""
+    breaks = {*space.breaks, *(1 - k for k in space.breaks)} if space.problem.symmetric else set(space.breaks)
+    for i, (low, high) in enumerate(pairwise(edges)):
+        inner = {k for k in (*breaks, *kinks(motion)) if low < k < high}
+        for ends in pairwise(sorted({low, high, *inner})):
+            yield ends, i
+
+
+def _inner(whole: tuple[Fraction, Fraction], ends: tuple[Fraction, Fraction]) -> fmpq_poly:
+    """What runs from -1 to 1 over the whole, by what does over a part of it."""
+    low, high = (2 * (k - whole[0]) / (whole[1] - whole[0]) - 1 for k in ends)
+    return fmpq_poly([rational((low + high) / 2), rational((high - low) / 2)])
+
+
+def polynomials_between(space: ExactSpace, nu: int, ends: tuple[Fraction, Fraction]) -> list[fmpq_poly]:
+    """Derivatives of the functions as polynomials of what runs from -1 to 1 between two k without a break between them.
+
+    Of symmetric laws the second half is the first one's mirror image.
+    """
+    low, high = ends
+    later = space.problem.symmetric and low + high > 1
+    x = fmpq_poly([rational(low + high - 1), rational(high - low)])
+    functions = space.derivative(nu)[space.piece(1 - (low + high) / 2 if later else (low + high) / 2)]
+    if not later:
+        return [one(x) for one in functions]
+    found = [one(-x) if nu % 2 else -one(-x) for one in functions]
+    if nu == 0:
+        found[-1] += 1
     return found

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from math import factorial
@@ -11,18 +11,23 @@ from typing import Any
 
 from flint import arb, arb_series, ctx, fmpq, fmpq_poly
 
-from optlaws.errors import InputError
+from optlaws.formulas.affine import degree
 from optlaws.formulas.arithmetic import evaluate
 from optlaws.formulas.of_motion import Motion
-from optlaws.formulas.tree import Call, Number, Power, Table, total
+from optlaws.formulas.tree import Call, Formula, Table
 from optlaws.formulas.vocabulary import ORDERS
-from optlaws.verification.enclosing.ball_formulas import BALLS, POLYNOMIALS
+from optlaws.synthesis.functionals.curved_rows import squared
+from optlaws.verification.enclosing.ball_formulas import BALLS, POLYNOMIALS, composed, series_of
 from optlaws.verification.enclosing.ball_pieces import bisected
 from optlaws.verification.enclosing.balls import ball, rational
+from optlaws.verification.enclosing.integrals import integrals
+from optlaws.verification.enclosing.on_parts import kinks, on_part
 from optlaws.verification.enclosing.pieces import Extremes, PolynomialPiece, between, least_and_greatest
 
 #: terms of a Taylor series: as many derivatives as bisection takes
 _LENGTH = 7
+#: binary places of an integral that count: more than a float has
+_BITS = 80
 
 
 def extremes_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Extremes:
@@ -31,53 +36,30 @@ def extremes_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Extremes:
         value = value_of(motion, pieces)
         return value, value
     if isinstance(motion.formula, Call) and motion.formula.function == "norm":
-        squares = total([Power(part, Number(2.0)) for part in motion.formula.arguments])
         # where a norm vanishes it has no derivative, but its square has
-        least, greatest = extremes_of(replace(motion, formula=squares), pieces)
+        least, greatest = extremes_of(squared(motion), pieces)
         return least.max(arb(0)).sqrt(), greatest.max(arb(0)).sqrt()
     found: list[arb] = []
-    for piece, low, high in _parts(motion, pieces):
-        composed = _polynomial(motion, piece, low, high)
+    for part in _parts(motion, pieces):
+        composed = part.polynomial()
         if composed is not None:
             found += between(composed, fmpq(-1), fmpq(1))
         else:
-            found += bisected(_Derivatives(motion, piece), low, high)
+            found += bisected(_Derivatives(part), part.low, part.high)
     return least_and_greatest(found)
 
 
-def square_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
-    """A ball that holds the integral of the square of a formula over its part.
-
-    Raises
-    ------
-    InputError
-        If the formula is no polynomial of k along the law.
-    """
-    return _integral(motion, pieces, square=True)
-
-
 def integral_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
-    """A ball that holds the integral of a formula over its part.
-
-    Raises
-    ------
-    InputError
-        If the formula is no polynomial of k along the law.
-    """
-    return _integral(motion, pieces, square=False)
-
-
-def _integral(motion: Motion, pieces: Sequence[PolynomialPiece], *, square: bool) -> arb:
-    whole_integral = fmpq(0)
-    for piece, low, high in _parts(motion, pieces):
-        composed = _polynomial(motion, piece, low, high)
+    """A ball that holds the integral of a formula over its part: exact where it is a polynomial of k along the law."""
+    found = arb(0)
+    for part in _parts(motion, pieces):
+        composed = part.polynomial()
         if composed is None:
-            raise InputError(
-                f"exact verification integrates formulas that are polynomials of k along a law, not {motion.formula}"
-            )
-        whole = (composed * composed if square else composed).integral()
-        whole_integral += (whole(fmpq(1)) - whole(fmpq(-1))) * rational((high - low) / 2)
-    return arb(whole_integral)
+            found += sum(integrals(part.series, [[fmpq_poly([1])]], (part.low, part.high), _BITS), arb(0))
+        else:
+            whole = composed.integral()
+            found += arb((whole(fmpq(1)) - whole(fmpq(-1))) * rational((part.high - part.low) / 2))
+    return found
 
 
 def value_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
@@ -89,39 +71,54 @@ def value_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
     return found
 
 
-def _parts(motion: Motion, pieces: Sequence[PolynomialPiece]) -> list[tuple[PolynomialPiece, Fraction, Fraction]]:
-    """The pieces of the law within the formula's part, cut where its tables change."""
-    kinks = list(map(Fraction, motion.kinks))
-    found = []
+@dataclass(frozen=True)
+class _Part:
+    """A formula along a piece of a law, between two k without kinks of what depends on k alone."""
+
+    formula: Formula
+    piece: PolynomialPiece
+    low: Fraction
+    high: Fraction
+
+    def polynomial(self) -> fmpq_poly | None:
+        """The formula as a polynomial of what runs from -1 to 1 between the two k; None where it is none."""
+        if _bent(self.formula) or degree(self.formula, {"k": 1, **dict.fromkeys(ORDERS, 1)}) is None:
+            return None
+        k = fmpq_poly([rational((self.low + self.high) / 2), rational((self.high - self.low) / 2)])
+        y = self.piece.rate * (k - rational(self.piece.start)) - 1
+        names = {name: self.piece.derivative(nu)(y) for name, nu in ORDERS.items() if name in self.formula.names()}
+        found: fmpq_poly = evaluate(self.formula, {**names, "k": k}, POLYNOMIALS)
+        return found
+
+    def series(self, k: arb_series) -> tuple[arb_series]:
+        """Its Taylor series, to as many terms as series have."""
+        y = (k - ball(self.piece.start)) * arb(self.piece.rate) - 1
+        used = self.formula.names() & ORDERS.keys()
+        names = {name: composed(self.piece.derivative(ORDERS[name]), y) for name in used}
+        return (series_of(self.formula, {**names, "k": k}),)
+
+
+def _bent(formula: Formula) -> bool:
+    """Whether functions of what varies are in it, or tables over what moves with the law."""
+    calls = any(isinstance(part, Call) and part.names() for part in formula.walk())
+    return calls or any(isinstance(part, Table) and not part.names() <= {"k"} for part in formula.walk())
+
+
+def _parts(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Iterator[_Part]:
+    """The pieces of the law within the formula's part, cut where what depends on k alone has kinks."""
+    places = kinks(motion)
     for piece in pieces:
         low, high = max(piece.start, Fraction(motion.start)), min(piece.stop, Fraction(motion.stop))
-        edges = sorted({low, high, *(k for k in kinks if low < k < high)}) if low < high else []
-        found += [(piece, one, other) for one, other in pairwise(edges)]
-    return found
-
-
-def _polynomial(motion: Motion, piece: PolynomialPiece, low: Fraction, high: Fraction) -> fmpq_poly | None:
-    """The formula as a polynomial of what runs from -1 to 1 between two k; None where it is none."""
-    if any(isinstance(part, Call) and part.names() for part in motion.formula.walk()):
-        if any(isinstance(part, Call) and part.function in {"abs", "max", "min"} for part in motion.formula.walk()):
-            raise InputError(f"exact verification knows no abs, max or min of what changes with k: {motion.formula}")
-        return None
-    if any(isinstance(part, Table) and not part.names() <= {"k"} for part in motion.formula.walk()):
-        raise InputError(f"exact verification knows tables over k, not over what moves with the law: {motion.formula}")
-    if motion.degree(dict.fromkeys(ORDERS, 1)) is None:
-        return None
-    k = fmpq_poly([rational((low + high) / 2), rational((high - low) / 2)])
-    y = piece.rate * (k - rational(piece.start)) - 1
-    names = {name: piece.derivative(nu)(y) for name, nu in ORDERS.items()}
-    found: fmpq_poly = evaluate(motion.formula, {**names, "k": k}, POLYNOMIALS)
-    return found
+        edges = sorted({low, high, *(k for k in places if low < k < high)}) if low < high else []
+        for ends in pairwise(edges):
+            yield _Part(on_part(motion.formula, *ends), piece, *ends)
 
 
 class _Derivatives:
     """Derivatives of a formula along a piece, by Taylor series in balls."""
 
-    def __init__(self, motion: Motion, piece: PolynomialPiece) -> None:
-        self.motion, self.piece = motion, piece
+    def __init__(self, part: _Part) -> None:
+        self.part = part
         self._last: tuple[arb, arb_series] | None = None
 
     def __call__(self, i: int, k: arb) -> arb:
@@ -131,21 +128,9 @@ class _Derivatives:
         return found
 
     def _series(self, k: arb) -> arb_series:
-        y = (k - ball(self.piece.start)) * arb(self.piece.rate) - 1
-        names: dict[str, Any] = {}
         before: Any = ctx.cap
         ctx.cap = _LENGTH
         try:
-            for name, nu in ORDERS.items():
-                values = [self.piece.derivative(nu + i) for i in range(_LENGTH)]
-                names[name] = arb_series(
-                    [one.numer()(y) / arb(one.denom()) / factorial(i) for i, one in enumerate(values)]
-                )
-            names["k"] = arb_series([k, arb(1)])
-            found: arb_series = evaluate(self.motion.formula, names, BALLS)
-        except ValueError:
-            # a divisor may be 0 somewhere in the ball
-            return arb_series([arb.nan()] * _LENGTH)
+            return self.part.series(arb_series([k, arb(1)]))[0]
         finally:
             ctx.cap = before
-        return found

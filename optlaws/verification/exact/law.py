@@ -16,7 +16,7 @@ from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.laws.segments.sine import HarmonicSegment, SineSegment
-from optlaws.synthesis.functionals.curved_rows import split
+from optlaws.synthesis.functionals.curved_rows import split, squared
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms
 from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import Peak, Power, RootMeanSquare
@@ -24,7 +24,7 @@ from optlaws.synthesis.problem.expression import Expression, Maximum, Term
 from optlaws.verification.enclosing.ball_pieces import PowerPiece, SinePiece
 from optlaws.verification.enclosing.balls import ball, enclosed, rational
 from optlaws.verification.enclosing.pieces import ExactPiece, Extremes, PolynomialPiece, least_and_greatest
-from optlaws.verification.exact.formula_values import extremes_of, integral_of, square_of
+from optlaws.verification.exact.formula_values import extremes_of, integral_of
 from optlaws.verification.exact.known_constants import Known, OfFormula, known
 from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
 
@@ -233,7 +233,7 @@ class ExactLaw:
         if isinstance(constant, FormulaIntegral):
             return integral_of(constant.motion, self.polynomials)
         whole = ball(Fraction(constant.motion.stop) - Fraction(constant.motion.start))
-        return (square_of(constant.motion, self.polynomials) / whole).sqrt()
+        return (integral_of(squared(constant.motion), self.polynomials) / whole).sqrt()
 
     def term(self, term: Term) -> arb:
         """A ball that holds the value of a constant or a maximum.

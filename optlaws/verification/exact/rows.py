@@ -29,7 +29,7 @@ from optlaws.synthesis.program.writer import relaxed_power
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate, Contact
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.verification.enclosing.balls import ball
-from optlaws.verification.exact.formula_rows import formula_columns, formula_gauss, tangent_columns, tangent_integral
+from optlaws.verification.exact.formula_rows import formula_columns, norm_columns, tangent_columns, tangent_integral
 from optlaws.verification.exact.known_constants import OfFormula, known
 from optlaws.verification.exact.of_basis import exact_space
 from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
@@ -228,16 +228,9 @@ class ExactRows:
 
     def _norm_of(self, constant: FormulaRms, contact: Contact, slack: Names, high: float) -> Row:
         """As `_norm`, with the values of a formula."""
-        direction = [ball(value) for value in contact.direction]
-        length = sum((one * one for one in direction), arb(0)).sqrt()
-        parts = constant.parts(symmetric=self.problem.symmetric)
-        rule = [one for part in parts for one in formula_gauss(self.space, part)]
-        if len(rule) != len(direction):
-            raise LookupError
         whole = ball(Fraction(constant.motion.stop) - Fraction(constant.motion.start))
-        weights = [one * (weight / whole).sqrt() / length for one, (_, weight) in zip(direction, rule, strict=True)]
-        columns = zip(*(column for column, _ in rule), strict=True)
-        return Row([sum(map(mul, weights, column), arb(0)) for column in columns], slack, -ball(high))
+        found = norm_columns(self.space, constant.parts(symmetric=self.problem.symmetric), contact.direction)
+        return Row([value / whole.sqrt() for value in found], slack, -ball(high))
 
     def _single(self, name: str, constants: Names, high: float | arb) -> None:
         nothing = [arb(0)] * (self.space.terms + 1)

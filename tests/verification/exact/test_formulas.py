@@ -1,0 +1,126 @@
+"""Formulas in balls: their values against mpmath, and every convex kind of them proven and not overstated."""
+
+import copy
+from dataclasses import replace
+from itertools import pairwise
+from typing import Any
+
+import mpmath as mp  # type: ignore[import-untyped]
+import pytest
+
+from optlaws import Chebyshev, Problem, integral, peak, smoothstep, synthesize
+from optlaws.formulas.arithmetic import evaluate, horner, mpmath_arithmetic, pieces
+from optlaws.formulas.of_motion import of_text
+from optlaws.formulas.tree import Formula, Table
+from optlaws.verification import verify
+from tests.sampling import sampled
+from tests.verification.tampering import overstated
+
+pytest.importorskip("flint")
+from optlaws.verification.exact.law import ExactLaw
+
+TABLE = "table(k, 0:1, 0.3:2, 0.7:1, 1:3)"
+SPLINE = "spline(a, 0:0, 0.3:0.1, 0.6:0.5, 1:1.2)"
+FORMULAS = (
+    "abs(sin(4*k) - 0.5)*b + c",
+    f"{TABLE}*sin(k)*b + c",
+    f"{SPLINE}*2 + c",
+    "exp(c/5)",
+    "c/(1 + k)",
+    "norm(1, b, c/20)",
+    "abs(0.3 - k)*b + c",
+    "max(k, 0.4)*c - b",
+    "sqrt(k)*b",
+    "k^2.5*c",
+    "spline(1 - k, 0:0, 0.3:0.1, 0.6:0.5, 1:1.2)*c",
+)
+#: smoothstep(3)
+HEIGHT = [0, 0, 0, 10, -15, 6]
+
+
+def _derivatives(k: Any) -> dict[str, Any]:  # noqa: ANN401 - mpmath has no types
+    found, coefficients = {}, list(HEIGHT)
+    for name in "abcj":
+        found[name] = horner(coefficients, k)
+        coefficients = [i * value for i, value in enumerate(coefficients)][1:]
+    return found
+
+
+def _table(table: Table, at: Any) -> Any:  # noqa: ANN401 - mpmath has no types
+    row = max((i for i, x in enumerate(table.places[:-1]) if at >= x), default=0)
+    return horner([mp.mpf(value) for value in pieces(table)[row].tolist()], at - table.places[row])
+
+
+def along(formula: Formula, k: Any) -> Any:  # noqa: ANN401 - mpmath has no types
+    """The value of a formula along smoothstep(3)."""
+    return evaluate(formula, {**_derivatives(k), "k": k}, replace(mpmath_arithmetic(), table=_table))
+
+
+def places(text: str) -> list[Any]:
+    """Between these k the formulas above are smooth along smoothstep(3)."""
+    crossings = [mp.findroot(lambda k, a=a: _derivatives(k)["a"] - a, 0.5) for a in (0.3, 0.6)] if "(a" in text else []
+    kinks = [*of_text(text).kinks, *([mp.asin(0.5) / 4, (mp.pi - mp.asin(0.5)) / 4] if "sin(4" in text else [])]
+    return [mp.mpf(0), *sorted([*map(mp.mpf, kinks), *crossings]), mp.mpf(1)]
+
+
+@pytest.mark.parametrize("text", sampled(FORMULAS, each=2))
+def test_integrals_hold_those_of_mpmath(text: str) -> None:
+    formula = of_text(text).formula
+    with mp.workdps(30):
+        parts = [mp.quad(lambda k: along(formula, k), list(ends)) for ends in pairwise(places(text))]
+        expected = sum(parts)
+    found = ExactLaw(smoothstep(3)).term(integral(text))
+    assert float(found.rad()) < 1e-17
+    assert abs(float(found.mid()) - expected) < 1e-15
+
+
+@pytest.mark.parametrize("text", sampled(FORMULAS, each=3))
+def test_peaks_hold_the_values_of_mpmath(text: str) -> None:
+    with mp.workdps(30):
+        values = [along(of_text(text).formula, mp.mpf(i) / 400) for i in range(401)]
+    found = ExactLaw(smoothstep(3)).term(peak(text, side="high"))
+    assert float(found.rad()) < 1e-15
+    greatest = float(max(values))
+    assert greatest - 1e-14 <= float(found.mid()) < greatest + 2e-2 * abs(greatest)
+
+
+KINDS = [
+    *(f"rms({text})" for text in ("sin(3*k)*b + c", f"{TABLE}*sin(k)*b + c", "abs(k - 0.3)*b + c", "c/(1 + k)")),
+    *(f"integral({text})" for text in ("exp(k)*c^2 + b^2", "exp(c/5)", "abs(k - 0.3)*c^2 + b^2", "norm(1, c/20)")),
+    *(
+        f"peak({text})"
+        for text in ("abs(k - 0.3)*b + c", f"{TABLE}*sin(k)*b + c", "max(k, 0.5)*b + c", "norm(b, c, 1)")
+    ),
+    "peak(table(a, 0:1, 0.5:1, 1:3) + c, side=high)",
+    "peak(spline(a, 0:1.25, 0.2:0.27, 0.4:0.01, 0.6:0.01, 0.8:0.27, 1:1.25) + abs(c), side=high)",
+    "rms(norm(b, c))",
+    "integral(max(k, 0.4)*c^2)",
+]
+
+
+@pytest.mark.parametrize("minimise", sampled(KINDS, each=4))
+@pytest.mark.parametrize("symmetric", [True, False])
+def test_every_convex_kind_is_proven(minimise: str, symmetric: bool) -> None:  # noqa: FBT001 - a parameter of the test
+    problem = Problem(B=1.9, order=3, basis=Chebyshev(7), minimise=minimise, symmetric=symmetric)
+    solution = synthesize(problem)
+    assert solution.status.value == "optimal"
+    found = verify(solution.to_dict())
+    assert found.proven, str(found)
+    assert found.gap is not None
+    assert found.gap < 1e-9
+
+
+@pytest.mark.parametrize("minimise", sampled(["rms(sin(3*k)*b + c)", "integral(exp(c/5))", f"rms({TABLE}*exp(k)*c)"]))
+def test_what_is_overstated_is_refused(minimise: str) -> None:
+    data = synthesize(Problem(B=1.9, order=3, basis=Chebyshev(5), minimise=minimise)).to_dict()
+    true = verify(data)
+    assert true.proven
+    for turned in (1.0 + 1e-3, 0.0, -1.0):
+        tampered: dict[str, Any] = copy.deepcopy(data)
+        contact = next(one for one in tampered["certificate"]["contacts"] if one["direction"])
+        contact["direction"] = [turned * value if i % 2 else value for i, value in enumerate(contact["direction"])]
+        assert overstated(tampered, true) == []
+        tampered["lower_bound"] = tampered["objective"] = data["objective"] * (1 + 1e-6)
+        assert not verify(tampered).proven
+    contact["direction"] = contact["direction"][:-1]
+    assert overstated(tampered, true) == []
