@@ -97,8 +97,9 @@ def _values(space: LawSpace, nu: int, k: Array) -> Array:
     columns = family.columns(1.0 - 2.0 * np.where(mirrored, 1.0 - k, k))[0]
     if nu != 1:
         columns[mirrored] *= -1.0
-    if nu == 0:
-        columns[mirrored, -1] += float(space.boundary.start[0] + space.boundary.end[0])
+    if nu == 0 and mirrored.any():
+        # also a single function that is not at half the stroke there goes on
+        columns[mirrored] += 2.0 * family.columns(np.zeros(1))[0]
     return np.asarray(columns)
 
 

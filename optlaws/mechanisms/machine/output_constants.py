@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from math import inf, nan, sqrt
 from typing import ClassVar
@@ -302,10 +302,28 @@ class OutputRms(OutputConstant):
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """A norm of the coordinates."""
-        matrix = self._kept(space, lambda: self.rows_of_output(space))
-        unit = float(np.linalg.norm(matrix[:, -1])) or float(np.linalg.norm(matrix, axis=0).max()) or 1.0
-        wide = space.widened(matrix, len(slack)) / unit
+        unit = self.unit(space)
+        wide = space.widened(self._matrix(space), len(slack)) / unit
         return (NormFamily(self.name, slack / unit, bound / unit, matrix=wide),)
+
+    def unit(self, space: LawSpace) -> float:
+        """The size of the rows: what the base law's output is."""
+        matrix = self._matrix(space)
+        return float(np.linalg.norm(matrix[:, -1])) or float(np.linalg.norm(matrix, axis=0).max()) or 1.0
+
+    def along(self, space: LawSpace, direction: Sequence[float]) -> MotionLaw | None:
+        """The law of a space whose output has a direction, as a certificate says it; None where there is none."""
+        matrix = self._matrix(space)
+        if len(direction) != len(matrix):
+            return None
+        free, base = matrix[:, :-1], matrix[:, -1]
+        if not base.any():
+            return space.law(np.linalg.lstsq(free, np.array(direction), rcond=None)[0])
+        *found, length = np.linalg.lstsq(np.column_stack([-free, direction]), base, rcond=None)[0]
+        return space.law(np.array(found)) if length > 0.0 else None
+
+    def _matrix(self, space: LawSpace) -> Array:
+        return self._kept(space, lambda: self.rows_of_output(space))
 
 
 def output_peak(

@@ -138,11 +138,15 @@ class ModeResidual(Functional):
             columns = self._columns(space, i)
             wide = np.zeros((len(columns), len(slack) + 1), dtype=np.complex128)
             wide[:, : space.terms], wide[:, -1] = columns[:, :-1], columns[:, -1]
-            unit = bound or (float(np.abs(wide[:, -1]).max()) if slack.any() else 0.0) or 1.0
+            unit = self.unit(space, i, bound, sought=bool(slack.any()))
             domain = (1.0, 1.0) if edge.single else (-1.0, 1.0)
             name = f"{self.name}, edge {i + 1}" if i else self.name
             found.append(ConeFamily(name, slack / unit, bound / unit, domain=domain, series=wide / unit))
         return tuple(found)
+
+    def unit(self, space: LawSpace, edge: int, bound: float, *, sought: bool) -> float:
+        """The size of the rows of an edge: the bound, or what the base law leaves where none is given but sought."""
+        return bound or (float(np.abs(self._columns(space, edge)[:, -1]).max()) if sought else 0.0) or 1.0
 
     def where(self, k: float) -> str:
         """The frequency of a place on the first edge."""

@@ -26,7 +26,11 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate, Contact
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.verification.enclosing.balls import ball, lower, upper
-from optlaws.verification.exact.rows import ExactRows, Row
+from optlaws.verification.enclosing.row import Row
+from optlaws.verification.exact.rows import ExactRows
+from optlaws.verification.machines.certificate_rows import together
+from optlaws.verification.machines.curbs import curb, floor
+from optlaws.verification.machines.outputs import OutputConstant
 
 Vector = list[arb]
 
@@ -158,7 +162,7 @@ class _System:
         self.vectors: list[Vector] = []
         self.multipliers: list[arb] = []
         self.negative = self.unknown = 0
-        for contact in certificate.contacts:
+        for contact in together(certificate.contacts, rows.corners):
             row = rows.row(contact)
             if contact.multiplier < 0.0:
                 self.negative += 1
@@ -210,12 +214,14 @@ class _System:
         placed = cone or contact.constraint in self.rows.tangents or not contact.direction
         if _NEAR < k < 1 - _NEAR and placed:
             for near in (k - _NEAR, k + _NEAR):
-                if cone or self._share_a_piece(near, k):
+                if cone or self._share_a_piece(contact.constraint, near, k):
                     yield contact, near
 
-    def _share_a_piece(self, near: Fraction, k: Fraction) -> bool:
+    def _share_a_piece(self, name: str, near: Fraction, k: Fraction) -> bool:
         piece = self.rows.space.piece
         with suppress(LookupError):
+            if name in self.rows.outputs:
+                return self.rows.outputs[name].share_a_stretch(near, k)
             return piece(near) == piece(k)
         return False
 
@@ -312,7 +318,7 @@ def _changes(vectors: list[Vector], weights: Vector, slopes: Vector) -> Vector |
 def never_negative(problem: Problem) -> bool:
     """Whether every constant of the objective is at least 0: a peak of one sign need not be if the velocity changes."""
     found = [leaf for _, leaf in leaves(problem.objective)]
-    if any(isinstance(leaf, Functional) and leaf.floor(problem.conditions) < 0.0 for leaf in found):
+    if any(isinstance(leaf, Functional) and floor(leaf, problem.conditions) < 0 for leaf in found):
         return False
     one_sided = any(isinstance(leaf, Peak) and len(leaf.signs) == 1 for leaf in found)
     return not one_sided or (problem.boundary is None and problem.order > 1)
@@ -331,8 +337,8 @@ def least_values(problem: Problem, rows: ExactRows) -> dict[str, Fraction | floa
     for _, leaf in leaves(problem.objective):
         if isinstance(leaf, Peak) and len(leaf.signs) == 1:
             least[repr(leaf)] = -inf if mean is None or leaf.nu != 2 else mean * Fraction(leaf.signs[0])
-        elif isinstance(leaf, Functional) and leaf.floor(problem.conditions) < 0.0:
-            least[repr(leaf)] = leaf.floor(problem.conditions)
+        elif isinstance(leaf, Functional) and floor(leaf, problem.conditions) < 0:
+            least[repr(leaf)] = floor(leaf, problem.conditions)
     _least_sum(problem.objective, least)
     return least
 
@@ -379,9 +385,9 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
     start, change, stroke = rows.space.bounds
     bounds: dict[int, list[arb]] = {}
 
-    def known(nu: int, name: str, factor: float = 1.0, extra: arb | None = None) -> None:
+    def known(nu: int, name: str, factor: float | arb = 1.0, extra: arb | None = None) -> None:
         if isfinite(greatest.get(name, inf)):
-            size = ball(factor) * ball(max(greatest[name], 0.0))
+            size = arb(factor) * ball(max(greatest[name], 0.0))
             bounds.setdefault(nu, []).append(size + (arb(0) if extra is None else extra))
 
     for nu, name in ((2, "C"), (2, "rms_c"), (3, "J"), (3, "rms_j"), (4, "jounce")):
@@ -393,18 +399,29 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
     known(1, "B", 2, -ball(stroke))
     if problem.monotone:
         bounds.setdefault(1, []).append(ball(stroke))
-    space = space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
     for constant in problem.constants:
-        for nu, factor, offset in constant.sizes(space):
-            name = VariableName.POWER_ROOT if constant == rows.power else constant.name
-            # both are rounded
-            if name == VariableName.POWER_ROOT or not isinstance(constant, Power):
-                known(nu, name, factor * _ROUNDED, ball(offset * _ROUNDED))
+        name = VariableName.POWER_ROOT if constant == rows.power else constant.name
+        for nu, factor, offset in _sizes(problem, constant, name):
+            known(nu, name, factor, offset)
     plain = rows.power is not None and not rows.power.curbs()
     if plain and start is not None and change is not None and start == 0 and start + change == 0:
         # b² <= 2 D k
         known(1, VariableName.POWER_ROOT)
     return {nu: ball(min(map(upper, several))) for nu, several in bounds.items()}
+
+
+def _sizes(problem: Problem, constant: Functional, name: str) -> Iterator[tuple[int, arb, arb]]:
+    """Orders, factors and offsets: the mean of |a^(order)| is at most factor times the constant plus the offset."""
+    if isinstance(constant, OutputConstant):
+        at_rest = not any(problem.conditions.start[:2])
+        found = curb(constant) if at_rest else None
+        if found is not None:
+            yield *found, found[1] * abs(ball(constant.offset))
+    elif name == VariableName.POWER_ROOT or not isinstance(constant, Power):
+        space = space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
+        # both are rounded
+        for nu, factor, offset in constant.sizes(space):
+            yield nu, ball(factor * _ROUNDED), ball(offset * _ROUNDED)
 
 
 def _spread(

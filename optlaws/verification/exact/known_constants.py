@@ -11,16 +11,20 @@ from optlaws.synthesis.problem.constants import Peak, PeakJerk, Power, RootMeanS
 from optlaws.synthesis.problem.expression import Term
 from optlaws.synthesis.problem.named_constants import is_named
 from optlaws.verification.exact.residuals import ResidualConstant
+from optlaws.verification.machines.mode_residuals import ModeConstant
+from optlaws.verification.machines.outputs import OutputConstant
 
 OfFormula = FormulaIntegral | FormulaPeak | FormulaRms | FormulaValue
 _OF_FORMULAS = {FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue}
-Known = Peak | Power | RootMeanSquare | CombinedPeak | ResidualConstant | OfFormula
+OfMachine = ResidualConstant | ModeConstant | OutputConstant
+Known = Peak | Power | RootMeanSquare | CombinedPeak | OfMachine | OfFormula
 
 _OF_CAMS = tuple(f"{name}_cam(" for name in ("B", "C", "C_plus", "C_minus", "D", "J"))
+_TOLD = (*_OF_CAMS, "residual(", "mode_residual(", "output_peak(", "output_rms(")
 
 
 def known(term: Term) -> Known:
-    """The constant, if it is one of a law, of its cam, a residual, or of a formula, as optlaws itself defines them.
+    """The constant, if it is one of a law, of its cam, of a machine, or of a formula, as optlaws itself defines them.
 
     Raises
     ------
@@ -37,14 +41,12 @@ def known(term: Term) -> Known:
         return term
     if type(term) is Power and tuple(term.weights) == (Fraction(1),):
         return term
-    if isinstance(term, CombinedPeak | CombinedPower) and repr(term).startswith(_OF_CAMS) and is_named(term):
-        return term
-    if isinstance(term, ResidualConstant) and repr(term).startswith("residual(") and is_named(term):
+    if isinstance(term, CombinedPeak | CombinedPower | OfMachine) and repr(term).startswith(_TOLD) and is_named(term):
         return term
     if type(term) in _OF_FORMULAS and isinstance(term, OfFormula) and is_named(term):
         return term
     raise InputError(
-        "exact verification knows peaks, power and RMS of derivatives, constants of cams, residuals and constants of "
-        f"formulas as optlaws defines them, not {term!r}: what bounds it is checked with numpy alone, by "
+        "exact verification knows peaks, power and RMS of derivatives, constants of cams, of machines and "
+        f"of formulas as optlaws defines them, not {term!r}: what bounds it is checked with numpy alone, by "
         "Certificate.bound"
     )

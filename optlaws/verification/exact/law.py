@@ -25,8 +25,10 @@ from optlaws.verification.enclosing.ball_pieces import PowerPiece, SinePiece
 from optlaws.verification.enclosing.balls import ball, enclosed, rational
 from optlaws.verification.enclosing.pieces import ExactPiece, Extremes, PolynomialPiece, least_and_greatest
 from optlaws.verification.exact.formula_values import extremes_of, integral_of
-from optlaws.verification.exact.known_constants import Known, OfFormula, known
+from optlaws.verification.exact.known_constants import Known, OfFormula, OfMachine, known
 from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
+from optlaws.verification.machines.mode_residuals import ExactModeResidual, ModeConstant
+from optlaws.verification.machines.outputs import ExactOutput, OutputRms
 
 
 class ExactLaw:
@@ -186,16 +188,23 @@ class ExactLaw:
         """Floats below and above these."""
         return {name: enclosed(value) for name, value in self.constants().items()}
 
-    def residual(self, constant: ResidualConstant) -> arb:
-        """A ball that holds the greatest residual over an interval of frequencies.
+    def of_machine(self, constant: OfMachine) -> arb:
+        """A ball that holds a constant of a machine: a residual over frequencies, of a mode over a box, or an output's.
 
         Raises
         ------
         InputError
-            If a piece is no polynomial.
+            If a piece is no polynomial, or the machine has no such mode or motion.
         """
         with ctx.workprec(2 * self.precision):
-            return ExactResidual(constant).peak(self.polynomials)
+            if isinstance(constant, ResidualConstant):
+                return ExactResidual(constant).peak(self.polynomials)
+            if isinstance(constant, ModeConstant):
+                return ExactModeResidual(constant).peak(self.polynomials)
+            exact = ExactOutput(constant)
+            if exact.impulsive and self._impulses(2):
+                return arb.pos_inf()
+            return (exact.rms if isinstance(constant, OutputRms) else exact.peak)(self.polynomials)
 
     def of_formula(self, constant: OfFormula) -> arb:
         """A ball that holds a constant of a formula.
@@ -255,8 +264,8 @@ class ExactLaw:
             return self.combined_power(constant)
         if isinstance(constant, OfFormula):
             return self.of_formula(constant)
-        if isinstance(constant, ResidualConstant):
-            return self.residual(constant)
+        if isinstance(constant, OfMachine):
+            return self.of_machine(constant)
         return self._of_derivative(constant)
 
     def _of_derivative(self, constant: Peak | Power | RootMeanSquare) -> arb:

@@ -31,6 +31,7 @@ from optlaws.verification.enclosing.ball_formulas import BALLS
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.exact.box_steps import Box, BoxSteps, Vector
 from optlaws.verification.exact.known_constants import known
+from optlaws.verification.machines.curbs import floor
 
 _BITS = 256
 _DEEPEST = 5
@@ -153,7 +154,7 @@ class _FormulaProof(BoxSteps):
     def own_sides(self, name: str) -> tuple[arb, arb]:
         """A constant is at least what its formula is where the ends say it."""
         constants = (leaf for _, leaf in leaves(self.problem.objective) if isinstance(leaf, Functional))
-        floors = {leaf.name: leaf.floor(self.problem.conditions) for leaf in constants}
+        floors = {leaf.name: floor(leaf, self.problem.conditions) for leaf in constants}
         return ball(floors[name]), ball(self.greatest[name])
 
     def outer(self, k: Fraction) -> tuple[arb, arb]:

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 from fractions import Fraction
 from functools import partial
 from math import isfinite
 from operator import mul
 
-from flint import acb, arb
+from flint import arb
 
 from optlaws.errors import InputError
 from optlaws.formulas.of_motion import Motion
+from optlaws.kept import kept_property
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName
 from optlaws.synthesis.functionals.affine_rows import sides as formula_sides
@@ -28,32 +29,21 @@ from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.writer import relaxed_power
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate, Contact
 from optlaws.synthesis.spaces.of_basis import space_of
+from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.pieces import PolynomialPiece
+from optlaws.verification.enclosing.row import Maker, Names, Row
 from optlaws.verification.exact.formula_rows import formula_columns, norm_columns, tangent_columns, tangent_integral
-from optlaws.verification.exact.known_constants import OfFormula, known
+from optlaws.verification.exact.known_constants import OfFormula, OfMachine, known
+from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.of_basis import exact_space
 from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
+from optlaws.verification.machines.certificate_rows import Corner, cone, mean, mode_edges, peak
+from optlaws.verification.machines.mode_residuals import ModeConstant
+from optlaws.verification.machines.outputs import OutputConstant, OutputRms, OutputRows
 
 _NEAR = Fraction(1, 10**9)
 
-Names = Mapping[str, float | arb]
-
-
-@dataclass(frozen=True, eq=False)
-class Row:
-    """functions . (z, 1) + sum of constants + right; at most 0, or 0 for an equation, in every law of the problem."""
-
-    functions: list[arb]
-    constants: Names = field(default_factory=dict)
-    right: arb | float = 0.0
-
-    def vector(self, variables: list[str]) -> list[arb]:
-        """Coefficients of z and of the named constants, then what is constant."""
-        *free, base = self.functions
-        return [*free, *(arb(self.constants.get(name, 0.0)) for name in variables), base + self.right]
-
-
-Maker = Callable[[Contact, Fraction], Row]
 Place = Callable[[Fraction], list[arb]]
 
 
@@ -91,8 +81,12 @@ class ExactRows:
         self.power = relaxed_power(problem) if self.relaxed else None
         #: constants that are magnitudes of complex numbers, whose contacts' k is no place of the law
         self.cones: set[str] = set()
+        #: places of these that are another's too: which, and the ratio of their units
+        self.corners: dict[Corner, tuple[Corner, float]] = {}
         #: formulas that are not affine, whose contacts say where a tangent touches
         self.tangents: set[str] = set()
+        #: outputs of machines, whose contacts' k is a share of the time that counts
+        self.outputs: dict[str, OutputRows] = {}
         self.names: list[str] = []
         self.cost: dict[str, float] = {}
         self._makers: dict[tuple[str, float], list[Maker]] = {}
@@ -105,6 +99,11 @@ class ExactRows:
             self.names.append(VariableName.POWER_ROOT)
         self.names = list(dict.fromkeys(self.names))
         self._constraints()
+
+    @kept_property
+    def _solved(self) -> LawSpace:
+        """The laws in the coordinates in which they were sought, where a certificate's units come from."""
+        return space_of(self.problem.basis, self.problem.conditions, symmetric=self.problem.symmetric)
 
     def row(self, contact: Contact, k: Fraction | None = None) -> Row | None:
         """The row of a contact, or of one like it at another k; None if the problem asks for nothing of the kind."""
@@ -135,12 +134,12 @@ class ExactRows:
         """Rows of `leaf <= -slack + high`."""
         constant = known(leaf)
         if isinstance(constant, Combined):
-            constant.check(space_of(self.problem.basis, self.problem.conditions, symmetric=self.problem.symmetric))
+            constant.check(self._solved)
         if isinstance(constant, CombinedPeak):
             for name, weights, sides in constant.sides(symmetric=self.problem.symmetric):
                 self._everywhere(name, partial(self.space.combination, constant.nu, weights), sides, slack, high)
-        elif isinstance(constant, ResidualConstant):
-            self._residual(constant, slack, high)
+        elif isinstance(constant, OfMachine):
+            self._of_machine(constant, slack, high)
         elif isinstance(constant, OfFormula):
             self._of_formula(constant, slack, high)
         elif isinstance(constant, RootMeanSquare):
@@ -272,23 +271,41 @@ class ExactRows:
         columns = zip(*(column for column, _ in rule), strict=True)
         return Row([sum(map(mul, weights, column), arb(0)) for column in columns], slack, -ball(high))
 
+    def _of_machine(self, constant: OfMachine, slack: Names, high: float) -> None:
+        if isinstance(constant, ResidualConstant):
+            self._residual(constant, slack, high)
+        elif isinstance(constant, ModeConstant):
+            self._mode(constant, slack, high)
+        else:
+            self._output(constant, slack, high)
+
     def _residual(self, constant: ResidualConstant, slack: Names, high: float) -> None:
-        """A direction times the complex amplitude is at most its magnitude; in units of the bound."""
-        exact, unit = ExactResidual(constant), ball(high or 1.0)
-        kept: dict[Fraction, list[acb]] = {}
-
-        def make(contact: Contact, k: Fraction) -> Row:
-            if len(contact.direction) != 2:
-                raise LookupError
-            if k not in kept:
-                kept[k] = exact.rows(self.space, k)
-            real, imaginary = (ball(value) for value in contact.direction)
-            length = (real**2 + imaginary**2).sqrt().max(arb(1)) * unit
-            row = [(amplitude.real * real + amplitude.imag * imaginary) / length for amplitude in kept[k]]
-            return Row(row, slack, -ball(high) / unit)
-
+        """In units of the bound."""
+        amplitudes = partial(ExactResidual(constant).rows, self.space)
         self.cones.add(constant.name)
-        self._add(constant.name, make)
+        self._add(constant.name, cone(amplitudes, slack, high, ball(high or 1.0)))
+
+    def _mode(self, constant: ModeConstant, slack: Names, high: float) -> None:
+        edges = mode_edges(constant, self.space, self._solved, slack, high)
+        self.corners.update(edges.corners)
+        for name, maker in edges.makers.items():
+            self.cones.add(name)
+            self._add(name, maker)
+
+    def _output(self, constant: OutputConstant, slack: Names, high: float) -> None:
+        output = self.outputs[constant.name] = OutputRows(constant, self.space)
+        unit = ball(constant.unit(self._solved))
+        if not isinstance(constant, OutputRms):
+            self._add(constant.name, peak(output, unit, slack, high), (1.0, -1.0))
+            return
+
+        def law_along(direction: Sequence[float]) -> Sequence[PolynomialPiece]:
+            law = constant.along(self._solved, direction)
+            if law is None:
+                raise LookupError
+            return ExactLaw(law).polynomials
+
+        self._add(constant.name, mean(output, law_along, unit, slack, high))
 
     def _constraints(self) -> None:
         problem = self.problem

@@ -1,0 +1,1 @@
+"""Linear machines in exact numbers and balls: transfer functions, responses, and constants of outputs."""

@@ -1,0 +1,140 @@
+"""Rows of certificates that machines ask for: outputs at a time, their mean squares, and amplitudes of modes."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from functools import partial
+from math import hypot
+
+from flint import acb, arb
+
+from optlaws.synthesis.proof.certificate import Contact
+from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.pieces import PolynomialPiece
+from optlaws.verification.enclosing.row import Maker, Names, Row
+from optlaws.verification.machines.driving import Space
+from optlaws.verification.machines.mode_residuals import ExactModeResidual, ModeConstant
+from optlaws.verification.machines.outputs import OutputRows
+
+#: a law's pieces by the direction of a contact; LookupError where there is none
+LawAlong = Callable[[Sequence[float]], Sequence[PolynomialPiece]]
+#: the name of a cone, and a place of it
+Corner = tuple[str, float]
+#: corners of a box by edge and end, and where they stand first
+_FIRST = {(1, 0.0): (0, 1.0), (2, 1.0): (1, 1.0), (3, 0.0): (0, 0.0), (3, 1.0): (2, 0.0)}
+
+
+@dataclass(frozen=True)
+class ModeEdges:
+    """What the edges of a box ask for.
+
+    Attributes
+    ----------
+    makers
+        Rows of each edge, by its name.
+    corners
+        Corners that an earlier edge has too: that one's, and the ratio of its unit to this one's.
+    """
+
+    makers: Mapping[str, Maker]
+    corners: Mapping[Corner, tuple[Corner, float]]
+
+
+def cone(amplitudes: Callable[[Fraction], list[acb]], slack: Names, high: float, unit: arb) -> Maker:
+    """A direction times a complex amplitude is at most its magnitude."""
+    kept: dict[Fraction, list[acb]] = {}
+    inside = _divided(slack, unit)
+
+    def make(contact: Contact, k: Fraction) -> Row:
+        if len(contact.direction) != 2:
+            raise LookupError
+        if k not in kept:
+            kept[k] = amplitudes(k)
+        real, imaginary = (ball(value) for value in contact.direction)
+        length = (real**2 + imaginary**2).sqrt().max(arb(1)) * unit
+        row = [(amplitude.real * real + amplitude.imag * imaginary) / length for amplitude in kept[k]]
+        return Row(row, inside, -ball(high) / unit)
+
+    return make
+
+
+def mode_edges(constant: ModeConstant, space: Space, solved: LawSpace, slack: Names, high: float) -> ModeEdges:
+    """A cone for each edge of the box, in the units of the certificate."""
+    exact = ExactModeResidual(constant)
+    count = len(exact.edges)
+    units = [constant.unit(solved, i, high, sought=bool(slack)) for i in range(count)]
+    named = [f"{constant.name}, edge {i + 1}" if i else constant.name for i in range(count)]
+    makers = {
+        name: cone(partial(exact.rows, space, i), slack, high, ball(unit))
+        for i, (name, unit) in enumerate(zip(named, units, strict=True))
+    }
+    corners = {
+        (named[i], end): ((named[j], other), units[j] / units[i])
+        for (i, end), (j, other) in _FIRST.items()
+        if count > 2
+    }
+    return ModeEdges(makers, corners)
+
+
+def peak(output: OutputRows, unit: arb, slack: Names, high: float) -> Maker:
+    """An output at a time."""
+    inside = _divided(slack, unit)
+
+    def make(contact: Contact, k: Fraction) -> Row:
+        return Row([contact.sign * value / unit for value in output.at(k)], inside, -ball(high) / unit)
+
+    return make
+
+
+def mean(output: OutputRows, law_along: LawAlong, unit: arb, slack: Names, high: float) -> Maker:
+    """An output times that of another law, which a direction says."""
+    inside = _divided(slack, unit)
+
+    def make(contact: Contact, _: Fraction) -> Row:
+        law = law_along(contact.direction)
+        return Row([value / unit for value in output.beside(law)], inside, -ball(high) / unit)
+
+    return make
+
+
+def _divided(slack: Names, unit: arb) -> Names:
+    return {name: ball(value) / unit if isinstance(value, float) else value / unit for name, value in slack.items()}
+
+
+def together(contacts: Iterable[Contact], corners: Mapping[Corner, tuple[Corner, float]]) -> list[Contact]:
+    """Contacts at one corner, which two edges have, as one: what they say together is at most as much.
+
+    Apart they would be two rows that are the same but for rounding, which could be exchanged for each other at will.
+    """
+    found: list[Contact] = []
+    places: dict[Corner, int] = {}
+    for contact in contacts:
+        moved = _moved(contact, corners)
+        place = (moved.constraint, moved.k)
+        if place in places:
+            found[places[place]] = _added(found[places[place]], moved)
+            continue
+        if place in {other for other, _ in corners.values()} and moved.multiplier > 0.0 and len(moved.direction) == 2:
+            places[place] = len(found)
+        found.append(moved)
+    return found
+
+
+def _moved(contact: Contact, corners: Mapping[Corner, tuple[Corner, float]]) -> Contact:
+    same = corners.get((contact.constraint, contact.k))
+    if same is None:
+        return contact
+    (name, k), ratio = same
+    return replace(contact, constraint=name, k=k, multiplier=contact.multiplier * ratio)
+
+
+def _added(contact: Contact, other: Contact) -> Contact:
+    if other.multiplier <= 0.0 or len(other.direction) != 2:
+        return contact
+    pairs = zip(contact.direction, other.direction, strict=True)
+    x, y = (contact.multiplier * one + other.multiplier * two for one, two in pairs)
+    size = hypot(x, y)
+    return replace(contact, multiplier=size, direction=(x / size, y / size)) if size else contact

@@ -1,0 +1,120 @@
+"""What drives a machine, stretch by stretch in time: laws, dwells and returns, exact, a column for each."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from itertools import pairwise
+from typing import Protocol
+
+from flint import fmpq, fmpq_poly
+
+from optlaws.verification.enclosing.balls import rational
+from optlaws.verification.enclosing.pieces import PolynomialPiece
+
+Columns = list[fmpq_poly]
+_HALF = Fraction(1, 2)
+
+
+@dataclass(frozen=True)
+class Drive:
+    """Displacements on one stretch of time, as polynomials of the time since it began.
+
+    Attributes
+    ----------
+    start, length
+        Where it begins and how long it is, in durations of the rise.
+    columns
+        One polynomial for each law.
+    """
+
+    start: Fraction
+    length: Fraction
+    columns: Columns
+
+    @property
+    def stop(self) -> Fraction:
+        """Where it ends."""
+        return self.start + self.length
+
+    @property
+    def first(self) -> list[fmpq]:
+        """The displacements where it begins."""
+        return [column(fmpq(0)) for column in self.columns]
+
+    @property
+    def last(self) -> list[fmpq]:
+        """The displacements where it ends."""
+        return [column(rational(self.length)) for column in self.columns]
+
+
+class Space(Protocol):
+    """The laws of a problem in exact numbers, as `optlaws.verification.exact` has them."""
+
+    breaks: list[Fraction]
+
+    def derivative(self, nu: int) -> list[Columns]:
+        """Derivatives of order nu by k, as polynomials in x = 2k - 1 on each piece."""
+
+
+def of_pieces(pieces: Sequence[PolynomialPiece]) -> list[Drive]:
+    """A stored law: one column."""
+    found = []
+    for piece in pieces:
+        local = fmpq_poly([fmpq(-1), piece.rate])
+        found.append(Drive(piece.start, piece.stop - piece.start, [piece.derivative(0)(local)]))
+    return found
+
+
+def of_space(space: Space) -> list[Drive]:
+    """All laws of a space: free functions, then the base law; of symmetric laws the second half mirrors the first."""
+    found = []
+    for part, (low, high) in zip(space.derivative(0), pairwise(space.breaks), strict=True):
+        local = fmpq_poly([rational(2 * low - 1), fmpq(2)])
+        found.append(Drive(low, high - low, [one(local) for one in part]))
+    if space.breaks[-1] == _HALF:
+        middle = found[-1].last
+        found += [_mirrored(one, middle) for one in reversed(found)]
+    return found
+
+
+def _mirrored(drive: Drive, middle: list[fmpq]) -> Drive:
+    back = fmpq_poly([rational(drive.length), fmpq(-1)])
+    columns = [2 * height - one(back) for one, height in zip(drive.columns, middle, strict=True)]
+    return Drive(1 - drive.stop, drive.length, columns)
+
+
+def rest(start: Fraction, length: Fraction, levels: Sequence[fmpq]) -> Drive:
+    """A dwell."""
+    return Drive(start, length, [fmpq_poly([level]) for level in levels])
+
+
+def followed(rise: Sequence[Drive], last: Fraction) -> list[Drive]:
+    """A rise with the dwell after it, up to a time."""
+    dwell = [rest(rise[-1].stop, last - rise[-1].stop, rise[-1].last)] if last > rise[-1].stop else []
+    return [*rise, *dwell]
+
+
+def cycle(rise: Sequence[Drive], dwell: Fraction, pause: Fraction) -> list[Drive]:
+    """Rise, dwell, the same law back, and a rest."""
+    low, high = rise[0].first, rise[-1].last
+    back = 1 + dwell
+    both = [one + other for one, other in zip(low, high, strict=True)]
+    fall = [
+        Drive(back + one.start, one.length, [total - column for total, column in zip(both, one.columns, strict=True)])
+        for one in rise
+    ]
+    around = [*rise, *([rest(Fraction(1), dwell, high)] if dwell else []), *fall]
+    return [*around, *([rest(back + 1, pause, low)] if pause else [])]
+
+
+def with_column(rise: Sequence[Drive], other: Sequence[Drive]) -> list[Drive]:
+    """One more law, given on stretches of its own, each continued over the stretch whose middle it covers."""
+    found = []
+    for one in rise:
+        middle = one.start + one.length / 2
+        covering = [part for part in other if part.start <= middle][-1]
+        later = fmpq_poly([rational(one.start - covering.start), fmpq(1)])
+        found.append(Drive(one.start, one.length, [*one.columns, covering.columns[0](later)]))
+    return found

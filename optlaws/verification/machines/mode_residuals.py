@@ -1,0 +1,182 @@
+"""The amplitude that a mode of a machine is left with in an output, over a box of frequencies and damping ratios."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from fractions import Fraction
+from functools import partial
+from typing import Protocol, TypeVar, runtime_checkable
+
+from flint import acb, acb_series, arb
+
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.pieces import PolynomialPiece
+from optlaws.verification.machines.driving import Space
+from optlaws.verification.machines.transfer import Rational, StateSpace, roots, transforms
+from optlaws.verification.machines.velocity_transforms import ends_of, ends_of_piece, greatest_modulus
+from optlaws.verification.machines.velocity_transforms import transforms as velocity_transforms
+
+Number = TypeVar("Number", acb, acb_series)
+Corner = tuple[arb, arb]
+_I = acb(0, 1)
+#: of a root's size: what vibrates less is a decay, what is no further away is the same vibration, and what differs no
+#: more in size has no number of its own
+_VIBRATING, _SAME, _APART = 1e-6, 1e-6, 1e-9
+
+
+@runtime_checkable
+class ModeConstant(Protocol):
+    """What the residual of a mode is made of (optlaws.mechanisms defines it)."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def machine(self) -> StateSpace:
+        """Of which machine."""
+
+    @property
+    def output(self) -> str:
+        """In which output."""
+
+    @property
+    def mode(self) -> int:
+        """The number of the mode, the slowest one's being 1."""
+
+    @property
+    def spread(self) -> float:
+        """Share by which its frequency may be off, either way."""
+
+    @property
+    def dampings(self) -> tuple[float, float] | None:
+        """The least and the greatest damping ratio; None for the mode's own."""
+
+    def unit(self, space: LawSpace, edge: int, bound: float, *, sought: bool) -> float:
+        """What the rows of the certificate are divided by: any number above 0 will do."""
+
+
+@dataclass(frozen=True)
+class Edge:
+    """Roots i nu exp(i angle) between two corners (nu, angle), sin(angle) being the damping ratio."""
+
+    first: Corner
+    last: Corner
+    single: bool = False
+
+    def root(self, place: Number) -> Number:
+        """The root at a place from 0 to 1."""
+        nu, angle = (acb(a) + place * acb(b - a) for a, b in zip(self.first, self.last, strict=True))
+        return _I * nu * (_I * angle).exp()
+
+
+class ExactModeResidual:
+    """The greatest amplitude over the box, at the precision at work when it is first asked.
+
+    Parameters
+    ----------
+    constant
+        Which mode of which machine, in which output, over which box.
+    """
+
+    def __init__(self, constant: ModeConstant) -> None:
+        self.constant = constant
+
+    @kept_property
+    def mode(self) -> list[tuple[acb, int]]:
+        """The roots that are the mode, nearly the same, with their multiplicities.
+
+        Raises
+        ------
+        InputError
+            If the machine has no such mode, or its number is none that can be told.
+        """
+        below, _ = transforms(self.constant.machine, self.constant.output)
+        groups = vibrations(roots(below))
+        if not 1 <= self.constant.mode <= len(groups):
+            raise InputError(f"the machine has no mode {self.constant.mode}")
+        return groups[self.constant.mode - 1]
+
+    @kept_property
+    def root(self) -> acb:
+        """The mean of these."""
+        whole = sum(count for _, count in self.mode)
+        return sum((root * count for root, count in self.mode), acb(0)) / whole
+
+    @kept_property
+    def share(self) -> arb:
+        """The mode's amplitude in the output over the magnitude of the integral of exp(root (1 - k)) b(k).
+
+        Raises
+        ------
+        InputError
+            If the mode is defective.
+        """
+        below, parts = transforms(self.constant.machine, self.constant.output)
+        total = acb(0)
+        for i, part in enumerate(parts):
+            for pole in Rational(part, below).poles():
+                if not any(bool(pole.root.overlaps(root)) for root, _ in self.mode):
+                    continue
+                if len(pole.shares) > 1:
+                    raise InputError(f"mode {self.constant.mode} is defective: it has no amplitude")
+                total += pole.shares[0] * self.root ** (i - 1)
+        return abs(2 * total)
+
+    @kept_property
+    def edges(self) -> list[Edge]:
+        """The edges of the box, one where it is thin, as optlaws.mechanisms numbers them."""
+        own = (-self.root.real / abs(self.root)).asin()
+        spread, dampings = Fraction(self.constant.spread), self.constant.dampings
+        low, high = abs(self.root) * ball(1 - spread), abs(self.root) * ball(1 + spread)
+        least, most = (own, own) if dampings is None else (ball(one).asin() for one in dampings)
+        if dampings is None or dampings[0] == dampings[1]:
+            return [Edge((low, least), (high, least), single=not spread)]
+        if not spread:
+            return [Edge((low, least), (low, most))]
+        lower, upper = ((low, least), (high, least)), ((low, most), (high, most))
+        return [Edge(*lower), Edge(lower[1], upper[1]), Edge(*upper), Edge(lower[0], upper[0])]
+
+    def rows(self, space: Space, edge: int, place: Fraction) -> list[acb]:
+        """Amplitudes of a space's free functions and of its base law, at a place of an edge from 0 to 1."""
+        found = velocity_transforms(self.edges[edge].root(acb(ball(place))), space.breaks, ends_of(space))
+        return [self.share * one for one in found]
+
+    def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
+        """A ball that holds the greatest over the box, at the precision at work."""
+        breaks = [pieces[0].start, *(piece.stop for piece in pieces)]
+        ends = [[ends_of_piece(piece) for piece in pieces]]
+
+        def amplitude(edge: Edge, place: Number) -> Number:
+            return velocity_transforms(edge.root(place), breaks, ends)[0]
+
+        if self.edges[0].single:
+            return self.share * abs(amplitude(self.edges[0], acb(0)))
+        along = [partial(amplitude, edge) for edge in self.edges]
+        return self.share * greatest_modulus(along, Fraction(0), Fraction(1))
+
+
+def vibrations(found: Sequence[tuple[acb, int]]) -> list[list[tuple[acb, int]]]:
+    """Roots of vibrations above the real line, the slowest first, those that are nearly the same together.
+
+    Raises
+    ------
+    InputError
+        If two of them differ, but not in size: their numbers are then none.
+    """
+    upper = [one for one in found if one[0].imag > ball(_VIBRATING) * abs(one[0])]
+    groups: list[list[tuple[acb, int]]] = []
+    for one in sorted(upper, key=lambda one: float(abs(one[0]).mid())):
+        size = abs(one[0])
+        near = [group for group in groups if abs(group[0][0] - one[0]) <= ball(_SAME) * size.max(arb(1))]
+        if near:
+            near[0].append(one)
+            continue
+        if groups and not size > abs(groups[-1][0][0]) * ball(1 + _APART):
+            raise InputError("two modes of the machine have the same frequency: which is the first cannot be told")
+        groups.append([one])
+    return groups

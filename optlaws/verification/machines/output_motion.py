@@ -1,0 +1,232 @@
+"""An output of a machine while laws drive it: polynomials and exponentials on each stretch, in balls."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+from fractions import Fraction
+from math import comb, factorial
+
+from flint import acb, acb_mat, arb, arb_mat, fmpq
+
+from optlaws.errors import InputError
+from optlaws.verification.enclosing.balls import ball, rational
+from optlaws.verification.machines.driving import Drive
+from optlaws.verification.machines.transfer import Pole, Transfer
+
+States = list[acb_mat]
+
+
+@dataclass(frozen=True, eq=False)
+class Stretch:
+    """The output on a stretch: polynomials of the time since it began, and for each pole s^l/l! exp(root s) times rows.
+
+    Attributes
+    ----------
+    start, length
+        When, in durations of the rise.
+    polynomials
+        Coefficients, a row for each power, a column for each law.
+    free
+        For each pole the rows of l = 0, 1, ....
+    """
+
+    start: Fraction
+    length: Fraction
+    polynomials: arb_mat
+    free: list[acb_mat]
+
+
+@dataclass(frozen=True, eq=False)
+class Motion:
+    """Outputs of several laws over consecutive stretches.
+
+    Attributes
+    ----------
+    poles
+        Those of the machine.
+    stretches
+        The stretches.
+    laws
+        How many there are.
+    """
+
+    poles: Sequence[Pole]
+    stretches: Sequence[Stretch]
+    laws: int
+
+    def raised(self, by: arb, columns: Sequence[int]) -> Motion:
+        """The same with a number added to some of the outputs."""
+        if by == 0:
+            return self
+        found = []
+        for stretch in self.stretches:
+            rows = stretch.polynomials.tolist()
+            for column in columns:
+                rows[0][column] += by
+            found.append(replace(stretch, polynomials=arb_mat(rows)))
+        return replace(self, stretches=found)
+
+    def row(self, time: Fraction) -> list[arb]:
+        """The outputs of all laws at a time; where they jump, those after it."""
+        stretch = [one for one in self.stretches if one.start <= time][-1]
+        s = ball(time - stretch.start)
+        powers = arb_mat([[s**i for i in range(stretch.polynomials.nrows())]])
+        total = list((powers * stretch.polynomials).entries())
+        for pole, free in zip(self.poles, stretch.free, strict=True):
+            wave = (pole.root * s).exp() * pole.count
+            found = acb_mat([[wave * acb(s**i / factorial(i)) for i in range(free.nrows())]]) * free
+            total = [one + other.real for one, other in zip(total, found.entries(), strict=True)]
+        return total
+
+
+def response(transfer: Transfer, drives: Sequence[Drive], *, repeats: bool = False) -> Motion:
+    """The output over consecutive drives, at the precision at work.
+
+    Parameters
+    ----------
+    transfer
+        From the law to the output.
+    drives
+        The laws.
+    repeats
+        Whether they are a cycle that comes back, whose steady output is meant; else the machine rests before.
+
+    Raises
+    ------
+    InputError
+        If there is no such motion, or it is not the only one: the machine drifts.
+    """
+    chains = _Chains(transfer, len(drives[0].columns))
+    driven = [_driving(drive, transfer.order) for drive in drives]
+    states = chains.returned(driven) if repeats else chains.settled(drives[0])
+    return Motion(chains.poles, list(chains.moved(driven, states)), chains.laws)
+
+
+class _Chains:
+    """States of each pole: a chain, the first driven by the law, each of the others by the one before."""
+
+    def __init__(self, transfer: Transfer, laws: int) -> None:
+        self.transfer, self.poles, self.laws = transfer, transfer.poles(), laws
+        self.last: States = []
+
+    def settled(self, first: Drive) -> States:
+        """Those of rest where a drive begins."""
+        levels = first.first if self.transfer.order == 0 else [fmpq(0)] * self.laws
+        if any(level != 0 for level in levels) and self.transfer.characteristic(fmpq(0)) == 0:
+            raise InputError("exact verification knows no state of rest, away from 0, of a machine that drifts")
+        states = []
+        for pole in self.poles:
+            rows = []
+            state = [acb(arb(level)) for level in levels]
+            for _ in pole.shares:
+                state = [acb(0) if value == 0 else -value / pole.root for value in state]
+                rows.append(state)
+            states.append(acb_mat(rows))
+        return states
+
+    def moved(self, driven: Sequence[Drive], states: States) -> Iterator[Stretch]:
+        """The output on each stretch, from given states on; leaves the last ones."""
+        for drive in driven:
+            derivatives = _derivatives(drive)
+            forced = [_forced(pole, derivatives, drive) for pole in self.poles]
+            away = [state - part for state, (part, _) in zip(states, forced, strict=True)]
+            free = [acb_mat(_weighted(pole, rows)) for pole, rows in zip(self.poles, away, strict=True)]
+            yield Stretch(drive.start, drive.length, self._polynomials(drive), free)
+            states = [
+                part + _propagated(pole, ball(drive.length), rows)
+                for pole, rows, (_, part) in zip(self.poles, away, forced, strict=True)
+            ]
+        self.last = states
+
+    def returned(self, driven: Sequence[Drive]) -> States:
+        """Those that come back after a cycle."""
+        list(self.moved(driven, [acb_mat(len(pole.shares), self.laws) for pole in self.poles]))
+        period = ball(driven[-1].stop - driven[0].start)
+        return [_returned(pole, period, rows) for pole, rows in zip(self.poles, self.last, strict=True)]
+
+    def _polynomials(self, drive: Drive) -> arb_mat:
+        """What the output is apart from free motion: the transfer function's series at 0, applied to the law."""
+        powers = _coefficients(drive)
+        count, zeros = len(powers), self.transfer.zeros
+        series = self.transfer.laurent(count)
+
+        def factor(row: int, i: int) -> arb:
+            return arb(series[i - row] * fmpq(factorial(i), factorial(row))) if row <= i + zeros else arb(0)
+
+        turn = [[factor(row, i) for i in range(count)] for row in range(count + zeros)]
+        return arb_mat(turn) * arb_mat(powers)
+
+
+def _driving(drive: Drive, order: int) -> Drive:
+    """The derivative that drives the machine."""
+    return Drive(drive.start, drive.length, [one.derivative() for one in drive.columns]) if order else drive
+
+
+def _coefficients(drive: Drive) -> list[list[arb]]:
+    """A row for each power of time, a column for each law."""
+    count = max(1, *(len(column.coeffs()) for column in drive.columns))
+    return [[arb(column[i]) for column in drive.columns] for i in range(count)]
+
+
+def _derivatives(drive: Drive) -> tuple[acb_mat, acb_mat]:
+    """All derivatives of the columns where a stretch begins and where it ends, a row for each order."""
+    first: list[list[acb]] = []
+    last: list[list[acb]] = []
+    columns, end = drive.columns, rational(drive.length)
+    while any(column.degree() >= 0 for column in columns) or not first:
+        first.append([acb(arb(column[0])) for column in columns])
+        last.append([acb(arb(column(end))) for column in columns])
+        columns = [column.derivative() for column in columns]
+    return acb_mat(first), acb_mat(last)
+
+
+def _forced(pole: Pole, derivatives: tuple[acb_mat, acb_mat], drive: Drive) -> tuple[acb_mat, acb_mat]:
+    """A motion of the chain that is a polynomial: where the stretch begins and where it ends."""
+    if pole.root == 0:
+        return _integrated(pole, drive)
+    inverse = 1 / pole.root
+    orders = range(derivatives[0].nrows())
+    turn = acb_mat(
+        [[comb(j + i - 1, i) * (-1) ** j * inverse ** (j + i) for i in orders] for j in range(1, len(pole.shares) + 1)]
+    )
+    first, last = derivatives
+    return turn * first, turn * last
+
+
+def _integrated(pole: Pole, drive: Drive) -> tuple[acb_mat, acb_mat]:
+    columns, rows = drive.columns, []
+    for _ in pole.shares:
+        columns = [column.integral() for column in columns]
+        rows.append([acb(arb(column(rational(drive.length)))) for column in columns])
+    found = acb_mat(rows)
+    return 0 * found, found
+
+
+def _weighted(pole: Pole, away: acb_mat) -> acb_mat:
+    """What s^l/l! exp(root s) has as factors in the output."""
+    count = len(pole.shares)
+    turn = [[pole.shares[j + row] if j + row < count else acb(0) for j in range(count)] for row in range(count)]
+    return acb_mat(turn) * away
+
+
+def _propagated(pole: Pole, length: arb, away: acb_mat) -> acb_mat:
+    """The chain's free motion after a time."""
+    return _chain(pole, length) * away
+
+
+def _chain(pole: Pole, length: arb) -> acb_mat:
+    wave, count = (pole.root * length).exp(), len(pole.shares)
+    terms = [wave * length**i / factorial(i) for i in range(count)]
+    return acb_mat([[terms[i - j] if j <= i else acb(0) for j in range(count)] for i in range(count)])
+
+
+def _returned(pole: Pole, period: arb, gained: acb_mat) -> acb_mat:
+    """The states of a chain that after a cycle are what they were, if at rest they become as given."""
+    whole = _chain(pole, period)
+    count = len(pole.shares)
+    away = acb_mat([[(1 if i == j else 0) - whole[i, j] for j in range(count)] for i in range(count)])
+    try:
+        return away.solve(gained)
+    except ZeroDivisionError:
+        raise InputError("the machine is in resonance with its cycle, or drifts: it has no steady motion") from None

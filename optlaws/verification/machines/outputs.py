@@ -1,0 +1,169 @@
+"""Peaks and root mean squares of a machine's outputs, over stored laws and over all laws of a problem."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from fractions import Fraction
+from typing import Protocol, runtime_checkable
+
+from flint import arb
+
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.synthesis.spaces.space import LawSpace
+from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.pieces import PolynomialPiece
+from optlaws.verification.machines import driving
+from optlaws.verification.machines.driving import Drive, Space
+from optlaws.verification.machines.output_motion import Motion, response
+from optlaws.verification.machines.taylor_cells import greatest_value, products, root
+from optlaws.verification.machines.transfer import StateSpace, Transfer
+
+
+@runtime_checkable
+class OutputConstant(Protocol):
+    """What a constant of a machine's output is made of (optlaws.mechanisms defines it)."""
+
+    @property
+    def name(self) -> str:
+        """Its name."""
+
+    @property
+    def machine(self) -> StateSpace:
+        """Of which machine."""
+
+    @property
+    def output(self) -> str:
+        """Which output."""
+
+    @property
+    def within(self) -> tuple[float, float]:
+        """The first and the last time that count, in durations of the rise."""
+
+    @property
+    def cycle(self) -> tuple[float, float] | None:
+        """The dwell and the rest of a cycle that repeats."""
+
+    @property
+    def steady(self) -> bool:
+        """Whether the law is itself a whole cycle that repeats."""
+
+    @property
+    def offset(self) -> float:
+        """What is added to the output."""
+
+    def unit(self, space: LawSpace) -> float:
+        """What the rows of the certificate are divided by: any number above 0 will do."""
+
+
+@runtime_checkable
+class OutputPeak(OutputConstant, Protocol):
+    """A greatest magnitude, or one of one side."""
+
+    @property
+    def signs(self) -> tuple[float, ...]:
+        """Of which of the output and its opposite the peak is."""
+
+
+@runtime_checkable
+class OutputRms(OutputConstant, Protocol):
+    """A root mean square."""
+
+    def along(self, space: LawSpace, direction: Sequence[float]) -> MotionLaw | None:
+        """A law with whose output all others are multiplied: any will do, the optimal one is best."""
+
+
+class ExactOutput:
+    """An output over all the time that counts, and what is before it.
+
+    Parameters
+    ----------
+    constant
+        Which output, of which machine, when.
+    """
+
+    def __init__(self, constant: OutputConstant) -> None:
+        self.constant = constant
+        self.start, self.stop = map(Fraction, constant.within)
+        self.transfer = Transfer(constant.machine, constant.output)
+
+    @property
+    def repeats(self) -> bool:
+        """Whether a cycle is meant that comes back."""
+        return self.constant.steady or self.constant.cycle is not None
+
+    @property
+    def impulsive(self) -> bool:
+        """Whether the acceleration is part of the output: it has no bound where the velocity jumps."""
+        return self.transfer.order + self.transfer.direct.degree() > 1
+
+    def response(self, rise: Sequence[Drive], laws: Sequence[int]) -> Motion:
+        """The output at the precision at work; to columns that are laws, and no parts of one, the offset is added."""
+        return self._moved(rise).raised(ball(self.constant.offset), laws)
+
+    def _moved(self, rise: Sequence[Drive]) -> Motion:
+        if self.constant.cycle is not None:
+            dwell, pause = map(Fraction, self.constant.cycle)
+            return response(self.transfer, driving.cycle(rise, dwell, pause), repeats=True)
+        if self.constant.steady:
+            return response(self.transfer, rise, repeats=True)
+        return response(self.transfer, driving.followed(rise, self.stop))
+
+    def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
+        """A ball that holds the greatest magnitude under a stored law, or that of one side."""
+        signs = self.constant.signs if isinstance(self.constant, OutputPeak) else (1.0, -1.0)
+        return greatest_value(self.response(driving.of_pieces(pieces), [0]), self.start, self.stop, signs)
+
+    def rms(self, pieces: Sequence[PolynomialPiece]) -> arb:
+        """A ball that holds the root mean square under a stored law."""
+        (square,) = products(self.response(driving.of_pieces(pieces), [0]), self.start, self.stop)
+        return root(square / ball(self.stop - self.start))
+
+
+class OutputRows:
+    """An output under all laws of a problem, at the precision at work when it is first asked.
+
+    Parameters
+    ----------
+    constant
+        Which output, of which machine, when.
+    space
+        The laws.
+    """
+
+    def __init__(self, constant: OutputConstant, space: Space) -> None:
+        self.exact, self.space = ExactOutput(constant), space
+
+    @kept_property
+    def _response(self) -> Motion:
+        rise = driving.of_space(self.space)
+        return self.exact.response(rise, [len(rise[0].columns) - 1])
+
+    def beside(self, pieces: Sequence[PolynomialPiece]) -> list[arb]:
+        """The mean of the output times another law's, over the latter's RMS: at most the RMS of the output (Cauchy)."""
+        exact = self.exact
+        rise = driving.with_column(driving.of_space(self.space), driving.of_pieces(pieces))
+        *found, square = products(exact.response(rise, [-2, -1]), exact.start, exact.stop)
+        whole = ball(exact.stop - exact.start)
+        size = (square * whole).sqrt()
+        return [one / size for one in found]
+
+    def time(self, place: Fraction) -> Fraction:
+        """The time of a certificate's place, a share of all the time; LookupError where it does not count."""
+        time = place * self.exact.stop
+        if time < self.exact.start - NEAR:
+            raise LookupError
+        return max(time, self.exact.start)
+
+    def at(self, place: Fraction) -> list[arb]:
+        """The output at a certificate's place: of the free functions, then of the base law."""
+        return self._response.row(self.time(place))
+
+    def share_a_stretch(self, place: Fraction, other: Fraction) -> bool:
+        """Whether nothing begins or ends between two places."""
+        times = sorted([self.time(place), self.time(other)])
+        return not any(times[0] < one.start <= times[1] for one in self._response.stretches)
+
+
+#: by how much a place may be beyond an end
+NEAR = Fraction(1, 10**9)

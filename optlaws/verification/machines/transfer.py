@@ -1,0 +1,207 @@
+"""From a law to an output of a machine: a rational function with exact coefficients, and its partial fractions."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import comb
+from typing import Any, Protocol
+
+from flint import acb, arb, fmpq, fmpq_mat, fmpq_poly, fmpz_poly
+
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.verification.enclosing.balls import rational
+
+Matrix = Sequence[Sequence[float]]
+_S = fmpq_poly([0, 1])
+_NOTHING = fmpq_poly([0])
+_SYMBOLS = "abc"
+
+
+class StateSpace(Protocol):
+    """x' = A x + B w, y = C x + D w, as optlaws.mechanisms defines it."""
+
+    @property
+    def A(self) -> Matrix:
+        """What the states do to each other."""
+
+    @property
+    def B(self) -> Matrix:
+        """What the inputs do to the states."""
+
+    @property
+    def C(self) -> Matrix:
+        """What the states do to the outputs."""
+
+    @property
+    def D(self) -> Matrix:
+        """What the inputs do to the outputs."""
+
+    @property
+    def inputs(self) -> str:
+        """Which of a, b and c the columns of B and D belong to."""
+
+    @property
+    def outputs(self) -> tuple[str, ...]:
+        """Names of the outputs."""
+
+
+@dataclass(frozen=True)
+class Pole:
+    """A root of the denominator, real or above the real line, with what it does to the output.
+
+    Attributes
+    ----------
+    root
+        Where it is; the imaginary part of a real one is exactly 0.
+    shares
+        Factors of 1/(s - root), 1/(s - root)², ..., as many as the root is multiple.
+    """
+
+    root: acb
+    shares: tuple[acb, ...]
+
+    @property
+    def count(self) -> int:
+        """2 where the conjugate root does the same."""
+        return 1 if self.root.imag == 0 else 2
+
+
+class Rational:
+    """A quotient of polynomials in s, without what cancels.
+
+    Parameters
+    ----------
+    above, below
+        The polynomials.
+
+    Examples
+    --------
+    >>> found = Rational(fmpq_poly([2, 2]), fmpq_poly([2, 3, 1]))
+    >>> found.numerator, found.denominator, found.laurent(3)
+    (2, x + 2, {0: 1, 1: -1/2, 2: 1/4, 3: -1/8})
+    """
+
+    def __init__(self, above: fmpq_poly, below: fmpq_poly) -> None:
+        common = above.gcd(below) if above.degree() >= 0 else below
+        self.numerator, self.denominator = divmod(above, common)[0], divmod(below, common)[0]
+
+    @property
+    def direct(self) -> fmpq_poly:
+        """The part that is a polynomial: what reaches the output at once."""
+        return divmod(self.numerator, self.denominator)[0]
+
+    @kept_property
+    def zeros(self) -> int:
+        """How often the denominator vanishes at 0: how often the output integrates what drives it."""
+        return next(i for i, value in enumerate(self.denominator.coeffs()) if value != 0)
+
+    def laurent(self, last: int) -> dict[int, fmpq]:
+        """Coefficients of the powers of s about 0, up to a power."""
+        series = quotient(self.numerator.coeffs(), self.denominator.coeffs()[self.zeros :], last + self.zeros + 1)
+        return {i - self.zeros: value for i, value in enumerate(series)}
+
+    def poles(self) -> list[Pole]:
+        """All of them, at the precision at work; of two conjugate ones the upper."""
+        rest = self.denominator
+        found = []
+        if self.zeros:
+            found.append(self._pole(acb(0), self.zeros))
+            rest = fmpq_poly(rest.coeffs()[self.zeros :])
+        for root, multiplicity in roots(rest):
+            if not root.imag < 0:
+                found.append(self._pole(root, multiplicity))
+        return found
+
+    def _pole(self, root: acb, multiplicity: int) -> Pole:
+        """By Taylor series of numerator and denominator about the root."""
+        above = taylor(self.numerator, root, multiplicity)
+        below = taylor(self.denominator, root, 2 * multiplicity)[multiplicity:]
+        return Pole(root, tuple(reversed(quotient(above, below, multiplicity))))
+
+
+class Transfer(Rational):
+    """The output's transform over that of the law's derivative `order`: 0 where the machine sees the displacement.
+
+    Where it does not, it is driven by the velocity, which need not come back after a cycle.
+
+    Parameters
+    ----------
+    machine
+        The machine.
+    output
+        Which output.
+    """
+
+    def __init__(self, machine: StateSpace, output: str) -> None:
+        self.order = 0 if "a" in machine.inputs else 1
+        self.characteristic, parts = transforms(machine, output)
+        super().__init__(
+            sum((part * _S ** (i - self.order) for i, part in enumerate(parts) if i >= self.order), _NOTHING),
+            self.characteristic,
+        )
+
+
+def transforms(machine: StateSpace, output: str) -> tuple[fmpq_poly, list[fmpq_poly]]:
+    """The characteristic polynomial p, and for each of a, b and c what is to be divided by p: C (s - A)^-1 B + D.
+
+    Raises
+    ------
+    InputError
+        If there is no such output.
+    """
+    if output not in machine.outputs:
+        raise InputError(f"the machine has no output {output!r}")
+    place, size = machine.outputs.index(output), len(machine.A)
+    A = fmpq_mat([[rational(value) for value in row] for row in machine.A])
+    below = A.charpoly()
+    parts = [_NOTHING] * len(_SYMBOLS)
+    row = fmpq_mat([[rational(value) for value in machine.C[place]]])
+    B = fmpq_mat([[rational(value) for value in line] for line in machine.B])
+    chain = []
+    for _ in range(size):
+        chain.append(row * B)
+        row = row * A
+    for column, symbol in enumerate(machine.inputs):
+        impulses = [one[0, column] for one in chain]
+        coefficients = [sum((below[size - j] * impulses[i - j] for j in range(i + 1)), fmpq(0)) for i in range(size)]
+        parts[_SYMBOLS.index(symbol)] = fmpq_poly(coefficients[::-1]) + below * rational(machine.D[place][column])
+    return below, parts
+
+
+def roots(polynomial: fmpq_poly) -> list[tuple[acb, int]]:
+    """Balls around all roots with their multiplicities; of a real root the imaginary part is exactly 0.
+
+    Examples
+    --------
+    >>> [(root.real.mid(), count) for root, count in roots(fmpq_poly([1, 2, 1]))]
+    [(-1.00000000000000, 2)]
+    """
+    if polynomial.degree() < 1:
+        return []
+    plain: Any = fmpz_poly(polynomial.numer().coeffs())
+    return [(acb(root), int(multiplicity)) for root, multiplicity in plain.complex_roots()]
+
+
+def taylor(polynomial: fmpq_poly, place: acb, count: int) -> list[acb]:
+    """The first coefficients of a polynomial about a place."""
+    coefficients = polynomial.coeffs()
+    found = []
+    for m in range(count):
+        total = acb(0)
+        for i in range(len(coefficients) - 1, m - 1, -1):
+            total = total * place + acb(arb(coefficients[i] * comb(i, m)))
+        found.append(total)
+    return found
+
+
+def quotient(above: Sequence[Any], below: Sequence[Any], count: int) -> list[Any]:
+    """The first coefficients of a quotient of two power series, the second of which does not vanish at 0."""
+    found: list[Any] = []
+    for i in range(count):
+        total = above[i] if i < len(above) else above[0] * 0
+        for j in range(1, min(i, len(below) - 1) + 1):
+            total = total - below[j] * found[i - j]
+        found.append(total / below[0])
+    return found

@@ -1,0 +1,121 @@
+"""The Laplace transform of a law's velocity in complex balls: closed forms on pieces of polynomials.
+
+On each piece the integral of exp(w (1-k)) b(k) is, by parts, a sum over b's derivatives at both ends.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from contextlib import contextmanager
+from fractions import Fraction
+from functools import reduce
+from itertools import pairwise
+from typing import Any, TypeVar
+
+from flint import acb, acb_series, arb, arb_poly, ctx, fmpq
+
+from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.pieces import PolynomialPiece
+from optlaws.verification.machines.driving import Space
+from optlaws.verification.machines.highest import highest
+from optlaws.verification.machines.taylor_cells import root
+
+#: b and its derivatives at the start and at the end of a piece
+Ends = tuple[list[fmpq], list[fmpq]]
+Number = TypeVar("Number", acb, acb_series)
+_HALF = Fraction(1, 2)
+#: terms of Taylor series, how little the others may add up to, of the function, and the shortest stretch
+_TERMS, _NOTHING, _SHORTEST = 24, 2.0**-80, Fraction(1, 2**20)
+
+
+def ends_of(space: Space) -> list[list[Ends]]:
+    """Of every function of a space, by its pieces."""
+    degree = max(polynomial.degree() for part in space.derivative(0) for polynomial in part)
+    derivatives = [space.derivative(nu) for nu in range(1, degree + 1)]
+    edges = [2 * fmpq(k.numerator, k.denominator) - 1 for k in space.breaks]
+    return [
+        [
+            (
+                [derivative[i][column](low) for derivative in derivatives],
+                [derivative[i][column](high) for derivative in derivatives],
+            )
+            for i, (low, high) in enumerate(pairwise(edges))
+        ]
+        for column in range(len(space.derivative(0)[0]))
+    ]
+
+
+def ends_of_piece(piece: PolynomialPiece) -> Ends:
+    """Of a stored law's piece."""
+    orders = range(1, piece.derivative(0).degree() + 1)
+    return [piece.exact(nu, piece.start) for nu in orders], [piece.exact(nu, piece.stop) for nu in orders]
+
+
+def transforms(w: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]) -> list[Number]:
+    """Integrals of exp(w (1-k)) b(k); where the breaks end at 1/2, b(1-k) = b(k)."""
+    found = _between_breaks(w, breaks, columns)
+    if breaks[-1] == _HALF:
+        mirrored = _between_breaks(-w, breaks, columns)
+        found = [transform + w.exp() * other for transform, other in zip(found, mirrored, strict=True)]
+    return found
+
+
+def _between_breaks(w: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]) -> list[Number]:
+    inverse, powers = 1 / w, [1 / w]
+    for _ in range(max(len(start) for column in columns for start, _ in column)):
+        powers.append(powers[-1] * inverse)
+    waves = [(w * acb(ball(1 - k))).exp() for k in breaks]
+    nothing = w * 0
+    transforms = []
+    for column in columns:
+        total = nothing
+        for (start, stop), before, after in zip(column, waves, waves[1:], strict=False):
+            total = total + before * _sum(powers, start, nothing) - after * _sum(powers, stop, nothing)
+        transforms.append(total)
+    return transforms
+
+
+def _sum(powers: Sequence[Number], values: Sequence[fmpq], nothing: Number) -> Number:
+    return sum((power * acb(arb(value)) for power, value in zip(powers, values, strict=False) if value != 0), nothing)
+
+
+def greatest_modulus(functions: Sequence[Callable[[acb_series], acb_series]], low: Fraction, high: Fraction) -> arb:
+    """A ball that holds the greatest magnitude of complex functions of a real number, given for Taylor series."""
+    parts = [part for function in functions for part in _parts(function, low, high)]
+    off = reduce(arb.max, (one for _, one in parts))
+    size = root(highest([(square, arb(0)) for square, _ in parts]))
+    return (size + arb(0, off)).max(arb(0))
+
+
+def _parts(
+    function: Callable[[acb_series], acb_series], low: Fraction, high: Fraction
+) -> Iterator[tuple[arb_poly, arb]]:
+    """Polynomials of which the squared magnitude is made, on short stretches, and how far the function is off."""
+    left = [(low, high)]
+    while left:
+        low, high = left.pop()
+        half = ball((high - low) / 2)
+        with _terms(_TERMS + 1):
+            centre = function(acb_series([acb(ball((low + high) / 2)), acb(half)]))
+            rest = function(acb_series([acb(ball(low).union(ball(high))), acb(half)]))[_TERMS]
+        off, size = abs(rest).upper(), abs(centre[0]) + abs(centre[1])
+        if not off <= _NOTHING * size and high - low > _SHORTEST:
+            left += [(low, (low + high) / 2), ((low + high) / 2, high)]
+            continue
+        yield _squared([centre[n] for n in range(_TERMS)]), off
+
+
+def _squared(series: list[acb]) -> arb_poly:
+    """The squared magnitude of a polynomial of a real number."""
+    real, imaginary = arb_poly([one.real for one in series]), arb_poly([one.imag for one in series])
+    return real * real + imaginary * imaginary
+
+
+@contextmanager
+def _terms(count: int) -> Iterator[None]:
+    before: Any = ctx.cap
+    ctx.cap = count
+    try:
+        yield
+    finally:
+        ctx.cap = before
