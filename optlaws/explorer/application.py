@@ -18,7 +18,17 @@ from starlette.routing import Route
 from optlaws import catalogue
 from optlaws.echo import cut
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
-from optlaws.explorer.answers import cam_view, cycle_view, front_view, handed, law_view, nearest, residual_view, saved
+from optlaws.explorer.answers import (
+    cam_loads_view,
+    cam_view,
+    cycle_view,
+    front_view,
+    handed,
+    law_view,
+    nearest,
+    residual_view,
+    saved,
+)
 from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, read, ready
 from optlaws.explorer.guard import Guard
 from optlaws.jobs.cam import wishes
@@ -38,6 +48,7 @@ QUESTIONS: dict[str, tuple[type[msgspec.Struct], Answer]] = {
     "front": (front_view.AskedFront, front_view.answer),
     "nearest": (AskedLaw, nearest.answer),
     "cam": (cam_view.AskedCam, cam_view.answer),
+    "cam-loads": (cam_view.AskedCam, cam_loads_view.answer),
     "cam-sizes": (cam_view.AskedCam, cam_view.sizes),
     "cycle": (cycle_view.AskedCycle, cycle_view.answer),
     "cycle-nearest": (cycle_view.AskedCycle, cycle_view.nearest),
@@ -53,7 +64,7 @@ def application(start: dict[str, Any]) -> Starlette:
     Examples
     --------
     >>> sorted(route.path for route in application({}).routes)[:3]
-    ['/', '/api/cam', '/api/cam-sizes']
+    ['/', '/api/cam', '/api/cam-loads']
     """
     known = {
         "names": [*catalogue, *_MEMBERS],

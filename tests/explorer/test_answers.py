@@ -7,12 +7,14 @@ from math import degrees, hypot
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from optlaws import Problem, Range, Solution, at_most, between, synthesize
 from optlaws.cams.cutting import formats
+from optlaws.cams.loads.forces import CamForces
 from optlaws.errors import InputError
-from optlaws.explorer.answers import cam_view, cycle_view, front_view, law_view, nearest, saved
+from optlaws.explorer.answers import cam_loads_view, cam_view, cycle_view, front_view, law_view, nearest, saved
 from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, given_law, law_of, problem_of, solved
 from optlaws.explorer.answers.cam_view import AskedCam
 from optlaws.explorer.answers.cycle_view import AskedCycle, example
@@ -235,6 +237,25 @@ def test_a_cam_is_drawn_where_its_follower_touches_it(file: str) -> None:
     worst = degrees(cam.extremes.greatest_pressure_angle.value)
     assert abs(view["panels"][1]["peaks"][0]["value"]) == pytest.approx(worst)
     assert max(abs(one) for one in view["panels"][1]["values"]) <= worst + 1e-6
+
+
+def test_the_loads_of_a_cam_are_those_of_the_library() -> None:
+    study = start(str(ROOT / "problems" / "cam_press.toml"))["cam"]
+    told = cam_loads_view.answer(AskedCam(study=study))
+    _, cam = cam_view.cam_of(AskedCam(study=study))
+    forces = CamForces(cam, width="20 mm", friction=study["forces"]["friction"])
+    contact, torque, pressure = told["panels"]
+    assert [one["name"] for one in told["panels"]] == ["contact force", "torque at the shaft", "Hertz's pressure"]
+    assert contact["peaks"][1]["value"] == forces.contact.most
+    assert torque["values"][55] == pytest.approx(forces.shaft_torque(np.radians(55.0)), abs=1e-6)
+    assert max(pressure["values"]) <= 1e-6 * forces.pressure.high
+    assert f"root mean square {forces.rms_torque[1]:.6g} N m" in told["facts"][1]
+    assert "least spring without lift-off" in told["facts"][3]
+    light = study | {"motion": study["motion"] | {"drive": {"mass": "20 kg"}}}
+    assert "the follower lifts off at" in cam_loads_view.answer(AskedCam(study=light))["facts"][0]
+    jammed = light | {"forces": {"friction": {"contact": 0, "guide": 0.9, "overhang": "90 mm", "length": "20 mm"}}}
+    (why,) = cam_loads_view.answer(AskedCam(study=jammed))["facts"]
+    assert "the follower jams in its guide" in why
 
 
 def test_a_cam_that_is_undercut_says_so_and_one_that_is_none_why() -> None:

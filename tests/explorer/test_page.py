@@ -8,6 +8,7 @@ from xml.etree import ElementTree as ET
 
 import pytest
 
+from optlaws.explorer.answers import cam_view
 from tests.explorer.conftest import Watch
 from tests.explorer.talk import OPTIMAL, Server
 
@@ -275,6 +276,16 @@ def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Serv
     page.wait_for_timeout(150)
     page.get_by_role("button", name="Pause").click()
     assert float(page.get_by_label("Angle of the cam, degrees").input_value()) > 165
+    for name, value in (("mass", "2 kg"), ("preload", "300 N"), ("width", "20 mm"), ("friction", "0.05")):
+        page.get_by_label(name, exact=True).fill(value)
+    settle(page)
+    asked = cam_view.example() | {"forces": {"width": "20 mm", "friction": {"contact": 0.05}}}
+    asked["motion"]["drive"] = {"mass": "2 kg", "preload": "300 N"}
+    loads = served.ask("cam-loads", {"study": asked})
+    assert page.locator(".loads").inner_text() == " · ".join(loads["facts"])
+    titles = [f"{one['name']}, {one['unit']}" for one in loads["panels"]]
+    assert page.locator("#cam-curves .title").all_text_contents()[3:] == titles
+    assert page.locator("#cam-curves .peak text").all_text_contents()[-1] == loads["panels"][-1]["peaks"][0]["text"]
     page.get_by_label("radius", exact=True).fill("59 mm")
     settle(page)
     assert "undercut at" in page.locator("#cam-trust").inner_text().lower()

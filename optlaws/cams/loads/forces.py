@@ -148,8 +148,10 @@ class CamForces:
 
     @kept_property
     def pressure(self) -> Enclosure:
-        """Least and greatest of Hertz's pressure, enclosed over the turn."""
-        return self._enclosed(self._pressure)
+        """Least and greatest of Hertz's pressure, enclosed over the turn; 0 where the follower lifts off."""
+        square = self._enclosed(self._squared_pressure)
+        sizes = {name: sqrt(max(getattr(square, name), 0.0)) for name in ("least", "low", "most", "high")}
+        return square._replace(**sizes)
 
     @kept_property
     def mean_torque(self) -> tuple[float, float]:
@@ -251,9 +253,12 @@ class CamForces:
         return np.asarray(driven + self._friction.contact * one.sliding * np.maximum(force, 0.0))
 
     def _pressure(self, angle: Array) -> Array:
+        return np.sqrt(np.maximum(self._squared_pressure(angle), 0.0))
+
+    def _squared_pressure(self, angle: Array) -> Array:
         if self._line is None:
             raise InputError("the pressure needs the width of the contact: give one, such as width='20 mm'")
-        return self._line.pressure(self._contact_force(angle), np.asarray(self.cam.radius_of_curvature(angle)))
+        return self._line.squared(self._contact_force(angle), np.asarray(self.cam.radius_of_curvature(angle)))
 
 
 def _plain(one: Enclosure) -> dict[str, float]:

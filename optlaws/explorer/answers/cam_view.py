@@ -57,19 +57,30 @@ def cam_of(asked: AskedCam) -> tuple[wishes.Study, DiscCam]:
     InputError
         If an entry is unknown or wrong, or there is no such mechanism.
     """
+    spec, cams = cams_of(asked)
+    return spec, cams.first
+
+
+def cams_of(asked: AskedCam) -> tuple[wishes.Study, wishes.Cams]:
+    """The same with all that was found for it.
+
+    Raises
+    ------
+    InputError
+        As for `cam_of`.
+    """
     return _made(json.dumps(asked.study, sort_keys=True))
 
 
 @lru_cache(maxsize=32)
-def _made(question: str) -> tuple[wishes.Study, DiscCam]:
+def _made(question: str) -> tuple[wishes.Study, wishes.Cams]:
     from optlaws.files.problem_file import convert
 
     data = json.loads(question)
     if "barrel" in data:
         raise InputError("the explorer shows disc cams: barrel cams are made by the command `optlaws cam`")
     check_axis(convert(data, wishes.Study, _WHERE).motion)
-    spec, cams = wishes.read(data, _WHERE)
-    return spec, cams.first
+    return wishes.read(data, _WHERE)
 
 
 def _view(spec: wishes.Study, cam: DiscCam) -> dict[str, Any]:
@@ -127,19 +138,20 @@ def _panels(spec: wishes.Study, cam: DiscCam, angles: Array) -> list[dict[str, A
     far = _FAR * _MILLI * quantity(cam.base_radius, "length", "base_radius")
     bulging = cam.extremes.bulging_radius
     return [
-        _panel("displacement", unit, turns, factor * np.asarray(cam.displacement(angles)), []),
-        _panel(
+        panel("displacement", unit, turns, factor * np.asarray(cam.displacement(angles)), []),
+        panel(
             "pressure angle", "deg", turns, np.degrees(cam.pressure_angle(angles)), [_mark(pressure, degrees(1.0), cam)]
         )
         | {"limits": [] if limit is None else [{"from": 0.0, "to": _TURN, "value": limit}]}
         | {"beyond": limit is not None and degrees(pressure.value) > limit},
-        _panel(
+        panel(
             "radius of curvature", "mm", turns, np.where(np.abs(radius) < far, radius, np.nan), [_mark(bulging, _MILLI)]
         ),
     ]
 
 
-def _panel(name: str, unit: str, turns: Any, values: Array, peaks: list[dict[str, Any]]) -> dict[str, Any]:  # noqa: ANN401
+def panel(name: str, unit: str, turns: Any, values: Array, peaks: list[dict[str, Any]]) -> dict[str, Any]:  # noqa: ANN401
+    """A curve over the turn in degrees, with its marks."""
     return {"name": name, "unit": unit, "at": turns, "values": drawn(values), "limits": [], "peaks": peaks}
 
 
@@ -182,7 +194,8 @@ def sizes(asked: AskedCam) -> dict[str, Any]:
 
 @lru_cache(maxsize=32)
 def _least(question: str) -> tuple[str, ...]:
-    spec, cam = _made(question)
+    spec, cams = _made(question)
+    cam = cams.first
     if spec.pressure_angle is None and spec.radius_of_curvature is None:
         return ()
     wanted = {"pressure_angle": spec.pressure_angle, "radius_of_curvature": spec.radius_of_curvature}

@@ -19,6 +19,10 @@ const FIELDS = {
 const SIZES = { base_radius: "60 mm", cutter_radius: "none", pressure_angle: "none, or 30 deg", radius_of_curvature: "none, or 15 mm" };
 const NAMES = { base_radius: "base circle", cutter_radius: "cutter", pressure_angle: "pressure ≤", radius_of_curvature: "radius ≥", pivot_distance: "pivot", face_offset: "offset" };
 const SPEED = 60; // degrees a second
+const LOADS = {
+  slide: { mass: "none, or 2 kg", stiffness: "none, or 2 N/mm", preload: "none, or 60 N", gravity: "none, or 20 N" },
+  arm: { inertia: "none, or 0.02 kg m^2", stiffness: "none, or 20 N m/rad", preload: "none, or 3 N m" },
+};
 
 export class CamView {
   #study;
@@ -27,6 +31,8 @@ export class CamView {
   #motion = new Motion(element("cam-curves"));
   #cams;
   #sizes;
+  #loads;
+  #answer = null;
   #kind = "";
   #shows = [];
   #playing = null;
@@ -38,8 +44,11 @@ export class CamView {
     this.#programme = new Programme(element("cam-programme"), study, (state) => state.cam);
     this.#cams = new Latest("api/cam", (answer, question) => {
       this.#render(answer);
-      if (!answer.refused) this.#sizes.ask(question);
+      if (answer.refused) return;
+      if (question.study.motion?.drive) this.#loads.ask(question);
+      this.#sizes.ask(question);
     }, failed);
+    this.#loads = new Latest("api/cam-loads", (loads, asked) => told(asked.study) === told(this.#study.state.cam) && this.#bear(loads), failed);
     this.#sizes = new Latest("api/cam-sizes", ({ facts }, asked) => told(asked.study) === told(this.#study.state.cam) && this.#fact(facts), failed);
     this.#turning();
   }
@@ -55,6 +64,7 @@ export class CamView {
   #render(answer) {
     showTrust(element("cam-trust"), answer, [], () => {});
     if (!answer.refused) this.#fact(null);
+    this.#answer = answer;
     this.#motion.show(answer);
     this.#mechanism.show(answer);
   }
@@ -63,6 +73,13 @@ export class CamView {
   #fact(facts) {
     element("cam-trust").querySelector(".sizes")?.remove();
     element("cam-trust").append(html("p", { class: "facts sizes", text: facts?.join(" · ") ?? "…" }));
+  }
+
+  /** What the cam bears stands below its geometry. */
+  #bear({ panels, facts }) {
+    element("cam-trust").querySelector(".loads")?.remove();
+    if (facts.length) element("cam-trust").querySelector(".sizes")?.before(html("p", { class: "facts loads", text: facts.join(" · ") }));
+    if (this.#answer && !this.#answer.refused) this.#motion.show({ ...this.#answer, panels: [...this.#answer.panels, ...panels] });
   }
 
   #build(kind) {
@@ -75,7 +92,8 @@ export class CamView {
       const unlike = swings(choose.value) !== swings(state.cam.follower.kind);
       state.cam.follower = { kind: choose.value, ...FIELDS[choose.value] };
       if (unlike) for (const segment of state.cam.motion.segment) if (segment.by) segment.by = swings(choose.value) ? "20 deg" : "35 mm";
-      if (unlike) delete state.cam.motion.limits;
+      if (unlike) for (const name of ["limits", "drive"]) delete state.cam.motion[name];
+      if (unlike) for (const name of ["forces", "spring"]) delete state.cam[name];
     }));
     const turning = html("select", { "aria-label": "turning" }, ...["counterclockwise", "clockwise"].map((value) => html("option", { value, text: value })));
     turning.addEventListener("change", () => this.#study.change("turning", (state) => (state.cam.turning = turning.value)));
@@ -83,19 +101,38 @@ export class CamView {
     const own = Object.keys(FIELDS[kind]).map((name) => this.#text(name, FIELDS[kind][name], (cam) => cam.follower));
     const sizes = Object.entries(SIZES).map(([name, usual]) => this.#text(name, usual, (cam) => cam));
     const entry = (name, field) => html("div", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
-    element("cam-size").replaceChildren(group("Follower", choose, ...own), group("Cam", ...sizes, entry("turning", turning)));
+    element("cam-size").replaceChildren(group("Follower", choose, ...own), group("Cam", ...sizes, entry("turning", turning)), group("Forces", ...this.#bearing(kind)));
   }
 
-  #text(name, placeholder, of) {
+  /** What the follower moves, the width of the contact, friction, and up to which speed a spring is to hold. */
+  #bearing(kind) {
+    const drive = Object.entries(LOADS[kind.startsWith("oscillating") ? "arm" : "slide"]);
+    return [
+      ...drive.map(([name, usual]) => this.#text(name, usual, (cam) => cam.motion.drive, (cam, value) => put(cam.motion, "drive", name, value))),
+      this.#text("width", "none, or 20 mm", (cam) => cam.forces, (cam, value) => put(cam, "forces", "width", value)),
+      this.#text("friction", "none, or 0.05", (cam) => ({ friction: cam.forces?.friction?.contact }), (cam, value) => {
+        const friction = { ...cam.forces?.friction };
+        put(cam, "forces", "friction", undefined);
+        const held = { friction };
+        put(held, "friction", "contact", Number.isFinite(Number(value)) && value ? Number(value) : value);
+        if (held.friction) put(cam, "forces", "friction", held.friction);
+      }),
+      this.#text("spring", "none, or 300 rpm", (cam) => ({ spring: cam.spring?.speeds[1] }), (cam, value) => {
+        if (value) cam.spring = { speeds: ["0 rpm", value] };
+        else delete cam.spring;
+      }),
+    ];
+  }
+
+  /** A field of an entry of what `of` gives of the cam; `set` puts a value there, or takes it away where it is blank. */
+  #text(name, placeholder, of, set = (cam, value) => (value ? (of(cam)[name] = value) : delete of(cam)[name])) {
     const field = html("input", { type: "text", placeholder, spellcheck: "false", maxlength: 60, "aria-label": name.replaceAll("_", " ") });
     field.addEventListener("input", () => this.#study.change(name, (state) => {
-      const value = field.value.trim();
-      if (value) of(state.cam)[name] = value;
-      else delete of(state.cam)[name];
+      set(state.cam, field.value.trim());
     }));
     field.addEventListener("change", () => this.#study.rest());
     this.#shows.push((cam) => {
-      const value = of(cam)?.[name] ?? "";
+      const value = String(of(cam)?.[name] ?? "");
       if (document.activeElement !== field || field.value.trim() !== value) field.value = value;
     });
     return html("label", { class: "entry" }, html("span", { class: "field-name", text: NAMES[name] ?? name, title: name.replaceAll("_", " ") }), field);
@@ -128,4 +165,12 @@ export class CamView {
     this.#playing = null;
     return null;
   }
+}
+
+/** An entry of a part of what is held: blank ones go, and the part with its last one. */
+function put(held, part, name, value) {
+  const entries = { ...held[part], [name]: value };
+  if (!value) delete entries[name];
+  if (Object.keys(entries).length) held[part] = entries;
+  else delete held[part];
 }

@@ -149,3 +149,15 @@ def test_wrong_entries_name_themselves_and_the_remedy() -> None:
         CamForces(cam_of("translating flat"))
     with pytest.raises(InputError, match="needs the width"):
         forces("translating flat").contact_pressure(1.0)
+
+
+def test_the_pressure_is_told_where_the_follower_lifts_off() -> None:
+    """Next to where the force vanishes the pressure is a root: its square is enclosed, and is smooth."""
+    drive = {"mass": "20 kg", "stiffness": "3 N/mm", "preload": "60 N"}
+    lifted = forces("translating roller", drive=drive, speed="300 rpm", width="20 mm")
+    assert lifted.lifts_off
+    pressed = lifted.contact_pressure(np.linspace(0.0, 2 * np.pi, 20_001))
+    assert lifted.pressure.least == lifted.pressure.low == pressed.min() == 0.0
+    assert pressed.max() <= lifted.pressure.high
+    assert lifted.pressure.most == pytest.approx(pressed.max(), rel=1e-6)
+    assert lifted.pressure.high == pytest.approx(lifted.pressure.most, rel=1e-7)

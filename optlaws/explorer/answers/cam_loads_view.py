@@ -1,0 +1,107 @@
+"""What a cam bears, as the page shows it: contact force, torque at its shaft and pressure over the turn, the spring."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Callable
+from functools import lru_cache
+from math import degrees
+from typing import Any
+
+import msgspec
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.loads.forces import CamForces
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.explorer.answers.cam_view import AskedCam, cams_of, panel
+from optlaws.explorer.answers.law_view import digits, drawn
+from optlaws.jobs.cam.more import AskedForces, Found, forces_of
+from optlaws.series.enclosed import Enclosure
+
+Array = NDArray[np.float64]
+
+_STEPS = 360
+_MICRO = 1e-6
+_NOTHING = 1e-7
+_FORCE = {"length": "N", "angle": "N m"}
+_STIFFNESS = {"length": "N/m", "angle": "N m/rad"}
+
+
+def answer(asked: AskedCam) -> dict[str, Any]:
+    """Panels and words of a cam whose motion has a drive; none where it has none.
+
+    Examples
+    --------
+    >>> from optlaws.explorer.answers.cam_view import example
+    >>> answer(AskedCam(study=example()))
+    {'panels': [], 'facts': []}
+    """
+    try:
+        return _answered(json.dumps(asked.study, sort_keys=True))
+    except (InfeasibleProblem, InputError, SolverFailure) as error:
+        return {"panels": [], "facts": [str(error.args[0])]}
+
+
+@lru_cache(maxsize=32)
+def _answered(question: str) -> dict[str, Any]:
+    spec, cams = cams_of(AskedCam(study=json.loads(question)))
+    if spec.motion.drive is None:
+        return {"panels": [], "facts": []}
+    asked = msgspec.structs.replace(spec, forces=spec.forces or AskedForces())
+    forces = forces_of(asked, cams.first, cams.cycle)
+    assert forces is not None  # noqa: S101 - they were asked for
+    return {"panels": _panels(forces), "facts": [*_facts(forces), *_spring(Found(asked, cams.first, cams.cycle))]}
+
+
+def _panels(forces: CamForces) -> list[dict[str, Any]]:
+    found = [
+        _panel("contact force", "N", 1.0, forces.contact_force, forces.contact),
+        _panel("torque at the shaft", "N m", 1.0, forces.shaft_torque, forces.torque),
+    ]
+    if forces.width is not None:
+        pressed = _panel("Hertz's pressure", "MPa", _MICRO, forces.contact_pressure, forces.pressure)
+        found.append(pressed | {"peaks": pressed["peaks"][-1:]})
+    return found
+
+
+def _panel(name: str, unit: str, factor: float, values: Callable[[Array], Any], found: Enclosure) -> dict[str, Any]:
+    """A curve over the turn with its least and greatest value."""
+    angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
+    ends = [(found.least, found.least_at), (found.most, found.most_at)]
+    marks = [
+        {"at": round(degrees(at), 4), "value": value * factor, "text": digits(value * factor, 6)}
+        for value, at in ends
+        if abs(value) > _NOTHING * found.peak
+    ]
+    return panel(name, unit, drawn(np.degrees(angles), 4), factor * np.asarray(values(angles)), marks)
+
+
+def _facts(forces: CamForces) -> list[str]:
+    """What is enclosed over the whole turn, in words."""
+    contact, torque = forces.contact, forces.torque
+    lifted = f"the follower lifts off at {digits(degrees(contact.least_at), 5)} deg: " if forces.lifts_off else ""
+    turned = f"torque at the shaft {digits(torque.least, 6)} to {digits(torque.most, 6)} N m"
+    told = [
+        f"{lifted}contact force {digits(contact.least, 6)} to {digits(contact.most, 6)} N",
+        f"{turned}, root mean square {digits(forces.rms_torque[1], 6)} N m",
+    ]
+    if forces.width is not None:
+        told.append(f"Hertz's pressure up to {digits(forces.pressure.most * _MICRO, 6)} MPa")
+    return told
+
+
+def _spring(found: Found) -> list[str]:
+    """The least spring, where a range of speeds is asked; or why there is none."""
+    try:
+        spring = found.spring
+    except (InfeasibleProblem, InputError) as error:
+        return [f"no spring: {error.args[0]}"]
+    if spring is None:
+        return []
+    axis = found.cam.displacement.axis
+    preload = 0.0 if abs(spring.preload) <= _NOTHING * spring.greatest else spring.preload
+    sizes = f"{digits(spring.stiffness, 6)} {_STIFFNESS[axis]}, preload {digits(preload, 6)} {_FORCE[axis]}"
+    return [
+        f"least spring without lift-off: {sizes}, up to {digits(spring.greatest, 6)} {_FORCE[axis]} on the follower"
+    ]
