@@ -128,7 +128,7 @@ declare(
 declare(
     "drawing",
     {
-        "optlaws.drawing": "front proven_front spectrum",
+        "optlaws.drawing": "front machine_spectrum output proven_front spectrum",
         "optlaws.jobs.cam.pictures": "cam",
         "optlaws.jobs.cycle.picture": "cycle",
         "optlaws.law_pictures": "comparison curve solution",

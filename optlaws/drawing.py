@@ -18,6 +18,8 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
     from matplotlib.figure import Figure
 
+    from optlaws.mechanisms.machine.output_curve import OutputCurve
+    from optlaws.mechanisms.of_machines.parameters import MachineSpectrum
     from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum
     from optlaws.synthesis.front import Front
     from optlaws.synthesis.proven.front import ProvenFront
@@ -195,6 +197,58 @@ def draw_spectrum(
     values = spectrum.residual_acceleration if what == "residual" else spectrum.peak_acceleration
     axes.set(xlabel="nu, radians of the free vibration in the rise", ylabel=f"{what} acceleration")
     return list(axes.plot(spectrum.nu, values / over, **style))
+
+
+@draws("output")
+def draw_output(
+    curve: OutputCurve,
+    axes: Axes | None = None,
+    *,
+    count: int = 801,
+    **style: Any,  # noqa: ANN401 - matplotlib's
+) -> list[Artist]:
+    """Draw an output of a machine over time into axes, new ones unless given.
+
+    Examples
+    --------
+    >>> from optlaws import Machine, smoothstep
+    >>> machine = Machine([[0, 1], [-400, 0]], [[0], [400]], [[1, 0]], outputs=["position"])
+    >>> (line,) = draw_output(machine.response(smoothstep(4), dwell=0.5)["position"])
+    >>> line.axes.get_xlabel(), line.axes.get_ylabel()
+    ('time, durations of the rise', 'position')
+    """
+    if axes is None:
+        axes = new_axes()
+    axes.set(xlabel="time, durations of the rise", ylabel=curve.name)
+    return list(axes.plot(*curve.samples(count), **{"color": DISTINCT[0], **style}))
+
+
+@draws("machine_spectrum")
+def draw_machine_spectrum(
+    spectrum: MachineSpectrum,
+    axes: Axes | None = None,
+    **style: Any,  # noqa: ANN401 - matplotlib's
+) -> list[Artist]:
+    """Draw an output's peak and what is left in it of each mode into axes, new ones unless given.
+
+    Examples
+    --------
+    >>> from optlaws import Machine, machine_spectrum, smoothstep
+    >>> machine = Machine([[0, 1], [-400, 0]], [[0], [400]], [[1, 0]], outputs=["position"])
+    >>> lines = draw_machine_spectrum(machine_spectrum(machine.at_speed, [0.5, 1.0], smoothstep(4)))
+    >>> lines[0].axes.get_ylabel()
+    'position'
+    """
+    if axes is None:
+        axes = new_axes()
+    axes.set(xlabel=spectrum.parameter, ylabel=spectrum.output)
+    lines = axes.plot(spectrum.values, spectrum.peaks[spectrum.output], **{"color": GREY, "label": "peak", **style})
+    for i, left in enumerate(spectrum.residuals.T):
+        named = {"color": DISTINCT[i % len(DISTINCT)], "label": f"mode {i + 1} left", **style}
+        lines += axes.plot(spectrum.values, left, **named)
+    axes.set_ylim(bottom=0.0)
+    axes.legend(frameon=False)
+    return list(lines)
 
 
 def save_picture(drawing: Figure, place: Path) -> list[Path]:

@@ -18,12 +18,13 @@ Spread = Annotated[float, msgspec.Meta(ge=0.0, lt=1.0)]
 
 
 class MachineTable(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A machine of masses and links, or of matrices."""
+    """A machine of masses and links, of measured modes, or of matrices."""
 
     masses: dict[str, float] | None = None
     links: list[list[Any]] = []
     drive: str | list[str] = ""
     outputs: dict[str, str] | list[str] = []
+    modes: list[list[float]] | None = None
     A: list[list[float]] | None = None
     B: list[list[float]] = []
     C: list[list[float]] = []
@@ -40,9 +41,13 @@ class MachineTable(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         InputError
             If it is none; the message begins with the table's name.
         """
-        if (self.masses is None) == (self.A is None):
-            raise InputError("machine: give either masses with links and a drive, or matrices A, B, C and D")
+        if sum(given is not None for given in (self.masses, self.modes, self.A)) != 1:
+            raise InputError("machine: give either masses with links and a drive, or modes, or matrices A, B, C and D")
         try:
+            if self.modes is not None:
+                return Machine.from_modes(
+                    self.modes, duration=self.duration, stroke=self.stroke, outputs=self.outputs or None
+                )
             return self._of_masses(self.masses) if self.masses is not None else self._of_matrices()
         except InputError as error:
             raise InputError(f"machine: {error}") from None

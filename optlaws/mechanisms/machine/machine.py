@@ -2,23 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from typing import TYPE_CHECKING, Any, Self
+from typing import TYPE_CHECKING, Self
 
 import numpy as np
 
-from optlaws.echo import shortened
-from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law
-from optlaws.mechanisms.follower.follower import Follower
-from optlaws.mechanisms.machine.masses import Link, assembly, named_outputs
+from optlaws.mechanisms.machine.making import MadeMachine
 from optlaws.mechanisms.machine.modes import Mode, modes
 from optlaws.mechanisms.machine.over_time import MachineCycle, MachineResponse
-from optlaws.mechanisms.machine.state_space import SYMBOLS, StateSpace
-from optlaws.mechanisms.machine.systems import matrices
 from optlaws.numbers import not_negative, positive
 
 if TYPE_CHECKING:
@@ -27,12 +21,12 @@ if TYPE_CHECKING:
 
 
 @dataclass(frozen=True, init=False, repr=False)
-class Machine(StateSpace):
+class Machine(MadeMachine):
     """A linear machine that a law drives: x' = A x + B w, y = C x + D w, in durations of the rise.
 
     The machine is at rest before the law begins. Made from matrices as here, from matrices in seconds (`from_units`),
-    from masses, springs and dampers (`from_masses`) or from a system of scipy.signal or python-control
-    (`from_system`). Equal where the matrices and the names are.
+    from masses, springs and dampers (`from_masses`), from measured frequencies (`from_modes`) or from a system of
+    scipy.signal or python-control (`from_system`). Equal where the matrices and the names are.
 
     Parameters
     ----------
@@ -58,130 +52,6 @@ class Machine(StateSpace):
     >>> machine.response(smoothstep(4))["position"](0.5)
     0.489570
     """
-
-    @classmethod
-    def from_masses(
-        cls,
-        masses: Mapping[str, float],
-        links: Sequence[Link | Sequence[Any]],
-        *,
-        drive: str | tuple[str, str],
-        outputs: Mapping[str, str] | Sequence[str] | None = None,
-        duration: float = 1.0,
-        stroke: float = 1.0,
-    ) -> Self:
-        """The machine of masses, springs and dampers.
-
-        Parameters
-        ----------
-        masses
-            Masses in kg, or moments of inertia in kg m², by name; that of the driven one may be 0.
-        links
-            Springs with dampers: `Link("motor", "load", stiffness=400, damping=0.4)`, or such a tuple. "ground" is
-            what stands still.
-        drive
-            The mass whose displacement is the law; or two, the law being the second one's distance from the first:
-            ("camshaft", "roller").
-        outputs
-            Outputs by the names they are to have, or a list of them; all there are unless given: "drive force";
-            "position", "velocity" and "acceleration" of a mass, such as "position load"; "deflection" and "force" of a
-            link, such as "force motor-load".
-        duration, stroke
-            Duration of the rise, s, and its stroke, m or rad; 1 where all numbers are dimensionless.
-
-        Raises
-        ------
-        InputError
-            If a name is unknown or a number out of range.
-
-        Examples
-        --------
-        >>> axis = Machine.from_masses(
-        ...     {"motor": 1.0, "load": 2.0},
-        ...     [Link("motor", "load", stiffness=800.0, damping=2.0)],
-        ...     drive="motor",
-        ...     outputs={"motor torque": "drive force", "belt force": "force motor-load"},
-        ... )
-        >>> axis
-        Machine(states=2, inputs='abc', outputs=['motor torque', 'belt force'])
-        """
-        found = assembly(masses, links, drive)
-        names = named_outputs(found, outputs)
-        A, B, C, D = found.matrices(list(names.values()))
-        used = [i for i in range(3) if i == 0 or B[:, i].any() or D[:, i].any()]
-        inputs = "".join(SYMBOLS[i] for i in used)
-        return cls.from_units(
-            A, B[:, used], C, D[:, used], duration=duration, stroke=stroke, inputs=inputs, outputs=list(names)
-        )
-
-    @classmethod
-    def from_system(
-        cls,
-        system: Any,  # noqa: ANN401 - of any package
-        *,
-        inputs: str = "a",
-        outputs: Sequence[str] = (),
-        duration: float = 1.0,
-        stroke: float = 1.0,
-    ) -> Self:
-        """The machine of a system of scipy.signal or python-control, continuous in time.
-
-        Parameters
-        ----------
-        system
-            `scipy.signal.StateSpace`, `TransferFunction` or `ZerosPolesGain`, or `control.ss`, `control.tf`.
-        inputs
-            What of the law its inputs are, in their order: "a" displacement, "b" velocity, "c" acceleration.
-        outputs
-            Names of its outputs.
-        duration, stroke
-            Duration of the rise in the system's unit of time, and its stroke.
-
-        Raises
-        ------
-        InputError
-            If it is no such system.
-
-        Examples
-        --------
-        >>> from scipy.signal import TransferFunction
-        >>> Machine.from_system(TransferFunction([400], [1, 2, 400]), outputs=["position"])
-        Machine(states=2, inputs='a', outputs=['position'])
-        """
-        A, B, C, D = matrices(system)
-        return cls.from_units(A, B, C, D, duration=duration, stroke=stroke, inputs=inputs, outputs=outputs)
-
-    @classmethod
-    def from_follower(cls, follower: Follower) -> Self:
-        """The elastic follower as a machine: outputs "position", "acceleration" and "deflection" of the mass.
-
-        The deflection is that of the spring, from the cam to the mass. `Follower` itself has closed forms of its own,
-        with more digits of what is left after the motion at large nu.
-
-        Parameters
-        ----------
-        follower
-            The follower.
-
-        Raises
-        ------
-        InputError
-            If it is none.
-
-        Examples
-        --------
-        >>> from optlaws import Follower, smoothstep
-        >>> machine = Machine.from_follower(Follower(nu=20, damping=0.05))
-        >>> machine.residual(1, "acceleration").value(smoothstep(4))
-        1.650151
-        """
-        if not isinstance(follower, Follower):
-            raise InputError(f"follower must be a Follower, got {shortened(follower)}")
-        square = follower.nu**2
-        motion = [-square, -2.0 * follower.n]
-        rows, direct = [[1.0, 0.0], motion, [1.0, 0.0]], [[0.0], [square], [-1.0]]
-        names = ["position", "acceleration", "deflection"]
-        return cls([[0.0, 1.0], motion], [[0.0], [square]], rows, direct, outputs=names)
 
     def at_speed(self, factor: float) -> Self:
         """The same machine run `factor` times as fast: the rise takes 1/factor of its duration.

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
@@ -88,6 +88,8 @@ class Assembly:
     links: tuple[Link, ...]
     driven: str
     base: str
+
+    what: ClassVar[str] = "these masses"
 
     @kept_property
     def free(self) -> tuple[str, ...]:
@@ -213,8 +215,20 @@ def assembly(
     return Assembly(checked, joined, driven, base)
 
 
-def named_outputs(found: Assembly, outputs: Any) -> dict[str, str]:  # noqa: ANN401 - whatever users give
-    """What users call outputs, and what the assembly does; all of them unless some are asked for.
+class Model(Protocol):
+    """What has outputs of its own."""
+
+    @property
+    def what(self) -> str:
+        """What it is called in errors."""
+
+    @property
+    def outputs(self) -> Mapping[str, Any]:
+        """Its outputs by their names."""
+
+
+def named_outputs(given: Model, outputs: Any) -> dict[str, str]:  # noqa: ANN401 - whatever users give
+    """What users call outputs, and what the model does; all of them unless some are asked for.
 
     Raises
     ------
@@ -222,12 +236,12 @@ def named_outputs(found: Assembly, outputs: Any) -> dict[str, str]:  # noqa: ANN
         If there is no such output.
     """
     if outputs is None:
-        return {name: name for name in found.outputs}
-    given = {str(k): v for k, v in outputs.items()} if isinstance(outputs, Mapping) else {n: n for n in _many(outputs)}
-    for name in given.values():
-        if name not in found.outputs:
-            raise InputError(unknown_key(name, found.outputs, "output of these masses"))
-    return given
+        return {name: name for name in given.outputs}
+    named = {str(k): v for k, v in outputs.items()} if isinstance(outputs, Mapping) else {n: n for n in _many(outputs)}
+    for name in named.values():
+        if name not in given.outputs:
+            raise InputError(unknown_key(name, given.outputs, f"output of {given.what}"))
+    return named
 
 
 def _many(values: Any) -> list[Any]:  # noqa: ANN401

@@ -1,16 +1,20 @@
-"""Vibrations of a machine: its modes, and how much of each a law leaves in an output."""
+"""Vibrations of a machine: its modes, how much of each a law leaves in an output, and machines of measured ones."""
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
-from typing import Any
+from math import pi
+from typing import Any, ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.mechanisms.machine.dynamics import SAME
 from optlaws.mechanisms.machine.state_space import StateSpace
+from optlaws.numbers import not_negative, numbers, positive
 
 Array = NDArray[np.float64]
 Complex = NDArray[np.complex128]
@@ -114,3 +118,82 @@ def participation(machine: StateSpace, wanted: Mode, output: str) -> complex:
 def _mode(number: int, group: Complex) -> Mode:
     root = complex(group.mean())
     return Mode(number, abs(root), -root.real / abs(root) + 0.0, root)
+
+
+@dataclass(frozen=True, eq=False)
+class ModalModel:
+    """Vibrations by their frequencies: rigid motion of the drive and what each mode adds to it.
+
+    Attributes
+    ----------
+    modes
+        Circular frequency, damping ratio and participation of each.
+
+    Examples
+    --------
+    >>> ModalModel(((20.0, 0.05, 1.0),)).matrices(["acceleration"])[2].tolist()
+    [[-400.0, -2.0]]
+    """
+
+    what: ClassVar[str] = "these modes"
+
+    modes: tuple[tuple[float, float, float], ...]
+
+    def matrices(self, outputs: Sequence[str]) -> tuple[Array, Array, Array, Array]:
+        """A, B, C and D for the inputs a, b and c: deflections, then their velocities."""
+        size = len(self.modes)
+        frequencies, dampings, shares = np.array(self.modes).T
+        A, B = np.zeros((2 * size, 2 * size)), np.zeros((2 * size, 3))
+        A[:size, size:] = np.eye(size)
+        A[size:, :size], A[size:, size:] = np.diag(-(frequencies**2)), np.diag(-2.0 * dampings * frequencies)
+        B[size:, 2] = -shares
+        rows = np.array([self.outputs[name] for name in outputs])
+        return A, B, rows[:, : 2 * size], rows[:, 2 * size :]
+
+    @property
+    def outputs(self) -> dict[str, Array]:
+        """Rows over deflections, their velocities, and a, b and c, by the names of outputs."""
+        size = len(self.modes)
+        frequencies, dampings, shares = np.array(self.modes).T
+        unit = np.eye(2 * size + 3)
+        bent, turning = unit[:size].sum(axis=0), unit[size : 2 * size].sum(axis=0)
+        bending = -shares.sum() * unit[-1]
+        bending[:size], bending[size : 2 * size] = -(frequencies**2), -2.0 * dampings * frequencies
+        found = {"position": bent + unit[-3], "velocity": turning + unit[-2], "acceleration": bending + unit[-1]}
+        alone = {f"deflection {i + 1}": unit[i] for i in range(size)} if size > 1 else {}
+        return found | {"deflection": bent} | alone
+
+
+def modal_model(modes: Any) -> ModalModel:  # noqa: ANN401 - whatever users give
+    """Vibrations from frequencies in Hz, damping ratios and participations, checked.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range.
+
+    Examples
+    --------
+    >>> modal_model([(8.0, 0.02)]).modes
+    ((50.26548245743669, 0.02, 1.0),)
+    """
+    example = "such as [(8.5, 0.02)] or [(8.5, 0.02, 0.9), (31.0, 0.01, 0.1)]"
+    if not isinstance(modes, list | tuple) or not modes:
+        raise InputError(
+            f"modes must be a list of frequencies in Hz with damping ratios, {example}, got {shortened(modes)}"
+        )
+    return ModalModel(tuple(_vibration(i, given, example) for i, given in enumerate(modes, 1)))
+
+
+def _vibration(number: int, given: Any, example: str) -> tuple[float, float, float]:  # noqa: ANN401
+    if not isinstance(given, list | tuple) or not 2 <= len(given) <= 3:
+        raise InputError(
+            f"mode {number} must be a frequency in Hz, a damping ratio and perhaps a participation, {example}, "
+            f"got {shortened(given)}"
+        )
+    frequency = positive(given[0], f"the frequency of mode {number}")
+    ratio = not_negative(given[1], f"the damping ratio of mode {number}")
+    if ratio >= 1.0:
+        raise InputError(f"the damping ratio of mode {number} must be below 1, such as 0.02 for 2 %, got {ratio:g}")
+    (share,) = numbers([given[2] if len(given) == 3 else 1.0], f"the participation of mode {number}")
+    return 2.0 * pi * frequency, ratio, share

@@ -5,11 +5,13 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, Peak
 from optlaws.laws.segments.piecewise import PiecewiseLaw
@@ -81,6 +83,33 @@ class MachineMotion(ABC):
             If there is no such output.
         """
         return self[output].rms(0)
+
+    def to_pandas(self, count: int = 201) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
+        """Samples of all outputs as a data frame over time; needs the extra `optlaws[studies]`.
+
+        Parameters
+        ----------
+        count
+            Number of equally spaced times, at least 2.
+
+        Raises
+        ------
+        InputError
+            If `count` is not an integer of at least 2, or pandas is missing.
+
+        Examples
+        --------
+        >>> from optlaws import Machine, smoothstep
+        >>> mass = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
+        >>> mass.response(smoothstep(4), dwell=0.5).to_pandas(4).round(6)["position"].tolist()
+        [0.0, 0.489570, 1.00..., 1.00...]
+        """
+        needed("pandas", "to_pandas")
+        import pandas as pd
+
+        times = self[self.machine.outputs[0]].times(count)
+        columns = {name: self[name](times) for name in self.machine.outputs}
+        return pd.DataFrame(columns, index=pd.Index(times, name="time"))
 
     @kept_property
     def _curves(self) -> dict[str, OutputCurve]:

@@ -10,10 +10,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.extras import needed
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.numbers import not_negative, numbers
+from optlaws.plotting import plotted
 
 Array = NDArray[np.float64]
 
@@ -31,7 +33,11 @@ class MachineSpectrum:
     frequencies
         Frequencies of the modes, shape (m, modes); NaN where a machine has fewer.
     residuals
-        Amplitudes that the modes are left with in the first output, shape (m, modes).
+        Amplitudes that the modes are left with in one output, shape (m, modes).
+    output
+        Which output that is.
+    parameter
+        What the parameter is called in pictures and tables.
 
     Examples
     --------
@@ -48,6 +54,56 @@ class MachineSpectrum:
     peaks: dict[str, Array]
     frequencies: Array
     residuals: Array
+    output: str
+    parameter: str = "parameter"
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw the output's peak and what is left in it of each mode, over the parameter.
+
+        Parameters
+        ----------
+        ax
+            Matplotlib axes; new ones unless given.
+        **style
+            What matplotlib takes for lines.
+
+        Returns
+        -------
+        The lines.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> machine = Machine([[0, 1], [-400, 0]], [[0], [400]], [[1, 0]], outputs=["position"])
+        >>> lines = machine_spectrum(machine.at_speed, [0.5, 1.0], smoothstep(4), parameter="speed").plot()
+        >>> [line.get_label() for line in lines]
+        ['peak', 'mode 1 left']
+        """
+        return plotted("machine_spectrum", self, ax, **style)
+
+    def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
+        """A table: peaks of all outputs, frequencies and what is left of the modes, a row for each value.
+
+        Raises
+        ------
+        NotInstalled
+            If pandas is missing.
+
+        Examples
+        --------
+        >>> from optlaws import smoothstep
+        >>> machine = Machine([[0, 1], [-400, 0]], [[0], [400]], [[1, 0]], outputs=["position"])
+        >>> table = machine_spectrum(machine.at_speed, [0.5, 1.0], smoothstep(4), parameter="speed").to_pandas()
+        >>> table.columns.tolist()
+        ['peak position', 'frequency of mode 1', 'mode 1 left in position']
+        """
+        needed("pandas", "to_pandas")
+        import pandas as pd
+
+        columns = {f"peak {name}": values for name, values in self.peaks.items()}
+        for i, (frequency, left) in enumerate(zip(self.frequencies.T, self.residuals.T, strict=True), 1):
+            columns |= {f"frequency of mode {i}": frequency, f"mode {i} left in {self.output}": left}
+        return pd.DataFrame(columns, index=pd.Index(self.values, name=self.parameter))
 
 
 def machine_spectrum(
@@ -56,6 +112,8 @@ def machine_spectrum(
     law: MotionLaw,
     *,
     dwell: float = 0.0,
+    output: str | None = None,
+    parameter: str = "parameter",
 ) -> MachineSpectrum:
     """What a law does to a machine over one of its parameters.
 
@@ -69,11 +127,15 @@ def machine_spectrum(
         The law that drives it.
     dwell
         How much of the dwell the peaks count too, in durations of the rise.
+    output
+        In which output residuals are; the first one unless given.
+    parameter
+        What the parameter is called in pictures and tables.
 
     Raises
     ------
     InputError
-        If a value is no number, `make` makes no machine, or the machines' outputs differ.
+        If a value is no number, `make` makes no machine, or the machines' outputs differ, or there is no such output.
 
     Examples
     --------
@@ -84,18 +146,21 @@ def machine_spectrum(
     [0.00..., 0.2...]
     """
     asked = np.array(numbers(np.atleast_1d(np.asarray(values)).tolist(), "values"))
+    if not len(asked):
+        raise InputError("values must be at least one number")
     machines: list[Any] = [make(float(one)) for one in asked]
     for one in machines:
         if not isinstance(one, Machine) or one.outputs != machines[0].outputs:
             raise InputError("make must give a Machine for every value, all with the same outputs")
     known, pause = motion_law(law), not_negative(dwell, "dwell")
     responses = [one.response(known, dwell=pause) for one in machines]
-    names = machines[0].outputs if machines else ()
+    names = machines[0].outputs
+    output = names[machines[0].place(output)]
     peaks = {name: np.array([one.peak(name).value for one in responses]) for name in names}
     count = max((len(one.modes) for one in machines), default=0)
     frequencies, residuals = np.full((len(asked), count), np.nan), np.full((len(asked), count), np.nan)
     for i, one in enumerate(machines):
         for mode in one.modes:
             frequencies[i, mode.number - 1] = mode.frequency
-            residuals[i, mode.number - 1] = one.residual(mode.number).value(known)
-    return MachineSpectrum(asked, peaks, frequencies, residuals)
+            residuals[i, mode.number - 1] = one.residual(mode.number, output).value(known)
+    return MachineSpectrum(asked, peaks, frequencies, residuals, output, str(parameter))

@@ -163,6 +163,49 @@ def test_masses_keep_newtons_law_and_the_drive_does_the_work() -> None:
     assert valve == pytest.approx(np.zeros(41), abs=1e-8 * np.abs(camshaft).max())
 
 
+def test_a_measured_frequency_is_a_mass_on_a_spring() -> None:
+    frequency, ratio, law = 8.5, 0.02, catalogue["modified sine"].law
+    omega = 2.0 * np.pi * frequency
+    mass = Machine.from_masses(
+        {"drive": 0.0, "tip": 2.0},
+        [("drive", "tip", 2.0 * omega**2, 4.0 * ratio * omega)],
+        drive="drive",
+        duration=0.4,
+        stroke=0.3,
+    ).response(law, dwell=0.5)
+    arm = Machine.from_modes([(frequency, ratio)], duration=0.4, stroke=0.3)
+    (mode,) = arm.modes
+    assert [mode.frequency, mode.damping] == pytest.approx([0.4 * omega, ratio])
+    measured, k = arm.response(law, dwell=0.5), np.linspace(0.0, 1.5, 31)
+    for name in ("position", "velocity", "acceleration"):
+        wanted = mass[f"{name} tip"](k)
+        assert measured[name](k) == pytest.approx(wanted, abs=1e-11 * np.abs(wanted).max())
+    assert measured["deflection"](k) == pytest.approx(-mass["deflection drive-tip"](k), abs=1e-13)
+
+
+def test_modes_add_up_and_their_shares_are_what_of_the_drive_they_have() -> None:
+    modes = [(8.5, 0.02, 0.75), (31.0, 0.01, 0.25)]
+    law = smoothstep(4)
+    both = Machine.from_modes(modes, duration=0.2).response(law)
+    alone = [Machine.from_modes([(f, z)], duration=0.2).response(law)["deflection"] for f, z, _ in modes]
+    k = np.linspace(0.0, 1.0, 21)
+    wanted = sum(share * one(k) for one, (*_, share) in zip(alone, modes, strict=True))
+    assert both["deflection"](k) == pytest.approx(wanted, abs=1e-14)
+    assert both["deflection 2"](k) == pytest.approx(0.25 * alone[1](k), abs=1e-14)
+    assert both["position"](k) == pytest.approx(law(k) + wanted, abs=1e-13)
+
+
+def test_responses_become_tables_and_pictures() -> None:
+    response = follower(20.0, 0.05).response(smoothstep(4), dwell=0.5)
+    table = response.to_pandas(4)
+    assert (table.index.tolist(), table.columns.tolist()) == ([0.0, 0.5, 1.0, 1.5], ["position", "acceleration"])
+    assert table["position"].tolist() == response["position"].to_pandas(4)["position"].tolist()
+    assert table["position"].to_numpy() == pytest.approx(response["position"](table.index.to_numpy()))
+    (line,) = response["acceleration"].plot()
+    assert line.axes.get_ylabel() == "acceleration"
+    assert np.abs(line.get_ydata()).max() == pytest.approx(response.peak("acceleration").value, rel=1e-4)
+
+
 def test_seconds_and_speeds_are_units() -> None:
     A, B = np.array([[0.0, 1.0], [-1.6e5, -40.0]]), np.array([[0.0], [1.6e5]])
     first = Machine.from_units(A, B, [[1.0, 0.0]], duration=0.05, stroke=3.0)
@@ -214,6 +257,12 @@ WRONG: dict[str, Callable[[], object]] = {
     ),
     "a system must be": lambda: Machine.from_system(3),
     "must be a Follower": lambda: Machine.from_follower(3),  # type: ignore[arg-type]
+    "modes must be a list": lambda: Machine.from_modes(8.5, duration=1.0),  # type: ignore[arg-type]
+    "mode 1 must be a frequency in Hz": lambda: Machine.from_modes([8.5, 0.02], duration=1.0),  # type: ignore[list-item]
+    "frequency of mode 2 must be": lambda: Machine.from_modes([(8.5, 0.02), (0.0, 0.02)], duration=1.0),
+    "such as 0.02 for 2 %": lambda: Machine.from_modes([(8.5, 2.0)], duration=1.0),
+    "output of these modes": lambda: Machine.from_modes([(8.5, 0.0)], duration=1.0, outputs=["force"]),
+    "count must be": lambda: follower(9.0, 0.1).response(smoothstep(4)).to_pandas(1),
     "factor must be": lambda: follower(9.0, 0.1).at_speed(0.0),
     "needs its matrix A": lambda: Machine.from_dict({}),
     "unknown entry of a machine": lambda: Machine.from_dict({"A": [[-1]], "E": 1}),

@@ -26,7 +26,31 @@ def test_machines_with_fewer_modes_have_no_number_there() -> None:
     assert np.isnan(found.residuals).ravel().tolist() == [False, True]
 
 
+def belt(stiffness: float) -> Machine:
+    return Machine.from_masses({"motor": 1.0, "load": 3.0}, [("motor", "load", stiffness, 0.5)], drive="motor")
+
+
+def test_a_spectrum_is_drawn_and_tabled() -> None:
+    found = machine_spectrum(
+        belt, [100.0, 400.0, 900.0], savin("III", 0), dwell=0.5, output="force motor-load", parameter="stiffness, N/m"
+    )
+    left = [belt(one).residual(1, "force motor-load").value(savin("III", 0)) for one in found.values]
+    assert found.residuals[:, 0] == pytest.approx(left, rel=1e-12)
+    peak, mode = found.plot()
+    assert (peak.axes.get_xlabel(), peak.axes.get_ylabel()) == ("stiffness, N/m", "force motor-load")
+    assert peak.get_ydata() == pytest.approx(found.peaks["force motor-load"])
+    assert mode.get_ydata() == pytest.approx(left)
+    table = found.to_pandas()
+    assert table.index.name == "stiffness, N/m"
+    assert table["mode 1 left in force motor-load"].tolist() == pytest.approx(left)
+    assert table["frequency of mode 1"].tolist() == pytest.approx(np.sqrt(found.values / 3.0).tolist())
+
+
 def test_what_is_no_machine_is_refused() -> None:
+    with pytest.raises(InputError, match="values must be at least one"):
+        machine_spectrum(belt, [], savin("III", 0))
+    with pytest.raises(InputError, match="did you mean 'force motor-load'"):
+        machine_spectrum(belt, [1.0], savin("III", 0), output="force motor load")
     with pytest.raises(InputError, match="make must give a Machine"):
         machine_spectrum(lambda _: 3, [1.0], savin("III", 0))  # type: ignore[arg-type,return-value]
     with pytest.raises(InputError, match="same outputs"):
