@@ -137,6 +137,8 @@ def asked_of_output(
 
 
 def _repeats(steady: object, *, alone: bool) -> bool:
+    # in a text it is a word
+    steady = {"True": True, "False": False}.get(steady, steady) if isinstance(steady, str) else steady
     if not isinstance(steady, bool):
         raise InputError(f"steady must be True or False, got {shortened(steady)}")
     if steady and not alone:

@@ -29,7 +29,7 @@ from optlaws.verification.enclosing.balls import ball, lower, upper
 from optlaws.verification.enclosing.row import Row
 from optlaws.verification.exact.rows import ExactRows
 from optlaws.verification.machines.certificate_rows import together
-from optlaws.verification.machines.curbs import curb, floor
+from optlaws.verification.machines.floors import floor
 from optlaws.verification.machines.outputs import OutputConstant
 
 Vector = list[arb]
@@ -280,7 +280,7 @@ class _System:
         return slopes
 
     def _helpers(self, claim: float) -> Iterator[list[_Helper]]:
-        """Constants, and moments of one derivative whose mean magnitude is bounded."""
+        """Constants, and moments of one derivative, or of an output, whose mean magnitude is bounded."""
         widest = self.certificate if self.along is None else replace(self.certificate, problem=self.along.widest)
         rows, greatest = self.rows, greatest_values(widest, self.rows, claim)
         least = least_values(self.certificate.problem, rows)
@@ -290,12 +290,21 @@ class _System:
                 unit = [arb(0)] * (self.size + 1)
                 unit[rows.space.terms + i] = arb(1)
                 constants.append(_Helper(unit, ball(least.get(name, 0)), ball(greatest[name])))
-        for nu, mean in means(widest.problem, rows, greatest).items():
-            moments = []
-            for row in rows.space.moments(nu):
-                free = [arb(entry) for entry in row]
-                moments.append(_Helper([*free[:-1], *[arb(0)] * len(rows.names), free[-1]], -mean, mean))
-            yield constants + moments
+        bounded = means(widest.problem, rows, greatest)
+        for nu, mean in bounded.items():
+            moments = [[arb(entry) for entry in row] for row in rows.space.moments(nu)]
+            yield constants + [self._moment(moment, mean) for moment in moments]
+        if bounded:
+            return
+        # an output may determine the law where nothing else says how large it is
+        for name, output in rows.outputs.items():
+            if output.exact.both and isfinite(greatest.get(name, inf)):
+                size = ball(greatest[name])
+                yield constants + [self._moment(moment, size) for moment in output.moments()]
+
+    def _moment(self, moment: Vector, size: arb) -> _Helper:
+        *free, base = moment
+        return _Helper([*free, *[arb(0)] * len(self.rows.names), base], -size, size)
 
 
 def _changes(vectors: list[Vector], weights: Vector, slopes: Vector) -> Vector | None:
@@ -412,12 +421,7 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
 
 def _sizes(problem: Problem, constant: Functional, name: str) -> Iterator[tuple[int, arb, arb]]:
     """Orders, factors and offsets: the mean of |a^(order)| is at most factor times the constant plus the offset."""
-    if isinstance(constant, OutputConstant):
-        at_rest = not any(problem.conditions.start[:2])
-        found = curb(constant) if at_rest else None
-        if found is not None:
-            yield *found, found[1] * abs(ball(constant.offset))
-    elif name == VariableName.POWER_ROOT or not isinstance(constant, Power):
+    if name == VariableName.POWER_ROOT or not isinstance(constant, Power | OutputConstant):
         space = space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
         # both are rounded
         for nu, factor, offset in constant.sizes(space):

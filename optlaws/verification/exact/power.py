@@ -31,7 +31,7 @@ from optlaws.verification.enclosing.ball_formulas import BALLS
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.exact.box_steps import Box, BoxSteps, Vector
 from optlaws.verification.exact.known_constants import known
-from optlaws.verification.machines.curbs import floor
+from optlaws.verification.machines.floors import floor
 
 _BITS = 256
 _DEEPEST = 5

@@ -16,7 +16,7 @@ from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.machines import driving
 from optlaws.verification.machines.driving import Drive, Space
 from optlaws.verification.machines.output_motion import Motion, response
-from optlaws.verification.machines.taylor_cells import greatest_value, products, root
+from optlaws.verification.machines.taylor_cells import greatest_value, moments, products, root
 from optlaws.verification.machines.transfer import StateSpace, Transfer
 
 
@@ -101,6 +101,11 @@ class ExactOutput:
         """The output at the precision at work; to columns that are laws, and no parts of one, the offset is added."""
         return self._moved(rise).raised(ball(self.constant.offset), laws)
 
+    @property
+    def both(self) -> bool:
+        """Whether the output is small wherever the constant is, on both sides."""
+        return not isinstance(self.constant, OutputPeak) or len(self.constant.signs) == 2
+
     def _moved(self, rise: Sequence[Drive]) -> Motion:
         if self.constant.cycle is not None:
             dwell, pause = map(Fraction, self.constant.cycle)
@@ -147,6 +152,10 @@ class OutputRows:
         whole = ball(exact.stop - exact.start)
         size = (square * whole).sqrt()
         return [one / size for one in found]
+
+    def moments(self) -> list[list[arb]]:
+        """Means of the output times functions that are at most 1 in magnitude: enough of them for all laws."""
+        return moments(self._response, self.exact.start, self.exact.stop, 2 * self._response.laws)
 
     def time(self, place: Fraction) -> Fraction:
         """The time of a certificate's place, a share of all the time; LookupError where it does not count."""

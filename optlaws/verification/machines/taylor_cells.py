@@ -168,10 +168,28 @@ def _integrals(cell: Cell) -> list[arb]:
     return found
 
 
-def mean_magnitude(motion: Motion, start: Fraction, stop: Fraction) -> arb:
-    """What the integral of a single law's magnitude between two times is at most (Cauchy, cell by cell)."""
-    pairs = ((_integrals(cell)[0], 2 * cell.half) for cell in cells(motion, start, stop))
-    return sum((root(square * length).upper() for square, length in pairs), arb(0))
+def moments(motion: Motion, start: Fraction, stop: Fraction, count: int) -> list[list[arb]]:
+    """Balls that hold the means between two times of each law's output times Legendre's polynomials."""
+    total = arb_mat(count, motion.laws)
+    for cell in cells(motion, start, stop):
+        size = cell.series.nrows()
+        means = arb_mat(
+            [[arb(2) / (i + j + 1) if (i + j) % 2 == 0 else arb(0) for j in range(size)] for i in range(count)]
+        )
+        room = arb_mat([[arb(0, (2 * off).upper()) for off in cell.off]] * count)
+        total += (_legendre(cell, start, stop, count) * means * cell.series + room) * cell.half
+    return (total / ball(stop - start)).tolist()
+
+
+def _legendre(cell: Cell, start: Fraction, stop: Fraction, count: int) -> arb_mat:
+    """Coefficients of the polynomials on a cell, a row for each."""
+    whole = stop - start
+    middle = (cell.start + cell.stop - 2 * start) / whole - 1
+    place = arb_poly([ball(middle), ball((cell.stop - cell.start) / whole)])
+    found = [arb_poly([1]), place]
+    for n in range(1, count - 1):
+        found.append((place * found[n] * (2 * n + 1) - found[n - 1] * n) * (arb(1) / (n + 1)))
+    return arb_mat([[one[i] for i in range(count)] for one in found[:count]])
 
 
 def root(square: arb) -> arb:

@@ -27,6 +27,8 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
+from optlaws.mechanisms.machine.output_constants import output_peak, output_rms
+from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.proof.below_claim import means
 from optlaws.synthesis.spaces.of_basis import space_of
 from tests.sampling import sampled
@@ -199,6 +201,15 @@ def test_machines_of_many_states_are_stored_too() -> None:
     assert len(machine.peak().name) > 30_000
     problem = Problem(order=3, minimise=machine.peak(), bounds={machine.rms(): at_most(1.0)})
     assert Problem.from_dict(json.loads(json.dumps(problem.to_dict()))) == problem
+
+
+def test_texts_of_laws_that_repeat_are_read_again() -> None:
+    machine = chain(2, masses=1)
+    for constant in (
+        output_peak(of=machine, steady=True, side="low", offset=-1.5),
+        output_rms(of=machine, steady=True),
+    ):
+        assert named(constant.name) == constant
 
 
 def one_sided(seed: int) -> tuple[Functional, Problem]:

@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from optlaws import Chebyshev, Link, Machine, Pieces, Problem, Solution, at_most, synthesize
+from optlaws import Chebyshev, Cycle, Link, Machine, Pieces, Problem, Return, Rise, Solution, at_most, synthesize
 from optlaws.files.problem_file import convert
 from optlaws.jobs.machine.laws_for_machine import Study
 from optlaws.synthesis.problem.constants import C
@@ -36,7 +36,9 @@ ASKED: dict[str, dict[str, Any]] = {
     "residual": {"minimise": SWAY, "J": at_most(70), "basis": Chebyshev(3)},
     "residual over a box": {"minimise": C, "bounds": {BOX: at_most(0.01)}},
     "cycle": {"minimise": AXIS.peak("torque", cycle=(0.2, 0.3)), "B": at_most(2.0)},
-    "rms of a cycle": {"minimise": AXIS.rms("torque", cycle=(0.2, 0.3)), "B": at_most(2.0)},
+    "rms of a cycle alone": {"minimise": AXIS.rms("torque", cycle=(0.2, 0.3), offset=0.3)},
+    "side": {"minimise": AXIS.peak("torque", side="low", offset=0.4), "J": at_most(100)},
+    "side below 0": {"minimise": AXIS.peak("torque", side="high", offset=-5.0) + 0.1 * C},
     "sum": {"minimise": AXIS.peak("torque") + 0.1 * C + 10.0 * SWAY, "J": at_most(100)},
     "maximum": {"minimise": f"max({AXIS.peak('torque')!r}, {AXIS.rms('torque')!r}) + 0.05*C"},
     "pieces": {"minimise": AXIS.peak("torque"), "J": at_most(100), "basis": Pieces([0, 0.3, 0.7, 1], 5, 2)},
@@ -79,6 +81,14 @@ def test_another_machine_is_not_proven(kind: str) -> None:
     matrix = repr(AXIS.A[1][0])
     assert matrix in text
     assert not verify(json.loads(text.replace(matrix, repr(AXIS.A[1][0] * (1.0 + 1e-6))))).proven
+
+
+@pytest.mark.long
+def test_a_whole_cycle_with_its_load_is_proven() -> None:
+    load = {"period": "20 ms", "damping": 0.05}
+    cycle = Cycle([Rise("35 mm", "0.1 s"), Return()], period="0.3 s", load=load, minimise="load acceleration")
+    for solution in cycle.solutions:
+        assert verify(json.loads(json.dumps(solution.to_dict()))).proven
 
 
 @pytest.mark.long
