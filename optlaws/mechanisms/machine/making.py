@@ -154,7 +154,7 @@ class MadeMachine(StateSpace):
         """The elastic follower as a machine: outputs "position", "acceleration" and "deflection" of the mass.
 
         The deflection is that of the spring, from the cam to the mass. `Follower` itself has closed forms of its own,
-        with more digits of what is left after the motion at large nu.
+        with some more digits of the little that smooth laws leave after the motion at large nu.
 
         Parameters
         ----------
@@ -175,11 +175,13 @@ class MadeMachine(StateSpace):
         """
         if not isinstance(follower, Follower):
             raise InputError(f"follower must be a Follower, got {shortened(follower)}")
-        square = follower.nu**2
-        motion = [-square, -2.0 * follower.n]
-        rows, direct = [[1.0, 0.0], motion, [1.0, 0.0]], [[0.0], [square], [-1.0]]
+        # by its deflection, which is small: the displacements of cam and mass would cancel nu² times their rounding
+        square, drag = follower.nu**2, 2.0 * follower.n
+        bending = [-square, -drag]
+        rows, direct = [[1.0, 0.0], bending, [1.0, 0.0]], [[1.0, 0.0, 0.0], [0.0, -drag, 0.0], [0.0, 0.0, 0.0]]
         names = ["position", "acceleration", "deflection"]
-        return cls([[0.0, 1.0], motion], [[0.0], [square]], rows, direct, outputs=names)
+        load = [[0.0, 0.0, 0.0], [0.0, -drag, -1.0]]
+        return cls([[0.0, 1.0], bending], load, rows, direct, inputs="abc", outputs=names)
 
     @classmethod
     def _driven(

@@ -11,6 +11,7 @@ from scipy import signal
 from optlaws import Follower, InputError, Link, Machine, MotionLaw, PiecewiseLaw, catalogue, savin, smoothstep
 from optlaws.laws.segments.segment import PolynomialSegment
 from tests.mechanisms.machine.random_machines import KINDS, integrated, random_case
+from tests.sampling import sampled
 
 K = np.linspace(0.0, 1.4, 29)[1:]
 LAWS: dict[str, MotionLaw] = {
@@ -91,6 +92,25 @@ def test_a_follower_is_a_machine(law: str, nu: float, damping: float) -> None:
     assert off(k) == pytest.approx(own.a(k) - LAWS[law].a(np.minimum(k, 1.0)), abs=1e-12)
     assert machine.rise_peak("acceleration").value == pytest.approx(own.peak(2).value, rel=1e-10)
     assert machine["position"].extrema(0, (0.0, 1.0))[1].value == pytest.approx(own.extrema(0)[1].value, rel=1e-12)
+
+
+@pytest.mark.parametrize("seed", sampled(range(60), each=6))
+def test_a_follower_is_a_machine_to_rounding(seed: int) -> None:
+    # both ways are kept: docs/architecture.md says why
+    rng = np.random.default_rng(seed)
+    nu = 500.0 if seed % 4 == 0 else float(np.exp(rng.uniform(np.log(2.0), np.log(500.0))))
+    own = Follower(nu, (0.0, float(rng.uniform(0.0, 0.3)), 1.0, float(rng.uniform(1.1, 3.0)))[seed % 3])
+    law = (smoothstep(2 + seed % 5), *LAWS.values())[seed % 4]
+    machine, closed = Machine.from_follower(own), own.response(law)
+    response, k = machine.response(law, dwell=0.5), np.linspace(0.0, 1.5, 91)
+    size = closed.peak(2).value
+    phase = (1e-13 + 2e-14 * nu) * size  # what roundings of a root and of a time are worth
+    assert response["position"](k) == pytest.approx(closed.a(k), abs=4e-15)
+    assert response["acceleration"](k) == pytest.approx(closed(k, 2), abs=phase)
+    assert response.rise_peak("acceleration").value == pytest.approx(size, rel=1e-11)
+    if own.damping < 1.0:
+        left = machine.residual(1, "acceleration").value(law)
+        assert left == pytest.approx(closed.residual_acceleration, abs=phase)
 
 
 def test_peaks_are_above_every_point_and_reached() -> None:
