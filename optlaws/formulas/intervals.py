@@ -43,9 +43,9 @@ class Interval:
 
     def outward(self) -> Interval:
         """A little wider, for rounding; exact zeros and ones stay."""
-        low = np.where(np.isfinite(self.low), self.low - _ROUNDED * np.abs(self.low), self.low)
-        high = np.where(np.isfinite(self.high), self.high + _ROUNDED * np.abs(self.high), self.high)
-        return Interval(low, high)
+        sizes = (np.where(np.isfinite(end), _ROUNDED * np.abs(end), 0.0) for end in (self.low, self.high))
+        below, above = sizes
+        return Interval(self.low - below, self.high + above)
 
     def through(self, function: Callable[[Array], Array]) -> Interval:
         """The image under a rising function."""

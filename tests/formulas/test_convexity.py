@@ -1,7 +1,6 @@
-"""The rules of convexity: by what is known, by random motions, and beside cvxpy's own where it is installed."""
+"""The rules of convexity: by what is known, and by random motions."""
 
 from random import Random
-from typing import Any
 
 import numpy as np
 import pytest
@@ -85,74 +84,3 @@ def test_what_is_called_convex_bends_upward_along_every_way() -> None:
             assert (bend <= size)[known].all(), written
         seen += kind not in {Curvature.CONSTANT, Curvature.AFFINE}
     assert seen > 100
-
-
-def by_cvxpy(written: str) -> str:
-    """The curvature that cvxpy tells of the same text, which this file wrote."""
-    import cvxpy as cp  # type: ignore[import-not-found]
-
-    functions: dict[str, Any] = {
-        "exp": cp.exp,
-        "abs": cp.abs,
-        "sqrt": cp.sqrt,
-        "log": cp.log,
-        "max": cp.maximum,
-        "min": cp.minimum,
-        "norm": lambda x, y: cp.norm(cp.hstack([x, y])),
-        "b": cp.Variable(),
-        "c": cp.Variable(),
-        "Number": cp.Constant,
-    }
-
-    def power(base: Any, exponent: int) -> Any:  # noqa: ANN401 - cvxpy's
-        return cp.power(base, exponent)
-
-    functions["power"] = power
-    import ast
-
-    class Powers(ast.NodeTransformer):
-        def visit_BinOp(self, node: ast.BinOp) -> ast.AST:
-            self.generic_visit(node)
-            if isinstance(node.op, ast.Pow):
-                return ast.Call(ast.Name("power", ast.Load()), [node.left, node.right], [])
-            if isinstance(node.op, ast.Div):
-                return ast.Call(ast.Name("power", ast.Load()), [node.right, ast.Constant(-1)], [])
-            return node
-
-        def visit_Constant(self, node: ast.Constant) -> ast.AST:
-            return ast.Call(ast.Name("Number", ast.Load()), [node], [])
-
-    tree = ast.fix_missing_locations(Powers().visit(ast.parse(written.replace("^", "**"), mode="eval")))
-    expression = eval(compile(tree, "formula", "eval"), {"__builtins__": {}}, functions)  # noqa: S307
-    known = {"CONSTANT", "AFFINE", "CONVEX", "CONCAVE"}
-    return str(expression.curvature) if expression.curvature in known else "UNKNOWN"
-
-
-def compared(seed: int, count: int) -> dict[tuple[str, str], int]:
-    """How often we and cvxpy say what, and no text that cvxpy knows to be convex and we do not."""
-    import warnings
-
-    pytest.importorskip("cvxpy")
-    table: dict[tuple[str, str], int] = {}
-    numbers = Random(seed)  # noqa: S311
-    for _ in range(count):
-        written = convex_text(numbers, 3)
-        ours = RULES.by_rules(read(written)).curvature.name
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            theirs = by_cvxpy(written)
-        table[ours, theirs] = table.get((ours, theirs), 0) + 1
-        if theirs != "UNKNOWN":
-            # what cancels to an affine formula or to nothing we may say too
-            assert ours in {theirs, "AFFINE", "CONSTANT"}, f"{written}: we say {ours}, cvxpy {theirs}"
-    return table
-
-
-def test_whatever_cvxpy_knows_we_know() -> None:
-    compared(1, 300)
-
-
-@pytest.mark.long
-def test_whatever_cvxpy_knows_we_know_of_ten_thousand() -> None:
-    table = compared(2, 10_000)
-    assert sum(table.values()) == 10_000
