@@ -15,16 +15,17 @@ from optlaws.cycles.asked.segments import CycleSegment
 from optlaws.cycles.best.aims import (
     FORCE,
     LOADED,
+    POWER,
     Wanted,
     check_objective,
     kind_of,
     limits_of_stretch,
     read_limits,
     read_load_limits,
+    read_mean_force,
 )
-from optlaws.cycles.best.cycle_bound import bound_of
 from optlaws.cycles.best.durations import durations
-from optlaws.cycles.best.optimal import solve
+from optlaws.cycles.best.mean_force import Best, best_of
 from optlaws.cycles.driven.drive import Drive, read_drive
 from optlaws.cycles.driven.effort import Effort, effort
 from optlaws.cycles.driven.load import LOAD, Load, read_load
@@ -37,6 +38,8 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.numbers import MOST_DEGREE, derivative, real_times, whole
 from optlaws.synthesis.solution import Solution, Status
+
+_MET = 1e-7  # share within which a bound of the whole cycle is met
 
 
 @dataclass(frozen=True, repr=False)
@@ -53,9 +56,11 @@ class Cycle(Handed, Stated):
     speed, period
         Of the master, "200 rpm", or the duration of the cycle, "0.3 s": one of them.
     minimise
-        "acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "force" or "rms force" of optimal segments.
+        "acceleration", "velocity", "jerk", "rms acceleration", "rms jerk" of optimal segments, or of the drive "force",
+        "rms force" (of a table "torque", "rms torque") and "power".
     limits
-        Of all optimal segments: `{"velocity": "616 mm/s"}`.
+        Of all optimal segments: `{"velocity": "616 mm/s", "power": "400 W"}`; "rms force" and "rms torque" are of the
+        whole cycle, as motors are rated.
     start
         Position at the start, 0 unless given.
     advance
@@ -130,19 +135,22 @@ class Cycle(Handed, Stated):
     @kept_property
     def solutions(self) -> tuple[Solution, ...]:
         """The solution of each motion that was looked for, in order, with its proof; dimensionless."""
-        return tuple(solution for _, solution in self._solved)
+        return tuple(solution for _, solution in self._best.laws)
 
     @kept_property
     def pieces(self) -> tuple[Piece, ...]:
         """The laws in their places, in order."""
-        found = [*self._layout.pieces, *(piece for piece, _ in self._solved)]
+        found = [*self._layout.pieces, *(piece for piece, _ in self._best.laws)]
         return tuple(sorted(found, key=lambda piece: piece.start))
 
     @property
     def status(self) -> Status:
         """The worst status of the solutions; optimal where nothing was to be looked for."""
         ranks = (Status.OPTIMAL, Status.LOCAL, Status.INACCURATE)
-        return max((one.status for one in self.solutions), key=ranks.index, default=Status.OPTIMAL)
+        worst = max((one.status for one in self.solutions), key=ranks.index, default=Status.OPTIMAL)
+        if worst == Status.OPTIMAL and self.lower_bound is not None:
+            return Status.OPTIMAL if self.objective <= self.lower_bound * (1.0 + _MET) else Status.LOCAL
+        return worst
 
     @kept_property
     def objective(self) -> float:
@@ -151,6 +159,8 @@ class Cycle(Handed, Stated):
         if nu == LOADED:
             output = self.minimise.removeprefix("rms ").removeprefix(LOAD)
             return self.load_motion.rms(output) if mean else self.load_motion.peak(output).value
+        if nu == POWER:
+            return self.effort.peak_power
         if nu == FORCE:
             return self.effort.rms_force if mean else self.effort.peak_force
         if not mean:
@@ -160,7 +170,7 @@ class Cycle(Handed, Stated):
     @kept_property
     def lower_bound(self) -> float | None:
         """What no other optimal laws in the same times can beat; with dry friction, that never turn back."""
-        return bound_of(self._layout, self._solved, self._wanted, self.duration)
+        return self._best.bound
 
     @kept_property
     def peaks(self) -> tuple[SegmentPeaks, ...]:
@@ -312,6 +322,7 @@ class Cycle(Handed, Stated):
             self._drive,
             self._load,
             read_load_limits(self.limits, self._load),
+            read_mean_force(self.limits, self.axis),
         )
 
     @kept_property
@@ -324,5 +335,5 @@ class Cycle(Handed, Stated):
         return layout(self.programme, self.durations, whole=self._wanted.of_load, absolute=absolute)
 
     @kept_property
-    def _solved(self) -> tuple[tuple[Piece, Solution], ...]:
-        return tuple(solve(span, self._wanted, self.axis) for span in self._layout.spans)
+    def _best(self) -> Best:
+        return best_of(self._layout, self._wanted, self.axis, self.duration)

@@ -56,6 +56,7 @@ DIMENSIONS = {
     "moment of inertia": ("kilogram * meter ** 2", "0.02 kg m^2"),
     "force": ("newton", "120 N"),
     "torque": ("newton * meter", "0.4 N m"),
+    "power": ("watt", "500 W"),
     "pressure": ("newton / meter ** 2", "210 GPa"),
     "stiffness": ("newton / meter", "3 N/mm"),
     "torsional stiffness": ("newton * meter / radian", "0.4 N m/deg"),

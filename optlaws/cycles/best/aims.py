@@ -11,9 +11,11 @@ from optlaws.cycles.asked.quantities import quantity
 from optlaws.cycles.asked.segments import Free, Move
 from optlaws.cycles.driven.drive import Drive
 from optlaws.cycles.driven.load import LOAD, Load, load_output
+from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.suggest import unknown_key
 
+FORCE, LOADED, POWER = -1, -2, -3
 #: what may be least over a cycle: the order of the derivative, and whether it is its root mean square
 OBJECTIVES = {
     "velocity": (1, False),
@@ -21,11 +23,15 @@ OBJECTIVES = {
     "jerk": (3, False),
     "rms acceleration": (2, True),
     "rms jerk": (3, True),
-    "force": (-1, False),
-    "rms force": (-1, True),
+    "force": (FORCE, False),
+    "torque": (FORCE, False),
+    "power": (POWER, False),
+    "rms force": (FORCE, True),
+    "rms torque": (FORCE, True),
 }
-LIMITS = {"velocity": 1, "acceleration": 2, "jerk": 3, "force": -1, "torque": -1}
-FORCE, LOADED = -1, -2
+LIMITS = {"velocity": 1, "acceleration": 2, "jerk": 3, "force": FORCE, "torque": FORCE, "power": POWER}
+#: limits of the whole cycle alone
+MEANS = ("rms force", "rms torque")
 _FORCES = {"length": "force", "angle": "torque"}
 
 
@@ -38,7 +44,7 @@ class Wanted:
     minimise
         One of `OBJECTIVES`.
     limits
-        Greatest velocity, acceleration and jerk, in SI units, by order; of force or torque by -1.
+        Greatest velocity, acceleration and jerk, in SI units, by order; of force or torque by -1, of power by -3.
     order, degree
         End conditions of laws, and the degree of Z.
     drive
@@ -47,6 +53,8 @@ class Wanted:
         What is driven elastically.
     loaded
         Greatest values of the load's outputs, in SI units, by output and whether they are root mean squares.
+    mean_force
+        Greatest root mean square of the force or torque over the whole cycle, in SI units.
     """
 
     minimise: str
@@ -56,6 +64,7 @@ class Wanted:
     drive: Drive | None
     load: Load | None = None
     loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
+    mean_force: float | None = None
 
     @property
     def of_load(self) -> bool:
@@ -64,7 +73,7 @@ class Wanted:
 
 
 def kind_of(minimise: str) -> tuple[int, bool]:
-    """The order of the derivative that is minimised (-1 a force, -2 of the load), and whether its root mean square.
+    """The order of what is minimised (-1 a force, -2 of the load, -3 the power), and whether its root mean square.
 
     Examples
     --------
@@ -123,14 +132,45 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, 
     """
     found = {}
     for name, value in entries.items():
-        if name not in LIMITS:
-            if where == "limits" and name.removeprefix("rms ").startswith(LOAD):
-                continue
-            raise InputError(f"{where}: {unknown_key(name, LIMITS, 'limit')}")
-        dimension = _FORCES[axis] if LIMITS[name] == FORCE else AXES[axis][LIMITS[name]]
-        found[LIMITS[name]] = quantity(value, dimension, f"{where}, {name}")
-        if found[LIMITS[name]] <= 0.0:
-            raise InputError(f"{where}, {name} must be above 0, got {value!r}")
+        if name in LIMITS:
+            found[LIMITS[name]] = _above_zero(value, _dimension(LIMITS[name], axis), f"{where}, {name}")
+            continue
+        if where != "limits" and name in MEANS:
+            raise InputError(f"{where}, {name} is of the whole cycle: give it among the limits of the Cycle")
+        if name not in MEANS and (where != "limits" or not name.removeprefix("rms ").startswith(LOAD)):
+            raise InputError(f"{where}: {unknown_key(name, (*LIMITS, *MEANS), 'limit')}")
+    return found
+
+
+def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
+    """The limit of the root mean square of the force or torque over the cycle, in SI units; None if there is none.
+
+    Raises
+    ------
+    InputError
+        If it is not above 0 or of another dimension, or given twice.
+
+    Examples
+    --------
+    >>> read_mean_force({"rms torque": "2.4 N m"}, "angle")
+    2.4
+    """
+    given = [name for name in MEANS if name in entries]
+    if len(given) > 1:
+        raise InputError(f"limits: {' and '.join(given)} are the same: give one of them")
+    if not given:
+        return None
+    return _above_zero(entries[given[0]], _FORCES[axis], f"limits, {given[0]}")
+
+
+def _dimension(nu: int, axis: str) -> str:
+    return AXES[axis][nu] if nu > 0 else {FORCE: _FORCES[axis], POWER: "power"}[nu]
+
+
+def _above_zero(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - it is checked here
+    found = quantity(value, dimension, name)
+    if found <= 0.0:
+        raise InputError(f"{name} must be above 0, got {shortened(value)}")
     return found
 
 

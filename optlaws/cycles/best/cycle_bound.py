@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from functools import reduce
+from functools import partial, reduce
 from math import hypot, sqrt
 
 from optlaws.cycles.asked.conversion import Piece, factor
-from optlaws.cycles.asked.joints import Layout
-from optlaws.cycles.best.aims import FORCE, LOADED, Wanted, kind_of
-from optlaws.cycles.best.optimal import force_unit
+from optlaws.cycles.asked.joints import Layout, Span
+from optlaws.cycles.best.aims import FORCE, LOADED, POWER, Wanted, kind_of
+from optlaws.cycles.best.driving import driven_mean, driven_peak
+from optlaws.cycles.driven.drive import read_drive
 from optlaws.cycles.driven.effort import effort
 from optlaws.synthesis.solution import Solution
 
@@ -22,29 +23,29 @@ def bound_of(layout: Layout, solved: Solved, wanted: Wanted, period: float) -> f
     if nu == LOADED:
         ((piece, solution),) = solved
         return solution.lower_bound * abs(piece.stroke)
-    if nu == FORCE and wanted.drive is None:
-        return 0.0
-    sizes = [(piece.duration, _bound(layout, i, solved[i], wanted)) for i, (piece, _) in enumerate(solved)]
+    sizes = [(piece.duration, span_bound(layout.spans[i], *solved[i], wanted)) for i, (piece, _) in enumerate(solved)]
     sizes += [(piece.duration, _taken(piece, wanted)) for piece in layout.pieces]
     if not mean:
         return max(size for _, size in sizes)
     return reduce(hypot, (size * sqrt(time / period) for time, size in sizes), 0.0)
 
 
-def _bound(layout: Layout, i: int, solved: tuple[Piece, Solution], wanted: Wanted) -> float:
+def span_bound(span: Span, piece: Piece, solution: Solution, wanted: Wanted) -> float:
     """What no other law of a span can beat, in SI units."""
-    piece, solution = solved
-    nu, _ = kind_of(wanted.minimise)
-    if nu == FORCE and wanted.drive is not None:
-        return solution.lower_bound * force_unit(layout.spans[i], wanted.drive, piece.stroke)
-    return solution.lower_bound * abs(factor(piece.stroke, piece.duration, nu))
+    nu, mean = kind_of(wanted.minimise)
+    if nu not in {FORCE, POWER}:
+        return solution.lower_bound * abs(factor(piece.stroke, piece.duration, nu))
+    driven = driven_mean if mean else partial(driven_peak, nu=nu)
+    found = driven(span, wanted.drive, piece.stroke)
+    # neither a peak nor a mean is below 0, whether or not anything is proven
+    return hypot(max(solution.lower_bound, 0.0) * found.unit, sqrt(max(found.friction, 0.0)))
 
 
 def _taken(piece: Piece, wanted: Wanted) -> float:
     """What a law that was given takes, in SI units."""
     nu, mean = kind_of(wanted.minimise)
-    if nu == FORCE and wanted.drive is not None:
-        taken = effort(wanted.drive, [piece], piece.duration)
-        return taken.rms_force if mean else taken.peak_force
+    if nu in {FORCE, POWER}:
+        taken = effort(wanted.drive or read_drive({}, "length"), [piece], piece.duration)
+        return taken.peak_power if nu == POWER else taken.rms_force if mean else taken.peak_force
     constant = piece.law.rms(nu) if mean else piece.law.peak(nu).value
     return constant * abs(factor(piece.stroke, piece.duration, nu)) if piece.stroke else 0.0

@@ -21,7 +21,7 @@ from optlaws.cycles.asked.joints import Span, State
 from optlaws.cycles.asked.named import named_law
 from optlaws.cycles.asked.programme import Programme, Stretch, is_optimal
 from optlaws.cycles.asked.segments import ConstantVelocity, Dwell, Free, Move
-from optlaws.cycles.best.aims import FORCE, Wanted, kind_of, limits_of_stretch
+from optlaws.cycles.best.aims import Wanted, kind_of, limits_of_stretch
 from optlaws.cycles.best.optimal import span_problem
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.laws import MotionLaw
@@ -73,9 +73,10 @@ def durations(asked: Programme, wanted: Wanted) -> tuple[float, ...]:
     for i in free:
         _check_rest(asked, i)
     nu, mean = kind_of(wanted.minimise)
-    if nu < 0 or FORCE in wanted.limits or wanted.loaded:
+    if nu < 0 or min(wanted.limits, default=0) < 0 or wanted.mean_force is not None or wanted.loaded:
         raise InputError(
-            "free durations are shared by velocity, acceleration or jerk, not by a force or a load: give durations"
+            "free durations are shared by velocity, acceleration or jerk, not by a force, power or a load: "
+            "give durations"
         )
     shares = [
         Share(asked.stretches[i], _cost(asked, i, wanted, nu, mean=mean), _quickest(asked, i, wanted)) for i in free

@@ -14,15 +14,16 @@ from optlaws.synthesis.spaces.bases import Pieces
 from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces
 
 _MOST = 600  # pieces of a law
-#: pieces of a stretch where what is minimised has its peaks inside of pieces: the velocity, what a load does
-_FEW = {1: 6, -2: 4}
+#: pieces of a stretch where what is minimised has its peaks inside of pieces: the velocity, what a load does, power
+_FEW = {1: 6, -2: 4, -3: 4}
 
 
 def joined_basis(span: Span, order: int, degree: int, minimised: int) -> Pieces:
     """Splines with twice as many pieces in a stretch as a law with Z of a degree has coefficients and end conditions.
 
     Their acceleration is linear between breaks where the order is 3, so that its peaks, and those of the jerk, are at
-    breaks: a linear program on known places. `minimised` is the order of the derivative minimised, -2 of a load.
+    breaks: a linear program on known places. `minimised` is the order of the derivative minimised, -2 of a load, -3 of
+    power.
 
     Examples
     --------
@@ -48,7 +49,7 @@ def joined_basis(span: Span, order: int, degree: int, minimised: int) -> Pieces:
         for low, high in pairwise(place(span, time) for time in marks):
             breaks += [low + (high - low) * i / parts for i in range(1, parts)] + [high]
     smoothness = max(order - 1, 2 if minimised == 3 else 1)
-    power = max(3, 2 * order - 1 if minimised < -1 else order)
+    power = max(3, 2 * order - 1 if minimised == -2 else order)
     if span.turns:
         return PeriodicPieces(breaks, power, smoothness, straight)
     return Pieces(breaks, power, smoothness)

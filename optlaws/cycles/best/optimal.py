@@ -7,35 +7,36 @@ peaks is the least of the greatest ones, and the least sum of squares is the sum
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from dataclasses import replace
 from itertools import groupby
-from math import inf
+from math import inf, sqrt
 from operator import itemgetter
 from typing import Any
 
 from optlaws.cycles.asked.conversion import Piece, factor
 from optlaws.cycles.asked.joints import Span, State
 from optlaws.cycles.asked.programme import in_small_units, is_optimal
-from optlaws.cycles.best.aims import FORCE, LOADED, Wanted, kind_of, limits_of_stretch
+from optlaws.cycles.best.aims import FORCE, LOADED, POWER, Wanted, kind_of, limits_of_stretch
+from optlaws.cycles.best.driving import driven_formula, driven_mean, driven_peak, may_turn
 from optlaws.cycles.best.joined import joined_basis, joint_windows, place
-from optlaws.cycles.driven.drive import Drive
 from optlaws.cycles.driven.load import load_output
 from optlaws.errors import InfeasibleProblem, InputError
-from optlaws.synthesis.functionals.makers import peak, rms
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solve import synthesize
-from optlaws.synthesis.spaces.bases import Chebyshev
+from optlaws.synthesis.spaces.bases import Chebyshev, Pieces
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
+_DRIVEN = (FORCE, POWER)
 _PEAKS = {1: "B", 2: "C", 3: "J"}
 _ROUGH = 15  # degree of Z where points on the way or velocities bend the law
 
 
-def solve(span: Span, wanted: Wanted, axis: str) -> tuple[Piece, Solution]:
-    """The best law of a span, in its place, with its proof.
+def solve(span: Span, wanted: Wanted, axis: str, mean_square: float = inf) -> tuple[Piece, Solution]:
+    """The best law of a span, in its place, with its proof; the mean square of its force is at most what is said.
 
     Raises
     ------
@@ -44,17 +45,54 @@ def solve(span: Span, wanted: Wanted, axis: str) -> tuple[Piece, Solution]:
     """
     stroke = scale(span)
     problem = span_problem(span, wanted, axis, stroke)
+    if mean_square < inf:
+        problem = with_mean_square(problem, span, wanted, stroke, mean_square)
+    solution = solved(problem, span)
+    return Piece(span.start, span.duration, span.offset, stroke, solution.law), solution
+
+
+def solved(problem: Problem, span: Span) -> Solution:
+    """The solution of a span's problem.
+
+    Raises
+    ------
+    InfeasibleProblem
+        If no law keeps the limits; the error names the segment.
+    """
     try:
-        solution = synthesize(problem)
+        return synthesize(problem)
     except InfeasibleProblem as error:
+        # of many pieces no one would read each
+        why = "" if isinstance(problem.basis, Pieces) else f" {error.args[0]}"
         raise InfeasibleProblem(
-            f"{span.where}: no law keeps its limits in {span.duration:.9g} s: give it more time or wider limits. "
-            f"{error.args[0]}",
+            f"{span.where}: no law keeps its limits in {span.duration:.9g} s: give it more time or wider limits.{why}",
             problem=problem,
             tried=error.tried,
             proof=error.proof,
         ) from None
-    return Piece(span.start, span.duration, span.offset, stroke, solution.law), solution
+
+
+def with_mean_square(problem: Problem, span: Span, wanted: Wanted, stroke: float, most: float) -> Problem:
+    """The problem of a span whose force has no greater mean square than is said, in SI units.
+
+    Raises
+    ------
+    InfeasibleProblem
+        If dry friction alone takes more.
+    """
+    driven = driven_mean(span, wanted.drive, stroke)
+    if most <= driven.friction:
+        raise InfeasibleProblem(
+            f"{span.where}: dry friction alone takes an rms force of {sqrt(driven.friction):.9g}, more than what is "
+            f"left for it, {sqrt(max(most, 0.0)):.9g}: allow more, or give the cycle more time"
+        )
+    bounds = {**problem.bounds, driven.constant: Range(0.0, sqrt(most - driven.friction) / driven.unit)}
+    return replace(problem, bounds=bounds, monotone=problem.monotone or never_back(span, wanted), symmetric=False)
+
+
+def never_back(span: Span, wanted: Wanted) -> bool:
+    """Whether dry friction asks that a span's law never goes back, so that it is a constant force."""
+    return wanted.drive is not None and wanted.drive.dry > 0.0 and not may_turn(span)
 
 
 def scale(span: Span) -> float:
@@ -82,12 +120,12 @@ def span_problem(span: Span, wanted: Wanted, axis: str, stroke: float) -> Proble
     ends = _ends(span, stroke, wanted.order)
     plain = not any(any(one[1:]) for one in (ends.start, ends.end))
     bounds, parts = _limits(span, wanted, axis, stroke)
-    forced = kind_of(wanted.minimise)[0] == FORCE or any(constant not in _PEAKS.values() for constant in bounds)
+    forced = kind_of(wanted.minimise)[0] in _DRIVEN or any(constant not in _PEAKS.values() for constant in bounds)
     return Problem(
         order=wanted.order,
         basis=Chebyshev(wanted.degree if plain else max(wanted.degree, _ROUGH)),
         minimise=_objective(span, wanted, stroke),
-        monotone=forced and wanted.drive is not None and wanted.drive.dry > 0.0,
+        monotone=forced and never_back(span, wanted),
         symmetric=plain and not forced and not parts,
         boundary=ends,
         windows=parts,
@@ -99,6 +137,7 @@ def _problem_of_several(span: Span, wanted: Wanted, axis: str, stroke: float) ->
     """One law for several stretches, or through points on the way."""
     bounds, parts = _limits(span, wanted, axis, stroke)
     minimised = max(kind_of(wanted.minimise)[0], 3 if 3 in wanted.limits else 0)
+    minimised = POWER if POWER in wanted.limits else minimised
     minimised = LOADED if wanted.of_load else minimised
     bounds |= {_of_load(wanted, *asked, span): Range(0.0, most / abs(stroke)) for asked, most in wanted.loaded.items()}
     first = (span.offset - span.origin) / stroke
@@ -134,20 +173,25 @@ def _limits(span: Span, wanted: Wanted, axis: str, stroke: float) -> tuple[dict[
     windows = []
     for own, start, stop in _alike(of_each, (*span.starts, span.stop)):
         for nu, most in own.items():
-            name, high = "abcj"[nu], _law_limit(span, stroke, nu, most)
-            if nu == FORCE:
-                name, unit = _force(span, wanted, stroke)
-                high = most / unit
+            name, high = _quantity(span, wanted, stroke, nu, most)
             windows.append(Window(name, -high, high, place(span, start), place(span, stop)))
     return {}, tuple(windows)
 
 
 def _bound(span: Span, wanted: Wanted, stroke: float, nu: int, most: float) -> tuple[Any, Range]:
     """A limit of a whole span as a bound of one of its constants."""
-    if nu == FORCE:
-        formula, unit = _force(span, wanted, stroke)
-        return peak(formula), Range(0.0, most / unit)
+    if nu in _DRIVEN:
+        driven = driven_peak(span, wanted.drive, stroke, nu)
+        return driven.constant, Range(0.0, most / driven.unit)
     return _PEAKS[nu], Range(0.0, _law_limit(span, stroke, nu, most))
+
+
+def _quantity(span: Span, wanted: Wanted, stroke: float, nu: int, most: float) -> tuple[str, float]:
+    """What is limited in a part of a span, as a quantity of its law, and its limit."""
+    if nu in _DRIVEN:
+        formula, unit = driven_formula(span, wanted.drive, stroke, nu)
+        return formula, most / unit
+    return "abcj"[nu], _law_limit(span, stroke, nu, most)
 
 
 def _of_load(wanted: Wanted, output: str, mean: bool, span: Span) -> Functional:  # noqa: FBT001 - the second of a pair
@@ -196,26 +240,6 @@ def _objective(span: Span, wanted: Wanted, stroke: float) -> Any:  # noqa: ANN40
     asked = load_output(wanted.minimise, wanted.load) if nu == LOADED else None
     if asked is not None:
         return _of_load(wanted, *asked, span)
-    formula, _ = _force(span, wanted, stroke)
-    return rms(formula) if mean else peak(formula)
-
-
-def _force(span: Span, wanted: Wanted, stroke: float) -> tuple[str, float]:
-    """The force along a span's law as a formula, and its unit."""
-    if wanted.drive is None:
-        raise InputError("force and torque are of a drive: give one, such as drive={'mass': '2 kg'}")
-    if wanted.drive.dry > 0.0 and (span.turns or len(span.stretches) > 1 or span.via):
-        raise InputError(
-            f"drive: dry: {span.where} may turn back, where dry friction leaps and nothing is proven: leave it out of "
-            "what is minimised or bounded, or take moves between rests"
-        )
-    direction = 1.0 if span.displacement > 0.0 else -1.0
-    unit = force_unit(span, wanted.drive, stroke)
-    if unit == 0.0:
-        raise InputError("drive: nothing resists the motion: give it a mass, an inertia, a spring or friction")
-    return wanted.drive.formula(stroke, span.duration, span.origin, direction, unit), unit
-
-
-def force_unit(span: Span, drive: Drive, stroke: float) -> float:
-    """About how great the force along a span is: a unit in which it is near 1."""
-    return drive.size(stroke, span.duration, span.origin)
+    if mean:
+        return driven_mean(span, wanted.drive, stroke).constant
+    return driven_peak(span, wanted.drive, stroke, nu).constant

@@ -63,10 +63,23 @@ def effort(drive: Drive, pieces: Sequence[Piece], period: float) -> Effort:
     for piece in pieces:
         forces, powers = partial(drive.along, piece), partial(_power, drive, piece)
         force, power = max(force, _peak(piece, forces)), max(power, _peak(piece, powers))
-        square += _integral(piece, partial(_square, drive, piece))
+        square += square_of_force(drive, piece)
         work += _integral(piece, powers)
     mean = work / period
     return Effort(force, float(np.sqrt(square / period)), power, mean if abs(mean) > _ROUNDING * power else 0.0)
+
+
+def square_of_force(drive: Drive, piece: Piece) -> float:
+    """The integral of the square of the force over a piece, in SI units.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> drive = Drive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
+    >>> round(square_of_force(drive, Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))), 9)
+    48.0
+    """
+    return _integral(piece, partial(_square, drive, piece))
 
 
 def _power(drive: Drive, piece: Piece, times: Array) -> Array:

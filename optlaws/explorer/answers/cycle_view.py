@@ -235,9 +235,14 @@ def _ways(spec: Study, axis: Axis) -> Iterator[dict[str, Any]]:
             least = _stored(spec, freed).objective
         except (InfeasibleProblem, SolverFailure):
             continue
-        unit, factor = UNITS[_stored(spec, freed).axis][LIMITS[name]]
+        unit, factor = _unit(_stored(spec, freed), LIMITS[name])
         text = f"{least * factor * (1.0 + _ROOM):.6g} {unit}"
         yield {"entry": name, "value": text, "text": f"raise the limit of {name} from {given} to {text}"}
+
+
+def _unit(shown: Cycle, order: int) -> tuple[str, float]:
+    """The unit in which a limit is shown, and how many of it make one of SI."""
+    return UNITS[shown.axis][order] if order > 0 else (objective_unit(shown), 1.0)
 
 
 #: what the page shows where no cycle was given

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from optlaws import drawing
-from optlaws.cycles.best.aims import FORCE, LOADED, kind_of
+from optlaws.cycles.best.aims import FORCE, LOADED, POWER, kind_of
 from optlaws.cycles.cycle import Cycle
 from optlaws.files import tables, writing
 from optlaws.jobs.cycle.entries import Study, read
@@ -120,6 +120,8 @@ def objective_unit(cycle: Cycle) -> str:
     nu, _ = kind_of(cycle.minimise)
     if nu == LOADED:
         return "SI"
+    if nu == POWER:
+        return "W"
     if nu == FORCE:
         return "N" if cycle.axis == "length" else "N m"
     return _unit(cycle, nu)
