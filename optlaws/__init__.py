@@ -24,6 +24,7 @@ _load, __dir__, __all__ = face(
         "optlaws.cams.followers.translating_flat": "TranslatingFlat",
         "optlaws.cams.followers.translating_roller": "TranslatingRoller",
         "optlaws.cams.least_sizes": "greatest_roller least_base_circle",
+        "optlaws.cycles.axes": "Axes",
         "optlaws.cycles.cycle": "Cycle",
         "optlaws.cycles.asked.segments": "ConstantVelocity Dwell Free Move Return Rise",
         "optlaws.cycles.machine_follower": "MachineFollower machine_follower",
@@ -130,6 +131,7 @@ declare(
     {
         "optlaws.drawing": "front machine_spectrum output proven_front spectrum",
         "optlaws.jobs.cam.pictures": "cam",
+        "optlaws.jobs.cycle.axes_picture": "axes",
         "optlaws.jobs.cycle.picture": "cycle",
         "optlaws.law_pictures": "comparison curve solution",
     },

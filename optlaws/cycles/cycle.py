@@ -148,7 +148,7 @@ class Cycle(Handed, Stated):
         """The worst status of the solutions; optimal where nothing was to be looked for."""
         ranks = (Status.OPTIMAL, Status.LOCAL, Status.INACCURATE)
         worst = max((one.status for one in self.solutions), key=ranks.index, default=Status.OPTIMAL)
-        if worst == Status.OPTIMAL and self.lower_bound is not None:
+        if self.solutions and worst == Status.OPTIMAL and self.lower_bound is not None:
             return Status.OPTIMAL if self.objective <= self.lower_bound * (1.0 + _MET) else Status.LOCAL
         return worst
 

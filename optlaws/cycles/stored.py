@@ -29,6 +29,7 @@ FORMAT = "optlaws cycle 1"
 _ENTRIES = (
     "segments", "speed", "period", "minimise", "limits", "start", "advance", "drive", "load", "order", "degree",
 )  # fmt: skip
+_CLOCK = ("speed", "period")
 _SHOWN = 6  # segments in a line
 _NAMES = ("position", "velocity", "acceleration", "jerk")
 
@@ -98,7 +99,9 @@ class Stated:
         speed = "200 rpm"
         ...
         """
-        return _to_toml(self, title, axis)
+        data = _to_data(self)
+        clock = {name: data[name] for name in _CLOCK if name in data}
+        return problem_file(title, clock, {axis: self})
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
         """A data frame with a row for each segment: start, duration, end, peaks, leaps; SI units.
@@ -136,22 +139,32 @@ def _from_data(data: Any) -> dict[str, Any]:  # noqa: ANN401 - it is checked her
     return given | {"segments": [_read_segment(one, i) for i, one in enumerate(data["segments"], start=1)]}
 
 
-def _to_toml(cycle: Any, title: str, axis: str) -> str:  # noqa: ANN401 - a Cycle
-    data = _to_data(cycle)
-    del data["format"]
+def problem_file(title: str, clock: Mapping[str, Any], cycles: Mapping[str, Stated]) -> str:
+    """A problem file of the job "cycle" with a clock, its speed or period, and an axis for each cycle.
+
+    Raises
+    ------
+    InputError
+        If a law or a load is a value that no problem file can hold.
+    """
+    lines = ['job = "cycle"', f"title = {_text(title)}", *(f"{name} = {_value(one)}" for name, one in clock.items())]
+    for name, cycle in cycles.items():
+        lines += ["", *_axis_lines(name, cycle)]
+    return "\n".join(lines) + "\n"
+
+
+def _axis_lines(axis: str, cycle: Stated) -> list[str]:
+    data = {name: value for name, value in _to_data(cycle).items() if name not in {"format", *_CLOCK}}
     segments = data.pop("segments")
     for i, one in enumerate(segments, start=1):
         if not isinstance(one.get("law", ""), str):
             raise InputError(f"segment {i}: a problem file names its law: save the law as a JSON file and name that")
     if "A" in data.get("load", {}):
         raise InputError("load: a problem file takes a mass on a spring: a machine is kept by Cycle.to_json")
-    lines = ['job = "cycle"', f"title = {_text(title)}"]
-    lines += [f"{name} = {_value(data.pop(name))}" for name in ("speed", "period") if name in data]
-    lines += ["", "[[axis]]", f"name = {_text(axis)}"]
-    lines += [f"{name} = {_value(value)}" for name, value in data.items()]
+    lines = ["[[axis]]", f"name = {_text(axis)}", *(f"{name} = {_value(value)}" for name, value in data.items())]
     for one in segments:
         lines += ["", "[[axis.segment]]", *(f"{name} = {_value(value)}" for name, value in one.items())]
-    return "\n".join(lines) + "\n"
+    return lines
 
 
 def _segment(one: CycleSegment) -> dict[str, Any]:

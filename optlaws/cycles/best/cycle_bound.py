@@ -20,6 +20,8 @@ Solved = Sequence[tuple[Piece, Solution]]
 def bound_of(layout: Layout, solved: Solved, wanted: Wanted, period: float) -> float | None:
     """What no other laws in the same times can beat: bounds of those looked for, and what the others take."""
     nu, mean = kind_of(wanted.minimise)
+    if nu == LOADED and not solved:
+        return None
     if nu == LOADED:
         ((piece, solution),) = solved
         return solution.lower_bound * abs(piece.stroke)

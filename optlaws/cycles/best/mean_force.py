@@ -53,7 +53,7 @@ def best_of(layout: Layout, wanted: Wanted, axis: str, period: float) -> Best:
     """
     if wanted.mean_force is None or not layout.spans:
         laws = tuple(solve(span, wanted, axis) for span in layout.spans)
-        return Best(laws, bound_of(layout, laws, wanted, period) if laws else None)
+        return Best(laws, bound_of(layout, laws, wanted, period))
     if wanted.drive is None:
         raise InputError("limits: an rms force or torque is of a drive: give one, such as drive={'mass': '2 kg'}")
     return _Shared(layout, wanted, wanted.drive, wanted.mean_force, axis, period).best()

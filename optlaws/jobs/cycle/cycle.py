@@ -13,14 +13,24 @@ import numpy as np
 from optlaws import drawing
 from optlaws.cycles.best.aims import FORCE, LOADED, POWER, kind_of
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.driven.load import LOAD, read_load
 from optlaws.files import tables, writing
+from optlaws.jobs.cycle.axes_picture import draw_together
 from optlaws.jobs.cycle.entries import Study, read
-from optlaws.jobs.cycle.machine_files import Exports, add_exports, exports_of, plain_name
+from optlaws.jobs.cycle.machine_files import TOGETHER, Exports, add_exports, exports_of, plain_name
 from optlaws.jobs.cycle.picture import QUANTITIES, UNITS, draw
 from optlaws.jobs.pages.page import Page
 
 _ROUNDING = 1e-11  # what is below this share of a peak is 0
 _SHARE = 360.0
+_LOAD_UNITS = {
+    "length": "m",
+    "angle": "rad",
+    "acceleration": "m/s²",
+    "angular acceleration": "rad/s²",
+    "force": "N",
+    "torque": "N m",
+}
 
 
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
@@ -32,6 +42,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     for name, cycle in cycles.items():
         texts[f"{plain_name(name)}.csv"] = table_of_motion(cycle, spec.rows, about)
     figures = {plain_name(name): draw(cycle, f"{spec.title}: {name}") for name, cycle in cycles.items()}
+    if len(cycles) > 1:
+        figures[TOGETHER] = draw_together(cycles, spec.title)
     files = [writing.write(out / name, text) for name, text in texts.items()] + drawing.save_pictures(figures, out)
     return files + [one.write(out / name) for named in made.values() for name, one in named.items()]
 
@@ -49,6 +61,8 @@ def answer(cycles: Mapping[str, Cycle]) -> dict[str, Any]:
 def page(spec: Study, cycles: Mapping[str, Cycle], made_exports: Exports) -> Page:
     """The page of results."""
     made = Page(spec.title).text(spec.text)
+    if len(cycles) > 1:
+        made.figure(TOGETHER, f"{spec.title}: all axes over one time")
     for name, cycle in cycles.items():
         made.heading(name).figure(plain_name(name), f"{spec.title}: {name}")
         made.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
@@ -104,7 +118,8 @@ def _told(cycle: Cycle) -> list[list[tables.Cell]]:
             ["peak torque at the master's shaft", effort.shaft_torque(2.0 * pi / cycle.duration), "N m"],
         ]
     if cycle.load is not None:
-        rows += [[f"peak of the load's {name}", cycle.load_motion.peak(name).value, "SI"] for name in _outputs(cycle)]
+        peaks = {name: cycle.load_motion.peak(name).value for name in _outputs(cycle)}
+        rows += [[f"peak of the load's {name}", value, _load_unit(cycle, name)] for name, value in peaks.items()]
     leaps = {name: max(abs(joint[name]) for joint in cycle.joints) for name in ("velocity", "acceleration")}
     units = (_unit(cycle, order) for order in (1, 2))
     named = zip(leaps.items(), units, strict=True)
@@ -119,12 +134,18 @@ def objective_unit(cycle: Cycle) -> str:
     """The unit of what a cycle minimises."""
     nu, _ = kind_of(cycle.minimise)
     if nu == LOADED:
-        return "SI"
+        return _load_unit(cycle, cycle.minimise.removeprefix("rms ").removeprefix(LOAD))
     if nu == POWER:
         return "W"
     if nu == FORCE:
         return "N" if cycle.axis == "length" else "N m"
     return _unit(cycle, nu)
+
+
+def _load_unit(cycle: Cycle, output: str) -> str:
+    """The unit of an output of the load; of one whose dimension is not known, that it is one of SI."""
+    dimension = read_load(cycle.load, cycle.axis).dimensions.get(output, "")
+    return _LOAD_UNITS.get(dimension, "SI")
 
 
 def _unit(cycle: Cycle, order: int) -> str:

@@ -18,6 +18,8 @@ from optlaws.jobs.pages.page import Page
 #: the exports of each axis by the names of their files
 Exports = dict[str, dict[str, Export]]
 
+#: what the picture of all axes is called
+TOGETHER = "axes"
 _HEADINGS = ("file", "format", "points", "peak velocity", "peak acceleration", "peak jerk", "greatest deviation, unit")
 
 
@@ -30,7 +32,9 @@ def exports_of(spec: Study, cycles: Mapping[str, Cycle], file: Path) -> Exports:
         If one is wrong or cannot hold its axis, or two have the same file; the error names file and axis.
     """
     made: Exports = {}
-    taken = {"cycle.md", "cycle.json"}
+    if len(spec.axis) > 1 and TOGETHER in {plain_name(axis.name) for axis in spec.axis}:
+        raise InputError(f"{file}: an axis is called {TOGETHER}, as the picture of all is: give it another name")
+    taken = {"cycle.md", "cycle.json", f"{TOGETHER}.svg", f"{TOGETHER}.png"}
     taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg", ".png")}
     for axis in spec.axis:
         try:

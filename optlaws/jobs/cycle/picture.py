@@ -54,11 +54,10 @@ def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:  #
     panels = four(axes)
     artists: list[Artist] = []
     for nu, one in enumerate(panels):
-        artists += _draw_curve(cycle, one, nu, {"color": drawing.BLUES[3]} | style)
-        _mark_segments(cycle, one)
+        artists += draw_curve(cycle, one, nu, {"color": drawing.BLUES[3]} | style)
+        mark_segments(cycle, one)
         artists += _mark_limits(cycle, one, nu)
-    for peaks in cycle.peaks:
-        _name_segment(panels[0], peaks.name, 1e3 * (peaks.start + 0.5 * peaks.duration))
+    name_segments(cycle, panels[0])
     panels[-1].set(xlabel="time, ms", xlim=(0.0, 1e3 * cycle.duration))
     return artists
 
@@ -70,24 +69,28 @@ def _draw_together(cycle: Cycle, axes: Axes, style: dict[str, Any]) -> list[Arti
         unit, size = UNITS[cycle.axis][nu]
         peak = cycle.peak(nu) or 1.0
         name = {"label": f"{QUANTITIES[nu]} / {peak * size:.6g} {unit}", "color": colour} | style
-        artists += _draw_curve(cycle, axes, nu, name, share=1.0 / (peak * size))
+        artists += draw_curve(cycle, axes, nu, name, share=1.0 / (peak * size))
         artists += _mark_limits(cycle, axes, nu, share=1.0 / (peak * size))
-    _mark_segments(cycle, axes)
+    mark_segments(cycle, axes)
     axes.set(xlabel="time, ms", xlim=(0.0, 1e3 * cycle.duration), ylabel="share of the peak")
     axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.0)
     return artists
 
 
-def _name_segment(axes: Axes, name: str, place: float) -> None:
+def name_segments(cycle: Cycle, axes: Axes) -> None:
+    """Say above the axes what each segment is called."""
     above: Any = {"xycoords": ("data", "axes fraction"), "ha": "center", "va": "bottom", "fontsize": 8.0}
-    axes.annotate(name, (place, 1.02), color=drawing.GREY, **above)
+    for peaks in cycle.peaks:
+        place = 1e3 * (peaks.start + 0.5 * peaks.duration)
+        axes.annotate(peaks.name, (place, 1.02), color=drawing.GREY, **above)
 
 
 def _starts(cycle: Cycle) -> list[float]:
     return [peaks.start for peaks in cycle.peaks]
 
 
-def _draw_curve(cycle: Cycle, axes: Axes, nu: int, style: dict[str, Any], share: float = 1.0) -> list[Artist]:
+def draw_curve(cycle: Cycle, axes: Axes, nu: int, style: dict[str, Any], share: float = 1.0) -> list[Artist]:
+    """One derivative over the whole cycle."""
     unit, factor = UNITS[cycle.axis][nu]
     times, values = [], []
     for piece in cycle.pieces:
@@ -100,7 +103,8 @@ def _draw_curve(cycle: Cycle, axes: Axes, nu: int, style: dict[str, Any], share:
     return list(axes.plot(1e3 * np.concatenate(times), np.concatenate(values), **style))
 
 
-def _mark_segments(cycle: Cycle, axes: Axes) -> None:
+def mark_segments(cycle: Cycle, axes: Axes) -> None:
+    """A line at every joint."""
     for start in _starts(cycle)[1:]:
         axes.axvline(1e3 * start, color=drawing.GREY, linewidth=0.7, linestyle=":")
 

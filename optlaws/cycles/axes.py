@@ -1,0 +1,280 @@
+"""Several axes of a machine on one clock: a cycle for each, tabled, drawn, kept and exported together."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from optlaws.cycles.asked.programme import CLOSE, period_of
+from optlaws.cycles.asked.segments import CycleSegment
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.stored import problem_file
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.extras import needed
+from optlaws.files import reading
+from optlaws.kept import kept_property
+from optlaws.plotting import plotted
+from optlaws.suggest import unknown_key
+from optlaws.synthesis.solution import Status
+
+FORMAT = "optlaws axes 1"
+
+
+@dataclass(frozen=True, repr=False, eq=False)
+class Axes(Mapping[str, Cycle]):
+    """Axes that turn with one master: cycles by their names, all of the same duration.
+
+    Parameters
+    ----------
+    axes
+        What each axis does, by its name: a list of segments, a table of what `Cycle` takes (`{"segments": [...],
+        "limits": {...}}`), or a `Cycle` of the same duration.
+    speed, period
+        Of the master, "200 rpm", or the duration of the cycle, "0.3 s": one of them; where all axes are cycles neither
+        is needed.
+
+    Raises
+    ------
+    InputError
+        If an axis is wrong, or its cycle has another duration; the error names the axis.
+
+    Examples
+    --------
+    >>> from optlaws.cycles.asked.segments import Dwell, Return, Rise
+    >>> table = {"segments": [Rise("45 deg", "400 ms"), Dwell()], "advance": "45 deg"}
+    >>> head = [Dwell("400 ms"), Rise("250 mm", "200 ms"), Dwell("1200 ms"), Return()]
+    >>> machine = Axes({"table": table, "weld head": head}, period="2 s")
+    >>> machine
+    Axes({'table': Cycle([Rise, Dwell]), 'weld head': Cycle([Dwell, Rise, Dwell, Return])}, period=2 s)
+    >>> machine.status.value, round(machine["table"].objective, 6), machine.at_angle(90)
+    ('optimal', 21.313898, {'table': 0.785398, 'weld head': 0.125000})
+    """
+
+    axes: Mapping[str, Sequence[CycleSegment] | Mapping[str, Any] | Cycle]
+    speed: Any = field(default=None, kw_only=True)
+    period: Any = field(default=None, kw_only=True)
+
+    def __post_init__(self) -> None:
+        if not isinstance(self.axes, Mapping) or not self.axes:
+            raise InputError(
+                "axes are a table of segments by name, such as {'table': [Rise('45 deg', '0.4 s'), Dwell()]}"
+            )
+        object.__setattr__(self, "axes", dict(self.axes))
+        self._cycles  # noqa: B018 - what is wrong of an axis is said at once
+
+    def __getitem__(self, name: str) -> Cycle:
+        if name not in self._cycles:
+            raise InputError(unknown_key(name, tuple(self._cycles), "axis"))
+        return self._cycles[name]
+
+    def __contains__(self, name: object) -> bool:
+        return name in self._cycles
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._cycles)
+
+    def __len__(self) -> int:
+        return len(self._cycles)
+
+    def __call__(self, time: Any, nu: int = 0) -> dict[str, Any]:  # noqa: ANN401 - as a cycle takes them
+        """Position (nu 0), velocity, acceleration, jerk of every axis at times in seconds, in SI units."""
+        return {name: cycle(time, nu) for name, cycle in self.items()}
+
+    def at_angle(self, degrees: Any, nu: int = 0) -> dict[str, Any]:  # noqa: ANN401 - as a cycle takes them
+        """The same at an angle of the master, in degrees or a text such as "0.5 rad"."""
+        return {name: cycle.at_angle(degrees, nu) for name, cycle in self.items()}
+
+    @property
+    def duration(self) -> float:
+        """Duration of the cycle in seconds."""
+        return next(iter(self.values())).duration
+
+    @property
+    def status(self) -> Status:
+        """The worst status of the axes."""
+        ranks = (Status.OPTIMAL, Status.LOCAL, Status.INACCURATE)
+        return max((cycle.status for cycle in self.values()), key=ranks.index)
+
+    def at(self, speed: Any) -> Axes:  # noqa: ANN401 - a quantity
+        """The same motions at another speed of the master, as `Cycle.at` has them."""
+        return Axes({name: cycle.at(speed) for name, cycle in self.items()})
+
+    def export(self, to: str | Mapping[str, str], **options: Any) -> dict[str, Any]:  # noqa: ANN401 - as a cycle takes them
+        """Every axis in the format of a controller, or each named axis in its own: an `Export` by the name of the axis.
+
+        Parameters
+        ----------
+        to
+            A format for all, or formats by the names of axes.
+        options
+            As `Cycle.export` takes them.
+
+        Raises
+        ------
+        InputError
+            If an axis is unknown, or a format cannot hold its motion; the error names the axis.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.asked.segments import Return, Rise
+        >>> both = Axes(
+        ...     {"x": [Rise("35 mm", "0.1 s"), Return()], "y": [Rise("9 deg", "0.1 s"), Return()]}, period="0.3 s"
+        ... )
+        >>> [(name, made.points) for name, made in both.export("codesys-xyva", points=91).items()]
+        [('x', 91), ('y', 91)]
+        """
+        formats = dict(to) if isinstance(to, Mapping) else dict.fromkeys(self, to)
+        made = {}
+        for name, form in formats.items():
+            cycle = self[name]
+            try:
+                made[name] = cycle.export(form, **options)
+            except InputError as error:
+                raise InputError(f"axis {name}: {error}") from None
+        return made
+
+    def to_dict(self) -> dict[str, Any]:
+        """What the axes were given, plain and JSON-able."""
+        return {"format": FORMAT, "axes": {name: cycle.to_dict() for name, cycle in self.items()}}
+
+    @classmethod
+    def from_dict(cls, data: Mapping[str, Any]) -> Axes:
+        """Read what `to_dict` gave.
+
+        Raises
+        ------
+        InputError
+            If it is none, or an axis is wrong.
+        """
+        stored = data.get("axes") if isinstance(data, Mapping) else None
+        if not isinstance(stored, Mapping) or data.get("format", FORMAT) != FORMAT:
+            raise InputError(f"stored axes have format {FORMAT!r} and a table of axes, got {shortened(data)}")
+        return cls({str(name): Cycle.from_dict(one) for name, one in stored.items()})
+
+    def to_json(self) -> str:
+        """What `to_dict` gives, as JSON text."""
+        return json.dumps(self.to_dict(), ensure_ascii=False, indent=1)
+
+    @classmethod
+    def from_json(cls, text: str) -> Axes:
+        """Read what `to_json` gave.
+
+        Raises
+        ------
+        InputError
+            If it is no JSON, or no axes.
+        """
+        return cls.from_dict(reading.json_text(text, "stored axes"))
+
+    def to_toml(self, title: str = "Machine") -> str:
+        """A problem file for `optlaws cycle` with all axes.
+
+        Raises
+        ------
+        InputError
+            If a law is a value: a problem file names laws, or JSON files that hold them.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.asked.segments import Return, Rise
+        >>> print(Axes({"slide": [Rise("35 mm", "120 deg"), Return()]}, speed="200 rpm").to_toml("Press"))
+        job = "cycle"
+        title = "Press"
+        period = "0.30000000000000004 s"
+        ...
+        """
+        return problem_file(title, {"period": f"{self.duration!r} s"}, self)
+
+    def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
+        """A data frame with a row for each segment of each axis: start, duration, peaks, leaps; SI units.
+
+        Needs the extra `optlaws[studies]`.
+        """
+        needed("pandas", "to_pandas")
+        import pandas as pd
+
+        frames = {name: cycle.to_pandas() for name, cycle in self.items()}
+        return pd.concat(frames, names=["axis", "segment number"])
+
+    def plot(self, ax: Any = None, *, nu: int = 0, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw all axes over one time, one below the other, with their segments, by matplotlib.
+
+        Parameters
+        ----------
+        ax
+            As many axes of matplotlib as there are axes, or one for all, where every curve is divided by its peak; a
+            new figure unless given.
+        nu
+            What is drawn: position (0), velocity, acceleration or jerk (3).
+        style
+            What `Axes.plot` of matplotlib takes, for the curves.
+
+        Returns
+        -------
+        The artists; `[0].figure` is the figure.
+
+        Raises
+        ------
+        InputError
+            If there are neither one nor as many, or nu is none of the four.
+        """
+        return plotted("axes", self, ax, nu=nu, **style)
+
+    def __repr__(self) -> str:
+        shown = {name: ", ".join(one.label for one in cycle.segments) for name, cycle in self.items()}
+        listed = ", ".join(f"{name!r}: Cycle([{labels}])" for name, labels in shown.items())
+        return f"Axes({{{listed}}}, period={self.duration:.6g} s)"
+
+    def _repr_html_(self) -> str:
+        from optlaws.shown.showing import Html, page
+
+        return page("Axes", *(Html(f"<h4>{name}</h4>{cycle._repr_html_()}") for name, cycle in self.items()))
+
+    @kept_property
+    def _cycles(self) -> dict[str, Cycle]:
+        clock = self._clock()
+        cycles: dict[str, Cycle] = {}
+        for name, given in self.axes.items():
+            if not isinstance(name, str) or not name:
+                raise InputError(f"an axis has a name, such as 'table', got {shortened(name)}")
+            try:
+                cycles[name] = given if isinstance(given, Cycle) else Cycle(**_entries(given), **clock)
+            except InputError as error:
+                raise InputError(f"axis {name}: {error}") from None
+        _check_durations(cycles, period_of(**clock) if clock else next(iter(cycles.values())).duration)
+        return cycles
+
+    def _clock(self) -> dict[str, Any]:
+        """What cycles take of the clock; nothing where each has its own."""
+        if self.speed is None and self.period is None and all(isinstance(one, Cycle) for one in self.axes.values()):
+            return {}
+        period_of(self.speed, self.period)
+        return {"speed": self.speed, "period": self.period}
+
+
+def _entries(given: Any) -> dict[str, Any]:  # noqa: ANN401 - it is checked here
+    if isinstance(given, list | tuple):
+        return {"segments": given}
+    if not isinstance(given, Mapping):
+        raise InputError(f"its segments are a list such as [Rise('45 deg', '0.4 s'), Dwell()], got {shortened(given)}")
+    known = [name for name in Cycle.__dataclass_fields__ if name not in {"speed", "period"}]
+    for name in given:
+        if name in {"speed", "period"}:
+            raise InputError(f"all axes have one {name}: give it to Axes(..., {name}={shortened(given[name])})")
+        if name not in known:
+            raise InputError(unknown_key(name, known))
+    if "segments" not in given:
+        raise InputError("it has no segments: give them, such as {'segments': [Rise('45 deg', '0.4 s'), Dwell()]}")
+    return dict(given)
+
+
+def _check_durations(cycles: Mapping[str, Cycle], duration: float) -> None:
+    for name, cycle in cycles.items():
+        if abs(cycle.duration - duration) > CLOSE * duration:
+            raise InputError(
+                f"axis {name}: its cycle takes {cycle.duration:.9g} s, the machine's {duration:.9g} s: give both the "
+                "same speed or period, or take cycle.at(speed)"
+            )

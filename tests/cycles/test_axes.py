@@ -1,0 +1,75 @@
+"""Several axes on one clock: built from segments, tables or cycles, kept, tabled, drawn and exported together."""
+
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from optlaws import Axes, Cycle, Dwell, InputError, Move, Return, Rise
+from optlaws.files import reading
+from optlaws.jobs.cycle.entries import read
+
+TABLE: dict[str, Any] = {"segments": [Rise("45 deg", "400 ms", law="345"), Dwell()], "advance": "45 deg"}
+HEAD = [Dwell("400 ms", name="up"), Rise("250 mm", "200 ms", law="345"), Dwell("1200 ms"), Return(law="345")]
+MACHINE = Axes({"table": TABLE, "weld head": HEAD}, period="2 s")
+
+
+def test_axes_are_cycles_of_one_clock_by_name() -> None:
+    alone = Cycle(HEAD, period="2 s")
+    assert list(MACHINE) == ["table", "weld head"]
+    assert len(MACHINE) == 2
+    assert "weld head" in MACHINE
+    assert MACHINE["weld head"].to_dict() == alone.to_dict()
+    assert MACHINE.duration == alone.duration
+    assert MACHINE.status == "optimal"
+    assert MACHINE(0.5, 1)["weld head"] == alone(0.5, 1)
+    assert MACHINE.at_angle("0.25 turn")["weld head"] == alone(0.5)
+    assert MACHINE.at("60 rpm")["weld head"](0.25) == pytest.approx(alone(0.5))
+
+
+def test_axes_are_kept_as_data_and_as_a_problem_file(tmp_path: Path) -> None:
+    assert Axes.from_json(MACHINE.to_json()).to_dict() == MACHINE.to_dict()
+    file = tmp_path / "machine.toml"
+    file.write_text(MACHINE.to_toml("A machine"), "utf-8")
+    _, cycles = read(reading.toml(file), file)
+    assert {name: one(0.45) for name, one in cycles.items()} == MACHINE(0.45)
+
+
+def test_axes_are_tabled_drawn_and_exported_together() -> None:
+    frame = MACHINE.to_pandas()
+    assert frame.loc["weld head", "segment"].tolist() == ["up", "Rise", "Dwell", "Return"]
+    artists = MACHINE.plot(nu=2)
+    figure = artists[0].figure
+    assert [one.get_ylabel() for one in figure.axes] == ["table\nacceleration, rad/s²", "weld head\nacceleration, m/s²"]
+    axes = Figure().subplots()
+    curves = MACHINE.plot(axes)
+    assert [float(np.abs(one.get_ydata()).max()) for one in curves] == pytest.approx([1.0, 1.0])
+    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["table / 45 deg", "weld head / 250 mm"]
+    made = MACHINE.export({"table": "codesys-xyva", "weld head": "rockwell-cam"}, points=41)
+    assert {name: one.points for name, one in made.items()} == {"table": 41, "weld head": 41}
+    assert "weld head" in MACHINE._repr_html_()
+
+
+@pytest.mark.parametrize(
+    ("make", "says"),
+    [
+        (lambda: Axes({}), "axes are a table of segments by name"),
+        (lambda: Axes({"x": HEAD}), "either a speed such as"),
+        (lambda: Axes({"x": HEAD}, period="1 s"), r"axis x: the durations sum to"),
+        (lambda: Axes({"x": 3}, period="1 s"), "axis x: its segments are a list such as"),
+        (lambda: Axes({"x": {"segment": HEAD}}, period="1 s"), "axis x: unknown key 'segment'; did you mean"),
+        (lambda: Axes({"x": TABLE | {"period": "2 s"}}, period="2 s"), "axis x: all axes have one period"),
+        (lambda: Axes({"x": Cycle(HEAD, period="2 s"), "y": Cycle([Move("0.1 m", "2 s"), Return()], period="3 s")}),
+         "axis y: its cycle takes 3 s, the machine's 2 s"),
+        (lambda: MACHINE["tabel"], "unknown axis 'tabel'; did you mean 'table'"),
+        (lambda: MACHINE.plot([1]), "2 axes are drawn into one pair of axes or into as many, got 1"),
+        (lambda: MACHINE.plot(nu=4), "nu must be at most 3"),
+        (lambda: MACHINE.export("codesis"), "axis table: to: unknown format"),
+        (lambda: Axes.from_dict({"format": "other"}), "stored axes have format 'optlaws axes 1'"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_names_the_axis(make: Any, says: str) -> None:  # noqa: ANN401 - a function
+    with pytest.raises(InputError, match=says):
+        make()
