@@ -31,8 +31,8 @@ from optlaws.cycles.asked.segments import Free as Free
 from optlaws.cycles.asked.segments import Move as Move
 from optlaws.cycles.asked.segments import Return as Return
 from optlaws.cycles.asked.segments import Rise as Rise
-from optlaws.cycles.axes import Axes as Axes
 from optlaws.cycles.cycle import Cycle as Cycle
+from optlaws.cycles.machine_axes import Axes as Axes
 from optlaws.cycles.machine_follower import MachineFollower as MachineFollower
 from optlaws.cycles.machine_follower import machine_follower as machine_follower
 from optlaws.cycles.side_by_side import Comparison as Comparison

@@ -13,6 +13,7 @@ from optlaws.jobs.cycle.entries import read
 
 TABLE: dict[str, Any] = {"segments": [Rise("45 deg", "400 ms", law="345"), Dwell()], "advance": "45 deg"}
 HEAD = [Dwell("400 ms", name="up"), Rise("250 mm", "200 ms", law="345"), Dwell("1200 ms"), Return(law="345")]
+NO_SEGMENTS: Any = 3
 MACHINE = Axes({"table": TABLE, "weld head": HEAD}, period="2 s")
 
 
@@ -46,7 +47,9 @@ def test_axes_are_tabled_drawn_and_exported_together() -> None:
     axes = Figure().subplots()
     curves = MACHINE.plot(axes)
     assert [float(np.abs(one.get_ydata()).max()) for one in curves] == pytest.approx([1.0, 1.0])
-    assert [text.get_text() for text in axes.get_legend().get_texts()] == ["table / 45 deg", "weld head / 250 mm"]
+    legend = axes.get_legend()
+    assert legend is not None
+    assert [text.get_text() for text in legend.get_texts()] == ["table / 45 deg", "weld head / 250 mm"]
     made = MACHINE.export({"table": "codesys-xyva", "weld head": "rockwell-cam"}, points=41)
     assert {name: one.points for name, one in made.items()} == {"table": 41, "weld head": 41}
     assert "weld head" in MACHINE._repr_html_()
@@ -58,7 +61,7 @@ def test_axes_are_tabled_drawn_and_exported_together() -> None:
         (lambda: Axes({}), "axes are a table of segments by name"),
         (lambda: Axes({"x": HEAD}), "either a speed such as"),
         (lambda: Axes({"x": HEAD}, period="1 s"), r"axis x: the durations sum to"),
-        (lambda: Axes({"x": 3}, period="1 s"), "axis x: its segments are a list such as"),
+        (lambda: Axes({"x": NO_SEGMENTS}, period="1 s"), "axis x: its segments are a list such as"),
         (lambda: Axes({"x": {"segment": HEAD}}, period="1 s"), "axis x: unknown key 'segment'; did you mean"),
         (lambda: Axes({"x": TABLE | {"period": "2 s"}}, period="2 s"), "axis x: all axes have one period"),
         (lambda: Axes({"x": Cycle(HEAD, period="2 s"), "y": Cycle([Move("0.1 m", "2 s"), Return()], period="3 s")}),

@@ -9,7 +9,7 @@ from math import hypot, sqrt
 from optlaws.cycles.asked.conversion import Piece, factor
 from optlaws.cycles.asked.joints import Layout, Span
 from optlaws.cycles.best.aims import FORCE, LOADED, POWER, Wanted, kind_of
-from optlaws.cycles.best.driving import driven_mean, driven_peak
+from optlaws.cycles.best.drive_formulas import driven_mean, driven_peak
 from optlaws.cycles.driven.drive import read_drive
 from optlaws.cycles.driven.effort import effort
 from optlaws.synthesis.solution import Solution

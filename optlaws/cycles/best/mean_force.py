@@ -16,7 +16,7 @@ from optlaws.cycles.asked.conversion import Piece, factor
 from optlaws.cycles.asked.joints import Layout, Span
 from optlaws.cycles.best.aims import FORCE, Wanted, kind_of
 from optlaws.cycles.best.cycle_bound import bound_of, span_bound
-from optlaws.cycles.best.driving import driven_mean
+from optlaws.cycles.best.drive_formulas import driven_mean
 from optlaws.cycles.best.optimal import scale, solve, solved, span_problem, with_mean_square
 from optlaws.cycles.driven.drive import Drive
 from optlaws.cycles.driven.effort import effort, square_of_force

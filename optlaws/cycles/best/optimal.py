@@ -17,7 +17,7 @@ from optlaws.cycles.asked.conversion import Piece, factor
 from optlaws.cycles.asked.joints import Span, State
 from optlaws.cycles.asked.programme import in_small_units, is_optimal
 from optlaws.cycles.best.aims import FORCE, LOADED, POWER, Wanted, kind_of, limits_of_stretch
-from optlaws.cycles.best.driving import driven_formula, driven_mean, driven_peak, may_turn
+from optlaws.cycles.best.drive_formulas import driven_formula, driven_mean, driven_peak, may_turn
 from optlaws.cycles.best.joined import joined_basis, joint_windows, place
 from optlaws.cycles.driven.load import load_output
 from optlaws.errors import InfeasibleProblem, InputError
