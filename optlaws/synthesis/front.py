@@ -29,7 +29,9 @@ SAME = 1e-9
 _SHOWN = 12
 #: from so many laws on constants are computed for all at once
 _MANY = 16
-_IN_ARRAYS = ("B", "C", "D", "J", "rms_c")
+_BLOCK = 256
+#: constants that are computed for many laws at once
+IN_ARRAYS = ("B", "C", "D", "J", "rms_c")
 
 
 @dataclass(frozen=True)
@@ -145,8 +147,15 @@ class Front:
         return page(repr(self), table(self.headings, rows), curve)
 
 
-def undominated(solutions: Sequence[Solution], over: Sequence[str]) -> list[Solution]:
+def undominated(solutions: Sequence[Solution], over: Sequence[str], values: Array | None = None) -> list[Solution]:
     """Those than which no other is better in one constant and as good in all, by ascending constants.
+
+    Parameters
+    ----------
+    solutions, over
+        The solutions, and the names of the constants.
+    values
+        Of the constants, a row for each solution; found from the laws unless they are known.
 
     Examples
     --------
@@ -155,16 +164,38 @@ def undominated(solutions: Sequence[Solution], over: Sequence[str]) -> list[Solu
     >>> [solution.problem.B for solution in undominated(solutions, ("B", "C"))]
     [1.6, 1.8]
     """
-    values = values_of(solutions, over)
-    order = np.lexsort(values.T[::-1])
-    kept: list[int] = []
-    for i in order:
-        no_worse = (values <= values[i] * (1.0 + SAME)).all(axis=1)
-        better = no_worse & (values < values[i] * (1.0 - SAME)).any(axis=1)
-        same = (np.abs(values[kept] / values[i] - 1.0) <= SAME).all(axis=1).any() if kept else False
-        if not better.any() and not same:
-            kept.append(int(i))
-    return [solutions[i] for i in kept]
+    found = values_of(solutions, over) if values is None else values
+    order = np.lexsort(found.T[::-1])
+    order = order[~_beaten(found[order])]
+    rows, kept = found[order].tolist(), [0]
+    for i in range(1, len(order)):
+        if not _known_already(rows, kept, i):
+            kept.append(i)
+    return [solutions[order[i]] for i in kept]
+
+
+def _beaten(values: Array) -> NDArray[np.bool_]:
+    """Which rows another is better than in one constant, and no worse in all."""
+    found = np.zeros(len(values), dtype=np.bool_)
+    for begin in range(0, len(values), _BLOCK):
+        some = values[begin : begin + _BLOCK]
+        no_worse, better = np.ones((len(some), len(values)), np.bool_), np.zeros((len(some), len(values)), np.bool_)
+        for own, others in zip(some.T, values.T, strict=True):
+            no_worse &= others <= (own * (1.0 + SAME))[:, None]
+            better |= others < (own * (1.0 - SAME))[:, None]
+        found[begin : begin + _BLOCK] = (no_worse & better).any(axis=1)
+    return found
+
+
+def _known_already(rows: Sequence[Sequence[float]], kept: Sequence[int], place: int) -> bool:
+    """Whether a row is one of those that are kept; the rows ascend in their first entry."""
+    row = rows[place]
+    for other in map(rows.__getitem__, reversed(kept)):
+        if abs(other[0] / row[0] - 1.0) > SAME:
+            return False
+        if all(abs(one / own - 1.0) <= SAME for one, own in zip(other, row, strict=True)):
+            return True
+    return False
 
 
 def value_of(solution: Solution, name: str) -> float:
@@ -196,6 +227,6 @@ def _column(solutions: Sequence[Solution], name: str) -> Array:
         return np.array([one.objective for one in solutions])
     laws = [one.law for one in solutions]
     polynomials = [law for law in laws if isinstance(law, PolynomialLaw)]
-    if len(laws) >= _MANY and name in _IN_ARRAYS and len(polynomials) == len(laws):
+    if len(laws) >= _MANY and name in IN_ARRAYS and len(polynomials) == len(laws):
         return of_polynomials(polynomials, name)
     return np.array([value_of(one, name) for one in solutions])

@@ -15,7 +15,7 @@ from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.numbers import real, whole
 from optlaws.shown.steps import Steps
 from optlaws.synthesis.arrays.problems import ProblemArray
-from optlaws.synthesis.front import SAME, Front, undominated, value_of
+from optlaws.synthesis.front import IN_ARRAYS, SAME, Front, undominated, value_of, values_of
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.fields import CONSTANTS
@@ -104,6 +104,8 @@ class _Curve:
         self.problem = replace(problem, minimise=over[1])
         self.over = over
         self.failed: list[float] = []
+        #: constants of laws that were found many at a time, by the asked value of the first
+        self._values: dict[float, Sequence[float]] = {}
         low, high = between if between is not None else (0.0, inf)
         best = synthesize(_with(self.problem, over[0], Range(1.0 if over[0] == "B" else 0.0, inf)))
         pays = value_of(best, over[0])
@@ -133,7 +135,15 @@ class _Curve:
                 else:
                     self.points.insert(i + 1, (value, solution))
                 steps.reach(len(self.points))
-        return Front(self.over, tuple(undominated([s for _, s in self.points], self.over)), tuple(sorted(self.failed)))
+        solutions = [solution for _, solution in self.points]
+        return Front(self.over, tuple(undominated(solutions, self.over, self._known())), tuple(sorted(self.failed)))
+
+    def _known(self) -> Array:
+        """The constants of the points, a row for each."""
+        others = [(value, solution) for value, solution in self.points if value not in self._values]
+        rows = values_of([solution for _, solution in others], self.over).tolist()
+        known = self._values | dict(zip([value for value, _ in others], rows, strict=True))
+        return np.array([known[value] for value, _ in self.points])
 
     def _grow_together(self, count: int) -> None:
         """Put points into all stretches that want one a quarter as much as any; their laws are found many at a time."""
@@ -146,6 +156,9 @@ class _Curve:
             results = line.at(np.array(values))
             proven = np.flatnonzero(results.status == Status.OPTIMAL.value)
             found = [(values[i], one) for i in proven.tolist() if isinstance(one := results.result(i), Solution)]
+            if set(self.over) <= set(IN_ARRAYS):
+                columns = [getattr(results, name)[proven].tolist() for name in self.over]
+                self._values |= dict(zip([values[i] for i in proven.tolist()], zip(*columns, strict=True), strict=True))
             self.points = sorted([*self.points, *found], key=lambda point: point[0])
             if len(found) < len(values):
                 # the others are looked at one by one

@@ -151,19 +151,32 @@ def _guesses(
     own = np.flatnonzero((t <= end) & ((t > begin) | (begin == segment.begin)))
     if not len(own):
         return
-    if len(own) <= _FEW or begin >= end or depth == _DEEPEST:
-        yield own, segment.interpolated(t[own])
+    piece = segment.pieces.get(ends)
+    if piece is None and ends not in segment.pieces:
+        if len(own) <= _FEW or begin >= end or depth == _DEEPEST:
+            yield own, segment.interpolated(t[own])
+            return
+        piece = segment.pieces[ends] = _piece(path, segment, ends)
+    if piece is not None:
+        nodes, rows = piece
+        yield own, segment.states(_barycentric(nodes, t[own]) @ rows)
         return
-    middle, half = (begin + end) / 2.0, (end - begin) / 2.0
-    nodes = middle + half * np.cos(np.arange(_NODES) * np.pi / (_NODES - 1))[::-1]
-    nodes[0], nodes[-1] = begin, end
-    states, done = converged(segment.structure, path.numbers(nodes), segment.interpolated(nodes))
-    if done.all() and _settled(states.packed):
-        yield own, segment.states(_barycentric(nodes, t[own]) @ states.packed)
-        return
-    segment.joined(nodes[done], states.packed[done])
+    middle = (begin + end) / 2.0
     yield from _guesses(path, segment, t, (begin, middle), depth + 1)
     yield from _guesses(path, segment, t, (middle, end), depth + 1)
+
+
+def _piece(path: Path, segment: Segment, ends: tuple[float, float]) -> tuple[Array, Array] | None:
+    """Nodes and their states, if the polynomial through these is near to all states between; else they are joined."""
+    middle, half = sum(ends) / 2.0, (ends[1] - ends[0]) / 2.0
+    nodes = middle + half * np.cos(np.arange(_NODES) * np.pi / (_NODES - 1))[::-1]
+    nodes[0], nodes[-1] = ends
+    states, done = converged(segment.structure, path.numbers(nodes), segment.interpolated(nodes))
+    rows = states.packed
+    if done.all() and _settled(rows):
+        return nodes, rows
+    segment.joined(nodes[done], rows[done])
+    return None
 
 
 def _settled(rows: Array) -> bool:

@@ -33,6 +33,8 @@ _KNOWN = 3
 _ASTRAY = 1e-3
 #: of the path: an event is known to lie in no wider a stretch; laws in it are tried with the segments on both sides
 _SHARP = 5e-8
+#: the same where Newton's method ends, and nothing tells where the event is
+_FAINT = 1e-5
 _ROUNDS = 24
 #: of the path: a longer stretch between two segments is walked from its other end too
 _BETWEEN = 9e-8
@@ -50,11 +52,16 @@ _BEYOND = (4e-8, 1e-6, 1e-4, 1e-3)
 
 @dataclass(eq=False)
 class Segment:
-    """A stretch of the path on which the laws have one structure, with states of some of them by ascending t."""
+    """A stretch of the path on which the laws have one structure, with states of some of them by ascending t.
+
+    `pieces` are stretches of it, by their ends: t and states of nodes, where the polynomial through these is near to
+    all states between, or None, where it is not.
+    """
 
     structure: Structure
     t: Array
     rows: Array
+    pieces: dict[tuple[float, float], tuple[Array, Array] | None] = field(default_factory=dict, repr=False)
 
     @property
     def begin(self) -> float:
@@ -205,6 +212,7 @@ class Walk:
         # laws of an affine structure are known at any distance
         bad, stride = goal, self.reach if segment.structure.affine and self.path.one_cost else _FIRST * self.reach
         broken: list[tuple[float, float]] = []
+        near = _SHARP * self.reach
         for _ in range(_ROUNDS):
             t = _probes(good, bad, way * stride, broken)
             rows, sound, worst = self._solved(segment.structure, t, segment.guessed(t))
@@ -223,14 +231,15 @@ class Walk:
             if known:
                 broken = sorted([*broken, *known], key=lambda one: abs(one[0] - good))[:_KNOWN]
                 bad = broken[0][0]
-            if min(abs(bad - good), stride) <= _SHARP * self.reach:
+            near = (_SHARP if broken else _FAINT) * self.reach
+            if min(abs(bad - good), stride) <= near:
                 if not broken or broken[0][1] <= _ASTRAY or not self._met(segment, bad):
                     break
                 good, bad, broken = bad, goal, []
                 stride = _FIRST * self.reach
                 if good == goal:
                     return None
-        return bad if abs(bad - good) <= _SHARP * self.reach else good + way * _SHARP * self.reach
+        return bad if abs(bad - good) <= near else good + way * near
 
     def _met(self, segment: Segment, t: float) -> bool:
         """Whether a law of the segment is found at a t to which it has come near; it is then known."""
