@@ -31,6 +31,7 @@ from optlaws.synthesis import (
     construct,
     sweep,
 )
+from optlaws.synthesis.front import values_of
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -359,10 +360,11 @@ def _optima(axes: Axes, curves: Curves) -> None:
     for (degree, found), shade in zip(curves.items(), drawing.shades(len(curves)), strict=True):
         line = [s.objective for s in found]
         label = "optimal, by degree of Z(k)" if degree == max(curves) else None
-        axes.plot([s.constants.B.value for s in found], line, color=shade, label=label)
+        velocities = values_of(found, ("B",))[:, 0].tolist()
+        axes.plot(velocities, line, color=shade, label=label)
         axes.annotate(
             f"{degree}",
-            (found[-1].constants.B.value, line[-1]),
+            (velocities[-1], line[-1]),
             xytext=(5, 0),
             textcoords="offset points",
             color=shade,

@@ -16,7 +16,9 @@ Array = NDArray[np.float64]
 
 #: points for each degree of the series: between them a peak rises by a share of less than 1/26 (Bernstein)
 _DENSITY = 6
-_STEPS = 4
+_STEPS = 16
+#: of an angle: a peak is off by the square of it
+_SETTLED = 1e-8
 _CHUNK = 1024
 
 
@@ -89,21 +91,31 @@ def _peaks(series: Array) -> Array:
     rising = np.pad(values, ((0, 0), (1, 1)), constant_values=-1.0)
     tops = (values >= rising[:, :-2]) & (values >= rising[:, 2:]) & (values >= (share * greatest)[:, None])
     law, place = np.nonzero(tops)
-    found = _polished(series[law], angle[place])
-    np.maximum.at(greatest, law, found)
+    np.maximum.at(greatest, law, _polished(series[law], angle[place], angle[1]))
     return greatest
 
 
-def _polished(series: Array, angle: Array) -> Array:
-    """The magnitudes at the stationary points near to some angles, by Newton's method; no less than where it began."""
+def _polished(series: Array, angle: Array, apart: float) -> Array:
+    """The magnitudes at peaks no farther from some angles than `apart`, by Newton's method between two sides of each.
+
+    The angles are no lower than those that far away. Beyond an end, where a series rests, it is mirrored.
+    """
     n = np.arange(series.shape[1])
-    best = np.zeros(len(series))
+    best, going = np.zeros(len(series)), np.arange(len(series))
+    low, high = angle - apart, angle + apart
     for _ in range(_STEPS):
-        turns = angle[:, None] * n
-        cosines = series * np.cos(turns)
-        best = np.maximum(best, np.abs(cosines.sum(axis=1)))
-        slope = -(series * n * np.sin(turns)).sum(axis=1)
-        bend = -(cosines * (n * n)).sum(axis=1)
-        step = np.divide(-slope, bend, out=np.zeros_like(slope), where=bend != 0.0)
-        angle = angle + np.clip(step, -1.0 / len(n), 1.0 / len(n))
+        turns, own = angle[:, None] * n, series[going]
+        cosines = own * np.cos(turns)
+        value = cosines.sum(axis=1)
+        slope, bend = -(own * n * np.sin(turns)).sum(axis=1), -(cosines * (n * n)).sum(axis=1)
+        best[going] = np.maximum(best[going], np.abs(value))
+        rising = value * slope > 0.0
+        low, high = np.where(rising, angle, low), np.where(rising, high, angle)
+        further = angle - np.divide(slope, bend, out=np.full_like(slope, np.inf), where=bend != 0.0)
+        kept = (low <= further) & (further <= high) & (value * bend < 0.0)
+        further = np.where(kept, further, (low + high) / 2.0)
+        left = np.abs(further - angle) > _SETTLED
+        angle, low, high, going = further[left], low[left], high[left], going[left]
+        if not len(going):
+            break
     return best

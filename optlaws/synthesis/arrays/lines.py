@@ -11,6 +11,7 @@ from numpy.typing import NDArray
 
 from optlaws.synthesis.arrays.powers import least_power
 from optlaws.synthesis.arrays.programs import Path, between, numbers_of
+from optlaws.synthesis.problem.constants import RootMeanSquare
 from optlaws.synthesis.problem.expression import Maximum
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
@@ -22,7 +23,9 @@ Array = NDArray[np.float64]
 
 #: of the size of a program's numbers: by so much they may be off a line
 _OFF = 1e-12
-_LEAST, _LEAST_OF_POWER = 128, 24
+#: laws on a line, at least: of jerk structures change often, of root mean squares hardly
+_LEAST, _LEAST_OF_JERK, _LEAST_OF_SMOOTH, _LEAST_OF_POWER = 48, 128, 24, 24
+_JERK = 3
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,7 +59,11 @@ def along_velocities(template: Problem, last: Problem, velocities: Array, places
 
 def least_count(problem: Problem) -> int:
     """With fewer problems on a line the walk along it takes longer than each alone."""
-    return _LEAST if problem.convex else _LEAST_OF_POWER
+    if not problem.convex:
+        return _LEAST_OF_POWER
+    if all(isinstance(constant, RootMeanSquare) for constant in problem.constants):
+        return _LEAST_OF_SMOOTH
+    return _LEAST_OF_JERK if any(getattr(one, "nu", 0) >= _JERK for one in problem.constants) else _LEAST
 
 
 def lines_of(problems: Sequence[Problem], places: NDArray[np.intp]) -> Iterator[Line]:
