@@ -21,10 +21,17 @@ def test_there_are_three_without_outputs() -> None:
 
 
 @pytest.mark.filterwarnings("default")  # of the kernel's own packages
-@pytest.mark.parametrize("file", NOTEBOOKS, ids=lambda file: file.stem)
-def test_a_notebook_runs_and_shows_what_it_made(file: Path, tmp_path: Path) -> None:
-    notebook = nbformat.read(file, as_version=4)
-    NotebookClient(notebook, timeout=120, resources={"metadata": {"path": str(tmp_path)}}).execute()
-    shown = [output for cell in notebook.cells for output in cell.get("outputs", ())]
-    assert any("text/html" in output.get("data", {}) for output in shown)
-    assert not any(output.output_type == "error" or output.get("name") == "stderr" for output in shown)
+def test_notebooks_run_and_show_what_they_made(tmp_path: Path) -> None:
+    notebooks = {file.name: nbformat.read(file, as_version=4) for file in NOTEBOOKS}
+    client = NotebookClient(nbformat.v4.new_notebook(), timeout=120, resources={"metadata": {"path": str(tmp_path)}})
+    # one kernel, which forgets each notebook before the next
+    with client.setup_kernel():
+        for name, notebook in notebooks.items():
+            notebook.cells.insert(0, nbformat.v4.new_code_cell("%reset -f"))
+            client.nb = notebook
+            for i, cell in enumerate(notebook.cells):
+                client.execute_cell(cell, i)
+            shown = [output for cell in notebook.cells for output in cell.get("outputs", ())]
+            assert any("text/html" in output.get("data", {}) for output in shown), name
+            wrong = [one for one in shown if one.output_type == "error" or one.get("name") == "stderr"]
+            assert not wrong, f"{name}: {wrong}"
