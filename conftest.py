@@ -1,7 +1,9 @@
 """Makes the documents' code blocks tests (see tests/documents.py), wherever pytest starts from."""
 
+import gc
 import os
 import sys
+from collections.abc import Generator
 from importlib import import_module
 from pathlib import Path
 
@@ -31,6 +33,17 @@ def pytest_collect_file(file_path: Path, parent: pytest.Collector) -> pytest.Col
         import_module(".".join(place.parts if place.name != "__init__" else place.parts[:-1]))
     found: pytest.Collector | None = _collect_document(file_path, parent)
     return found
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_collection() -> Generator[None, object, object]:
+    """Let nothing look for garbage among thousands of tests that stay: neither while they are collected nor later."""
+    gc.disable()
+    try:
+        return (yield)
+    finally:
+        gc.freeze()
+        gc.enable()
 
 
 def pytest_runtest_teardown() -> None:

@@ -122,6 +122,7 @@ def test_a_link_is_a_study(page: Page, served: Server) -> None:
     assert [texts(page, row) for row in range(3)] == [told(served, law) for law in laws]
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     "fragment",
     [

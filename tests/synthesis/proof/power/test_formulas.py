@@ -33,7 +33,7 @@ PROBLEMS = [
 ]
 
 
-@pytest.mark.parametrize("problem", sampled(PROBLEMS), ids=repr)
+@pytest.mark.parametrize("problem", sampled(PROBLEMS, 5), ids=repr)
 def test_a_tight_bound_meets_the_objective_and_is_proven_exactly(problem: Problem) -> None:
     solution = synthesize(problem, bound="tight")
     assert solution.status == "optimal"

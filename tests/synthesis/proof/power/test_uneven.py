@@ -5,6 +5,7 @@ import pytest
 
 from optlaws import Chebyshev, Problem, limit, synthesize
 from optlaws.synthesis.limits.of_problem import known_limit
+from tests.sampling import sampled
 
 
 def uneven(B: float, k: float, *, monotone: bool = True, degree: int = 9) -> Problem:
@@ -36,7 +37,7 @@ def test_the_limit_is_what_energies_allow(B: float, k: float) -> None:
     assert known_limit(uneven(B, k)) == pytest.approx(least_power(B, k), rel=1e-4)
 
 
-@pytest.mark.parametrize(("B", "k"), [(1.4, 0.4), (1.8, 0.55), (1.5, 0.25)])
+@pytest.mark.parametrize(("B", "k"), sampled([(1.4, 0.4), (1.8, 0.55), (1.5, 0.25)]))
 def test_laws_come_down_toward_the_limit_and_stay_above(B: float, k: float) -> None:
     costs = []
     for degree in (7, 17):
