@@ -167,12 +167,22 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
         return _with_ends(polished(chebyshev.real_parts_of_roots(slope), residual))
 
     def _sides(self, nu: int) -> tuple[Array, Array]:
-        k = self._candidates(nu)
-        return k, self._derivative(k, nu)
+        if nu not in self._known_sides:
+            k = self._candidates(nu)
+            self._known_sides[nu] = _fixed(k, self._derivative(k, nu))
+        return self._known_sides[nu]
+
+    @kept_property
+    def _known_sides(self) -> dict[int, tuple[Array, Array]]:
+        return {}
 
     def _power_sides(self) -> tuple[Array, Array]:
+        return self._known_power_sides
+
+    @kept_property
+    def _known_power_sides(self) -> tuple[Array, Array]:
         k = self._power_candidates()
-        return k, self._power(k)
+        return _fixed(k, self._power(k))
 
     def _power_candidates(self) -> Array:
         b, c, j = (self._series(nu) for nu in (1, 2, 3))
@@ -217,6 +227,12 @@ def smoothstep(order: int) -> PolynomialLaw:
     PolynomialLaw(degree=7, B=2.1875, C=7.51319, D=10.7502, J=52.5)
     """
     return _smoothstep(whole(order, "order", least=1, most=MOST_ORDER))
+
+
+def _fixed(k: Array, values: Array) -> tuple[Array, Array]:
+    """Both, which nobody changes: they are kept."""
+    k.flags.writeable = values.flags.writeable = False
+    return k, values
 
 
 @lru_cache(maxsize=128)

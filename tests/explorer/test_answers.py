@@ -188,6 +188,19 @@ def test_a_problem_file_is_the_same_problem(entries: dict[str, Any], tmp_path: P
         saved.answer(AskedFile(kind="problem", laws=[law(STORED)]))
 
 
+def test_a_law_that_is_dragged_is_the_one_that_is_solved_alone() -> None:
+    """Convex problems start from the last one, whatever that was: their optimum does not depend on it."""
+    wanted = [Problem(order=4, B=1.61 + 0.01 * i) for i in range(4)]
+    asked = [wanted[0], Problem(order=3, B=1.7, minimise="J"), *wanted[1:], replace(wanted[1], minimise="D")]
+    solved.cache_clear()
+    for problem in asked:
+        found, alone = solved(problem), synthesize(problem)
+        assert isinstance(found, Solution)
+        assert found.status is alone.status
+        assert found.objective == pytest.approx(alone.objective, rel=1e-12)
+        assert found.lower_bound == pytest.approx(alone.lower_bound, rel=1e-10)
+
+
 def test_laws_and_tables_are_those_of_the_command() -> None:
     text = saved.answer(AskedFile(kind="law", laws=[law(OPTIMAL)]))["text"]
     assert json.loads(text)["problem"] == Problem(order=4, B=1.7).to_dict()

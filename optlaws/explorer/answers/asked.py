@@ -118,6 +118,9 @@ def problem_of(asked: AskedLaw) -> Problem:
     return Problem.from_dict(entries)
 
 
+_LAST: dict[int, Solution] = {}
+
+
 @lru_cache(maxsize=512)
 def solved(problem: Problem) -> Solution | InfeasibleProblem | SolverFailure:
     """The solution of a problem, or why there is none.
@@ -127,10 +130,13 @@ def solved(problem: Problem) -> Solution | InfeasibleProblem | SolverFailure:
     >>> solved(Problem(B=1.7, order=4)).status.value
     'optimal'
     """
+    # while a law is dragged each problem is next to the last one: a convex one has the same optimum from wherever
+    start = _LAST.get(0) if problem.convex else None
     try:
-        return synthesize(problem)
+        found = _LAST[0] = synthesize(problem, start=start)
     except (InfeasibleProblem, SolverFailure) as error:
         return error
+    return found
 
 
 def without(problem: Problem, constant: str, **asked: Any) -> Problem:  # noqa: ANN401 - entries of a problem

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import re
 from functools import lru_cache
+from math import isfinite
 from typing import Any
 
 import msgspec
@@ -152,7 +153,9 @@ def drawn(values: NDArray[np.float64], decimals: int = _DRAWN) -> list[float | N
     >>> drawn(np.array([1.23456789, np.inf]))
     [1.234568, None]
     """
-    return [one if np.isfinite(one) else None for one in np.round(values, decimals).tolist()]
+    rounded = np.round(values, decimals)
+    found: list[float | None] = rounded.tolist()
+    return found if np.isfinite(rounded).all() else [one if isfinite(one) else None for one in rounded.tolist()]
 
 
 def peaks(law: MotionLaw) -> dict[str, list[dict[str, Any]]]:
