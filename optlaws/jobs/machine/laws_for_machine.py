@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,7 +23,7 @@ from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.input_shaping import Shaper, shaped_law
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.modes import mode
-from optlaws.studies.points.problem_entries import gap
+from optlaws.studies.points.problem_entries import gap, record
 from optlaws.synthesis import Solution, synthesize
 
 if TYPE_CHECKING:
@@ -107,6 +108,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     written = [
         writing.write(out / "table.csv", tables.to_csv(headings, lines, about=about)),
         writing.write(out / "table.md", str(_page(spec, machine, headings, lines))),
+        writing.write(out / "laws.json", _laws(about, laws)),
     ]
     return written + drawing.save_picture(draw(spec, machine, laws), out / "figure")
 
@@ -178,6 +180,13 @@ def _line(spec: Study, one: Compared) -> list[tables.Cell]:
 
 def _finite(value: float) -> float | None:
     return value if np.isfinite(value) else None
+
+
+def _laws(about: str, laws: Sequence[Compared]) -> str:
+    """The laws that were sought with all that proves them, for `optlaws verify`."""
+    lines = [f"{json.dumps(one.name)}: {json.dumps(record(one.solution))}" for one in laws if one.solution is not None]
+    head = json.dumps({"about": f"{about}; {writing.MARK}"})[1:-1]
+    return f'{{{head}, "laws": {{\n' + ",\n".join(lines) + "\n}}\n"
 
 
 def _page(spec: Study, machine: Machine, headings: Sequence[str], lines: list[list[tables.Cell]]) -> Page:
