@@ -1,6 +1,7 @@
 """What the page is answered, without a browser: the numbers are the library's, the files make them again."""
 
 import json
+import re
 import tomllib
 from dataclasses import replace
 from math import degrees, hypot
@@ -69,6 +70,17 @@ def test_a_front_ends_where_laws_end_and_its_limit_lies_below() -> None:
     limits = dict(map(tuple, found["limit"]))
     assert min(limits) > 1.3  # below it the jerk is too small for any law
     assert all(limits[min(limits, key=lambda other: abs(other - B))] - 0.2 < C for B, C in found["line"])
+
+
+def test_a_front_of_powers_says_how_far_its_laws_are_from_proven(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(front_view, "_POINTS", 5)
+    found = front_view.front(Problem(order=4, minimise="D"), "C", "D")
+    assert not found["proven"]
+    assert len(found["line"]) == 5
+    told = re.fullmatch(r"least D for each bound of C: .* no law is below them by more than (\d+) %", found["words"])
+    assert told is not None
+    assert 5 < int(told[1]) < 60
+    assert front_view.front(Problem(order=4), "B", "C")["proven"]
 
 
 def test_a_front_without_any_law_says_so() -> None:

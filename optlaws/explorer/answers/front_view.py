@@ -20,7 +20,7 @@ from optlaws.synthesis.proof.infeasible import possible_velocities
 #: least and greatest of each axis that is drawn
 RANGES = {"B": (1.1, 2.5), "C": (3.5, 10.0), "D": (2.0, 11.0), "J": (20.0, 140.0), "rms_c": (3.2, 7.0)}
 _POINTS, _LIMITS = 57, 61
-#: problems with D in them are solved one by one
+#: sums with D in them are solved one by one
 _POINTS_ALONE = 25
 _ROOM = 1e-6
 _SAID = 80
@@ -55,11 +55,12 @@ def answer(asked: AskedFront) -> dict[str, Any]:
     given = known_laws.points(x, y), known_laws.families(x, y)
     beside = {"x": x, "y": y, "ranges": [RANGES[x], RANGES[y]], "known": given[0], "families": given[1]}
     if asked.law.problem is None:
-        return beside | {"line": [], "words": "", "limit": [], "swept": False}
+        return beside | {"line": [], "words": "", "limit": [], "swept": False, "proven": False}
     try:
         return beside | {"swept": True} | front(swept_problem(problem_of(asked.law), x, y), x, y)
     except OptlawsError as error:  # the view of the law says why at length
-        return beside | {"line": [], "words": f"no front: {str(error.args[0])[:_SAID]}", "limit": [], "swept": False}
+        words = f"no front: {str(error.args[0])[:_SAID]}"
+        return beside | {"line": [], "words": words, "limit": [], "swept": False, "proven": False}
 
 
 def swept_problem(problem: Problem, x: str, y: str) -> Problem:
@@ -85,10 +86,12 @@ def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
     """
     span = _span(problem, x)
     if span is None:
-        return {"line": [], "words": f"no {x} has a law of this problem", "limit": _limits(problem, x, y)}
-    alone = not problem.convex
+        words = f"no {x} has a law of this problem"
+        return {"line": [], "words": words, "limit": _limits(problem, x, y), "proven": False}
+    alone = not problem.convex and problem.minimise != "D"
     laws = along(problem, x, np.linspace(*span, _POINTS_ALONE if alone else _POINTS))
-    return {"line": _places(laws, x, y), "words": _words(problem, x, laws), "limit": _limits(problem, x, y)}
+    told = {"line": _places(laws, x, y), "words": _words(problem, x, laws), "proven": _proven(laws)}
+    return told | {"limit": _limits(problem, x, y)}
 
 
 def _span(problem: Problem, x: str) -> tuple[float, float] | None:
@@ -124,9 +127,20 @@ def _places(laws: SolutionArray, x: str, y: str) -> list[Place]:
     return [[round(one, 7) for one in row] for row in found[~np.isnan(laws.objective)].tolist()]
 
 
+def _proven(laws: SolutionArray) -> bool:
+    """Whether every law of the line is."""
+    return set(laws.status[~np.isnan(laws.objective)].tolist()) == {Status.OPTIMAL.value}
+
+
+def _room(laws: SolutionArray) -> str:
+    """By how much better a law could be at most, where a bound is known at every point."""
+    there = ~np.isnan(laws.objective)
+    room = 1.0 - laws.lower_bound[there] / laws.objective[there]
+    return f": no law is below them by more than {100.0 * room.max():.2g} %" if np.isfinite(room).all() else ""
+
+
 def _words(problem: Problem, x: str, laws: SolutionArray) -> str:
-    statuses = set(laws.status[~np.isnan(laws.objective)].tolist())
-    proven = "proven at every point" if statuses == {Status.OPTIMAL.value} else "local optima, not proven least"
+    proven = "proven at every point" if _proven(laws) else f"local optima, not proven least{_room(laws)}"
     at = "at each B" if x == "B" else f"for each bound of {x}"
     return f"least {wanted(problem)} {at}: {proven}"
 

@@ -71,7 +71,9 @@ export class Plane {
     const at = ([one, other]) => [this.#x(one), this.#y(other)];
     if (this.#front.limit.length) lines.append(svg("path", { class: "limit", d: path(this.#front.limit.map(at)) }));
     for (const { line } of this.#front.families) lines.append(svg("path", { class: "family", d: path(line.map(at)) }));
-    lines.append(svg("path", { class: "front", d: path(this.#front.line.map(at)) }));
+    lines.append(svg("path", { class: this.#front.proven ? "front" : "front local", d: path(this.#front.line.map(at)) }));
+    // what is not proven is no curve but the laws that were found
+    if (!this.#front.proven) for (const [cx, cy] of this.#front.line.map(at)) lines.append(svg("circle", { class: "front-point", cx: cx.toFixed(1), cy: cy.toFixed(1), r: 2.2 }));
     const names = { xs: ticks(...ranges[0], 7), ys: ticks(...ranges[1], 6), xname: `${NAMES[x]} ${x}`, yname: `${NAMES[y]} ${y}` };
     this.#back.replaceChildren(clip, frame(box, this.#x, this.#y, names), lines, this.#names(box), ...this.#known(box));
     this.#drawLaws();

@@ -135,7 +135,7 @@ def _least_roots(path: Path, t: Array) -> Array:
     With D >= 2 s r - s² for any s the program's bound says the same of r, whatever the s.
     """
     first, last = path.problems
-    tangent = max(1.0, *(one.B for one in path.problems if isinstance(one.B, float)))
+    tangent = max([1.0, *(one.B for one in path.problems if isinstance(one.B, float))])
     loose = between(first, last, lambda problem: relaxed(problem, tangent))
     if loose is None:
         return np.full(len(t), np.nan)

@@ -43,6 +43,7 @@ KINDS: dict[str, dict[str, Any]] = {
     "B, no return": {"B": np.linspace(1.5, 2.5, COUNT), "monotone": True, "basis": Chebyshev(7)},
     "B, unsymmetric": {"B": np.linspace(1.6, 2.2, COUNT), "symmetric": False, "order": 3, "basis": Chebyshev(5)},
     "most C": {"B": 1.7, "C": (None, np.linspace(5.0, 5.9, COUNT))},
+    "most C, any B": {"B": None, "C": (None, np.linspace(4.9, 5.6, COUNT)), "basis": Chebyshev(7)},
     "weights": {"B": 1.7, "minimise": each("{:.17g}*D".format, np.linspace(0.5, 2.0, COUNT))},
 }
 
