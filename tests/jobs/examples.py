@@ -293,6 +293,8 @@ masses = { motor = 1.0, load = 2.0 }
 links = [["motor", "load", 450.0, 1.0]]
 drive = "motor"
 outputs = { torque = "drive force", sway = "deflection motor-load" }
+[units]
+torque = "N m"
 [vibration]
 output = "sway"
 [[sought]]
@@ -546,6 +548,7 @@ EXAMPLES = {
         MACHINE_LAWS,
         (
             ("spread = 0.1", "spred = 0.1", "did you mean 'spread'"),
+            ('torque = "N m"', 'torqe = "N m"', "units.*did you mean 'torque'"),
             ('report = ["torque"]', 'report = ["torqe"]', "report.*did you mean 'torque'"),
             ('{ peak = "torque" }', '{ peak = "torqe" }', "sought 'ours'.*did you mean 'torque'"),
             ('{ peak = "torque" }', '{ peak = "torque", rms = "torque" }', "one of peak and rms"),

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import msgspec
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws import drawing
 from optlaws.errors import InputError
@@ -23,6 +24,7 @@ from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.making.input_shaping import Shaper, shaped_law
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.modes import mode
+from optlaws.mechanisms.spectrum.laplace import velocity_transform
 from optlaws.studies.points.problem_entries import gap, record
 from optlaws.synthesis import Solution, synthesize
 
@@ -65,7 +67,12 @@ class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     standard: Annotated[list[Text], msgspec.Meta(min_length=1, max_length=8)]
     sought: Annotated[list[Sought], msgspec.Meta(min_length=1, max_length=8)]
     figure: Pictured
+    units: dict[str, Text] = {}
     text: str = ""
+
+    def titled(self, output: str) -> str:
+        """An output with its unit, where that is given."""
+        return f"{output}, {self.units[output]}" if output in self.units else output
 
 
 @dataclass(frozen=True, eq=False)
@@ -78,12 +85,14 @@ class Compared:
     law: MotionLaw | None
     solution: Solution | None = None
 
-    def residual(self, number: int, factor: float) -> float:
-        """Amplitude that a mode is left with where all frequencies are `factor` times as high."""
+    def left(self, number: int, factors: NDArray[np.float64]) -> NDArray[np.float64]:
+        """Amplitudes that a mode is left with where all frequencies are so many times as high."""
         assert self.law is not None  # noqa: S101 - only laws that are there are asked
-        found = self.machine.at_speed(1.0 / factor).residual(number, self.vibration.output)
-        value = found.value(self.law)
-        return value if value > _NOTHING * found.share else 0.0
+        vibration = self.machine.residual(number, self.vibration.output)
+        roots = np.asarray(mode(self.machine, number).root * factors, dtype=np.complex128)
+        amplitudes = np.abs(velocity_transform(self.law, roots))
+        # the mode's share in the output is the same at every speed
+        return np.where(amplitudes > _NOTHING, vibration.share * amplitudes, 0.0)
 
     @kept_property
     def residuals(self) -> list[float]:
@@ -91,7 +100,7 @@ class Compared:
         spread = self.vibration.spread
         found = []
         for number in self.vibration.modes:
-            found += [self.residual(number, factor) for factor in (1.0 - spread, 1.0, 1.0 + spread)]
+            found += self.left(number, np.array([1.0 - spread, 1.0, 1.0 + spread])).tolist()
             assert self.law is not None  # noqa: S101 - as above
             found.append(self.machine.residual(number, self.vibration.output, spread=spread).value(self.law))
         return found
@@ -118,6 +127,7 @@ def _check(spec: Study, machine: Machine) -> None:
         ("vibration", spec.vibration.output),
         ("figure", spec.figure.output),
         *(("report", one) for one in spec.report),
+        *(("units", one) for one in spec.units),
     ):
         try:
             machine.place(output)
@@ -162,7 +172,7 @@ def _headings(spec: Study) -> list[str]:
     percent = f"{100.0 * spec.vibration.spread:g} %"
     ends = (f"-{percent}", "nominal", f"+{percent}", f"greatest within {percent}")
     residuals = [f"mode {number} left, {end}" for number in spec.vibration.modes for end in ends]
-    peaks = [f"peak {name}" for name in spec.report]
+    peaks = [f"peak {spec.titled(name)}" for name in spec.report]
     return ["law", "B", "C", "J", *peaks, *residuals, "lower bound", "gap", "status"]
 
 
@@ -191,14 +201,42 @@ def _laws(about: str, laws: Sequence[Compared]) -> str:
 
 def _page(spec: Study, machine: Machine, headings: Sequence[str], lines: list[list[tables.Cell]]) -> Page:
     page = Page(spec.title).text(spec.text).figure("figure", spec.title)
-    modes = [[one.number, one.frequency, one.frequency / (2.0 * np.pi), one.damping] for one in machine.modes]
-    page.heading("The machine's modes").table(["mode", "radians in the rise", "periods in the rise", "damping"], modes)
+    page.heading("The machine's modes").table(*_modes(machine, spec.machine.duration))
     about = (
-        "C and J are dimensionless. "
-        f"What is left of a mode is its amplitude in {spec.vibration.output!r} after the motion, "
+        f"{_in_machine_units(spec.machine)} "
+        f"What is left of a mode is its amplitude in {spec.vibration.output!r}{_unit(spec)} after the motion, "
         "with all frequencies as they are and off by the share that is named. A law without a finite J has jumps of c."
     )
     return page.heading("Laws").text(about).table(headings, lines, digits=5)
+
+
+def _modes(machine: Machine, duration: float) -> tuple[list[str], list[list[tables.Cell]]]:
+    """The machine's modes as a table; in Hz too where the duration is known."""
+    headings = ["mode", "radians in the rise", "periods in the rise", "damping"]
+    lines: list[list[tables.Cell]] = []
+    for vibration in machine.modes:
+        periods = vibration.frequency / (2.0 * np.pi)
+        hertz = [periods / duration] if duration != 1.0 else []
+        lines.append([vibration.number, vibration.frequency, periods, vibration.damping, *hertz])
+    return [*headings, *(["frequency, Hz"] if duration != 1.0 else [])], lines
+
+
+def _unit(spec: Study) -> str:
+    """The unit of what is left, in brackets."""
+    unit = spec.units.get(spec.vibration.output)
+    return f" ({unit})" if unit else ""
+
+
+def _in_machine_units(machine: MachineTable) -> str:
+    """What the dimensionless constants are in the machine's units."""
+    stroke, duration = machine.stroke, machine.duration
+    if (stroke, duration) == (1.0, 1.0):
+        return "C and J are dimensionless."
+    acceleration, jerk = (f"{stroke / duration**nu:.6g}" for nu in (2, 3))
+    return (
+        f"C and J are dimensionless: the peak acceleration is C times {acceleration}, the peak jerk J times {jerk}, in "
+        "units of the stroke and seconds."
+    )
 
 
 def draw(spec: Study, machine: Machine, laws: Sequence[Compared]) -> Figure:
@@ -219,15 +257,15 @@ def draw(spec: Study, machine: Machine, laws: Sequence[Compared]) -> Figure:
 
 def _residuals(axes: Axes, spec: Study, number: int, laws: Sequence[Compared]) -> None:
     spread = spec.figure.spread
-    factors = np.linspace(1.0 - spread, 1.0 + spread, _POINTS // 4)
-    courses = [np.array([one.residual(number, float(factor)) for factor in factors]) for one in laws]
+    factors = np.linspace(1.0 - spread, 1.0 + spread, _POINTS)
+    courses = [law.left(number, factors) for law in laws]
     least = _FLOOR * max(float(one.max()) for one in courses)
     for course, style in zip(courses, _styles(laws), strict=True):
         axes.semilogy(100.0 * (factors - 1.0), np.maximum(course, least), **style)
     band = 100.0 * spec.vibration.spread
     axes.axvspan(-band, band, color="#f2f2f2", zorder=0)
     axes.set(xlim=(-100.0 * spread, 100.0 * spread), ylim=(least, None), xlabel="frequency off by, %")
-    axes.set(title=f"mode {number} left in {spec.vibration.output}")
+    axes.set(title=f"mode {number} left in {spec.titled(spec.vibration.output)}")
 
 
 def _outputs(axes: Axes, spec: Study, machine: Machine, laws: Sequence[Compared]) -> None:
@@ -236,7 +274,7 @@ def _outputs(axes: Axes, spec: Study, machine: Machine, laws: Sequence[Compared]
         assert one.law is not None  # noqa: S101 - only those that are there are drawn
         axes.plot(k, machine.response(one.law, dwell=spec.figure.dwell)[spec.figure.output](k), label=one.name, **style)
     axes.axvline(1.0, color="black", linewidth=0.7, linestyle=":")
-    axes.set(xlim=(0.0, k[-1]), xlabel="k", title=spec.figure.output)
+    axes.set(xlim=(0.0, k[-1]), xlabel="k", title=spec.titled(spec.figure.output))
 
 
 def _styles(laws: Sequence[Compared]) -> list[dict[str, Any]]:
