@@ -87,6 +87,7 @@ def test_a_front_without_any_law_says_so() -> None:
     assert front_view.front(Problem(order=4, J=at_most(20.0)), "B", "C")["words"] == "no B has a law of this problem"
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(
     ("entries", "entry"),
     [

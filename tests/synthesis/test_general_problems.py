@@ -313,7 +313,7 @@ def test_a_start_for_power_is_no_worse_than_none() -> None:
 
 
 def test_the_same_problem_gives_the_same_floats_whatever_was_solved_before() -> None:
-    for one in PROBLEMS[:8]:
+    for one in PROBLEMS[:5]:
         try:
             first = synthesize(one)
         except (InfeasibleProblem, SolverFailure):

@@ -48,6 +48,7 @@ def test_a_value_at_the_very_limit_is_reached() -> None:
     assert one.beta == pytest.approx(1.0, abs=1e-5)
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize(
     ("wanted", "lengths", "said"),
     [

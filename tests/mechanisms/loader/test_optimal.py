@@ -240,6 +240,7 @@ def test_the_power_limit_belongs_to_motions_that_exist(B: float) -> None:
     assert rate / (8 * swing**2) == pytest.approx(limit, rel=1e-6)
 
 
+@pytest.mark.sample(2)
 @pytest.mark.parametrize(("minimise", "order"), [("C_loader", 2), ("D_loader", 3), ("0.5*C/4 + 0.5*C_loader/4", 3)])
 def test_the_best_law_is_proven_on_request(minimise: str, order: int) -> None:
     quick, tight = (

@@ -113,7 +113,7 @@ def test_where_an_event_is_follows_from_what_is_broken_beyond_it() -> None:
     assert _event([(1.2, 0.2), (1.5, 0.5), (2.0, 0.3)]) == pytest.approx(1.0)
 
 
-@pytest.mark.parametrize("degree", [5, 9, 19])
+@pytest.mark.parametrize("degree", [5, 9, pytest.param(19, marks=pytest.mark.long)])
 def test_laws_where_the_structure_changes_and_beside_it_are_those_solved_alone(degree: int) -> None:
     edges = [segment.end for segment in walked(path_of(degree))[:-1]]
     beside = np.concatenate([[0.0, 1.0], *(np.array(edges) + away for away in (-1e-6, -1e-9, 0.0, 1e-9, 1e-6))])

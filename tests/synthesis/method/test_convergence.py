@@ -56,7 +56,8 @@ def test_below_2_the_excess_falls_with_the_square_of_the_degree(order: int, B: f
             (3, 2.7, False),
             (2, 2.0, False),
             (4, 2.0, False),
-        ]
+        ],
+        4,
     ),
 )
 def test_from_2_on_the_excess_falls_with_the_degree(order: int, B: float, monotone: bool) -> None:  # noqa: FBT001
@@ -65,6 +66,7 @@ def test_from_2_on_the_excess_falls_with_the_degree(order: int, B: float, monoto
     assert -1.13 <= exponent(order, excess) <= -0.92
 
 
+@pytest.mark.sample(3)
 @pytest.mark.parametrize("B", [1.3, 1.859, 2.7])
 def test_with_free_end_velocities_the_excess_falls_with_the_degree(B: float) -> None:
     excess = excesses(1, B)

@@ -81,7 +81,7 @@ CURVED: list[dict[str, Any]] = [
 ]
 
 
-@pytest.mark.parametrize("given", sampled(LINEAR), ids=shape)
+@pytest.mark.parametrize("given", sampled(LINEAR, 4), ids=shape)
 def test_highs_finds_the_same_least_peak_among_all_laws_of_eq_8(given: dict[str, Any]) -> None:
     one = problem(**given)
     solution = synthesize(one)
@@ -182,7 +182,7 @@ def least_power(B: float, *, monotone: bool = False) -> Solution:
 every_velocity = pytest.mark.parametrize("B", VELOCITIES)
 
 
-@pytest.mark.parametrize(("B", "monotone"), sampled(product(VELOCITIES, [False, True])))
+@pytest.mark.parametrize(("B", "monotone"), sampled(product(VELOCITIES, [False, True]), 5))
 def test_slsqp_never_finds_less_power(B: float, monotone: bool) -> None:  # noqa: FBT001
     solution = least_power(B, monotone=monotone)
     judge(solution)

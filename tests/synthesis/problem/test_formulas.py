@@ -66,7 +66,7 @@ CONVEX = (
 )
 
 
-@pytest.mark.parametrize("text", sampled(CONVEX, 2))
+@pytest.mark.parametrize("text", sampled(CONVEX))
 def test_convex_ones_are_proven_and_verified(text: str) -> None:
     bounded = Problem(B=1.7, C=at_most(9.0), order=4, symmetric=False, basis=BSplines(4, 5, 4), minimise=text)
     for problem in (replace(PROBLEM, minimise=text), bounded):
