@@ -7,6 +7,7 @@ their verification and their bounds; nothing is kept from one run to the next.
 
 from collections.abc import Callable
 from dataclasses import dataclass, replace
+from functools import partial
 from importlib import import_module
 from statistics import median
 from time import process_time
@@ -24,10 +25,11 @@ from optlaws import (
     SolutionArray,
     pareto_front,
     proven_front,
+    synthesize,
     synthesize_array,
     synthesize_many,
 )
-from tests.bench.plain import POINTS, Rows
+from tests.bench.plain import POINTS, Rows, power_by_slsqp
 
 Array = NDArray[np.float64]
 
@@ -39,6 +41,8 @@ AIMS = {4_000: (50_000, 40_000, 18_000, 8_000), 40_000: (150_000, 100_000, 60_00
 SHARES = (1 / 8, 1 / 8, 1 / 5, 1 / 4)
 #: laws of least D a second, solutions a second of ready problems, and seconds of a front of 1,000 points; degree 9
 POWERS, SOLUTIONS, FRONT = 1_000, 15_000, 0.3
+#: of the time that SLSQP takes for a law of least D, from one start and without proof; and where it is asked
+POWER_SHARE, POWER_VELOCITIES = 1 / 3, (1.5, 1.641, 1.8, 2.0, 2.2)
 REPEATS = 3
 RIVALS = 200
 
@@ -133,9 +137,32 @@ def others(console: Console) -> None:
     table.add_row(
         "pareto_front", "1,000", f"{seconds(lambda: pareto_front(problem, points=1_000)):.2f} s", f"{FRONT} s"
     )
+    for name, share in power_shares(problem).items():
+        table.add_row(f"least D {name} / SLSQP", "", f"{share:.3f}{'' if share <= POWER_SHARE else '*'}", "0.333")
     proven = seconds(lambda: proven_front(problem, between=ENDS))
     table.add_row("proven_front to 1e-9", str(len(proven_front(problem, between=ENDS))), f"{proven:.2f} s", "")
     console.print(table)
+
+
+def by_slsqp(problem: Problem, B: float) -> None:
+    """The law of least D by SLSQP, its rows made for it."""
+    power_by_slsqp(Rows(problem), B)
+
+
+def power_shares(problem: Problem) -> dict[str, float]:
+    """Time of a law of least D with its bound, of that of SLSQP with its rows made: alone, and among 1,000 laws."""
+    asked = [replace(problem, B=B, minimise="D") for B in POWER_VELOCITIES]
+    rivals, alone = [], []
+    for one, B in zip(asked, POWER_VELOCITIES, strict=True):
+        rivals.append(seconds(partial(by_slsqp, one, B)))
+        alone.append(seconds(partial(synthesize, one)))
+    velocities = np.linspace(POWER_VELOCITIES[0], POWER_VELOCITIES[-1], 1_000)
+    many = ProblemArray(B=velocities, order=problem.order, basis=problem.basis, minimise="D")
+    rival = sum(rivals)
+    return {
+        "alone": sum(alone) / rival,
+        "in an array": seconds(lambda: synthesize_array(many)) / many.size * len(rivals) / rival,
+    }
 
 
 def main(degrees: tuple[int, ...] = DEGREES) -> None:

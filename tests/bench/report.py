@@ -171,7 +171,7 @@ def power_tables() -> list[Table]:
     own = seconds(lambda: synthesize(problem), 15)
     tight = synthesize(problem, bound="tight")
     proven = seconds(lambda: synthesize(problem, bound="tight"), 5)
-    ways = (("Opti, IPOPT", power_by_opti, 1 / 3), ("SLSQP", power_by_slsqp, 1 / 2))
+    ways = (("Opti, IPOPT", power_by_opti, 1 / 3), ("SLSQP", power_by_slsqp, 1 / 3))
     times = Table("solver", "ms a law", "ms, rows given", "optlaws / it", "... rows given", "aim")
     times.title = (
         f"least D: l = 4, degree 9, b <= B = 1.641; optlaws {1e3 * own:.2f} ms, {len(solution.starts)} starts; "
