@@ -10,6 +10,8 @@ import numpy as np
 
 from optlaws.errors import InputError, OptlawsError
 from optlaws.suggest import unknown_key
+from optlaws.synthesis.arrays.lines import lines_of
+from optlaws.synthesis.arrays.powers import least_power
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
@@ -76,8 +78,9 @@ def sweep(problems: Iterable[Problem], *, errors: Errors) -> Iterator[Result]: .
 def sweep(problems: Iterable[Problem], *, errors: Errors = "raise") -> Iterator[Solution] | Iterator[Result]:
     """Solve problems in turn, each warm started by the one before it where they are neighbours.
 
-    Where the problems are there already, in a list, those that are convex are solved together, as `synthesize_many`
-    does. Of a generator they are taken one by one, so that each may depend on the solution before it.
+    Where the problems are there already, in a list, they are solved together, as `synthesize_many` does, if all are
+    convex or of least power and along lines. Of a generator they are taken one by one, so that each may depend on the
+    solution before it.
 
     Parameters
     ----------
@@ -105,8 +108,7 @@ def sweep(problems: Iterable[Problem], *, errors: Errors = "raise") -> Iterator[
     ['InfeasibleProblem', 'Solution']
     """
     check_errors(errors)
-    together = isinstance(problems, Sequence) and all(isinstance(one, Problem) and one.convex for one in problems)
-    return _raised(_many(problems, "quick") if together else _in_turn(problems), errors)
+    return _raised(_many(problems, "quick") if _together(problems) else _in_turn(problems), errors)
 
 
 def check_errors(errors: object) -> None:
@@ -124,6 +126,16 @@ def _raised(results: Iterator[Result], errors: Errors) -> Iterator[Result]:
         else:
             # its frames would keep what was tried
             yield result.with_traceback(None)
+
+
+def _together(problems: object) -> bool:
+    """Whether there are problems that are as good solved together, and sooner: convex, or of least power on lines."""
+    if not isinstance(problems, Sequence) or not all(isinstance(one, Problem) for one in problems):
+        return False
+    others = [one for one in problems if not one.convex]
+    if not all(map(least_power, others)):
+        return False
+    return sum(len(line.places) for line in lines_of(others, np.arange(len(others)))) == len(others)
 
 
 def _in_turn(problems: Iterable[Problem]) -> Iterator[Result]:

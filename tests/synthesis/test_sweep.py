@@ -4,9 +4,11 @@ from collections.abc import Iterator
 from dataclasses import replace
 from typing import Any
 
+import numpy as np
 import pytest
 
 from optlaws import Chebyshev, InfeasibleProblem, InputError, Problem, Solution, sweep, synthesize
+from optlaws.synthesis.solve_many import _together
 
 FIRST = Problem(B=1.6, order=4, basis=Chebyshev(5))
 
@@ -56,3 +58,17 @@ def test_problems_are_taken_one_by_one() -> None:
     found = sweep(problems())
     next(found)
     assert taken == [1.6]
+
+
+def test_laws_of_least_power_on_a_line_are_found_together() -> None:
+    problems = [replace(FIRST, B=B, minimise="D") for B in np.linspace(1.5, 2.0, 30).tolist()]
+    assert _together(problems)
+    assert not _together(problems[:9])
+    assert not _together([*problems, replace(FIRST, B=1.6, minimise="0.5*C/4 + 0.5*D/2.25")])
+    found = list(sweep(problems))
+    assert [one.problem for one in found] == problems
+    for place in (0, 17):
+        alone = synthesize(problems[place])
+        assert found[place].objective == pytest.approx(alone.objective, rel=1e-9)
+        assert found[place].status is alone.status
+        assert found[place].lower_bound == pytest.approx(alone.lower_bound, rel=1e-9)

@@ -76,6 +76,10 @@ def laws_on(path: Path, segments: list[Segment], t: Array) -> Found:
         places = np.flatnonzero((t >= segment.begin - beside) & (t <= segment.end + beside) & ~found.solved)
         if len(places):
             _enter(found, path, segment, places, (t[places], segment.interpolated(t[places])))
+    bounds = path.numbers(t).bounds
+    for i in path.measured:
+        # in the law's own program the bound is the unit
+        found.multiplier[:] = np.where(found.family == i, found.multiplier * bounds[:, i, None], found.multiplier)
     return found
 
 

@@ -11,9 +11,11 @@ from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
 from optlaws.synthesis.arrays.constants import peaks, product
+from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import LinearFamily, NormFamily, ProductFamily, RatioFamily, RootFamily
 
 Array = NDArray[np.float64]
+Complex = NDArray[np.complex128]
 
 #: of a row: what rounding may hide of it, as a share of the sum of its parts' sizes
 ROUNDING = 4 * 2.0**-53
@@ -164,6 +166,48 @@ class Norms(CurvedTangents):
     def greatest(self, point: Array) -> Array:
         """The norm of each law."""
         return self._shown(point)[0]
+
+
+@dataclass(frozen=True, eq=False)
+class Cones(CurvedTangents):
+    """Magnitudes of complex functions that are affine in the law, such as residual vibrations over frequencies."""
+
+    family: ConeFamily
+
+    def hidden(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - the same everywhere
+        """Of a unit vector times the columns' two parts."""
+        own = ROUNDING * (np.abs(self.family.series.real) + np.abs(self.family.series.imag)).sum(axis=0)
+        return np.asarray(weights.sum(axis=1)[:, None] * own)
+
+    def _jets(self, u: Array, point: Array) -> tuple[Complex, Complex]:
+        """The columns with two derivatives by the place, and what they are in each law."""
+        columns = self.family.columns(u.reshape(-1)).reshape(3, *u.shape, -1)
+        return columns, np.einsum("dmpi,mi->dmp", columns, point)
+
+    def at(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
+        """What the direction of each law shows of the magnitude; no law's is less."""
+        (f0, f1, _), (p0, p1, p2) = self._jets(u, point)
+        size = np.maximum(np.abs(p0), _NO_NORM)
+        slope = (p0.conj() * p1).real / size
+        value = (p0.conj()[:, :, None] * f0).real / size[:, :, None]
+        turning = (p1.conj()[:, :, None] * f0 + p0.conj()[:, :, None] * f1).real / size[:, :, None]
+        bend = (np.abs(p1) ** 2 + (p0.conj() * p2).real) / size - slope**2 / size
+        return value, turning - value * (slope / size)[:, :, None], bend
+
+    def hessian(self, u: Array, point: Array, weights: Array) -> Array:
+        """What turns the function counts, what lengthens it does not."""
+        (columns, *_), (p, *_) = self._jets(u, point)
+        size = np.maximum(np.abs(p), _NO_NORM)
+        across = (p.conj()[:, :, None] * columns[:, :, :-1]).imag / size[:, :, None]
+        return np.asarray(np.matmul((across * (weights / size)[:, :, None]).transpose(0, 2, 1), across))
+
+    def greatest(self, point: Array) -> Array:
+        """The greatest magnitude in each law, wherever it is."""
+        low, high = self.family.domain
+        if low == high:
+            return np.abs(self._jets(np.full((len(point), 1), low), point)[1][0, :, 0])
+        real, imaginary = (point @ one.T for one in (self.family.series.real, self.family.series.imag))
+        return np.asarray(np.sqrt(peaks(product(real, real) + product(imaginary, imaginary))))
 
 
 def _polynomials(u: Array, count: int) -> Array:

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.arrays.powers import least_power
-from optlaws.synthesis.arrays.programs import Path, between, numbers_of
+from optlaws.synthesis.arrays.programs import Path, between, in_units_of, numbers_of
 from optlaws.synthesis.problem.constants import RootMeanSquare
 from optlaws.synthesis.problem.expression import Maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -105,7 +105,7 @@ def _line(problems: list[Problem], values: Array) -> Line | None:
 
 def _on(path: Path, t: float, problem: Problem) -> bool:
     """Whether a problem's program is the path's at t, but for rounding."""
-    found, own = path.numbers(np.array([t])), numbers_of(model_of(problem).program)
+    found, own = path.numbers(np.array([t])), numbers_of(in_units_of(path.model.program, model_of(problem).program))
     return all(
         getattr(found, name).shape == getattr(own, name).shape
         and np.allclose(getattr(found, name), getattr(own, name), rtol=_OFF, atol=_OFF)

@@ -4,18 +4,23 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from itertools import starmap
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.synthesis.arrays.rows import tangents_of
+from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import OfFormula
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily, Program
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 
 Array = NDArray[np.float64]
+
+#: of the greatest number of a family: by so much two may differ that are one in different units
+_ROUNDED = 1e-14
 
 
 @dataclass(frozen=True, eq=False)
@@ -56,6 +61,8 @@ class Path:
         The problems at its ends.
     begin, slope
         The numbers at t = 0, and what they change by as t does; each for one program.
+    measured
+        Families whose programs have them in units of their own bound; on the path they are in one unit.
     kept
         What is known of laws below a claim, computed once.
     """
@@ -64,6 +71,7 @@ class Path:
     problems: tuple[Problem, ...]
     begin: Numbers
     slope: Numbers
+    measured: tuple[int, ...] = ()
     kept: dict[int | None, Any] = field(default_factory=dict, repr=False)
 
     @property
@@ -102,14 +110,35 @@ def between(first: Problem, last: Problem, model: Callable[[Problem], Model] = m
         What makes their programs.
     """
     begin, end = model(first), model(last)
-    one, other = begin.program, end.program
+    one, other = begin.program, in_units_of(begin.program, end.program)
     families = len(one.families) == len(other.families) and all(map(_alike, one.families, other.families))
     equal = one.equalities.shape == other.equalities.shape and np.array_equal(one.equalities, other.equalities)
     if not families or not equal or begin.places != end.places or begin.unit != end.unit:
         return None
     here, there = numbers_of(one), numbers_of(other)
     slope = Numbers(there.right - here.right, there.bounds - here.bounds, there.cost - here.cost)
-    return Path(begin, (first, last), here, slope)
+    measured = tuple(i for i, family in enumerate(other.families) if family is not end.program.families[i])
+    return Path(begin, (first, last), here, slope, measured)
+
+
+def in_units_of(first: Program, other: Program) -> Program:
+    """A program with its magnitudes in units of another's of the same kind: each has its own bound for a unit."""
+    if len(first.families) != len(other.families):
+        return other
+    families = tuple(starmap(_measured, zip(first.families, other.families, strict=True)))
+    return replace(other, families=families) if families != other.families else other
+
+
+def _measured(one: Family, other: Family) -> Family:
+    if not isinstance(one, ConeFamily) or not isinstance(other, ConeFamily) or one.series.shape != other.series.shape:
+        return other
+    size, own = (float(np.abs(family.series).max(initial=0.0)) for family in (one, other))
+    if size == own or not own:
+        return other
+    share = size / own
+    if np.abs(one.series - share * other.series).max() > _ROUNDED * size:
+        return other
+    return replace(other, series=one.series, slack=share * other.slack, bound=share * other.bound)
 
 
 def _alike(one: Family, other: Family) -> bool:
@@ -124,6 +153,8 @@ def _same_rows(one: Family, other: Family) -> bool:
         return _same_rows(one.first, other.first) and _same_rows(one.second, other.second)
     if isinstance(one, NormFamily) and isinstance(other, NormFamily):
         return np.array_equal(one.matrix, other.matrix)
+    if isinstance(one, ConeFamily) and isinstance(other, ConeFamily):
+        return np.array_equal(one.series, other.series)
     if isinstance(one, LinearFamily) and isinstance(other, LinearFamily):
         return one.series is other.series or np.array_equal(one.series, other.series)
     if isinstance(one, OfFormula) and isinstance(other, OfFormula):

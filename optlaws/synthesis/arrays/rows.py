@@ -10,9 +10,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.kept import kept_property
-from optlaws.synthesis.arrays.columns import Columns, CurvedTangents, Norms, Products
+from optlaws.synthesis.arrays.columns import Columns, Cones, CurvedTangents, Norms, Products
 from optlaws.synthesis.arrays.formula_columns import formula_tangents
 from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import OfFormula
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, ProductFamily
 from optlaws.synthesis.program.writer import Model
@@ -186,6 +187,8 @@ def tangents_of(family: Family) -> Columns | CurvedTangents | None:
         return Products(family)
     if isinstance(family, OfFormula):
         return formula_tangents(family)
+    if isinstance(family, ConeFamily):
+        return Cones(family)
     return Norms(family) if isinstance(family, NormFamily) else None
 
 

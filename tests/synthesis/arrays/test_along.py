@@ -16,7 +16,9 @@ from optlaws import (
     ProblemArray,
     Solution,
     Window,
+    at_most,
     each,
+    residual,
     synthesize,
     synthesize_array,
 )
@@ -142,6 +144,19 @@ KINDS: dict[str, dict[str, Any]] = {
         "minimise": each("{:.17g}*rms_c/3.4 + C/4".format, np.linspace(0.5, 4.0, COUNT)),
     },
     "most root mean square": {"B": 1.7, "bounds": {"rms_c": (None, np.linspace(3.8, 4.2, COUNT))}},
+    "most residual": {"order": 3, "bounds": {residual(nu=(18, 22)): (None, np.linspace(0.1, 0.4, COUNT // 2))}},
+    "B with a residual": {
+        "order": 3,
+        "B": np.linspace(1.6, 2.2, COUNT // 2),
+        "bounds": {residual(nu=20): at_most(0.1)},
+    },
+    "least residual": {
+        "order": 3,
+        "B": np.linspace(1.6, 2.2, COUNT // 2),
+        "minimise": residual(nu=(18, 22), damping=0.02),
+        "symmetric": False,
+        "J": (None, 80.0),
+    },
     "end velocity": {
         "minimise": "C",
         "symmetric": False,
