@@ -190,6 +190,10 @@ def checked(motion: Motion, text: str) -> Motion:
     k = np.linspace(motion.start, motion.stop, 1025)
     still = [part for part in motion.formula.walk() if not part.names() & {*ORDERS, "d"}]
     for part in still:
+        if isinstance(part, Call) and part.function == "tan":
+            beneath = Motion(Call("cos", part.arguments)).values({"k": k})
+            if (np.diff(np.sign(beneath)) != 0.0).any():
+                raise refused(f"{part} has no finite value within k = {motion.start:g}..{motion.stop:g}", text, part)
         if isinstance(part, Reciprocal):
             below = Motion(part.of).values({"k": k})
             if (below == 0.0).any() or np.min(below) < 0.0 < np.max(below):

@@ -90,7 +90,8 @@ def _widely(entries: Mapping[tuple[int, int], Interval], size: int, sign: int) -
     middles, reach = np.zeros((count, size, size)), np.zeros((count, size, size))
     for (i, j), one in entries.items():
         half = 1.0 if i == j else 0.5
-        middles[:, i, j] = middles[:, j, i] = sign * half * (one.low + one.high) / 2.0
+        with np.errstate(invalid="ignore"):  # of an entry without bounds
+            middles[:, i, j] = middles[:, j, i] = sign * half * (one.low + one.high) / 2.0
         reach[:, i, j] = reach[:, j, i] = half * (one.high - one.low) / 2.0
     if not np.isfinite(middles).all() or not np.isfinite(reach).all():
         return False

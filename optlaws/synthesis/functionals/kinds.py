@@ -35,7 +35,8 @@ from optlaws.synthesis.functionals.curved_rows import (
     split,
     squared,
 )
-from optlaws.synthesis.functionals.sizes import check_ends, known_values, reach
+from optlaws.synthesis.functionals.sizes import known_values, reach
+from optlaws.synthesis.functionals.undefined import check_ends, check_passed, pitfalls
 from optlaws.synthesis.problem.constants import Asked, Functional
 from optlaws.synthesis.problem.ranges import as_range
 
@@ -65,6 +66,11 @@ class OfFormula(Functional):
     def why(self) -> str:
         """The rule that says whether the constant is convex."""
         return self.motion.verdict.why
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """Where the formula has no value or no slope, of what laws may bring it to."""
+        return tuple(pitfalls(self.motion))
 
     @property
     def affine(self) -> bool:
@@ -121,9 +127,10 @@ class OfFormula(Functional):
         Raises
         ------
         InputError
-            If the formula has no value at an end of the laws.
+            If the formula has no value at an end of the laws, or where each of them comes by.
         """
         check_ends(self.motion, space.boundary)
+        check_passed(self.motion, space.boundary, smooth=not space.jumps(2))
         return self._families(space, slack, bound)
 
     @abstractmethod

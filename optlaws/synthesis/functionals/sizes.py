@@ -8,7 +8,6 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.errors import InputError
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.synthesis.functionals.affine_rows import columns, gauss
@@ -180,36 +179,6 @@ def known_values(motion: Motion, conditions: BoundaryConditions) -> list[tuple[f
             found.append((float(value), 1.0 + abs(float(value))))
     mean = mean_value(motion, conditions)
     return found if mean is None else [*found, (mean, _mean_size(motion, conditions))]
-
-
-def check_ends(motion: Motion, conditions: BoundaryConditions) -> None:
-    """See that a formula has a value where the end conditions say what the law is.
-
-    Raises
-    ------
-    InputError
-        If a part of it has none: where the law rests 1/b divides by 0.
-
-    Examples
-    --------
-    >>> from optlaws.formulas.of_motion import of_text
-    >>> from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
-    >>> check_ends(of_text("c/b"), BoundaryConditions.rest(3))
-    Traceback (most recent call last):
-    optlaws.errors.InputError: c/b has no finite value at k = 0, where b = 0 and c = 0 in every law: ask for a...
-    """
-    for k, end in ((0.0, conditions.start), (1.0, conditions.end)):
-        known = {name: end[nu] for name, nu in ORDERS.items() if nu < len(end)}
-        for part in motion.formula.walk() if motion.start <= k <= motion.stop else ():
-            moving = sorted(part.names() & ORDERS.keys())
-            if not moving or not part.names() <= {*known, "k"}:
-                continue
-            if not np.isfinite(Motion(part).values({**known, "k": k})):
-                values = " and ".join(f"{name} = {known[name]:g}" for name in moving)
-                raise InputError(
-                    f"{motion.formula} has no finite value at k = {k:g}, where {values} in every law: ask for a part "
-                    "of the interval, such as start=0.05, stop=0.95"
-                )
 
 
 def mean_value(motion: Motion, conditions: BoundaryConditions) -> float | None:

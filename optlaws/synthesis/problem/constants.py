@@ -103,6 +103,11 @@ class Functional(Term, ABC):
         return 0.0
 
     @property
+    def remarks(self) -> tuple[str, ...]:
+        """What a person should know of it whose problem found no law."""
+        return ()
+
+    @property
     def title(self) -> str:
         """What messages and tables call it: its name, or a few words where that is long.
 

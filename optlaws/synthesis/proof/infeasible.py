@@ -90,7 +90,8 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
         )
         return SolverFailure(msg, problem=problem, tried=tried)
     msg = "no law was found, and none was shown not to exist; try a degree higher or lower by 2, or other numbers"
-    return SolverFailure(msg, problem=problem, tried=tried)
+    remarks = [remark for constant in problem.constants for remark in constant.remarks]
+    return SolverFailure("; mind that ".join([msg, *remarks]), problem=problem, tried=tried)
 
 
 def _falls_for_ever(problem: Problem) -> bool:

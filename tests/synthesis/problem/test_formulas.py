@@ -1,6 +1,7 @@
 """Constants and windows of formulas: their optima are those of other programs, and every door takes them."""
 
 import json
+import re
 from dataclasses import replace
 from typing import Any
 
@@ -14,6 +15,7 @@ from optlaws import (
     InputError,
     Problem,
     Range,
+    SolverFailure,
     Window,
     at_most,
     functional,
@@ -197,6 +199,7 @@ def test_every_door_takes_them() -> None:
         ("peak(c + 0.2*v)", "unknown name 'v'; known are a, b, c, d, j, k", 13),
         ("0.5*C + rms(c + 1/(k - 0.5))", "k - 0.5 is 0 within k = 0..1, and it is divided by", 17),
         ("peak(c + log(k))", "log(k) has no finite value at k = 0", 9),
+        ("peak(c*tan(3*k))", "tan(3*k) has no finite value within k = 0..1", 7),
         ("peak(k)", "no law changes it", 5),
         ("peak(b*c + 0.1*abs(b))", 'neither smooth nor known; side="high" may be', 15),
         ("integral(abs(c))", "an integral needs a smooth formula", 9),
@@ -257,3 +260,20 @@ def test_a_function_writes_its_formula_down() -> None:
 def test_a_function_that_writes_no_formula_is_refused(function: Any, message: str) -> None:  # noqa: ANN401
     with pytest.raises(InputError, match=message):
         functional(function)
+
+
+def test_formulas_without_a_value_where_every_law_comes_by_are_refused() -> None:
+    for text, told in {
+        "peak(c/(b - 1))": "c/(b - 1) has no finite value where b = 1, which every law passes",
+        "rms(1/(c - 0.3))": "1/(c - 0.3) has no finite value where c = 0.2998, which every law passes",
+        "peak(sqrt(c))": "sqrt(c) has no finite value where c = -1, which every law passes",
+        "peak(tan(2*b))": "tan(2*b) has no finite value where b = 0.7852, which every law passes",
+        "peak(1/b)": "1/b has no finite value at k = 0, where b = 0 in every law",
+    }.items():
+        with pytest.raises(InputError, match=re.escape(told)):
+            synthesize(replace(PROBLEM, minimise=text))
+
+
+def test_where_no_law_is_found_the_error_says_what_may_have_no_value() -> None:
+    with pytest.raises(SolverFailure, match=r"mind that b\^0.5 has no slope or no value where b <= 0"):
+        synthesize(replace(PROBLEM, basis=Chebyshev(3), minimise="integral(b^0.5)"))

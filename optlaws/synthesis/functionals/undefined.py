@@ -1,0 +1,119 @@
+"""Where formulas have no value: where the end conditions or all laws bring them, and where laws may."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.errors import InputError
+from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.slopes import constant
+from optlaws.formulas.tree import Call, Formula, Power, Reciprocal
+from optlaws.formulas.vocabulary import ORDERS
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+
+Array = NDArray[np.float64]
+
+#: values of b or c, among them 0, 1/2 and 1
+_PASSED = 2049
+
+
+def check_ends(motion: Motion, conditions: BoundaryConditions) -> None:
+    """See that a formula has a value where the end conditions say what the law is.
+
+    Raises
+    ------
+    InputError
+        If a part of it has none: where the law rests 1/b divides by 0.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.of_motion import of_text
+    >>> from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+    >>> check_ends(of_text("c/b"), BoundaryConditions.rest(3))
+    Traceback (most recent call last):
+    optlaws.errors.InputError: c/b has no finite value at k = 0, where b = 0 and c = 0 in every law: ask for a...
+    """
+    for k, end in ((0.0, conditions.start), (1.0, conditions.end)):
+        known = {name: end[nu] for name, nu in ORDERS.items() if nu < len(end)}
+        for part in motion.formula.walk() if motion.start <= k <= motion.stop else ():
+            moving = sorted(part.names() & ORDERS.keys())
+            if not moving or not part.names() <= {*known, "k"}:
+                continue
+            if not np.isfinite(Motion(part).values({**known, "k": k})):
+                values = " and ".join(f"{name} = {known[name]:g}" for name in moving)
+                raise InputError(
+                    f"{motion.formula} has no finite value at k = {k:g}, where {values} in every law: ask for a part "
+                    "of the interval, such as start=0.05, stop=0.95"
+                )
+
+
+def check_passed(motion: Motion, conditions: BoundaryConditions, *, smooth: bool) -> None:
+    """See that a formula has a value wherever every law comes by, if laws rise by 1 from rest to rest.
+
+    They pass all a from 0 to 1, all b from 0 to their mean 1, and all c from -1 to 1 where c does not jump.
+
+    Raises
+    ------
+    InputError
+        If a part of it has none: 1/(b - 1) has none where b = 1.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.of_motion import of_text
+    >>> from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+    >>> check_passed(of_text("1/(b - 1)"), BoundaryConditions.rest(3), smooth=True)
+    Traceback (most recent call last):
+    optlaws.errors.InputError: 1/(b - 1) has no finite value where b = 1, which every law passes: ask for a part...
+    """
+    at_rest = conditions.start[:2] == (0, 0) and conditions.end[:2] == (1, 0)
+    passed = {"a": (0.0, 1.0), "b": (0.0, 1.0)} | ({"c": (-1.0, 1.0)} if smooth else {})
+    for part in motion.formula.walk() if at_rest and (motion.start, motion.stop) == (0.0, 1.0) else ():
+        (name,) = part.names() if len(part.names()) == 1 else ("",)
+        if name not in passed:
+            continue
+        values = np.linspace(*passed[name], _PASSED)
+        nowhere = _nowhere(part, {name: values})
+        if nowhere.any():
+            raise InputError(
+                f"{motion.formula} has no finite value where {name} = {values[nowhere][0]:.4g}, which every law "
+                "passes: ask for a part of the interval, such as start=0.05, stop=0.2"
+            )
+
+
+def pitfalls(motion: Motion) -> Iterator[str]:
+    """Parts of a formula that some laws may bring where they have no value or no slope, in words.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.of_motion import of_text
+    >>> list(pitfalls(of_text("b^0.5 + 1/(c - 7)")))
+    ['b^0.5 has no slope or no value where b <= 0', '1/(c - 7) has no value where c - 7 = 0']
+    """
+    for part in motion.formula.walk():
+        if not part.names() & ORDERS.keys():
+            continue
+        if isinstance(part, Reciprocal):
+            yield f"{part} has no value where {part.of} = 0"
+        elif isinstance(part, Power) and not float(constant(part.exponent) or 0.5).is_integer():
+            yield f"{part} has no slope or no value where {part.base} <= 0"
+        elif isinstance(part, Call) and part.function in {"sqrt", "log"}:
+            yield f"{part} has no slope or no value where {part.arguments[0]} <= 0"
+
+
+def _nowhere(part: Formula, names: Mapping[str, Array]) -> NDArray[np.bool_]:
+    """At which of ascending values a part has none, or none before the next."""
+    nowhere = ~np.isfinite(Motion(part).values(names))
+    divisor = _divisor(part)
+    if divisor is not None:
+        below = Motion(divisor).values(names)
+        nowhere |= np.append(below[:-1] * below[1:] < 0.0, [False])
+    return nowhere
+
+
+def _divisor(part: Formula) -> Formula | None:
+    if isinstance(part, Reciprocal):
+        return part.of
+    return Call("cos", part.arguments) if isinstance(part, Call) and part.function == "tan" else None
