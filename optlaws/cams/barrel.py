@@ -165,6 +165,10 @@ class BarrelCam:
 
         By so much a flank goes on with every radian; where it is not above 0, the flank has a cusp.
         """
+        return self._rest(steep=False)
+
+    def _rest(self, *, steep: bool) -> Extreme:
+        """The least of it, or of v - R |s''|/v - R² s'²/v³ at the bottom, which is no more than it is at any depth."""
         radius, roller = self.radii[1], self.roller
 
         def rest(sign: float) -> Extreme:
@@ -172,7 +176,8 @@ class BarrelCam:
                 slope, bend = s.slope(), s.slope().slope()
                 square = slope * slope + radius * radius
                 way = square.root()
-                return way - bend / square * (sign * radius * roller) - slope * slope / (square * way) * roller**2
+                turned = bend / way if steep else bend / square * radius
+                return way - turned * (sign * roller) - slope * slope / (square * way) * roller**2
 
             return enclosed_extremes(self.displacement, speed, 2)[0]
 
@@ -184,8 +189,11 @@ class BarrelCam:
         steepest = max(abs(one) for extreme in self.pressure_angles for one in (extreme.low, extreme.high))
         if self.margin.high < 0.0:
             return UNDERCUT
-        # below 45 deg what is at the bottom of the groove is worst
-        return FREE if self.margin.low > 0.0 and steepest < nextafter(0.25 * np.pi, 0.0) else UNDECIDED
+        if self.margin.low <= 0.0:
+            return UNDECIDED
+        # below 45 deg what is at the bottom of the groove is worst; r/v² is nowhere more than 1/v at the bottom
+        level = steepest < nextafter(0.25 * np.pi, 0.0)
+        return FREE if level or self._rest(steep=True).low > 0.0 else UNDECIDED
 
     def _within(self, radius: float | None) -> float:
         outer, inner = self.radii

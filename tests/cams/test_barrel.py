@@ -88,6 +88,21 @@ def test_undercut_is_proven_where_the_roller_cuts_and_nowhere_else() -> None:
     assert statuses[-1] == UNDERCUT
 
 
+def test_steep_grooves_are_proven_free_of_cusps_at_every_depth() -> None:
+    """Above 45 deg the bottom is no longer worst: flanks go on at every depth where they are said to."""
+    statuses = []
+    for roller in ("4 mm", "9 mm", "18 mm"):
+        cam = BarrelCam(cycle_of("75 mm"), "60 mm", "30 mm", roller)
+        assert np.degrees(cam.pressure_angles[1].value) > 50.0
+        slope, bend = (np.asarray(cam.displacement(ANGLES, nu)) for nu in (1, 2))
+        radius = np.linspace(0.03, 0.06, 61)[:, None]
+        way = np.hypot(radius, slope)
+        rest = way - cam.roller * radius * np.abs(bend) / way**2 - cam.roller**2 * slope**2 / way**3
+        statuses.append(cam.undercut)
+        assert rest.min() > 0.0 or cam.undercut != FREE
+    assert statuses[0] == FREE
+
+
 def test_grooves_that_cannot_be_are_refused_with_a_remedy() -> None:
     with pytest.raises(InputError, match="make the groove shallower"):
         BarrelCam(cycle_of("40 mm"), "60 mm", "70 mm", "8 mm")
