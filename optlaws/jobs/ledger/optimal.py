@@ -10,7 +10,7 @@ import numpy as np
 
 from optlaws.files import reading
 from optlaws.files.problem_file import convert
-from optlaws.jobs.laws import optimal_table, own_search
+from optlaws.jobs.laws import optimal_table, own_search, printed_rows
 from optlaws.jobs.ledger.computing import Claim, Number, Quantities, computation
 from optlaws.jobs.pages import printed
 from optlaws.laws import MotionLaw, PolynomialLaw, smoothstep
@@ -23,16 +23,16 @@ _CUBIC = 3
 
 
 @cache
-def _table(problems: Path) -> tuple[optimal_table.Table, Mapping[str, Mapping[str, str]]]:
+def _table(problems: Path) -> tuple[printed_rows.Table, Mapping[str, Mapping[str, str]]]:
     file = problems / _TABLE
-    spec = convert(reading.toml(file), optimal_table.Table, file)
-    return spec, {row["B"]: row for row in printed.rows(file.parent / spec.printed, optimal_table.COLUMNS)}
+    spec = convert(reading.toml(file), printed_rows.Table, file)
+    return spec, {row["B"]: row for row in printed.rows(file.parent / spec.printed, printed_rows.COLUMNS)}
 
 
 @cache
 def _law(problems: Path, row: str) -> PolynomialLaw:
     spec, rows = _table(problems)
-    return optimal_table.printed_law(spec, rows[row])
+    return printed_rows.printed_law(spec, rows[row])
 
 
 @cache
@@ -60,7 +60,7 @@ def coefficient(row: str, i: str, problems: Path) -> Number:
     place, nu, wanted = int(i), *((2, 0.0) if i == "0" else (1, float(row)))
     z = line["z"].split()
     changed = [*z[:place], f"{float(z[place]) + 1.0!r}", *z[place + 1 :]]
-    at, moved = (optimal_table.printed_law(spec, {**line, "z": " ".join(part)})(0.5, nu) for part in (z, changed))
+    at, moved = (printed_rows.printed_law(spec, {**line, "z": " ".join(part)})(0.5, nu) for part in (z, changed))
     return Number(float(z[place]) + (wanted - at) / (moved - at))
 
 

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import isnan
-from typing import Any, TypeVar, overload
+from typing import Any
 
 import msgspec
 import numpy as np
@@ -23,6 +23,8 @@ from optlaws.synthesis.program.evaluation import worth
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate, Contact, contact_of
 from optlaws.synthesis.proof.data import StatedContact, problem_of, stated
+from optlaws.synthesis.proven.interval_gaps import interval_gaps
+from optlaws.synthesis.proven.lazily import Lazily
 from optlaws.synthesis.proven.line import lower_line
 from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solution import NOTHING
@@ -105,41 +107,6 @@ class StatedFront(msgspec.Struct, forbid_unknown_fields=True):
     gap: float
     points: list[StatedPoint]
     about: str = ""
-
-
-T = TypeVar("T")
-
-
-class Lazily(Sequence[T]):
-    """Items that are made when they are first asked for, and kept; equal to others with equal items."""
-
-    def __init__(self, count: int, make: Callable[[int], T]) -> None:
-        self._count, self._make = count, make
-        self._made: dict[int, T] = {}
-
-    def __len__(self) -> int:
-        return self._count
-
-    @overload
-    def __getitem__(self, place: int) -> T: ...
-    @overload
-    def __getitem__(self, place: slice) -> tuple[T, ...]: ...
-    def __getitem__(self, place: int | slice) -> T | tuple[T, ...]:
-        if isinstance(place, slice):
-            return tuple(self[i] for i in range(*place.indices(self._count)))
-        i = range(self._count)[place]
-        if i not in self._made:
-            self._made[i] = self._make(i)
-        return self._made[i]
-
-    def __eq__(self, other: object) -> bool:
-        return tuple(self) == tuple(other) if isinstance(other, Sequence) else NotImplemented
-
-    def __hash__(self) -> int:
-        return hash(tuple(self))
-
-    def __reduce__(self) -> tuple[type[tuple[T, ...]], tuple[tuple[T, ...]]]:
-        return tuple, (tuple(self),)
 
 
 @dataclass(frozen=True)
@@ -390,38 +357,6 @@ def front_of(found: StatedFront) -> ProvenFront:
     ]
     laws = tuple(MotionLaw.from_dict(one.law) for one in found.points)
     return ProvenFront(number, tuple(one.at for one in found.points), laws, tuple(proofs))
-
-
-def interval_gaps(t: Array, known: Array, *, concave: bool) -> Array:
-    """The greatest gap in each interval: between a chord and two lines, the difference is greatest where these cross.
-
-    Parameters
-    ----------
-    t
-        Values.
-    known
-        At each value what is known above and below the least objective, and a slope: of the line through the lower
-        value or, where the objective is concave, through the upper one.
-    concave
-        Whether it is.
-    """
-    top, bottom, slopes = known.T
-    width = np.diff(t)
-    first = np.stack([top[:-1] - bottom[:-1], np.zeros_like(width)])
-    last = np.stack([np.zeros_like(width), top[1:] - bottom[1:]])
-    if concave:
-        first[1] = top[:-1] + slopes[:-1] * width - bottom[1:]
-        last[0] = top[1:] - slopes[1:] * width - bottom[:-1]
-    else:
-        first[1] = top[1:] - (bottom[:-1] + slopes[:-1] * width)
-        last[0] = top[:-1] - (bottom[1:] - slopes[1:] * width)
-    turn = first[1] - first[0] + last[0] - last[1]
-    with np.errstate(divide="ignore", invalid="ignore"):
-        share = np.clip(np.where(turn > 0.0, (last[0] - first[0]) / turn, 0.0), 0.0, 1.0)
-    crossing = np.minimum((1.0 - share) * first[0] + share * first[1], (1.0 - share) * last[0] + share * last[1])
-    greatest = np.maximum(crossing, np.minimum(first, last).max(axis=0))
-    least = np.minimum(top[:-1], top[1:])
-    return np.asarray(greatest / np.where(least > NOTHING, least, 1.0))
 
 
 def weighted_value(number: RunningNumber, law: MotionLaw) -> float:

@@ -19,7 +19,9 @@ from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import apart
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
-from optlaws.synthesis.proven.front import Lazily, ProvenFront, interval_gaps, weighted_value
+from optlaws.synthesis.proven.front import ProvenFront, weighted_value
+from optlaws.synthesis.proven.interval_gaps import interval_gaps
+from optlaws.synthesis.proven.lazily import Lazily
 from optlaws.synthesis.proven.line import lower_line
 from optlaws.synthesis.proven.line_array import lower_lines
 from optlaws.synthesis.proven.running import RunningNumber
