@@ -256,13 +256,10 @@ class Cycle(Handed, Stated):
         (0.15, 4.0)
         """
         period = period_of(speed, None)
-        return replace(
-            self,
-            segments=segments_at(self._made, period / self.duration),
-            speed=None,
-            period=f"{period!r} s",
-            limits={},
-        )
+        segments = segments_at(self._made, period / self.duration)
+        # laws that are known leave nothing of a load to look for
+        minimise = "acceleration" if kind_of(self.minimise)[0] == LOADED else self.minimise
+        return replace(self, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise, limits={})
 
     def per_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
         """Derivatives by the master's angle in radians, as cams and controllers take them."""
@@ -306,7 +303,7 @@ class Cycle(Handed, Stated):
 
     @property
     def _made(self) -> Made:
-        return Made(self.segments, self.programme, self.pieces)
+        return Made(self.segments, self.programme, self._layout.starts, self.pieces)
 
     @kept_property
     def _drive(self) -> Drive | None:

@@ -3,23 +3,27 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from itertools import pairwise
 from typing import Any
 
 from optlaws.cycles.asked.conversion import Piece
-from optlaws.cycles.asked.programme import TURN, Programme, Stretch
+from optlaws.cycles.asked.programme import CLOSE, TURN, Programme, Stretch
 from optlaws.cycles.asked.quantities import quantity
 from optlaws.cycles.asked.segments import ConstantVelocity, CycleSegment, Dwell, Move
 from optlaws.errors import InputError
+from optlaws.laws.making.section import section
+from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.cam.polydyne import polydyne
 
 
 @dataclass(frozen=True)
 class Made:
-    """A cycle with its laws: what was asked, as given and as numbers, and the laws in their places."""
+    """A cycle with its laws: what was asked, as given and as numbers, times of joints, the laws in their places."""
 
     segments: Sequence[CycleSegment]
     programme: Programme
+    starts: Sequence[float]
     pieces: Sequence[Piece]
 
     def by_segment(self, why: str) -> Iterator[tuple[Stretch, CycleSegment, Piece]]:
@@ -40,25 +44,54 @@ class Made:
 
 
 def segments_at(cycle: Made, share: float) -> list[CycleSegment]:
-    """Every law as it is, every duration as many times as long as `share` says.
+    """Every law as it is, every duration as many times as long as `share` says; a law of several segments in parts.
 
     Raises
     ------
     InputError
-        If a law is of several segments, or moves to where it begins.
+        If a law of one polynomial ends where it begins.
     """
     made: list[CycleSegment] = []
-    for one, given, piece in cycle.by_segment("another speed is given to laws of single segments"):
-        time, name = f"{piece.duration * share!r} s", given.label
-        if isinstance(given, ConstantVelocity):
-            made.append(ConstantVelocity(cycle.shown(piece.end(1, 0) / share) + "/s", time, name=name))
-        elif piece.stroke == 0.0:
+    times = zip(cycle.programme.stretches, pairwise(cycle.starts), strict=True)
+    for one, (start, stop) in times:
+        time, name = f"{(stop - start) * share!r} s", one.given.label
+        if isinstance(one.given, ConstantVelocity):
+            velocity = cycle.shown(one.displacement / (stop - start) / share)
+            made.append(ConstantVelocity(f"{velocity}/s", time, name=name))
+        elif isinstance(one.given, Dwell):
             made.append(Dwell(time, name=name))
-        elif piece.stroke == one.displacement:
-            made.append(Move(cycle.shown(piece.stroke), time, law=piece.law, name=name))
         else:
-            raise InputError(f"{one.where} ends where it begins: give it to a Cycle of its own at the other speed")
+            piece = next(piece for piece in reversed(cycle.pieces) if piece.start <= start)
+            made += [replace(move, name=name) for move in _moves(cycle, piece, one, (start, stop), share)]
     return made
+
+
+def _moves(cycle: Made, piece: Piece, one: Stretch, times: tuple[float, float], share: float) -> list[Move]:
+    """What a law does in a stretch: one move, or two where it ends where it begins."""
+    (start, stop), moved = times, one.displacement
+    if piece.stroke == moved and (piece.start, piece.stop) == (start, stop):
+        return [Move(cycle.shown(moved), f"{(stop - start) * share!r} s", law=piece.law)]
+    law = piece.law
+    if not isinstance(law, PiecewiseLaw):
+        raise InputError(f"{one.where} ends where it begins: give it to a Cycle of its own at the other speed")
+    first, last = (_break(law, piece, time) for time in times)
+    ends = [first, last]
+    if abs(moved) <= CLOSE * abs(piece.stroke):
+        heights = [abs(float(law(place)) - float(law(law.breaks[first]))) for place in law.breaks[first : last + 1]]
+        ends.insert(1, first + heights.index(max(heights)))
+    found, left = list[Move](), moved
+    for low, high in pairwise(ends):
+        way = left if high == last else piece.stroke * (float(law(law.breaks[high])) - float(law(law.breaks[low])))
+        time = piece.duration * (law.breaks[high] - law.breaks[low]) * share
+        found.append(Move(cycle.shown(way), f"{time!r} s", law=section(law, low, high)))
+        left -= way
+    return found
+
+
+def _break(law: PiecewiseLaw, piece: Piece, time: float) -> int:
+    """The number of the break at a joint."""
+    away = [abs(piece.start + place * piece.duration - time) for place in law.breaks]
+    return away.index(min(away))
 
 
 def cam_segments(cycle: Made, period: Any, damping: float) -> list[CycleSegment]:  # noqa: ANN401 - a quantity

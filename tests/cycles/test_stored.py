@@ -22,6 +22,11 @@ PRESS = Cycle(
 )
 SHEAR = Cycle([ConstantVelocity("1.5 m/s", "80 ms"), Return()], period="400 ms", degree=15)
 TURNING = Cycle([Free("30 mm", via=[("0.1 s", "10 mm")], duration="0.2 s"), Free("-30 mm")], period="0.5 s")
+AWAY_AND_BACK = Cycle(
+    [Free("30 mm", "0.1 s"), Dwell("50 ms"), Free("0 mm", "0.1 s", via=[("50 ms", "45 mm")]), Free("-30 mm")],
+    period="0.5 s",
+    degree=5,
+)
 
 
 @pytest.mark.parametrize("cycle", [PRESS, SHEAR, TURNING], ids=["press", "shear", "turning"])
@@ -62,14 +67,13 @@ def test_what_is_no_stored_cycle_is_refused(data: dict[str, Any], says: str) -> 
 
 
 def test_the_same_motion_at_another_speed() -> None:
-    for cycle in (PRESS, SHEAR):
+    for cycle in (PRESS, SHEAR, TURNING, AWAY_AND_BACK):
         fast = cycle.at("400 rpm")
         share = 0.15 / cycle.duration
         for nu in range(1, 4):
             assert fast.peak(nu) == pytest.approx(cycle.peak(nu) / share**nu, rel=1e-9)
         assert fast(0.2 * 0.15) == pytest.approx(cycle(0.2 * cycle.duration))
-    with pytest.raises(InputError, match="laws of single segments: take moves in place of free motions"):
-        TURNING.at("400 rpm")
+    assert [one.label for one in AWAY_AND_BACK.at("400 rpm").segments] == ["Free", "Dwell", "Free", "Free", "Free"]
     with pytest.raises(InputError, match="speed must be an angular velocity"):
         PRESS.at("400 mm")
 

@@ -64,7 +64,7 @@ DIMENSIONS = {
     "rotary viscous friction": ("newton * meter * second / radian", "0.01 N m s/rad"),
 }
 
-_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)\s*(.*)")
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)(?:/([1-9]\d{0,8})(?!\d))?\s*(.*)")
 _UNIT = re.compile(r"[A-Za-zµ°_]+(?:\s*(?:\^|\*\*)\s*-?[1-4])?")
 _LONGEST = 60
 
@@ -178,7 +178,7 @@ def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:
     match = _NUMBER.fullmatch(written(value))
     if match is None:
         raise AssertionError  # it has been read above
-    return Given(dimension, float(match[1]), match[2].strip())
+    return Given(dimension, _number(match), match[3].strip())
 
 
 def _parts(value: Any, dimension: str, name: str) -> tuple[float, Any]:  # noqa: ANN401
@@ -187,12 +187,17 @@ def _parts(value: Any, dimension: str, name: str) -> tuple[float, Any]:  # noqa:
     match = _NUMBER.fullmatch(value) if isinstance(value, str) and len(value) <= _LONGEST else None
     if match is None:
         raise InputError(f"{_asks(dimension, name)}, got {shortened(value)}")
-    number, unit = float(match[1]), match[2].strip()
+    number, unit = _number(match), match[3].strip()
     if not unit:
         raise InputError(f"{_asks(dimension, name)}, got {shortened(value)} without a unit")
     if not isfinite(number):
         raise InputError(f"{name} must be finite, got {shortened(value)}")
     return number, _unit(unit, value, dimension, name)
+
+
+def _number(match: re.Match[str]) -> float:
+    """A number, or a share such as 1/12."""
+    return float(match[1]) / int(match[2] or 1)
 
 
 def _unit(text: str, value: str, dimension: str, name: str) -> Any:  # noqa: ANN401 - pint's

@@ -55,6 +55,29 @@ def joined_basis(span: Span, order: int, degree: int, minimised: int) -> Pieces:
     return Pieces(breaks, power, smoothness)
 
 
+def halved(basis: Pieces) -> Pieces | None:
+    """Splines with every piece but straight ones cut in two; None where these were too many.
+
+    Examples
+    --------
+    >>> halved(Pieces((0.0, 0.5, 1.0), 3, 1)).breaks
+    (0.0, 0.25, 0.5, 0.75, 1.0)
+    """
+    if 2 * len(basis.breaks) > _MOST:
+        return None
+    kept = set(basis.straight) if isinstance(basis, PeriodicPieces) else set[int]()
+    breaks, straight = [0.0], list[int]()
+    for i, (low, high) in enumerate(pairwise(basis.breaks)):
+        if i in kept:
+            straight.append(len(breaks) - 1)
+        else:
+            breaks.append(0.5 * (low + high))
+        breaks.append(high)
+    if isinstance(basis, PeriodicPieces):
+        return PeriodicPieces(breaks, basis.degree, basis.continuity, straight)
+    return Pieces(breaks, basis.degree, basis.continuity)
+
+
 def place(span: Span, time: float) -> float:
     """The k of a time in a span; its ends are 0 and 1 exactly."""
     return 1.0 if time == span.stop else (time - span.start) / span.duration

@@ -18,14 +18,14 @@ from optlaws.cycles.asked.joints import Span, State
 from optlaws.cycles.asked.programme import in_small_units, is_optimal
 from optlaws.cycles.best.aims import FORCE, LOADED, POWER, Wanted, kind_of, limits_of_stretch
 from optlaws.cycles.best.drive_formulas import driven_formula, driven_mean, driven_peak, may_turn
-from optlaws.cycles.best.joined import joined_basis, joint_windows, place
+from optlaws.cycles.best.joined import halved, joined_basis, joint_windows, place
 from optlaws.cycles.driven.load import load_output
-from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
-from optlaws.synthesis.solution import Solution
+from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.spaces.bases import Chebyshev, Pieces
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
@@ -48,7 +48,24 @@ def solve(span: Span, wanted: Wanted, axis: str, mean_square: float = inf) -> tu
     if mean_square < inf:
         problem = with_mean_square(problem, span, wanted, stroke, mean_square)
     solution = solved(problem, span)
+    if solution.status == Status.INACCURATE and isinstance(problem.basis, Pieces):
+        solution = _with_more_pieces(problem, problem.basis, span) or solution
     return Piece(span.start, span.duration, span.offset, stroke, solution.law), solution
+
+
+def _with_more_pieces(problem: Problem, basis: Pieces, span: Span) -> Solution | None:
+    """The solution among splines with every piece but straight ones halved, if it is proven: few pieces meet badly.
+
+    Peaks inside of pieces, as velocities have them, may lie so near each other that no more digits can be had.
+    """
+    finer = halved(basis)
+    if finer is None:
+        return None
+    try:
+        solution = solved(replace(problem, basis=finer), span)
+    except SolverFailure:
+        return None
+    return solution if solution.status == Status.OPTIMAL else None
 
 
 def solved(problem: Problem, span: Span) -> Solution:

@@ -11,6 +11,7 @@ from scipy.optimize import linprog
 
 from optlaws import ConstantVelocity, Cycle, Dwell, Free, InputError, Move, PeriodicPieces
 from optlaws.cli.app import exit_code
+from optlaws.cycles.best.joined import halved
 
 WAYS = [Free("30 mm", "0.2 s"), Free("20 mm", "0.2 s"), Free("-50 mm", "0.3 s"), Free("25 mm", "0.1 s"), Free("-25 mm")]
 TIMES = np.array([0.0, 0.2, 0.4, 0.7, 0.8, 1.0])
@@ -107,3 +108,25 @@ def test_points_on_the_way_of_one_motion_that_repeats() -> None:
     assert cycle.status == "optimal"
     with pytest.raises(InputError, match="nothing to move"):
         Cycle([Free("0 mm")], period="1 s").status  # noqa: B018
+
+
+@pytest.mark.long
+def test_the_least_velocity_is_proven_where_few_pieces_met_badly() -> None:
+    """With six pieces for each motion the gap stayed at 2e-5."""
+    steps = [
+        ("-26 mm", "0.193 s"),
+        ("37 mm", "0.196 s"),
+        ("-7 mm", "0.106 s"),
+        ("5 mm", "0.102 s"),
+        ("11 mm", "0.159 s"),
+    ]
+    turning = Cycle([*(Free(*step) for step in steps), Free(to="0 mm")], period="1 s", minimise="velocity")
+    assert turning.status == "optimal"
+    assert turning.objective == pytest.approx(0.037 / 0.196, rel=1e-9)
+
+
+def test_halved_pieces_keep_what_is_straight() -> None:
+    assert halved(PeriodicPieces((0.0, 0.5, 0.75, 1.0), 3, 2, (1,))) == PeriodicPieces(
+        (0.0, 0.25, 0.5, 0.75, 0.875, 1.0), 3, 2, (2,)
+    )
+    assert halved(PeriodicPieces(400, 3, 2)) is None

@@ -1,0 +1,12 @@
+"""A rotary cross cutter
+======================
+
+The knife turns with the strip while it cuts, and waits as gently as can be for the next length.
+"""
+
+from optlaws import ConstantVelocity, Cycle, Free
+
+cut = ConstantVelocity("600 deg/s", "60 ms", name="cut")
+Cycle(
+    [cut, Free(to="360 deg", name="next length")], period="0.8 s", advance="360 deg", minimise="rms acceleration"
+).plot()
