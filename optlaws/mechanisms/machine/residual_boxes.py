@@ -170,7 +170,8 @@ class ModeResidual(Functional):
         transforms = self.share * (np.exp(roots[:, None] * (1.0 - k)) @ velocities)
         series = chebyshev.from_values(transforms)
         kept = np.flatnonzero(np.abs(series).max(axis=1) > _NEGLIGIBLE * np.abs(series).max())
-        return np.ascontiguousarray(series[: kept[-1] + 1])
+        # an output may not see the mode at all
+        return np.ascontiguousarray(series[: kept[-1] + 1 if len(kept) else 1])
 
 
 @lru_cache(maxsize=256)

@@ -340,14 +340,16 @@ def least_values(problem: Problem, rows: ExactRows) -> dict[str, Fraction | floa
     """
     change = rows.space.bounds.velocity_change
     least: dict[str, Fraction | float] = {}
-    if never_negative(problem):
-        return least
     mean = None if change is None else Fraction(int(change.p), int(change.q))
+    one_sided = not never_negative(problem)
     for _, leaf in leaves(problem.objective):
-        if isinstance(leaf, Peak) and len(leaf.signs) == 1:
+        if isinstance(leaf, Peak) and len(leaf.signs) == 1 and one_sided:
             least[repr(leaf)] = -inf if mean is None or leaf.nu != 2 else mean * Fraction(leaf.signs[0])
-        elif isinstance(leaf, Functional) and floor(leaf, problem.conditions) < 0:
-            least[repr(leaf)] = floor(leaf, problem.conditions)
+        elif isinstance(leaf, Functional):
+            value = floor(leaf, problem.conditions)
+            # above 0 doubles say it, unless it is an exact one
+            if value < 0 or (value > 0 and isinstance(value, Fraction)):
+                least[repr(leaf)] = value
     _least_sum(problem.objective, least)
     return least
 

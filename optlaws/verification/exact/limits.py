@@ -7,10 +7,12 @@ from fractions import Fraction
 from flint import ctx
 
 from optlaws.synthesis.limits.closed_forms import back_velocity
-from optlaws.synthesis.problem.expression import Expression, Maximum, Term
+from optlaws.synthesis.problem.constants import Functional
+from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.verification.enclosing.balls import ball, lower
 from optlaws.verification.exact.known_constants import known
+from optlaws.verification.machines.floors import floor
 
 _BITS = 192
 #: a cam moves from rest to rest too, with whatever B
@@ -21,7 +23,7 @@ _SLIGHTLY_LESS = 1 - Fraction(1, 10**13)
 def exact_limit(problem: Problem) -> Fraction | None:
     """A number that no law of the problem beats; None where the closed forms say nothing of the objective.
 
-    Only C and D count, the law's and its cam's; every other constant is at least 0.
+    Only C and D count, the law's and its cam's; every other constant is to be at least 0.
 
     Examples
     --------
@@ -29,6 +31,9 @@ def exact_limit(problem: Problem) -> Fraction | None:
     Fraction(9, 4)
     """
     if problem.boundary is not None or problem.order == 1:
+        return None
+    constants = [leaf for _, leaf in leaves(problem.objective) if isinstance(leaf, Functional)]
+    if any(floor(constant, problem.conditions) < 0 for constant in constants):
         return None
     total = _sum(problem, problem.objective)
     return total if total > 0 else None

@@ -200,7 +200,7 @@ def quotient(above: Sequence[Any], below: Sequence[Any], count: int) -> list[Any
     """The first coefficients of a quotient of two power series, the second of which does not vanish at 0."""
     found: list[Any] = []
     for i in range(count):
-        total = above[i] if i < len(above) else above[0] * 0
+        total = above[i] if i < len(above) else below[0] * 0
         for j in range(1, min(i, len(below) - 1) + 1):
             total = total - below[j] * found[i - j]
         found.append(total / below[0])

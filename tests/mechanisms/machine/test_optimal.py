@@ -212,6 +212,15 @@ def test_texts_of_laws_that_repeat_are_read_again() -> None:
         assert named(constant.name) == constant
 
 
+def test_a_mode_that_the_output_does_not_see_is_left_with_nothing() -> None:
+    A = [[0, 1, 0, 0], [-400, -2, 0, 0], [0, 0, 0, 1], [0, 0, -900, -3]]
+    machine = Machine(A, [[0], [400], [0], [900]], [[1, 0, 0, 0], [0, 0, 1, 0]], outputs=["first", "second"])
+    unseen = machine.residual(2, "first", spread=0.1)
+    assert unseen.value(smoothstep(3)) < 1e-12
+    problem = Problem(order=3, basis=Chebyshev(5), minimise="C", bounds={unseen: at_most(1e-3)}, symmetric=False)
+    assert synthesize(problem).status.value == "optimal"
+
+
 def one_sided(seed: int) -> tuple[Functional, Problem]:
     """A peak of one side of an output, with a constant load."""
     machine = chain(seed, masses=1 + seed % 3)

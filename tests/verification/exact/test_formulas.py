@@ -18,6 +18,7 @@ from tests.verification.tampering import overstated
 
 pytest.importorskip("flint")
 from optlaws.verification.exact.law import ExactLaw
+from optlaws.verification.exact.limits import exact_limit
 
 TABLE = "table(k, 0:1, 0.3:2, 0.7:1, 1:3)"
 SPLINE = "spline(a, 0:0, 0.3:0.1, 0.6:0.5, 1:1.2)"
@@ -124,3 +125,8 @@ def test_what_is_overstated_is_refused(minimise: str) -> None:
         assert not verify(tampered).proven
     contact["direction"] = contact["direction"][:-1]
     assert overstated(tampered, true) == []
+
+
+def test_a_peak_below_0_lets_no_limit_of_c_stand_for_the_sum() -> None:
+    assert exact_limit(Problem(order=3, minimise='C + peak("b", side=high)')) == 4
+    assert exact_limit(Problem(order=3, minimise='C + peak("b - 20", side=high)')) is None
