@@ -294,10 +294,13 @@ def _curved(problem: Problem, curvature: RollerCurvature) -> Solution:
     try:
         return synthesize(replace(problem, windows=(*problem.windows, curvature.window())))
     except (InfeasibleProblem, SolverFailure):
+        rest = curvature.at_rest()
+        radius = None if rest is None else shown(rest - curvature.contact.roller)
+        known = "" if radius is None else f" (at rest the profile has {radius}, whatever the law)"
         raise SolverFailure(
-            f"no law was found from {curvature.piece.start:.6g} s on that keeps the least radius of curvature, and"
-            " under this follower its limit is not convex in the law: make the base circle larger, the limits wider,"
-            " or the motion longer"
+            f"no law was found from {curvature.piece.start:.6g} s on that keeps the least radius of curvature{known},"
+            " and under this follower its limit is not convex in the law: make the base circle larger, the limits"
+            " wider, or the motion longer"
         ) from None
 
 

@@ -15,6 +15,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.cams.curves.jets import Jet
 from optlaws.cams.followers.contact import Contact
 from optlaws.cams.followers.oscillating_roller import SwingingRoller
 from optlaws.cams.followers.translating_roller import SlidingRoller
@@ -100,6 +101,18 @@ class RollerCurvature:
         a, b, c = (np.asarray(quantity(k)) for quantity in (self.piece.law.a, self.piece.law.b, self.piece.law.c))
         needed = np.asarray(evaluate(self._formula, {"a": a, "b": b}, NUMPY))
         return bool((needed > self.factor * c + _ROOM).any())
+
+    def at_rest(self) -> float | None:
+        """The radius of the pitch curve, m, at an end where the follower rests, if it is too small for any law."""
+        for k in (0.0, 1.0):
+            law = self.piece.law
+            if abs(float(law.b(k))) + abs(float(law.c(k))) > _ROOM:
+                continue
+            s = self.piece.offset + self.piece.stroke * float(law.a(k))
+            bent = float(self.contact.curvature(Jet((np.array(s), 0.0, 0.0))).terms[0])
+            if bent * self.radius > 1.0 + _ROOM:
+                return 1.0 / bent
+        return None
 
     def planes(self, k: Sequence[float], a: Sequence[Pair], b: Sequence[Pair]) -> list[Window]:
         """In each part of the time a plane that is nowhere above G where a and b are between their values there."""

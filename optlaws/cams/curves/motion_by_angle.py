@@ -79,7 +79,7 @@ class Stretch:
         return float(values.min()), float(values.max())
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class CamMotion:
     """The displacement of a follower over the cam's angle; call it for derivatives by the angle, in m or rad.
 
@@ -97,11 +97,18 @@ class CamMotion:
     >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
     >>> round(float(rise(np.pi / 3)), 9), round(float(rise(np.pi / 3, nu=1)), 9)
     (0.02, 0.038197186)
+    >>> rise
+    CamMotion(1 stretch over 120 deg, axis='length')
     """
 
     stretches: tuple[Stretch, ...]
     axis: str
     closed: bool
+
+    def __repr__(self) -> str:
+        count, (first, last) = len(self.stretches), self.interval
+        some = "1 stretch" if count == 1 else f"{count} stretches"
+        return f"CamMotion({some} over {np.degrees(last - first):.6g} deg, axis={self.axis!r})"
 
     @classmethod
     def of_cycle(cls, cycle: Cycle) -> Self:
