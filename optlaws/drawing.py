@@ -128,6 +128,14 @@ def name_point(axes: Axes, text: str, point: tuple[float, float], at: tuple[floa
 _AXES = {"B": "peak velocity B", "C": "peak acceleration C", "D": "peak power D", "J": "peak jerk J"}
 
 
+def _label(name: str) -> str:
+    """What an axis says of a constant: constants of machines have units of their own."""
+    from optlaws.synthesis.problem.named_constants import title_of
+
+    title = title_of(name)
+    return title if title != name else f"{_AXES.get(name, name)} (dimensionless)"
+
+
 @draws("front")
 def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
     """Draw a front into axes, new ones unless given, and return the artists; a third constant gives the colour.
@@ -143,14 +151,14 @@ def draw_front(front: Front, axes: Axes | None = None, **style: Any) -> list[Art
     if axes is None:
         axes = new_axes()
     for axis, name in zip("xy", front.over, strict=False):
-        axes.set(**{f"{axis}label": f"{_AXES.get(name, name)} (dimensionless)"})
+        axes.set(**{f"{axis}label": _label(name)})
     values = front.values
     if len(front.over) == 2:
         return list(axes.plot(*values.T, **style))
     style = {"s": 18.0, "c": values[:, 2], **{key: value for key, value in style.items() if key != "color"}}
     points = axes.scatter(values[:, 0], values[:, 1], **style)
     bar = axes.get_figure(root=True).colorbar(points, ax=axes)  # type: ignore[union-attr] # these axes have a figure
-    bar.set_label(f"{_AXES.get(front.over[2], front.over[2])} (dimensionless)")
+    bar.set_label(_label(front.over[2]))
     return [points]
 
 
@@ -168,7 +176,7 @@ def draw_proven_front(front: ProvenFront, axes: Axes | None = None, **style: Any
     if axes is None:
         axes = new_axes()
     for axis, name in zip("xy", front.over, strict=True):
-        axes.set(**{f"{axis}label": f"{_AXES.get(name, name)} (dimensionless)"})
+        axes.set(**{f"{axis}label": _label(name)})
     return list(axes.plot(*front.curve, **style))
 
 

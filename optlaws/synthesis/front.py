@@ -15,7 +15,7 @@ from optlaws.laws import PolynomialLaw
 from optlaws.plotting import plotted
 from optlaws.synthesis.arrays.constants import of_polynomials
 from optlaws.synthesis.problem.fields import CONSTANTS
-from optlaws.synthesis.problem.named_constants import named
+from optlaws.synthesis.problem.named_constants import named, title_of
 from optlaws.synthesis.solution import Solution
 
 Array = NDArray[np.float64]
@@ -70,7 +70,7 @@ class Front:
     @property
     def headings(self) -> tuple[str, ...]:
         """What the rows have: B, C, D and J, what else is exchanged, and how good each point is."""
-        return (*self._columns, *_OF_POINTS)
+        return (*map(title_of, self._columns), *_OF_POINTS)
 
     @property
     def _columns(self) -> tuple[str, ...]:
@@ -133,8 +133,9 @@ class Front:
         return self.points[place]
 
     def __repr__(self) -> str:
-        ends = [f"{name} {v[0]:.6g} to {v[-1]:.6g}" for name, v in zip(self.over, self.values.T, strict=True)]
-        return f"Front(over={self.over!r}, {len(self)} points, {', '.join(ends)})"
+        over = tuple(map(title_of, self.over))
+        ends = [f"{name} {v[0]:.6g} to {v[-1]:.6g}" for name, v in zip(over, self.values.T, strict=True)]
+        return f"Front(over={over!r}, {len(self)} points, {', '.join(ends)})"
 
     def _repr_html_(self) -> str:
         from optlaws.shown.showing import drawing, page, table
@@ -143,7 +144,8 @@ class Front:
         curve = ""
         if len(self.over) == len(("given", "minimised")):
             x, y = self.values.T
-            curve = drawing(f"{self.over[1]} over {self.over[0]}", x.tolist(), (y - y.min()).tolist())
+            first, last = map(title_of, self.over)
+            curve = drawing(f"{last} over {first}", x.tolist(), (y - y.min()).tolist())
         return page(repr(self), table(self.headings, rows), curve)
 
 

@@ -33,7 +33,7 @@ def shaped_law(law: MotionLaw, nu: float, damping: float = 0.0, shaper: Shaper =
     Parameters
     ----------
     law
-        A law from rest to rest.
+        A law from rest to rest, or an entry of the catalogue or a solution, which stand for theirs.
     nu
         Undamped circular frequency, radians in the total time.
     damping
@@ -44,7 +44,8 @@ def shaped_law(law: MotionLaw, nu: float, damping: float = 0.0, shaper: Shaper =
     Raises
     ------
     InputError
-        If half a period (ZV) or a whole one (ZVD) leaves no time for the law itself, or a number is out of range.
+        If half a period (ZV) or a whole one (ZVD) leaves no time for the law itself, a number is out of range, or the
+        law is none.
 
     Examples
     --------
@@ -53,6 +54,9 @@ def shaped_law(law: MotionLaw, nu: float, damping: float = 0.0, shaper: Shaper =
     >>> round(Follower(12).response(law).residual_acceleration, 9), round(law.constants.C.value, 6)
     (0.0, 5.297373)
     """
+    law = getattr(law, "law", law)
+    if not isinstance(law, MotionLaw):
+        raise InputError(f"law must be a motion law such as smoothstep(4), got {shortened(law)}")
     impulses = _impulses(frequency(nu), not_negative(damping, "damping"), shaper)
     duration = 1.0 - impulses[-1][0]
     if duration < _LEAST_TIME:

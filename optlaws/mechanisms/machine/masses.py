@@ -212,7 +212,20 @@ def assembly(
     checked = {
         name: (not_negative if name == driven else positive)(mass, f"the mass {name}") for name, mass in masses.items()
     }
+    _check_joined(checked, joined, driven, base)
     return Assembly(checked, joined, driven, base)
+
+
+def _check_joined(masses: Mapping[str, float], links: Sequence[Link], driven: str, base: str) -> None:
+    """Refuse masses that nothing joins to the drive: they would rest for ever."""
+    reached, more = set[str](), {driven, base}
+    while more:
+        reached |= more
+        touched = (link for link in links if {link.first, link.second} & more - {GROUND})
+        more = {name for link in touched for name in (link.first, link.second)} - reached
+    alone = [name for name in masses if name not in reached]
+    if alone:
+        raise InputError(f"the mass {alone[0]!r} is linked to nothing that the drive moves: link it, or leave it out")
 
 
 class Model(Protocol):

@@ -80,6 +80,8 @@ def mode(machine: StateSpace, number: object) -> Mode:
     found = modes(machine)
     if not found:
         raise InputError("the machine has no mode that vibrates: ask for peaks of its outputs in the dwell instead")
+    if isinstance(number, str):
+        raise InputError(f"mode is a number from 1 to {len(found)}, before the output: residual(1, {number!r})")
     if not isinstance(number, int | float) or isinstance(number, bool) or number not in range(1, len(found) + 1):
         raise InputError(f"mode must be a whole number from 1 to {len(found)}, got {number!r}")
     return found[int(number) - 1]

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import Panel, inverse_gain
 from optlaws.mechanisms.machine.output_curve import OutputCurve
@@ -75,7 +76,7 @@ class OutputConstant(Functional):
 
     def curve(self, law: MotionLaw) -> OutputCurve:
         """The output under a law with its offset, over all that counts and what is before it."""
-        return self._moved_by(law).plus(self.offset)
+        return self._moved_by(motion_law(law)).plus(self.offset)
 
     def _moved_by(self, law: MotionLaw) -> OutputCurve:
         if self.steady:

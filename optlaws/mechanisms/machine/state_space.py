@@ -85,7 +85,8 @@ class StateSpace:
         if self.dynamics.fastest > FASTEST or self.dynamics.decay > STIFFEST:
             raise InputError(
                 f"the machine's fastest root is {size:.3g} in the duration of the rise: beyond {FASTEST:g} radians it "
-                f"is as good as rigid, and beyond a decay of {STIFFEST:g} without delay: leave that part out"
+                f"is as good as rigid, and beyond a decay of {STIFFEST:g} without delay: leave that part out, or give "
+                "the duration in the unit of time of the rest, such as s"
             )
 
     @classmethod

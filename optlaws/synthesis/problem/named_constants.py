@@ -47,6 +47,22 @@ def named(text: str) -> Functional:
     return constant
 
 
+def title_of(name: str) -> str:
+    """What messages and tables call the constant of a name.
+
+    Examples
+    --------
+    >>> title_of("rms_c"), title_of("peak(c + 3*b)")
+    ('rms_c', 'peak(c + 3*b)')
+    """
+    if name in WITHOUT_ARGUMENTS:
+        return name
+    try:
+        return named(name).title
+    except InputError:
+        return name
+
+
 def is_named(term: Term) -> bool:
     """Whether its name alone tells what it is, so that text can stand for it.
 

@@ -24,6 +24,9 @@ from optlaws import (
     Pieces,
     Problem,
     at_most,
+    catalogue,
+    pareto_front,
+    shaped_law,
     smoothstep,
     synthesize,
 )
@@ -260,6 +263,26 @@ def test_peaks_of_one_side_below_0_do_not_make_laws_small() -> None:
     assert solution.objective < -100.0
 
 
+def test_entries_of_the_catalogue_stand_for_their_laws() -> None:
+    machine, entry = chain(1), catalogue["cycloidal"]
+    for constant in (machine.peak(), machine.rms(), machine.residual()):
+        assert constant.value(entry) == constant.value(entry.law)  # type: ignore[arg-type]
+    nu = machine.modes[0].frequency
+    assert shaped_law(entry, nu) == shaped_law(entry.law, nu)  # type: ignore[arg-type]
+    with pytest.raises(InputError, match="law must be a motion law"):
+        shaped_law("cycloidal", nu)  # type: ignore[arg-type]
+
+
+def test_fronts_call_constants_of_machines_by_their_titles() -> None:
+    machine = chain(2, masses=1)
+    residual = machine.residual(1, "last acceleration", spread=0.1)
+    front = pareto_front(Problem(order=3, basis=Chebyshev(7), symmetric=False), over=(residual, "C"), points=3)
+    said = [repr(front), *front.headings, front.plot()[0].axes.get_xlabel()]
+    assert residual.title in said
+    assert not any('"A"' in text for text in said)
+    assert len(front.headings) == len(front.rows[0])
+
+
 def test_a_constant_load_is_added_and_sides_are_those_of_the_output() -> None:
     machine, law = chain(1), smoothstep(4)
     low, high = machine.response(law).extrema("motor torque")
@@ -277,6 +300,7 @@ def test_a_constant_load_is_added_and_sides_are_those_of_the_output() -> None:
     [
         ("did you mean 'motor torque'", lambda machine: machine.peak("motor torqe")),
         ("mode must be a whole number from 1 to 1", lambda machine: machine.residual(2)),
+        ("before the output: residual\\(1, 'sway'\\)", lambda machine: machine.residual("sway")),
         ("mode must be a whole number", lambda machine: machine.residual(1.5)),
         ("the first before the last", lambda machine: machine.peak(within=(1.0, 1.0))),
         ("two times", lambda machine: machine.peak(within=3.0)),

@@ -269,6 +269,9 @@ WRONG: dict[str, Callable[[], object]] = {
     "unknown mass 'q'": lambda: Machine.from_masses({"m": 1, "n": 2}, [("m", "q", 3)], drive="m"),
     "at least two": lambda: Machine.from_masses({"m": 1}, [], drive="m"),
     "joins two different": lambda: Link("m", "m", 3.0),
+    "the mass 'q' is linked to nothing": lambda: Machine.from_masses(
+        {"m": 1, "n": 1, "q": 1, "r": 2}, [("m", "n", 3), ("q", "r", 3), ("ground", "q", 3)], drive="m"
+    ),
     "stiffness must be": lambda: Link("m", "n", -3.0),
     "the mass n must be": lambda: Machine.from_masses({"m": 1, "n": 0}, [("m", "n", 3)], drive="m"),
     "drive must": lambda: Machine.from_masses({"m": 1, "n": 1}, [("m", "n", 3)], drive=("m", "m")),
