@@ -2,12 +2,27 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection
+from bisect import bisect_right
+from collections.abc import Callable, Collection, Mapping
+from functools import reduce
+from itertools import combinations
 from itertools import product as every
 
-from optlaws.formulas.arithmetic import pieces
+from optlaws.formulas.arithmetic import NUMPY, evaluate, pieces
 from optlaws.formulas.slopes import added, multiplied, opposite
-from optlaws.formulas.tree import Call, Formula, Negative, Number, Power, Product, Reciprocal, Sum, Table, number
+from optlaws.formulas.tree import (
+    Call,
+    Formula,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Reciprocal,
+    Sum,
+    Table,
+    number,
+    rebuilt,
+)
 
 _MOST = 16
 _RISING = frozenset({"exp", "log", "sqrt", "atan", "tanh"})
@@ -49,6 +64,79 @@ def smooth_itself(part: Formula) -> bool:
     if isinstance(part, Table):
         return part.smooth
     return not (isinstance(part, Call) and part.function in {"abs", "max", "min"})
+
+
+def switches(formula: Formula, names: Collection[str]) -> list[Formula]:
+    """Formulas between whose changes of sign it has no kinks in these names; those of inner parts come first.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> switches(read("max(abs(b) - 1, c, 0)"), "bc")
+    [b, abs(b) - 1 - c, abs(b) - 1, c]
+    """
+    found: list[Formula] = []
+    for part in reversed(list(formula.walk())):
+        if smooth_itself(part) or not part.names() & set(names):
+            continue
+        if isinstance(part, Table):
+            found += [added([part.of, opposite(number(place))]) for place in part.places[1:-1]]
+        elif len(part.parts) == 1:
+            found += part.parts
+        else:
+            found += [added([one, opposite(other)]) for one, other in combinations(part.parts, 2)]
+    return [one for one in dict.fromkeys(found) if one.names() & set(names)]
+
+
+def branch_at(formula: Formula, names: Mapping[str, float]) -> Formula:
+    """The smooth formula that it is where its names, all of them, have these values.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> branch_at(read("abs(b) + max(c, 2*b)"), {"b": -1.0, "c": 3.0})
+    -b + c
+    """
+    parts = [branch_at(part, names) for part in formula.parts]
+    if smooth_itself(formula):
+        return rebuilt(formula, parts) if parts else formula
+    values = [float(evaluate(part, names, NUMPY)) for part in parts]
+    if isinstance(formula, Table):
+        lines = pieces(formula).tolist()
+        i = min(max(bisect_right(formula.places, values[0]) - 1, 0), len(lines) - 1)
+        start, slope = lines[i][0], (lines[i][1] if len(lines[i]) > 1 else 0.0)
+        return added([number(start - slope * formula.places[i]), multiplied([number(slope), parts[0]])])
+    if len(parts) == 1:
+        return parts[0] if values[0] >= 0.0 else opposite(parts[0])
+    best = max(values) if isinstance(formula, Call) and formula.function == "max" else min(values)
+    return parts[values.index(best)]
+
+
+def rounded(formula: Formula, radius: float) -> Formula:
+    """A smooth formula near it: hyperbolas of this radius in place of the kinks of sizes, maxima and minima.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> rounded(read("abs(b)"), 0.5), rounded(read("max(b, c)"), 0.5)
+    (sqrt(b^2 + 0.25), 0.5*(b + c + sqrt((b - c)^2 + 0.25)))
+    """
+    parts = [rounded(part, radius) for part in formula.parts]
+    if smooth_itself(formula) or not isinstance(formula, Call):
+        return rebuilt(formula, parts) if parts else formula
+    if len(parts) == 1:
+        return _hyperbola(parts[0], radius)
+    sign = 1.0 if formula.function == "max" else -1.0
+
+    def greater(one: Formula, other: Formula) -> Formula:
+        apart = _hyperbola(added([one, opposite(other)]), radius)
+        return multiplied([Number(0.5), added([one, other, multiplied([number(sign), apart])])])
+
+    return reduce(greater, parts)
+
+
+def _hyperbola(of: Formula, radius: float) -> Formula:
+    return Call("sqrt", (added([Power(of, Number(2.0)), Number(radius**2)]),))
 
 
 class _Branches:

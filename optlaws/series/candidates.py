@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
@@ -15,6 +16,8 @@ Array = NDArray[np.float64]
 _DEEPEST, _DENSE = 12, 129
 #: of the greatest value: quotients of small numbers are rounded more than others
 _BLUR = 1e-8
+#: of the greatest value: less has no sign
+_ROUNDING = 1e-12
 
 
 def series_between(
@@ -69,3 +72,53 @@ def candidates(
     middle = (low + high) / 2.0
     halves = [candidates(function, half, None, depth + 1) for half in ((low, middle), (middle, high))]
     return np.concatenate([*halves, [middle]])
+
+
+def roots_between(function: Callable[[Array], Array], ends: tuple[float, float], depth: int = 0) -> Array:
+    """Places strictly between two among which every change of sign of a function is; kinks are cut at.
+
+    Examples
+    --------
+    >>> roots_between(lambda x: x * x - 0.25, (0.0, 2.0)).round(12)
+    array([0.5])
+    """
+    low, high = ends
+    series = series_between(function, ends)
+    if series is not None:
+        places: Array = low + (high - low) * (real_parts_of_roots(series) + 1.0) / 2.0
+        return np.unique(places[(places > low) & (places < high)])
+    if depth >= _DEEPEST:
+        return np.empty(0)
+    middle = (low + high) / 2.0
+    halves = [roots_between(function, half, depth + 1) for half in ((low, middle), (middle, high))]
+    return np.concatenate([halves[0], [middle], halves[1]])
+
+
+def cut_at_roots(function: Callable[[float, float], Callable[[Array], Array]], edges: list[float]) -> list[float]:
+    """The edges, and between them the places where functions change their sign, but for those next to another one.
+
+    Parameters
+    ----------
+    function
+        What to take between two edges.
+    edges
+        Ascending.
+
+    Examples
+    --------
+    >>> cut_at_roots(lambda low, high: np.cos, [0.0, 2.0, 3.0])
+    [0.0, 1.570796..., 2.0, 3.0]
+    """
+    found = edges[:1]
+    for low, high in pairwise(edges):
+        of = function(low, high)
+        found += [*_changes(of, np.array([low, *roots_between(of, (low, high)), high])), high]
+    return found
+
+
+def _changes(function: Callable[[Array], Array], places: Array) -> list[float]:
+    """Those of the inner places at which a function that is more than rounding changes its sign."""
+    values = function((places[1:] + places[:-1]) / 2.0)
+    plain = np.flatnonzero(np.abs(values) > _ROUNDING * np.abs(values).max())
+    turns = np.sign(values[plain[1:]]) != np.sign(values[plain[:-1]])
+    return [float(place) for place in places[plain[1:]][turns]]

@@ -86,6 +86,7 @@ MAKERS: dict[str, Callable[[LawSpace, Array], Family]] = {
         "peak(c + table(k, 0:0, 0.3:1, 1:0)*b, stop=0.45)", laws, room
     ),
     "curved formula": lambda laws, room: of_text("peak((1 + a^2)*c + a*b^2 + k*b, side=high, start=0.05)", laws, room),
+    "integrated kinks": lambda laws, room: of_text("integral(abs(c - b) + a*b)", laws, room),
     "integrated formula": lambda laws, room: of_text("integral(c^2 + a*b)", laws, room),
     "rooted integral": lambda laws, room: of_text("rms(2 + c^2 + b^2)", laws, room),
     "velocity, loader": lambda laws, room: B_loader.families(laws, room, BOUND)[0],

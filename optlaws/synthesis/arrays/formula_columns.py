@@ -192,7 +192,7 @@ def _between(bent: Array, rows: Array) -> Array:
 
 def formula_tangents(family: OfFormula) -> Formulas | Integrals | None:
     """The tangents of a formula's rows; None of a kind that is not known here, or where it has kinks over k."""
-    if isinstance(family, IntegralFamily):
+    if type(family) is IntegralFamily:
         return Integrals(family)
     if isinstance(family, CurvedFamily) and family.edges == (1.0, -1.0):
         return Formulas(family)

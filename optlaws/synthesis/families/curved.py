@@ -73,7 +73,7 @@ def _slope(formula: Formula, at: Mapping[str, Array]) -> Array:
     return np.where(np.isnan(values), 0.0, values)
 
 
-def _bent(bend: Array, rows: Array) -> Array:
+def bent(bend: Array, rows: Array) -> Array:
     """Second derivatives by the variables, of those by the names (names, names, places) and the names' rows."""
     turned = np.einsum("ijp,jpn->ipn", bend, rows)
     return np.asarray(np.tensordot(rows, turned, axes=((0, 1), (0, 1))))
@@ -180,7 +180,7 @@ class CurvedFamily(OfFormula):
         """Of the formula, weighted."""
         columns = self.columns(u)[:, 0]
         bend = self.slopes.hessian(self._at(columns @ np.append(x, 1.0), u))[:-1, :-1]
-        return _bent(bend * weights, columns[:, :, :-1])
+        return bent(bend * weights, columns[:, :, :-1])
 
     def value(self, x: Array, u: Array) -> Array:
         """f at the points u."""
@@ -312,11 +312,11 @@ class IntegralFamily(OfFormula):
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002 - it has no place
         """Of f, times the sum of weights."""
         total, by_x, at = self._sum(x)
-        bent = _bent(self.slopes.hessian(at) * self.weights, self.columns[:, :, :-1])
+        moved = bent(self.slopes.hessian(at) * self.weights, self.columns[:, :, :-1])
         if self.root:
             size, share = self.outer(total)
-            bent = share * bent - np.outer(by_x, by_x) / (4.0 * size**3)
-        return np.asarray(bent * float(weights.sum()))
+            moved = share * moved - np.outer(by_x, by_x) / (4.0 * size**3)
+        return np.asarray(moved * float(weights.sum()))
 
     def value(self, x: Array, u: Array) -> Array:
         """f."""

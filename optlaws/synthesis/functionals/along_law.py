@@ -2,17 +2,20 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from functools import partial
 from itertools import pairwise
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.formulas.branches import switches
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.series.candidates import candidates, series_between
+from optlaws.series.candidates import candidates, cut_at_roots, series_between
 from optlaws.series.chebyshev import gauss, value
 from optlaws.series.peaks import Peak, extremes
 
@@ -37,12 +40,12 @@ def extremes_along(motion: Motion, law: MotionLaw) -> tuple[Peak, Peak]:
 
 def mean_square_along(motion: Motion, law: MotionLaw) -> float:
     """The integral over the part of the square of a formula in a law."""
-    return sum(_integral(motion, law, ends, square=True) for ends in pairwise(_edges(motion, law)))
+    return sum(_integral(motion, law, ends, square=True) for ends in pairwise(_smooth_edges(motion, law)))
 
 
 def integral_along(motion: Motion, law: MotionLaw) -> float:
     """The integral over the part of a formula in a law."""
-    return sum(_integral(motion, law, ends, square=False) for ends in pairwise(_edges(motion, law)))
+    return sum(_integral(motion, law, ends, square=False) for ends in pairwise(_smooth_edges(motion, law)))
 
 
 def value_along(motion: Motion, law: MotionLaw) -> float:
@@ -60,6 +63,18 @@ def _edges(motion: Motion, law: MotionLaw) -> list[float]:
     breaks = law.breaks if isinstance(law, PiecewiseLaw) else ()
     inner = {k for k in (*breaks, *motion.breaks) if motion.start < k < motion.stop}
     return sorted({motion.start, motion.stop, *inner})
+
+
+def _smooth_edges(motion: Motion, law: MotionLaw) -> list[float]:
+    """These, and the kinks that the law makes."""
+    edges = _edges(motion, law)
+    for switch in switches(motion.formula, ORDERS):
+        edges = cut_at_roots(partial(_inside, Motion(switch), law), edges)
+    return edges
+
+
+def _inside(motion: Motion, law: MotionLaw, low: float, high: float) -> Callable[[Array], Array]:
+    return lambda k: _on(motion, law, (low, high), k)[1]
 
 
 def _on(motion: Motion, law: MotionLaw, ends: tuple[float, float], k: Array) -> tuple[Array, Array]:

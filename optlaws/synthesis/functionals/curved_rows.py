@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, fields, replace
 from itertools import pairwise
 from itertools import product as every
 from typing import TYPE_CHECKING
@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.formulas.branches import smooth
 from optlaws.formulas.convexity import Judge
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.quadratic import quadratic
@@ -20,6 +21,7 @@ from optlaws.series.chebyshev import gauss
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.functionals.affine_rows import Side, edges_of, rows
 
 if TYPE_CHECKING:
@@ -93,7 +95,7 @@ def integral_rows(
     used = tuple(sorted(motion.formula.names() & ORDERS.keys()))
     k, weights = integral_rule(space, motion)
     columns = np.stack([space.widened(columns_at(space, one, k), len(slack)) for one in used])
-    return IntegralFamily(
+    plain = IntegralFamily(
         name,
         slack,
         bound,
@@ -105,6 +107,21 @@ def integral_rows(
         root=root,
         convex=convex,
     )
+    return plain if smooth(motion.formula, ORDERS) else _kinked(space, motion, plain)
+
+
+def _kinked(space: LawSpace, motion: Motion, plain: IntegralFamily) -> KinkedIntegralFamily:
+    """The same of a formula with kinks in the law, by what it is between them."""
+
+    def rows(k: Array) -> Array:
+        orders = [ORDERS[name] for name in plain.names]
+        both = [[columns_of(space, nu + turn, k) for nu in orders] for turn in (0, 1)]
+        return np.array([[space.widened(one, len(plain.slack)) for one in of_order] for of_order in both])
+
+    own = {one.name: getattr(plain, one.name) for one in fields(plain)}
+    length = _SPARE + max(space.degree_of(ORDERS[name]) for name in plain.names)
+    edges = tuple(_known_edges(space, motion))
+    return KinkedIntegralFamily(**own, rows=rows, units=np.ones(len(plain.slack) + 1), edges=edges, length=length)
 
 
 def integral_rule(space: LawSpace, motion: Motion) -> tuple[Array, Array]:
@@ -130,14 +147,19 @@ def rule_edges(space: LawSpace, motion: Motion) -> list[float]:
 
     Where it is no polynomial they are as near as the space's own law asks for, and nearer, for others are less smooth.
     """
-    edges = [(1.0 - u) / 2.0 for u in space.edges]
-    both = {*edges, *(1.0 - k for k in edges)} if space.symmetric else set(edges)
-    inner = {k for k in (*both, *motion.kinks) if motion.start < k < motion.stop}
-    found = sorted({motion.start, motion.stop, *inner})
+    found = _known_edges(space, motion)
     if motion.degree(dict.fromkeys(ORDERS, 1)) is not None:
         return found
     cells = space.cached(("cells", motion), lambda: np.array(_cells(space, motion, found)))
     return _cut(found, int(cells))
+
+
+def _known_edges(space: LawSpace, motion: Motion) -> list[float]:
+    """The k between which derivatives and factors are smooth along every law, over the formula's part."""
+    edges = [(1.0 - u) / 2.0 for u in space.edges]
+    both = {*edges, *(1.0 - k for k in edges)} if space.symmetric else set(edges)
+    inner = {k for k in (*both, *motion.kinks) if motion.start < k < motion.stop}
+    return sorted({motion.start, motion.stop, *inner})
 
 
 def _cells(space: LawSpace, motion: Motion, edges: list[float]) -> int:
@@ -159,8 +181,12 @@ def _cut(edges: list[float], cells: int) -> list[float]:
 
 
 def columns_at(space: LawSpace, name: str, k: Array) -> Array:
-    """A derivative at places anywhere in [0, 1]: of symmetric laws the second half is the first one's mirror image."""
-    nu = ORDERS[name]
+    """A derivative at places anywhere in [0, 1]."""
+    return columns_of(space, ORDERS[name], k)
+
+
+def columns_of(space: LawSpace, nu: int, k: Array) -> Array:
+    """The derivative of order nu at places in [0, 1]: of symmetric laws the second half is the first's mirror image."""
     if not space.symmetric:
         return space.columns(nu, 1.0 - 2.0 * k)
     found = space.columns(nu, np.abs(1.0 - 2.0 * k))

@@ -9,6 +9,8 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.reading import read
+from optlaws.formulas.scanner import FormulaError
 from optlaws.formulas.slopes import constant
 from optlaws.formulas.tree import Call, Formula, Power, Reciprocal
 from optlaws.formulas.vocabulary import ORDERS
@@ -34,20 +36,30 @@ def check_ends(motion: Motion, conditions: BoundaryConditions) -> None:
     >>> from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
     >>> check_ends(of_text("c/b"), BoundaryConditions.rest(3))
     Traceback (most recent call last):
-    optlaws.errors.InputError: c/b has no finite value at k = 0, where b = 0 and c = 0 in every law: ask for a...
+    optlaws.formulas.scanner.FormulaError: c/b has no finite value at k = 0, where b = 0 and c = 0 in every law: ask...
+      c/b
+       ^
     """
     for k, end in ((0.0, conditions.start), (1.0, conditions.end)):
         known = {name: end[nu] for name, nu in ORDERS.items() if nu < len(end)}
-        for part in motion.formula.walk() if motion.start <= k <= motion.stop else ():
-            moving = sorted(part.names() & ORDERS.keys())
-            if not moving or not part.names() <= {*known, "k"}:
-                continue
-            if not np.isfinite(Motion(part).values({**known, "k": k})):
-                values = " and ".join(f"{name} = {known[name]:g}" for name in moving)
-                raise InputError(
-                    f"{motion.formula} has no finite value at k = {k:g}, where {values} in every law: ask for a part "
-                    "of the interval, such as start=0.05, stop=0.95"
-                )
+        asked = motion.formula.walk() if motion.start <= k <= motion.stop else ()
+        parts = [part for part in asked if part.names() <= {*known, "k"} and part.names() & ORDERS.keys()]
+        wrong = [part for part in parts if not np.isfinite(Motion(part).values({**known, "k": k}))]
+        if wrong:
+            values = " and ".join(f"{name} = {known[name]:g}" for name in sorted(wrong[0].names() & ORDERS.keys()))
+            raise _no_value(
+                motion.formula,
+                wrong[-1],
+                f"{motion.formula} has no finite value at k = {k:g}, where {values} in every law: ask for a part "
+                "of the interval, such as start=0.05, stop=0.95",
+            )
+
+
+def _no_value(formula: Formula, part: Formula, what: str) -> FormulaError:
+    """The error that points at a part of a formula as it is printed."""
+    text = str(formula)
+    places = (one.place for one in read(text).walk() if one == part)
+    return FormulaError(what, text, next(places, 0))
 
 
 def check_passed(motion: Motion, conditions: BoundaryConditions, *, smooth: bool) -> None:

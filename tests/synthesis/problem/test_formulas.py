@@ -3,7 +3,7 @@
 import json
 import re
 from dataclasses import replace
-from typing import Any
+from typing import Any, cast
 
 import numpy as np
 import pytest
@@ -202,7 +202,6 @@ def test_every_door_takes_them() -> None:
         ("peak(c*tan(3*k))", "tan(3*k) has no finite value within k = 0..1", 7),
         ("peak(k)", "no law changes it", 5),
         ("peak(b*c + 0.1*abs(b))", 'neither smooth nor known; side="high" may be', 15),
-        ("integral(abs(c))", "an integral needs a smooth formula", 9),
         ("peak(c, side=up)", "unknown side 'up'; known are both, high, low", 0),
         ("peak(c, start=0.6, stop=0.2)", "needs start <= stop", 0),
         ("rms(c, start=0.5, stop=0.5)", "start < stop", 0),
@@ -219,6 +218,39 @@ def test_an_error_shows_the_place_in_the_text(text: str, message: str, place: in
         Problem(order=4, minimise=text)
     assert message in str(caught.value)
     assert str(caught.value).splitlines()[-1] == " " * (2 + place) + "^"
+
+
+@pytest.mark.parametrize(
+    ("text", "status"),
+    [
+        ("integral(abs(c))", "optimal"),
+        ("integral(max(c + 3*a - 2, 0)^2)", "optimal"),
+        ("rms(max(c, 0))", "optimal"),
+        ("integral(max((c + 0.5*b)*b, 0))", "local"),
+        ("integral(table(c, -9:9, 0:0, 9:4) + b^2)", "optimal"),
+    ],
+)
+def test_integrals_of_kinks_are_exact_and_bounded(text: str, status: str) -> None:
+    problem = replace(PROBLEM, basis=Chebyshev(5), C=at_most(6.0), minimise=text)
+    solution = synthesize(problem)
+    assert solution.status.value == status
+    constant = named(text)
+    k = np.linspace(0.0, 1.0, 40_001)
+    law = solution.law
+    values = np.broadcast_to(
+        cast("Any", constant).motion.values({"k": k, "a": law.a(k), "b": law.b(k), "c": law.c(k)}), k.shape
+    )
+    plain = float(np.trapezoid(values**2 if text.startswith("rms") else values, k))
+    assert solution.objective == pytest.approx(plain**0.5 if text.startswith("rms") else plain, rel=1e-6)
+    assert solution.objective <= constant.value(synthesize(replace(problem, minimise="J")).law) + 1e-9
+    assert solution.lower_bound <= solution.objective * (1.0 + 1e-12)
+
+
+def test_what_divides_by_nothing_at_an_end_shows_where() -> None:
+    with pytest.raises(InputError) as caught:
+        synthesize(replace(PROBLEM, minimise="peak(c + 2*c/b, start=0.1)"))
+    assert "ask for a part of the interval" in str(caught.value)
+    assert str(caught.value).splitlines()[1:3] == ["  c + 2*c/b", "         ^"]
 
 
 def test_what_has_no_least_value_or_is_beyond_every_bound_says_so() -> None:

@@ -9,13 +9,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import casadi_arithmetic, evaluate
+from optlaws.formulas.branches import rounded
 from optlaws.formulas.tree import Formula
 from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily, OfFormula
 from optlaws.synthesis.families.family import Points
+from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 
 Array = NDArray[np.float64]
 
 _LEAST_ROOT = 1e-24
+_RADIUS = 0.003
 
 
 @dataclass(frozen=True)
@@ -44,7 +47,9 @@ class FormulaShape:
 def shape_of(family: OfFormula, points: Points) -> FormulaShape:
     """The shape of a family's rows at points."""
     if isinstance(family, IntegralFamily):
-        return FormulaShape(family.formula, family.names, len(family.places), 1, family.root)
+        # interior points need slopes that do not leap
+        formula = rounded(family.formula, _RADIUS) if isinstance(family, KinkedIntegralFamily) else family.formula
+        return FormulaShape(formula, family.names, len(family.places), 1, family.root)
     assert isinstance(family, CurvedFamily)  # noqa: S101 - there are no others
     return FormulaShape(family.formula, family.names, len(points.u), len(points.u))
 

@@ -15,6 +15,7 @@ from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import Family, LinearFamily, Points, Program
+from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.method.on_points.conic import conic, optimum_on_points
 from optlaws.synthesis.method.on_points.grids import with_extrema
 from optlaws.synthesis.method.on_points.ipopt import Answer, solve_on_points
@@ -26,6 +27,7 @@ from optlaws.synthesis.method.ways.way import Way, in_rounds
 Array = NDArray[np.float64]
 
 _LINEAR_ROUNDS = 6
+_KINKED_ROUNDS = 3
 #: beyond so many variables a round of IPOPT costs more than all vertices together
 _LARGE = 24
 
@@ -59,6 +61,8 @@ class ByInteriorPoints(Way[list[Points], ActiveSet]):
     def __post_init__(self) -> None:
         if not self.program.curved:
             self.rounds = min(self.rounds, _LINEAR_ROUNDS)
+        if any(isinstance(family, KinkedIntegralFamily) for family in self.program.families):
+            self.rounds = min(self.rounds, _KINKED_ROUNDS)
 
     def answered(self, held: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
         """The optimum, or the points with the extrema of IPOPT's answer; neither where IPOPT has lost its way."""
@@ -72,7 +76,8 @@ class ByInteriorPoints(Way[list[Points], ActiveSet]):
             return optimum, None
         if self.count == self.rounds:
             # an optimum may be so flat that no exact active set shows: IPOPT's own contacts are then an answer
-            return (as_answered(held, answer) if _only(self.program, LinearFamily, ConeFamily) else None), None
+            flat = _only(self.program, LinearFamily, ConeFamily, KinkedIntegralFamily)
+            return (as_answered(held, answer) if flat else None), None
         return None, with_extrema(self.program, held, answer.x)
 
     def _answer(self, points: list[Points]) -> Answer:

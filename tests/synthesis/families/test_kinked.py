@@ -1,0 +1,44 @@
+"""Integrals of formulas with kinks: slopes and second derivatives are differences, tangents are nowhere above."""
+
+import numpy as np
+import pytest
+
+from optlaws import Chebyshev, Problem
+from optlaws.synthesis.families.kinked import KinkedIntegralFamily
+from optlaws.synthesis.program.writer import model_of
+
+KINDS = ("integral(abs(c - 2*a))", "integral(max((c + 0.5*b)*b, 0))", "integral(max(c, 0.5*b, 0)^2)", "rms(max(c, 0))")
+
+
+def family_of(text: str, *, symmetric: bool) -> KinkedIntegralFamily:
+    problem = Problem(B=1.8, order=4, basis=Chebyshev(5), minimise=text, symmetric=symmetric)
+    [family] = [one for one in model_of(problem).program.families if isinstance(one, KinkedIntegralFamily)]
+    return family
+
+
+@pytest.mark.parametrize("symmetric", [True, False])
+@pytest.mark.parametrize("text", KINDS)
+def test_derivatives_are_differences(text: str, symmetric: bool) -> None:  # noqa: FBT001 - a parameter
+    family = family_of(text, symmetric=symmetric)
+    x = np.random.default_rng(2).normal(size=len(family.slack)) * 0.2
+    one, step = np.ones(1), 1e-5
+    gradient = family.jet(x, one, one).gradient[0] + family.slack
+    bend = family.hessian(x, one, one)
+    assert bend is not None
+    for i, way in enumerate(step * np.eye(len(x))):
+        ahead, back = (family.jet(x + sign * way, one, one) for sign in (1.0, -1.0))
+        rise = family.value(x + way, one)[0] - family.value(x - way, one)[0]
+        assert rise / (2.0 * step) == pytest.approx(gradient[i], rel=1e-6, abs=1e-7)
+        assert (ahead.gradient - back.gradient)[0] / (2.0 * step) == pytest.approx(bend[i], rel=1e-4, abs=1e-5)
+
+
+@pytest.mark.parametrize("text", [KINDS[0], *KINDS[2:]])
+def test_tangents_are_nowhere_above(text: str) -> None:
+    family, numbers = family_of(text, symmetric=True), np.random.default_rng(3)
+    one = np.ones(1)
+    for _ in range(4):
+        x, other = numbers.normal(size=(2, len(family.slack))) * 0.3
+        row = family.tangent_row(1.0, 1.0, family.touching(x, 1.0))
+        assert row is not None
+        assert row @ np.append(x, 1.0) == pytest.approx(family.value(x, one)[0], rel=1e-10)
+        assert row @ np.append(other, 1.0) <= family.value(other, one)[0] * (1.0 + 1e-10)
