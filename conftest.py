@@ -58,6 +58,7 @@ def pytest_runtest_teardown() -> None:
 def pytest_xdist_make_scheduler(config: pytest.Config, log: Producer) -> LoadFileScheduling:
     """Keep a file in one process: blocks of a document use each other's names, tests what others have solved.
 
-    The files of most tests come first, so that small ones fill the end.
+    They come in their order, not those of most tests first: what is slow is few tests, and would come last.
     """
+    config.option.loadscopereorder = False
     return LoadFileScheduling(config, log)
