@@ -32,6 +32,8 @@ Array = NDArray[np.float64]
 _SPARE = 40
 # what two rules in a row may differ by, relative, and how often parts are cut in two
 _AGREED, _MOST_POWER = 1e-13, 5
+# along how many laws, and how much greater the acceleration of the others is
+_LAWS, _GREATER = 4, 2.0
 _MOST = 8
 
 #: between which values derivatives are, by name
@@ -163,16 +165,28 @@ def _known_edges(space: LawSpace, motion: Motion) -> list[float]:
 
 
 def _cells(space: LawSpace, motion: Motion, edges: list[float]) -> int:
-    """Into how many cells the parts between edges are cut."""
-    count, before = rule_length(space, motion), np.nan
+    """Into how many cells the parts between edges are cut: until twice as many say the same along some laws."""
+    count, before, laws = rule_length(space, motion), np.full(_LAWS, np.nan), _some_laws(space)
     for power in range(_MOST_POWER + 1):
         k, weights = _rule(_cut(edges, 1 << power), count)
-        names = {name: columns_at(space, name, k)[:, -1] for name in ORDERS if name in motion.formula.names()}
-        values = np.broadcast_to(motion.values({**names, "k": k}), k.shape)
-        if abs(weights @ values - before) <= _AGREED * float(weights @ np.abs(values)):
-            return 1 if power == 1 else 1 << power
-        before = float(weights @ values)
+        names = {name: laws @ columns_at(space, name, k).T for name in ORDERS if name in motion.formula.names()}
+        values = np.broadcast_to(motion.values({**names, "k": k}), (_LAWS, len(k)))
+        found = values @ weights
+        if (np.abs(found - before) <= _AGREED * (np.abs(values) @ weights)).all():
+            return max(1 << power - 1, 1)
+        before = found
     return 1 << _MOST_POWER
+
+
+def _some_laws(space: LawSpace) -> Array:
+    """Coordinates with 1 beside them: of the space's own law, and of others at random whose c is greater."""
+    rule, found = space.quadrature(2), np.zeros((_LAWS, space.terms + 1))
+    found[:, -1] = 1.0
+    found[1:, :-1] = np.random.default_rng(0).normal(size=(_LAWS - 1, space.terms))
+    for law in found[1:]:
+        moved = float(np.sqrt(rule.weights @ (rule.values[:, :-1] @ law[:-1]) ** 2))
+        law[:-1] *= _GREATER * float(np.sqrt(rule.weights @ rule.values[:, -1] ** 2)) / moved if moved else 0.0
+    return found
 
 
 def _cut(edges: list[float], cells: int) -> list[float]:

@@ -36,6 +36,7 @@ from optlaws.synthesis.functionals.curved_rows import (
     squared,
 )
 from optlaws.synthesis.functionals.sizes import known_values, reach
+from optlaws.synthesis.functionals.tangent_reach import tangent_reach
 from optlaws.synthesis.functionals.undefined import check_ends, check_passed, pitfalls
 from optlaws.synthesis.problem.constants import Asked, Functional
 from optlaws.synthesis.problem.ranges import as_range
@@ -229,12 +230,13 @@ class FormulaRms(OfFormula):
         return (NormFamily(self.name, slack, bound, matrix=space.widened(matrix, len(slack))),)
 
     def _size(self, space: LawSpace) -> tuple[int, float, float] | None:
-        """By Cauchy's inequality."""
-        found = reach(space, self.parts(symmetric=space.symmetric)) if self.affine else None
-        if found is None:
-            return None
-        order, factor, offset = found.by_square()
-        return order, factor * float(np.sqrt(self.length)), offset
+        """By Cauchy's inequality, or by tangents."""
+        if not self.affine:
+            found = _by_tangents(space, squared(self.motion), root=True) if self.convex else None
+        else:
+            values = reach(space, self.parts(symmetric=space.symmetric))
+            found = None if values is None else values.by_square()
+        return None if found is None else (found[0], found[1] * float(np.sqrt(self.length)), found[2])
 
     def _roots(self, space: LawSpace, motion: Motion) -> Array:
         u, weights = gauss(space, motion)
@@ -252,6 +254,10 @@ class FormulaIntegral(OfFormula):
     def value(self, law: MotionLaw) -> float:
         """By Gauss's rule, exact where the formula is a polynomial of k."""
         return integral_along(self.motion, law)
+
+    def _size(self, space: LawSpace) -> tuple[int, float, float] | None:
+        """By tangents."""
+        return _by_tangents(space, self.motion, root=False) if self.convex and not self.affine else None
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """One row."""
@@ -287,6 +293,13 @@ def greatest_along(motion: Motion, sign: float, law: MotionLaw) -> float:
         return highest.value if sign > 0.0 else -lowest.value
     ends = ((branch.sign, extremes_along(branch.motion, law)) for branch in split(motion, sign, "") or [])
     return max(highest.value if sign > 0.0 else -lowest.value for sign, (lowest, highest) in ends)
+
+
+def _by_tangents(space: LawSpace, motion: Motion, *, root: bool) -> tuple[int, float, float] | None:
+    """What bounds the laws in which the integral of a convex formula, or its root, is small."""
+    nothing = np.zeros(space.terms)
+    plain = integral_rows(space, motion, "", nothing, 0.0, root=False, convex=True)
+    return tangent_reach(space, plain, replace(plain, root=True) if root else plain)
 
 
 def refusal(constant: OfFormula) -> str | None:

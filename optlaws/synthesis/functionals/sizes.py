@@ -81,7 +81,7 @@ def reach(space: LawSpace, parts: tuple[Motion, ...]) -> Reach | None:
 
 def reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
     """The same of anything that is affine in the law, by its columns at places and the weights of these."""
-    fixed, free = _kept(space)
+    fixed, free = kept_directions(space)
     rows, right = values[:, :-1] @ free, -(values[:, :-1] @ fixed + values[:, -1])
     inverse = np.linalg.pinv(rows)
     if np.abs(inverse @ rows - np.eye(free.shape[1])).max(initial=0.0) * space.terms > _INVERSE:
@@ -103,7 +103,7 @@ def by_norm(space: LawSpace, rows: Array) -> tuple[tuple[int, float, float], ...
     """
     rule = space.quadrature(2)
     bent = np.sqrt(rule.weights)[:, None] * rule.values
-    fixed, free = _kept(space)
+    fixed, free = kept_directions(space)
     kept = np.append(fixed, 1.0)
     way: Array = np.asarray(np.linalg.qr(bent[:, :-1] @ free, mode="r"))
     if np.linalg.matrix_rank(way) < way.shape[1]:
@@ -115,7 +115,7 @@ def by_norm(space: LawSpace, rows: Array) -> tuple[tuple[int, float, float], ...
     return ((2, factor, _ROOM * float(np.linalg.norm(bent @ kept)) + factor * float(np.linalg.norm(rows @ kept))),)
 
 
-def _kept(space: LawSpace) -> tuple[Array, Array]:
+def kept_directions(space: LawSpace) -> tuple[Array, Array]:
     """Coordinates that keep the space's equations, and in which directions they may be left without breaking one."""
     equations = space.equations()
     if not equations:
