@@ -25,12 +25,14 @@ FUNCTIONS = {
     **dict.fromkeys(("sin", "cos", "tan", "atan", "tanh", "exp", "log", "sqrt", "abs"), (1, 1)),
     **dict.fromkeys(("max", "min", "norm"), (2, 12)),
 }
-TABLES = ("spline", "table")
+TABLES = ("spline", "spline1", "spline2", "table")
 CONSTANTS = ("pi",)
 LONGEST = 10_000
 DEEPEST = 40
-_FEWEST = {"table": 2, "spline": 4}
+_FEWEST = {"table": 2, "spline": 4, "spline1": 4, "spline2": 4}
 _MOST_PLACES = 400
+#: a spline and its derivatives, as they are printed
+_SPLINES = frozenset({"spline", "spline1", "spline2"})
 
 
 def read(text: str, names: Collection[str] | None = None) -> Formula:
@@ -182,7 +184,9 @@ class _Parser:
             self.scanner.refuse(f"{kind} needs {fewest} to {_MOST_PLACES} pairs such as 0:1, got {len(pairs)}", place)
         if any(x >= y for (x, _), (y, _) in pairwise(pairs)):
             self.scanner.refuse(f"the places of {kind} must ascend", place)
-        return Table(of, tuple(x for x, _ in pairs), tuple(y for _, y in pairs), kind == "spline", place=place)
+        places, values = zip(*pairs, strict=True)
+        order = int(kind.removeprefix("spline") or 0) if kind in _SPLINES else 0
+        return Table(of, places, values, kind in _SPLINES, order, place=place)
 
     def _number(self) -> float:
         minus = self.scanner.token.text == "-"

@@ -179,7 +179,8 @@ class Call(Formula):
 class Table(Formula):
     """A function of one part, given by values at places: straight lines between them, which go on beyond them.
 
-    With `smooth` it is the cubic spline through them (not a knot), which goes on as well, or a derivative of it.
+    With `smooth` it is the cubic spline through them (not a knot), which goes on as well. Of an order above 0 it is that
+    derivative, with the order in its text: spline1(a, ...).
     """
 
     of: Formula
@@ -196,7 +197,7 @@ class Table(Formula):
     def __str__(self) -> str:
         pairs = (f"{plain(x)}:{plain(y)}" for x, y in zip(self.places, self.values, strict=True))
         kind = "spline" if self.smooth else "table"
-        return f"{kind}{chr(39) * self.order}({self.of}, {', '.join(pairs)})"
+        return f"{kind}{self.order or ''}({self.of}, {', '.join(pairs)})"
 
 
 def plain(value: float) -> str:

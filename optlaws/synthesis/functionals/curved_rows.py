@@ -194,6 +194,12 @@ def _cut(edges: list[float], cells: int) -> list[float]:
     return [*inner, edges[-1]]
 
 
+def rule_cells(space: LawSpace, motion: Motion, count: int) -> Array:
+    """The k between which the formula is smooth, as many cells between them as make up a count at least."""
+    edges = rule_edges(space, motion)
+    return np.array(_cut(edges, -(-count // (len(edges) - 1))))
+
+
 def columns_at(space: LawSpace, name: str, k: Array) -> Array:
     """A derivative at places anywhere in [0, 1]."""
     return columns_of(space, ORDERS[name], k)

@@ -31,6 +31,8 @@ def drive_torque(*, inertia: str = "1", friction: str = "0", load: str = "0") ->
     'c + 0.5*b + 4*a'
     >>> drive_torque(inertia="1 + 0.3*a^2")
     '(1 + 0.3*a^2)*c + 0.5*0.3*2*a*b^2'
+    >>> drive_torque(inertia="spline(a, 0:1, 0.3:1.1, 0.7:1.4, 1:1.3)")[-44:]
+    'spline1(a, 0:1, 0.3:1.1, 0.7:1.4, 1:1.3)*b^2'
     """
     mass, drag, force = (read(text, ("a", "k")) for text in (inertia, friction, load))
     square = Power(Name("b"), Number(2.0))

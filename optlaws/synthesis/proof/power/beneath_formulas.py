@@ -19,13 +19,17 @@ from optlaws.formulas.intervals import Interval, enclosed
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
 from optlaws.synthesis.families import names
-from optlaws.synthesis.families.curved import CurvedFamily
+from optlaws.synthesis.families.curved import CurvedFamily, IntegralFamily
 from optlaws.synthesis.families.family import Family
+from optlaws.synthesis.functionals.curved_rows import squared
+from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaRms
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.below_claim import asked_or_claimed, means
+from optlaws.synthesis.proof.certificate import Contact
+from optlaws.synthesis.proof.power.beneath_integrals import Beneath
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 
@@ -40,16 +44,29 @@ Way = tuple[int, ...] | None
 _ROUNDED = 2.0**-44
 _MOST_CORNERS = 8
 _NEAREST = 1e-300
+#: laws near which integrals have planes
+_LAST = 6
 
 
 def applies(problem: Problem) -> bool:
     """Whether boxes bound the problem's formulas: those of polynomials whose velocities some constant bounds."""
     model = model_of(problem)
     known = isinstance(model.space, PolynomialSpace) and model.space.order > 1
-    if not known or not any(_bent(family) for family in model.program.families):
+    open_ones = (_bent(one) or (isinstance(one, IntegralFamily) and not one.convex) for one in model.program.families)
+    if not known or not any(open_ones):
         return False
-    sides = _own_sides(model, 1.0)
-    return bool(np.isfinite(sides).all()) and "B" in _greatest(model, 1.0)
+    sides, integrals = _own_sides(model, 1.0), {one.name for one in model.program.families if _summed(one)}
+    # an integral is no less than its formula is in the first box
+    low = [name in integrals or isfinite(end) for name, end in zip(_own_names(model), sides[:, 0], strict=True)]
+    return all(low) and bool(np.isfinite(sides[:, 1]).all()) and "B" in _greatest(model, 1.0)
+
+
+def _summed(family: Family) -> bool:
+    return isinstance(family, IntegralFamily)
+
+
+def _own_names(model: Model) -> list[str]:
+    return sorted(model.places, key=model.places.__getitem__)
 
 
 def _bent(family: Family) -> bool:
@@ -74,7 +91,7 @@ def _own_sides(model: Model, claim: float) -> Array:
     constants = {leaf.name: leaf for _, leaf in leaves(model.problem.objective) if isinstance(leaf, Functional)}
     greatest, asked = _greatest(model, claim), model.problem.range("B")
     sides = []
-    for name in sorted(model.places, key=model.places.__getitem__):
+    for name in _own_names(model):
         least = constants[name].floor(model.space.boundary) if name in constants else -inf
         if name == "B":
             least = asked.low if asked is not None else 0.0
@@ -135,12 +152,18 @@ class FormulaRows(BoxRows):
         self.families = [family for family in families if isinstance(family, CurvedFamily)]
         self._orders = sorted({ORDERS[name] for family in self.families for name in family.names})
         self._laws = {nu: self.space.derivative(nu, "", np.zeros(self.own)) for nu in self._orders}
+        self._near: list[Array] = []
 
     def root(self) -> Box:
         """The box of all laws of the problem whose objective is below the claim."""
         low, high = self.brackets_at(self.points)
         own = _own_sides(self.model, self.claim)
-        return Box(np.append(low, own[:, 0]), np.append(high, own[:, 1]))
+        box = Box(np.append(low, own[:, 0]), np.append(high, own[:, 1]))
+        for beneath in self.integrals.values():
+            place = self.model.places.get(beneath.family.name)
+            if place is not None and not isfinite(box.low[place]):
+                box = box.cut(place, 1, min(beneath.least(box, self._limits), float(box.high[place])))
+        return box
 
     def brackets_at(self, k: Array) -> tuple[Array, Array]:
         """Least and greatest velocity at the places k: those of the peak, and of what C leaves from the ends on."""
@@ -153,6 +176,67 @@ class FormulaRows(BoxRows):
             reach = np.where(away > 0.0, self.greatest.get("C", inf) * np.maximum(away, _NEAREST), 0.0)
             low, high = np.maximum(low, velocity - reach), np.minimum(high, velocity + reach)
         return low, high
+
+    @kept_property
+    def integrals(self) -> dict[str, Beneath]:
+        """What integrals are nowhere below, by the names of their rows."""
+        formulas = {one.name: one for one in self.problem.constants if isinstance(one, FormulaIntegral | FormulaRms)}
+        found = {}
+        for family in self.model.program.families:
+            if isinstance(family, IntegralFamily):
+                motion = formulas[family.name].motion
+                found[names.plane(0, family.name)] = Beneath(self, family, squared(motion) if family.root else motion)
+        return found
+
+    @property
+    def alone(self) -> tuple[str, ...]:
+        """Of integrals."""
+        return tuple(self.integrals)
+
+    @property
+    def branched(self) -> list[int]:
+        """Integrals that may be below 0, and roots that are minimised with others."""
+        alone = len(list(leaves(self.problem.objective))) == 1
+        floors = dict(zip(_own_names(self.model), _own_sides(self.model, self.claim)[:, 0].tolist(), strict=True))
+        families = (one.family for one in self.integrals.values())
+        return [
+            self.model.places[one.name]
+            for one in families
+            if one.name in floors and ((one.root and not alone) or not isfinite(floors[one.name]))
+        ]
+
+    def remember(self, values: Array) -> None:
+        """The first, and those that came last."""
+        self._near = [*self._near[:1], *self._near[1:][-_LAST + 1 :], values[: self.terms]]
+
+    def beside(self, box: Box) -> list[tuple[Contact, Array]]:
+        """Planes of integrals that touch at the middle of the box, and at laws worth it."""
+        if not self.integrals:
+            return []
+        middle = ((box.low + box.high) / 2.0)[: self.terms]
+        touched = [np.clip(one, box.low[: self.terms], box.high[: self.terms]) for one in (middle, *self._near)]
+        contacts = [Contact(name, 1.0, 0.0, 0.0, tuple(at.tolist())) for name, at in product(self.integrals, touched)]
+        return [(contact, self.row_beside(box, contact)) for contact in contacts]
+
+    def worth(self, box: Box) -> Array | None:
+        """By what the planes of integrals lose, where these are all that bounds do not know."""
+        if not self.integrals or self.families:
+            return None
+        lost = np.zeros(self.size)
+        for beneath in self.integrals.values():
+            lost[: self.terms] += beneath.lost(box, self._limits)
+        return lost if lost.any() else None
+
+    @kept_property
+    def _limits(self) -> dict[str, float]:
+        return {name: self.greatest[peak] for name, peak in PEAKS.items() if peak in self.greatest}
+
+    def row_beside(self, box: Box, contact: Contact) -> Array:
+        """The plane that touches at the law whose velocities the direction is."""
+        if len(contact.direction) != self.terms:
+            return np.zeros(self.size + 1)
+        beneath = self.integrals[contact.constraint]
+        return beneath.row(box, np.array(contact.direction), self._limits, self._room(beneath.family))
 
     def is_curved(self, family: Family) -> bool:
         """Whether it is of a formula."""
@@ -213,7 +297,7 @@ class FormulaRows(BoxRows):
             row -= self._room(family)
         return np.where(np.isfinite(row).all(axis=1)[:, None], row, 0.0)
 
-    def _room(self, family: CurvedFamily) -> Array:
+    def _room(self, family: CurvedFamily | IntegralFamily) -> Array:
         row: Array = self.mapped(np.append(family.slack, family.bound)[None])[0]
         return row
 

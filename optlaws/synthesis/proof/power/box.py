@@ -116,10 +116,23 @@ class BoxRows(ABC):
         """Of the further rows that there may be, which belong to no place."""
         return ()
 
-    def beside(self, box: Box) -> list[tuple[str, Array]]:
-        """Those further rows of a box in this order, each at most 0 with its constant."""
+    def beside(self, box: Box) -> list[tuple[Contact, Array]]:
+        """Further rows of a box, each at most 0 with its constant, by contacts without multipliers."""
         del box
         return []
+
+    def row_beside(self, box: Box, contact: Contact) -> Array:
+        """The row of such a contact."""
+        return {one.constraint: row for one, row in self.beside(box)}[contact.constraint]
+
+    def worth(self, box: Box) -> Array | None:
+        """How much is gained where a variable's range is cut; None where that is not known."""
+        del box
+        return None
+
+    def remember(self, values: Array) -> None:
+        """Take note of a law, by its variables of a box, near which rows may be worth having."""
+        del values
 
     @property
     def branched(self) -> list[int]:
@@ -166,15 +179,14 @@ class BoxRows(ABC):
     def of_contacts(self, contacts: Sequence[Contact], box: Box) -> Array:
         """The rows of contacts, each at most 0 with its constant: zeros where the problem does not ask for it."""
         stacked = np.zeros((len(contacts), self.size + 1))
-        beside = dict(self.beside(box)) if any(contact.constraint in self.alone for contact in contacts) else {}
         for name in self.names:
             mine = [i for i, contact in enumerate(contacts) if contact.constraint == name]
             if mine:
                 k = np.array([contacts[i].k for i in mine])
                 stacked[mine] = self.curved(box, self.places(k), name, np.array([contacts[i].sign for i in mine]))
         for i, contact in enumerate(contacts):
-            if contact.constraint in beside:
-                stacked[i] = beside[contact.constraint]
+            if contact.constraint in self.alone:
+                stacked[i] = self.row_beside(box, contact)
             elif contact.constraint not in self.names:
                 row, right = row_of(self.model.program, contact)
                 stacked[i] = self.mapped(np.append(row, -right)[None])[0]

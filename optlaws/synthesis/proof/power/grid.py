@@ -65,6 +65,7 @@ class Grid:
         self.fixed = np.empty((0, rows.size + 1))
         self.places: Places | None = None
         self._seen: dict[str, list[float]] = {}
+        self._beside: list[Contact] = []
         last = 0.5 if rows.space.symmetric else 1.0
         count = _PLACES + 2 * rows.terms
         k = last * (1.0 + chebpts2(count + 2)[1:-1]) / 2.0
@@ -121,7 +122,9 @@ class Grid:
             parts += [
                 self.rows.curved(box, self.places, name, np.full(count, sign)) for name, sign in self.rows.kinds(box)
             ]
-        return np.vstack([*parts, *(row[None] for _, row in self.rows.beside(box))])
+        beside = self.rows.beside(box)
+        self._beside = [contact for contact, _ in beside]
+        return np.vstack([*parts, *(row[None] for _, row in beside)])
 
     def _contact(self, box: Box, row: int, multiplier: float) -> Contact | None:
         """The contact of a row by its number, with a multiplier; None for the objective's."""
@@ -133,7 +136,7 @@ class Grid:
             name, sign = kinds[rest // len(k)]
             return Contact(name, sign, float(k[rest % len(k)]), multiplier)
         rest -= len(kinds) * len(k)
-        return Contact(self.rows.alone[rest], 1.0, 0.0, multiplier) if rest < len(self.rows.alone) else None
+        return replace(self._beside[rest], multiplier=multiplier) if rest < len(self._beside) else None
 
     def scaled(self, box: Box) -> Linear:
         """The rows that may cut something off the box."""

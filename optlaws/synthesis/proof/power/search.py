@@ -59,6 +59,7 @@ def searched(problem: Problem, claim: float, x: Array, budget: int, explore: Exp
     rows = rows_of(problem, claim, _points(problem, claim))
     if rows is None:
         raise InputError(f"nothing of {problem!r} can be bounded by boxes")
+    rows.remember(np.append(rows.rows(1, rows.points) @ np.append(x, 1.0), x[rows.terms :]))
     search = Search(rows, Grid(rows, x), budget, explore)
     search.run()
     return search
@@ -103,7 +104,10 @@ class Search:
             self.overtaken = self.explore(self._variables_of((box.low + box.high) / 2.0))
             if self.overtaken or self.left <= 0:
                 return
-            variable = max(self._variables, key=lambda i: (box.high[i] - box.low[i]) / self._root_width[i])
+            worth = self.rows.worth(box)
+            if worth is None:
+                worth = (box.high - box.low) / self._root_width
+            variable = max(self._variables, key=worth.__getitem__)
             at = float(box.low[variable] + box.high[variable]) / 2.0
             self._steps.append(Cut(variable, at))
             boxes += [box.cut(variable, 1, at), box.cut(variable, -1, at)]
@@ -132,6 +136,7 @@ class Search:
             return box
         step, point = self.grid.step(box, variable, side)
         if point is not None:
+            self.rows.remember(point)
             width = float((box.high - box.low)[: self.rows.terms].max())
             self.grid.exchange(self._variables_of(point), _SPACING * width)
         moved = box if step is None else moved_by(self.rows, box, step)

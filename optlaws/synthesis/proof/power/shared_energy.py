@@ -21,6 +21,7 @@ from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.below_claim import asked_or_claimed
+from optlaws.synthesis.proof.certificate import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.power.lines_above import above_inverse, above_root
 
@@ -228,14 +229,15 @@ class EnergyRows(BoxRows):
         low = np.maximum(np.maximum(least - blur, first), 0.0)
         return low, np.maximum(np.minimum(most + blur, last), low)
 
-    def beside(self, box: Box) -> list[tuple[str, Array]]:
+    def beside(self, box: Box) -> list[tuple[Contact, Array]]:
         """I at most its tangent at a law in the box, and M I >= B/2 by its own."""
         middle = np.zeros(self.own)
         middle[: self.terms] = self.coordinates(0.5 * (box.low + box.high))
         above = -self.mapped(self.energy.majorant(middle)[None])[0]
         above[self.place] += 1.0
         speeds = [family.name for family in self.shared if family.name not in self.peaks]
-        return [(TANGENT, above), *((name, self._velocity(box, name)) for name in speeds)]
+        found = [(TANGENT, above), *((name, self._velocity(box, name)) for name in speeds)]
+        return [(Contact(name, 1.0, 0.0, 0.0), row) for name, row in found]
 
     def _velocity(self, box: Box, name: str) -> Array:
         """B/(2 I) <= M: 1/I is at least its tangent in the middle of the box."""

@@ -74,7 +74,7 @@ def test_no_law_in_a_box_breaks_a_row(
     for name, sign in boxes.kinds(box):
         held = boxes.curved(box, places, name, np.full(len(places.k), sign))
         assert (held @ point).max() <= 1e-9, name
-    assert {name for name, _ in boxes.beside(box)} == set(boxes.alone)
+    assert {contact.constraint for contact, _ in boxes.beside(box)} == set(boxes.alone)
     assert all(row @ point <= 1e-9 for _, row in boxes.beside(box))
 
 
