@@ -179,8 +179,8 @@ class Call(Formula):
 class Table(Formula):
     """A function of one part, given by values at places: straight lines between them, which go on beyond them.
 
-    With `smooth` it is the cubic spline through them (not a knot), which goes on as well. Of an order above 0 it is that
-    derivative, with the order in its text: spline1(a, ...).
+    With `smooth` it is the cubic spline through them (not a knot), which goes on as well. Of an order above 0 it is
+    that derivative, with the order in its text: spline1(a, ...).
     """
 
     of: Formula

@@ -6,7 +6,7 @@ import pytest
 
 from optlaws import InputError
 from optlaws.formulas.reading import DEEPEST, LONGEST, read
-from optlaws.formulas.tree import Formula
+from optlaws.formulas.tree import Formula, Name, Table
 from tests.formulas.trees import text
 
 
@@ -112,3 +112,9 @@ def test_only_texts_are_read() -> None:
         with pytest.raises(InputError, match="must be a text"):
             read(wrong)  # type: ignore[arg-type]
     assert isinstance(read("c"), Formula)
+
+
+@pytest.mark.parametrize("order", [1, 2])
+def test_the_slope_of_a_spline_is_read_as_it_is_written(order: int) -> None:
+    table = Table(Name("a"), (0.0, 0.3, 0.7, 1.0), (1.0, 1.1, 1.4, 1.3), smooth=True, order=order)
+    assert read(str(table), ("a",)) == table
