@@ -24,6 +24,9 @@ from optlaws.series.chebyshev import interpolated, real_parts_of_roots
 
 Array = NDArray[np.float64]
 
+#: second derivatives of a product grow with the square of their number
+_FACTORS = 24
+
 _POWER = Product((Name("b"), Name("c")))
 _LATER = added([Number(1.0), opposite(Name("k"))])
 _MIRRORED: dict[str, Formula] = {
@@ -187,6 +190,9 @@ def checked(motion: Motion, text: str) -> Motion:
     InputError
         If it divides by what is 0 at some k, or takes roots and logarithms of what has none; `text` is shown.
     """
+    for part in motion.formula.walk():
+        if isinstance(part, Product) and sum(bool(one.names() & {*ORDERS, "d"}) for one in part.factors) > _FACTORS:
+            raise refused(f"a product may have {_FACTORS} factors that depend on the law", text, part)
     k = np.linspace(motion.start, motion.stop, 1025)
     still = [part for part in motion.formula.walk() if not part.names() & {*ORDERS, "d"}]
     for part in still:

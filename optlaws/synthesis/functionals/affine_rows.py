@@ -51,9 +51,11 @@ def sides(motion: Motion, name: str, signs: tuple[float, ...], *, symmetric: boo
     if (first.start, first.stop) == (other.start, other.stop):
         here, there = _sampled(first), _sampled(other)
         size = _SAME * float(np.abs(here).max())
-        if np.abs(here - there).max() <= size:
+        with np.errstate(invalid="ignore"):
+            even, odd = (float(np.abs(one).max()) <= size for one in (here - there, here + there))
+        if even:
             return [Side(name, first, signs)]
-        if np.abs(here + there).max() <= size:
+        if odd:
             return [Side(name, first, tuple(dict.fromkeys((*signs, *(-sign for sign in signs)))))]
     # the first sign is that which laws reach more often, and gets more points: c changes its own at the middle
     turned = signs[::-1] if max(motion.orders) % 2 == 0 else signs

@@ -201,6 +201,7 @@ def test_every_door_takes_them() -> None:
         ("peak(c + log(k))", "log(k) has no finite value at k = 0", 9),
         ("peak(c*tan(3*k))", "tan(3*k) has no finite value within k = 0..1", 7),
         ("peak(k)", "no law changes it", 5),
+        ("peak(1 + " + "c*" * 1500 + "b)", "a product may have 24 factors that depend on the law", 9),
         ("peak(b*c + 0.1*abs(b))", 'neither smooth nor known; side="high" may be', 15),
         ("peak(c, side=up)", "unknown side 'up'; known are both, high, low", 0),
         ("peak(c, start=0.6, stop=0.2)", "needs start <= stop", 0),
