@@ -34,6 +34,8 @@ _ABOVE = (1e-5, 1e-7, 1e-9)
 _BENT = 2.0
 #: from so many points on those of convex problems are put in many at a time, where they are a quarter as wanted as any
 _MANY, _SHARE, _EVEN = 100, 0.25, 4
+# of the value where it pays: a constant that can be less can be 0, to which no logarithm goes
+_NEARLY_NOTHING = 1e-4
 # a stretch of the first constant, relative, within which nothing is exchanged
 _NOTHING = 1e-6
 
@@ -113,7 +115,7 @@ class _Curve:
             raise InputError(
                 f"{over[1]} is least at {over[0]} = {pays:.7g}: nothing is exchanged above, got {shortened(between)}"
             )
-        self.points = [self._first(low), self._last(best, pays, high)]
+        self.points = [self._first(low, pays), self._last(best, pays, high)]
 
     def grow(self, count: int) -> Front:
         """Put a point into the stretch that wants one most, and so on."""
@@ -177,14 +179,16 @@ class _Curve:
     def _asked(self, value: float) -> Problem:
         return _at_most(self.problem, self.over[0], value)
 
-    def _first(self, low: float) -> tuple[float, Solution]:
-        """At the least value of the first constant, or at `low` where that can be had."""
+    def _first(self, low: float, pays: float) -> tuple[float, Solution]:
+        """At the least value of the first constant, or at `low` where that can be had; of one that can be 0 near it."""
         if low > (1.0 if self.over[0] == "B" else 0.0):
             try:
                 return low, synthesize(self._asked(low))
             except InfeasibleProblem:
                 pass
         least = least_value(self.problem, self.over[0])
+        if least < _NEARLY_NOTHING * pays:
+            return _NEARLY_NOTHING * pays, synthesize(self._asked(_NEARLY_NOTHING * pays))
         value = least * (1.0 + _ABOVE[0])
         solution = synthesize(self._asked(value))
         for above in _ABOVE[1:]:

@@ -6,7 +6,7 @@ from time import perf_counter
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, InputError, Problem, Solution, synthesize
+from optlaws import Chebyshev, InputError, Problem, Solution, Status, synthesize
 from optlaws.synthesis.front import HEADINGS, Front, undominated, value_of
 from optlaws.synthesis.limits.closed_forms import limit
 from optlaws.synthesis.pareto import pareto_front
@@ -209,3 +209,11 @@ def test_any_constants_are_exchanged(over: tuple[str, str]) -> None:
         assert synthesize(point.problem).objective == pytest.approx(point.objective, rel=1e-8)
     same = pareto_front(Problem(B=1.8, order=4), over=tuple(named(name) for name in over), points=4)
     assert same.values == pytest.approx(front.values, rel=1e-9)
+
+
+def test_a_constant_that_can_vanish_is_exchanged_from_near_nothing_on() -> None:
+    front = pareto_front(Problem(order=3, basis=Chebyshev(9)), over=("residual(nu=20)", "C"), points=4)
+    residuals, accelerations = front.values.T
+    assert 1e-5 < residuals[0] / residuals[-1] < 1e-3
+    assert (np.diff(accelerations) < 0.0).all()
+    assert all(point.status is Status.OPTIMAL for point in front)
