@@ -10,6 +10,7 @@ from optlaws.cycles.asked.conversion import Piece, factor
 from optlaws.cycles.asked.joints import Layout, Span
 from optlaws.cycles.best.aims import FORCE, LOADED, POWER, Wanted, kind_of
 from optlaws.cycles.best.drive_formulas import driven_mean, driven_peak
+from optlaws.cycles.best.power_bound import bound_by_energy
 from optlaws.cycles.driven.drive import read_drive
 from optlaws.cycles.driven.effort import effort
 from optlaws.synthesis.solution import Solution
@@ -35,12 +36,13 @@ def bound_of(layout: Layout, solved: Solved, wanted: Wanted, period: float) -> f
 def span_bound(span: Span, piece: Piece, solution: Solution, wanted: Wanted) -> float:
     """What no other law of a span can beat, in SI units."""
     nu, mean = kind_of(wanted.minimise)
+    least = bound_by_energy(span, wanted, piece.stroke, solution)
     if nu not in {FORCE, POWER}:
-        return solution.lower_bound * abs(factor(piece.stroke, piece.duration, nu))
+        return least * abs(factor(piece.stroke, piece.duration, nu))
     driven = driven_mean if mean else partial(driven_peak, nu=nu)
     found = driven(span, wanted.drive, piece.stroke)
     # neither a peak nor a mean is below 0, whether or not anything is proven
-    return hypot(max(solution.lower_bound, 0.0) * found.unit, sqrt(max(found.friction, 0.0)))
+    return hypot(max(least, 0.0) * found.unit, sqrt(max(found.friction, 0.0)))
 
 
 def _taken(piece: Piece, wanted: Wanted) -> float:

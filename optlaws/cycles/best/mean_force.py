@@ -27,6 +27,8 @@ from optlaws.synthesis.solution import Solution
 
 _ROUNDS = 8
 _FARTHEST = 30.0  # logarithm of what a limit may be worth
+_NONE = 1.0  # by how much a limit counts as missed where there is no law
+_ROOM = 1e-6  # share of a least peak that is given to problems that are not convex
 _KEPT = 1e-10  # share of a limit by which a law may miss it
 _SHARP = 1e-11  # share within which the peak is found at which the limit is met
 #: shares of a peak below which it is tried whether none is possible
@@ -153,10 +155,15 @@ class _Shared:
         tried: dict[float, tuple[tuple[Piece, Solution], ...]] = {}
 
         def over(peak: float) -> float:
-            tried[peak] = tuple(self._least(span, peak) for span in self.layout.spans)
+            try:
+                tried[peak] = tuple(self._least(span, peak) for span in self.layout.spans)
+            except (InfeasibleProblem, SolverFailure):
+                # so near the least peak that no law is found any more
+                return _NONE
             return log(self._squares(tried[peak]) / self.left)
 
-        low = self._greatest(laws) * (1.0 + _BELOW[0])
+        convex = all(solution.problem.convex for _, solution in laws)
+        low = self._greatest(laws) * (1.0 + (_BELOW[0] if convex else _ROOM))
         high = self._greatest(least)
         if over(low) > 0.0:
             brentq(over, low, high, xtol=_SHARP * high, rtol=_SHARP)
@@ -174,6 +181,8 @@ class _Shared:
                 laws = [self._least(span, lower) for span in self.layout.spans]
             except InfeasibleProblem:
                 return lower
+            except SolverFailure:
+                continue
             if self._least_squares(laws) > self.left:
                 return lower
         return bound

@@ -100,6 +100,18 @@ def test_limits_of_the_power_are_kept_with_friction() -> None:
     assert kept.lower_bound == pytest.approx(cycle().objective, rel=1e-7)
 
 
+@pytest.mark.parametrize("drive", [MOTOR, INERTIA | {"stiffness": "0.3 N m/rad"}], ids=["friction", "spring"])
+def test_the_bound_of_the_power_by_energy_is_below_what_any_law_takes(drive: dict[str, Any]) -> None:
+    def moves(law: str) -> list[Any]:
+        return [Rise("90 deg", "0.2 s", law=law), Dwell("0.3 s"), Return(duration="0.3 s", law=law), Dwell()]
+
+    least = cycle(moves("optimal"), minimise="power", drive=drive)
+    assert least.lower_bound is not None
+    assert 0.7 * least.objective < least.lower_bound < least.objective
+    for law in ("constant acceleration", "modified sine", "345", "cubic"):
+        assert cycle(moves(law), drive=drive).effort.peak_power > least.lower_bound
+
+
 @pytest.mark.parametrize(
     ("others", "error", "says"),
     [
