@@ -37,6 +37,6 @@ def unknown_key(
 def _nearest(name: str, names: list[str], words: Mapping[str, str]) -> str | None:
     """The name but for its case, one that another word stands for, or one that is written alike."""
     folded = name.casefold()
-    same = [one for one in names if one.casefold() == folded]
-    meant = [one for word, one in words.items() if word in folded.split("_") and one in names]
+    same = [known for known in names if known.casefold() == folded]
+    meant = [known for word, known in words.items() if word in folded.split("_") and known in names]
     return next(iter([*same, *meant, *get_close_matches(name, names, n=1)]), None)

@@ -181,12 +181,12 @@ class BarrelCam:
 
             return enclosed_extremes(self.displacement, speed, 2)[0]
 
-        return min(rest(1.0), rest(-1.0), key=lambda one: one.low)
+        return min(rest(1.0), rest(-1.0), key=lambda enclosure: enclosure.low)
 
     @property
     def undercut(self) -> str:
         """Whether flanks are proven to have no cusp at any depth, "free", or one, "undercut"; or "undecided"."""
-        steepest = max(abs(one) for extreme in self.pressure_angles for one in (extreme.low, extreme.high))
+        steepest = max(abs(angle) for extreme in self.pressure_angles for angle in (extreme.low, extreme.high))
         if self.margin.high < 0.0:
             return UNDERCUT
         if self.margin.low <= 0.0:
@@ -239,7 +239,7 @@ class SpaceCurve:
         """
         order = derivative(nu)
         parts = self.jets(real_times(angle), order, before=before)
-        return np.stack([one.derivative(order) for one in parts], axis=-1)
+        return np.stack([part.derivative(order) for part in parts], axis=-1)
 
     def jets(self, angle: Array, order: int, *, before: bool = False) -> Triple:
         """The three coordinates with their derivatives up to an order."""

@@ -160,11 +160,11 @@ def best_cam(
     inner = _solved(cycle, given, limits, below=True)
     outer = _solved(cycle, given, limits, below=False) if isinstance(given.contact, SwingingRoller) else inner
     inner, outer = _bent(cycle, given, limits, inner, outer)
-    pieces = tuple(one.piece for one in inner)
+    pieces = tuple(solved.piece for solved in inner)
     cam = replace(given, motion=CamMotion.of_pieces(pieces, cycle.duration, cycle.axis))
     _check_kept(cam, limits)
     objective, bound = _objective(cycle, inner), _bound(cycle, outer)
-    solutions = tuple(one.solution for one in inner if one.solution is not None)
+    solutions = tuple(best.solution for best in inner if best.solution is not None)
     proven = objective - bound <= 1e-6 * objective
     return BestCam(cam, objective, bound, Status.OPTIMAL if proven else Status.LOCAL, solutions)
 
@@ -219,10 +219,10 @@ def best_base_circle(
             pieces.append(piece)
             continue
         wanted = [wall.needed() for wall in walls]
-        found = synthesize(_problem(solution.problem, (), wanted))
-        needs.append(abs(piece.stroke) * found.lower_bound)
-        solutions.append(found)
-        pieces.append(replace(piece, law=found.law))
+        optimum = synthesize(_problem(solution.problem, (), wanted))
+        needs.append(abs(piece.stroke) * optimum.lower_bound)
+        solutions.append(optimum)
+        pieces.append(replace(piece, law=optimum.law))
     motion = CamMotion.of_pieces(tuple(pieces), cycle.duration, cycle.axis)
     least = least_base_circle(
         motion, follower, pressure_angle=pressure_angle, radius_of_curvature=radius_of_curvature, turning=turning
@@ -252,16 +252,16 @@ def _with_solutions(cycle: Cycle) -> Solved:
         raise InputError("cycle: none of its laws is looked for: leave the law of a move out, or give law='optimal'")
     if OBJECTIVES[cycle.minimise][0] < 0:
         raise InputError(f"cycle: minimise a peak or a root mean square of the motion, not the {cycle.minimise}")
-    known = {id(one.law): one for one in cycle.solutions}
+    known = {id(solution.law): solution for solution in cycle.solutions}
     return [Found(piece, known.get(id(piece.law))) for piece in cycle.pieces]
 
 
 def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool) -> Solved:
     """The pieces with laws that keep lines below the limits, or above them."""
-    found: Solved = []
+    solved: Solved = []
     for piece, solution, _ in _with_solutions(cycle):
         if solution is None:
-            found.append(Found(piece, None))
+            solved.append(Found(piece, None))
             continue
         best = _best(piece, solution.problem, cam.contact, limits, cycle.duration, below=below)
         for _ in range(_ROUNDS if below and isinstance(cam.contact, SwingingRoller) else 0):
@@ -269,8 +269,8 @@ def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool
             best = _best(guide, solution.problem, cam.contact, limits, cycle.duration, below=True)
             if best.objective > last * (1.0 - _GAIN):
                 break
-        found.append(Found(replace(piece, law=best.law), best))
-    return found
+        solved.append(Found(replace(piece, law=best.law), best))
+    return solved
 
 
 def _bent(cycle: Cycle, cam: DiscCam, limits: dict[str, float], inner: Solved, outer: Solved) -> tuple[Solved, Solved]:
@@ -278,14 +278,14 @@ def _bent(cycle: Cycle, cam: DiscCam, limits: dict[str, float], inner: Solved, o
     if CURVATURE not in limits:
         return inner, outer
     kept, bounded = [], []
-    for one, beyond in zip(inner, outer, strict=True):
-        curvature = curvature_of(one.piece, cam.contact, limits[CURVATURE], cycle.duration)
-        if one.solution is None or beyond.solution is None or curvature is None or not curvature.broken():
-            kept.append(one)
+    for within, beyond in zip(inner, outer, strict=True):
+        curvature = curvature_of(within.piece, cam.contact, limits[CURVATURE], cycle.duration)
+        if within.solution is None or beyond.solution is None or curvature is None or not curvature.broken():
+            kept.append(within)
             bounded.append(beyond)
             continue
-        best = _curved(one.solution.problem, curvature)
-        kept.append(Found(replace(one.piece, law=best.law), best))
+        best = _curved(within.solution.problem, curvature)
+        kept.append(Found(replace(within.piece, law=best.law), best))
         bounded.append(beyond._replace(bound=bound_under(curvature, beyond.solution.problem, best.objective)))
     return kept, bounded
 
@@ -335,48 +335,49 @@ def _problem(problem: Problem, windows: Sequence[Window], wanted: Sequence[Funct
 
 def _kept(cam: DiscCam, limits: dict[str, float]) -> bool:
     """Whether limits are proven to be kept."""
-    found = cam.extremes
-    return (PRESSURE not in limits or tan(found.greatest_pressure_angle.high) <= limits[PRESSURE]) and (
-        CURVATURE not in limits or found.bulging_radius.low >= limits[CURVATURE]
+    extremes = cam.extremes
+    return (PRESSURE not in limits or tan(extremes.greatest_pressure_angle.high) <= limits[PRESSURE]) and (
+        CURVATURE not in limits or extremes.bulging_radius.low >= limits[CURVATURE]
     )
 
 
 def _check_kept(cam: DiscCam, limits: dict[str, float]) -> None:
     """Refuse laws that break a limit which is not convex in them."""
-    found = cam.extremes
-    if PRESSURE in limits and tan(found.greatest_pressure_angle.low) > limits[PRESSURE] * (1.0 + _KEPT):
+    extremes = cam.extremes
+    if PRESSURE in limits and tan(extremes.greatest_pressure_angle.low) > limits[PRESSURE] * (1.0 + _KEPT):
         raise SolverFailure(
-            f"the best laws have a pressure angle of {np.degrees(found.greatest_pressure_angle.value):.6g} deg"
+            f"the best laws have a pressure angle of {np.degrees(extremes.greatest_pressure_angle.value):.6g} deg"
         )
-    if CURVATURE in limits and found.bulging_radius.high < limits[CURVATURE] * (1.0 - _KEPT):
+    if CURVATURE in limits and extremes.bulging_radius.high < limits[CURVATURE] * (1.0 - _KEPT):
         raise SolverFailure(
-            f"the best laws under the other limits have a radius of curvature of {shown(found.bulging_radius.value)},"
-            " and what a dwell or a given law has no other law can mend: make the base circle larger or drop the limit"
+            f"the best laws under the other limits have a radius of curvature of "
+            f"{shown(extremes.bulging_radius.value)}, and what a dwell or a given law has no other "
+            "law can mend: make the base circle larger or drop the limit"
         )
 
 
 def _objective(cycle: Cycle, solved: Solved) -> float:
     nu, mean = OBJECTIVES[cycle.minimise]
     if mean:
-        return sqrt(sum(one.piece.duration * one.piece.mean_square(nu) for one in solved) / cycle.duration)
-    return max(abs(one.piece.stroke) / one.piece.duration**nu * one.piece.law.peak(nu).value for one in solved)
+        return sqrt(sum(best.piece.duration * best.piece.mean_square(nu) for best in solved) / cycle.duration)
+    return max(abs(best.piece.stroke) / best.piece.duration**nu * best.piece.law.peak(nu).value for best in solved)
 
 
 def _bound(cycle: Cycle, solved: Solved) -> float:
     nu, mean = OBJECTIVES[cycle.minimise]
     sizes = [
-        (one.piece.duration, abs(one.piece.stroke) / one.piece.duration**nu * _least(one, nu, mean=mean))
-        for one in solved
+        (best.piece.duration, abs(best.piece.stroke) / best.piece.duration**nu * _least(best, nu, mean=mean))
+        for best in solved
     ]
     if mean:
         return sqrt(sum(time * size**2 for time, size in sizes) / cycle.duration)
     return max(size for _, size in sizes)
 
 
-def _least(one: Found, nu: int, *, mean: bool) -> float:
+def _least(best: Found, nu: int, *, mean: bool) -> float:
     """What the constant of a piece's law is at least; what it is where the law is given."""
-    if one.solution is not None:
-        return one.solution.lower_bound if one.bound is None else one.bound
-    if one.piece.stroke == 0.0:
+    if best.solution is not None:
+        return best.solution.lower_bound if best.bound is None else best.bound
+    if best.piece.stroke == 0.0:
         return 0.0
-    return one.piece.law.rms(nu) if mean else one.piece.law.peak(nu).value
+    return best.piece.law.rms(nu) if mean else best.piece.law.peak(nu).value

@@ -85,8 +85,10 @@ class RollerCurvature:
         """G as a text in a and b, in strokes."""
         slope = f"({self._slope!r}*b)"
         moved = f"({self.piece.offset - self.contact.lowest!r} + ({self.piece.stroke!r})*a)"
-        one = self.contact
-        parts = _on_slide(one, moved, slope) if isinstance(one, SlidingRoller) else _on_arm(one, moved, slope)
+        contact = self.contact
+        parts = (
+            _on_slide(contact, moved, slope) if isinstance(contact, SlidingRoller) else _on_arm(contact, moved, slope)
+        )
         along, across, turned, held = parts
         square = f"({along}^2 + {across}^2)"
         return f"({turned} - {square}^1.5/{self.radius!r})/({held}*{abs(self.piece.stroke)!r})"
@@ -120,14 +122,16 @@ class RollerCurvature:
         at, reach = 0.5 * (low + high), 0.5 * (high - low)
         values = dict(zip("ab", at, strict=True))
         height = np.asarray(evaluate(self._formula, values, NUMPY)) + 0.0 * at[0]
-        slopes = np.array([np.asarray(evaluate(one, values, NUMPY)) + 0.0 * at[0] for one in self._slopes])
+        slopes = np.array([np.asarray(evaluate(slope, values, NUMPY)) + 0.0 * at[0] for slope in self._slopes])
         within = {name: Interval(*ends) for name, *ends in zip("ab", low, high, strict=True)}
         size = np.abs(height) + (np.abs(slopes) * np.maximum(np.abs(low), np.abs(high))).sum(axis=0)
         base = height - (slopes * at).sum(axis=0) - self._taken(within, reach) - _ROUNDED * size
         known = np.isfinite(base) & np.isfinite(slopes).all(axis=0)
         return [
-            Window(f"({m!r})*a + ({n!r})*b - ({self.factor!r})*c", high=-one, start=start, stop=stop)
-            for m, n, one, (start, stop), sure in zip(*slopes.tolist(), base.tolist(), pairwise(k), known, strict=True)
+            Window(f"({m!r})*a + ({n!r})*b - ({self.factor!r})*c", high=-bound, start=start, stop=stop)
+            for m, n, bound, (start, stop), sure in zip(
+                *slopes.tolist(), base.tolist(), pairwise(k), known, strict=True
+            )
             if sure
         ]
 
@@ -212,37 +216,38 @@ def _light(problem: Problem) -> Problem:
     """A problem that all laws of another one keep, solved in less time: without its formulas where they are many."""
     if len(problem.windows) <= _MANY:
         return problem
-    return replace(problem, windows=tuple(one for one in problem.windows if one.motion is None))
+    return replace(problem, windows=tuple(window for window in problem.windows if window.motion is None))
 
 
 def _most_acceleration(problem: Problem, most: float) -> float | None:
     asked = problem.range("C")
-    found = [most] if problem.minimise == "C" else []
-    found += [asked.high] if asked is not None and isfinite(asked.high) else []
-    return min(found) * (1.0 + _ROOM) if found else None
+    levels = [most] if problem.minimise == "C" else []
+    levels += [asked.high] if asked is not None and isfinite(asked.high) else []
+    return min(levels) * (1.0 + _ROOM) if levels else None
 
 
 def _tube(problem: Problem, greatest: float, ends: Pair) -> tuple[list[float], list[Pair], list[Pair]]:
     """Ends of parts of the time, and between which values a and b of all laws of a problem are in each."""
     k = np.linspace(0.0, 1.0, _PARTS + 1).tolist()
-    b = [(ends[0],) * 2, *(_range_at(problem, "b", one) for one in k[1:-1]), (ends[1],) * 2]
+    b = [(ends[0],) * 2, *(_range_at(problem, "b", place) for place in k[1:-1]), (ends[1],) * 2]
     width = 1.0 / _PARTS
     change = greatest * width
     velocities = [
-        (-_highest(-one[0], -other[0], change), _highest(one[1], other[1], change)) for one, other in pairwise(b)
+        (-_highest(-before[0], -other[0], change), _highest(before[1], other[1], change))
+        for before, other in pairwise(b)
     ]
     # between two velocities a goes no further than with half of what the acceleration can change on the way
-    least = [width * (0.5 * (one[0] + other[0]) - 0.25 * change) for one, other in pairwise(b)]
-    most = [width * (0.5 * (one[1] + other[1]) + 0.25 * change) for one, other in pairwise(b)]
+    least = [width * (0.5 * (before[0] + other[0]) - 0.25 * change) for before, other in pairwise(b)]
+    most = [width * (0.5 * (before[1] + other[1]) + 0.25 * change) for before, other in pairwise(b)]
     a = [
         (max(sum(least[:i]), 1.0 - sum(most[i:])), min(sum(most[:i]), 1.0 - sum(least[i:]))) for i in range(_PARTS + 1)
     ]
     displacements = [
         (
-            max(one[0] + min(low, 0.0) * width, other[0] - max(high, 0.0) * width),
-            min(one[1] + max(high, 0.0) * width, other[1] - min(low, 0.0) * width),
+            max(before[0] + min(low, 0.0) * width, other[0] - max(high, 0.0) * width),
+            min(before[1] + max(high, 0.0) * width, other[1] - min(low, 0.0) * width),
         )
-        for (one, other), (low, high) in zip(pairwise(a), velocities, strict=True)
+        for (before, other), (low, high) in zip(pairwise(a), velocities, strict=True)
     ]
     return k, displacements, velocities
 

@@ -265,11 +265,12 @@ class FollowerCurve(PlaneCurve):
 
 def _check_smooth(motion: CamMotion) -> None:
     """Refuse a motion whose velocity leaps or whose acceleration has no bound: a cam would have a corner."""
-    for one in motion.stretches:
-        if not np.isfinite(one.extremes(2)).all():
+    for stretch in motion.stretches:
+        if not np.isfinite(stretch.extremes(2)).all():
             raise InputError(
-                f"motion: the acceleration of its law between {degrees(one.start):.6g} and {degrees(one.stop):.6g} deg"
-                " of the cam has no bound, and the cam would have a corner: take a law whose C is finite"
+                f"motion: the acceleration of its law between {degrees(stretch.start):.6g} and "
+                f"{degrees(stretch.stop):.6g} deg of the cam has no bound, and the cam would have a corner: take a law "
+                "whose C is finite"
             )
     inner = np.array(motion.breaks[1:-1] if not motion.closed else motion.breaks)
     if not len(inner):

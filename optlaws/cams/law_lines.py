@@ -66,22 +66,22 @@ def walls_of(piece: Piece, contact: Contact, limits: dict[str, float], period: f
     """
     angle, stroke = TURN * piece.duration / period, piece.stroke
     size = abs(stroke)
-    found: list[Wall] = []
+    walls: list[Wall] = []
     if stroke == 0.0:
-        return found
+        return walls
     if isinstance(contact, SlidingRoller) and PRESSURE in limits:
         high = (contact.height - contact.lowest + piece.offset) / size
         offset = contact.turning * contact.offset / (limits[PRESSURE] * size)
         for sign in (1.0, -1.0):
             slope = sign * stroke / (angle * limits[PRESSURE] * size)
-            found.append(Wall((-stroke / size, slope, 0.0), high + sign * offset))
+            walls.append(Wall((-stroke / size, slope, 0.0), high + sign * offset))
     if isinstance(contact, SlidingFace) and CURVATURE in limits:
         high = (contact.height - contact.lowest + piece.offset - limits[CURVATURE]) / size
-        found.append(Wall((-stroke / size, 0.0, -stroke / (size * angle**2)), high))
+        walls.append(Wall((-stroke / size, 0.0, -stroke / (size * angle**2)), high))
     if isinstance(contact, SwingingRoller) and PRESSURE in limits:
         for sign in (1.0, -1.0):
-            found += _arm_walls(piece, contact, limits[PRESSURE], angle, sign=sign, below=below)
-    return found
+            walls += _arm_walls(piece, contact, limits[PRESSURE], angle, sign=sign, below=below)
+    return walls
 
 
 def _arm_walls(
@@ -106,12 +106,12 @@ def _arm_walls(
     else:
         slope = sine.chord(low, high)
         lines = [(slope, sine.shift(slope, low, high, below=False), 0.0, 1.0)]
-    found = []
+    walls = []
     for slope, shift, first, last in lines:
         # sign stroke b / angle - slope stroke a <= slope start + shift - sign turning
         factors = (-slope * piece.stroke / size, sign * piece.stroke / (angle * size), 0.0)
-        found.append(Wall(factors, (slope * start + shift - sign * contact.turning) / size, first, last))
-    return found
+        walls.append(Wall(factors, (slope * start + shift - sign * contact.turning) / size, first, last))
+    return walls
 
 
 @dataclass(frozen=True)
@@ -148,9 +148,9 @@ class _Sine:
 
     def chords(self, low: float, high: float, *, below: bool) -> list[tuple[float, float]]:
         """Slopes and shifts of lines of which the least is near it where it is hollow, on one side of it."""
-        found = []
+        lines = []
         for first, last in pairwise(np.linspace(low, high, _LINES + 1).tolist()):
             slope = self.chord(first, last)
             under = float(self.value(np.array(first))) - slope * first
-            found.append((slope, under if below else self.shift(slope, low, high, below=False)))
-        return found
+            lines.append((slope, under if below else self.shift(slope, low, high, below=False)))
+        return lines

@@ -115,7 +115,7 @@ def least_base_circle(
         if not broken:
             break
         witnesses += broken
-        radius = max(radius, *(sizes.kept_from(one, radius) for one in broken)) * (1.0 + _KEPT)
+        radius = max(radius, *(sizes.kept_from(witness, radius) for witness in broken)) * (1.0 + _KEPT)
     for _ in range(_NUDGES):  # to where it is not only not broken but proven to be kept
         if not sizes.witnesses(radius, proven=True):
             break
@@ -165,8 +165,8 @@ def greatest_roller(cam: DiscCam, *, radius_of_curvature: Any = "0 mm") -> Great
     --------
     >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
     >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
-    >>> found = greatest_roller(DiscCam(rise, "60 mm", TranslatingRoller("12 mm")), radius_of_curvature="5 mm")
-    >>> round(1e3 * found.radius, 6), bool(found.too_large - found.radius < 1e-10)
+    >>> roller = greatest_roller(DiscCam(rise, "60 mm", TranslatingRoller("12 mm")), radius_of_curvature="5 mm")
+    >>> round(1e3 * roller.radius, 6), bool(roller.too_large - roller.radius < 1e-10)
     (55.0, True)
     """
     least = quantity(radius_of_curvature, "length", "radius_of_curvature")
@@ -196,19 +196,19 @@ def read_cam_limits(pressure_angle: Any, radius: Any) -> dict[str, float]:  # no
     >>> {name: round(value, 6) for name, value in read_cam_limits("45 deg", "5 mm").items()}
     {'pressure angle': 1.0, 'radius of curvature': 0.005}
     """
-    found = {}
+    limits = {}
     if pressure_angle is not None:
         angle = quantity(pressure_angle, "angle", "pressure_angle")
         if not 0.0 < angle < 0.5 * np.pi:
             raise InputError(f"pressure_angle must be above 0 and below 90 deg, got {shortened(pressure_angle)}")
-        found[PRESSURE] = tan(angle)
+        limits[PRESSURE] = tan(angle)
     if radius is not None:
-        found[CURVATURE] = quantity(radius, "length", "radius_of_curvature")
-        if found[CURVATURE] < 0.0:
+        limits[CURVATURE] = quantity(radius, "length", "radius_of_curvature")
+        if limits[CURVATURE] < 0.0:
             raise InputError(f"radius_of_curvature must be at least 0, got {shortened(radius)}")
-    if not found:
+    if not limits:
         raise InputError("give a limit of the cam: pressure_angle='30 deg', radius_of_curvature='5 mm', or both")
-    return found
+    return limits
 
 
 def _told(limits: dict[str, float]) -> str:
@@ -271,9 +271,9 @@ class _Sizes:
         if PRESSURE in self.limits:
             least, greatest = pressure_angles(self.motion, contact)
             most = float(np.arctan(self.limits[PRESSURE]))
-            for one, sign in ((greatest, 1.0), (-least, -1.0)):
-                if (one.high if proven else one.low) > most:
-                    broken.append(self._seen(PRESSURE, one.angle, sign, radius))
+            for side, sign in ((greatest, 1.0), (-least, -1.0)):
+                if (side.high if proven else side.low) > most:
+                    broken.append(self._seen(PRESSURE, side.angle, sign, radius))
         if CURVATURE in self.limits:
             margin, least_radius = bulging_radius(self.motion, contact), self.limits[CURVATURE]
             if (margin.low if proven else margin.high) < least_radius:
@@ -283,7 +283,9 @@ class _Sizes:
     def _seen(self, limit: str, angle: float, sign: float, radius: float) -> Witness:
         """From which side of a break the limit is broken more."""
         sides = [Witness(limit, angle, sign, before) for before in (False, True)]
-        return max(sides, key=lambda one: float(self._excess(self.contact(radius), one, self._jet(one)).middle))
+        return max(
+            sides, key=lambda witness: float(self._excess(self.contact(radius), witness, self._jet(witness)).middle)
+        )
 
     def kept_from(self, witness: Witness, radius: float) -> float:
         """The least radius from one on with which a limit is kept at a witness's angle."""
@@ -310,12 +312,12 @@ class _Sizes:
 
     def breaks_between(self, low: float, high: float, witnesses: list[Witness]) -> bool:
         """Whether every base circle in a range is proven to break a limit at one of the witnesses' angles."""
-        jets = [(one, self._jet(one)) for one in witnesses]
+        jets = [(witness, self._jet(witness)) for witness in witnesses]
         waiting = [(low, high, 0)]
         while waiting:
             first, last, depth = waiting.pop()
             contact = _spanning(self.contact(first), self.contact(last))
-            if any(bool(self._excess(contact, one, jet).low > 0.0) for one, jet in jets):
+            if any(bool(self._excess(contact, witness, jet).low > 0.0) for witness, jet in jets):
                 continue
             if depth == _DEPTH:
                 return False
@@ -330,15 +332,15 @@ class _Sizes:
     def _excess(self, contact: Contact, witness: Witness, s: Jet) -> Enclosure:
         """By how much a limit is broken, above 0; all of it multiplied out, so that nothing is divided by."""
         limit = self.limits[witness.limit]
-        found: Enclosure
+        excess: Enclosure
         if witness.limit == PRESSURE:
-            found = contact.pressure(s).terms[0] * witness.sign - limit
+            excess = contact.pressure(s).terms[0] * witness.sign - limit
         elif isinstance(contact, FaceContact):
-            found = -contact.radius(s).terms[0] + limit
+            excess = -contact.radius(s).terms[0] + limit
         else:
             assert isinstance(contact, RollerContact)  # noqa: S101 - there are no others
-            found = contact.curvature(s).terms[0] - 1.0 / (limit + contact.roller)
-        return found
+            excess = contact.curvature(s).terms[0] - 1.0 / (limit + contact.roller)
+        return excess
 
 
 def _spanning(one: Kind, two: Kind) -> Kind:
@@ -354,4 +356,4 @@ def _spanning(one: Kind, two: Kind) -> Kind:
 
 
 def _numbers(contact: Contact) -> Iterator[str]:
-    return (one.name for one in fields(contact))
+    return (field.name for field in fields(contact))

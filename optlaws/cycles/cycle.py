@@ -108,7 +108,7 @@ class Cycle(Handed, Stated):
         for entry in ("speed", "period", "start", "advance"):
             object.__setattr__(self, entry, written(getattr(self, entry)))
         check_objective(self.minimise, self._load)
-        if all(one.fixed for one in self.programme.stretches):
+        if all(stretch.fixed for stretch in self.programme.stretches):
             self._layout  # noqa: B018 - velocities that do not meet are refused at once
         self.limits_of_segments  # noqa: B018 - and so are limits and drives
 
@@ -140,14 +140,14 @@ class Cycle(Handed, Stated):
     @kept_property
     def pieces(self) -> tuple[Piece, ...]:
         """The laws in their places, in order."""
-        found = [*self._layout.pieces, *(piece for piece, _ in self._best.laws)]
-        return tuple(sorted(found, key=lambda piece: piece.start))
+        pieces = [*self._layout.pieces, *(piece for piece, _ in self._best.laws)]
+        return tuple(sorted(pieces, key=lambda piece: piece.start))
 
     @property
     def status(self) -> Status:
         """The worst status of the solutions; optimal where nothing was to be looked for."""
         ranks = (Status.OPTIMAL, Status.LOCAL, Status.INACCURATE)
-        worst = max((one.status for one in self.solutions), key=ranks.index, default=Status.OPTIMAL)
+        worst = max((solution.status for solution in self.solutions), key=ranks.index, default=Status.OPTIMAL)
         if self.solutions and worst == Status.OPTIMAL and self.lower_bound is not None:
             return Status.OPTIMAL if self.objective <= self.lower_bound * (1.0 + _MET) else Status.LOCAL
         return worst
@@ -164,7 +164,7 @@ class Cycle(Handed, Stated):
         if nu == FORCE:
             return self.effort.rms_force if mean else self.effort.peak_force
         if not mean:
-            return max(one.peak(nu) for one in self.peaks)
+            return max(peak.peak(nu) for peak in self.peaks)
         return sqrt(sum(piece.duration * piece.mean_square(nu) for piece in self.pieces) / self.duration)
 
     @kept_property
@@ -182,7 +182,7 @@ class Cycle(Handed, Stated):
         order = derivative(nu)
         if order > 3:
             raise InputError(f"nu must be at most 3, the jerk, got {order}")
-        return max(one.peak(order) for one in self.peaks)
+        return max(peak.peak(order) for peak in self.peaks)
 
     @property
     def joints(self) -> tuple[dict[str, Any], ...]:
@@ -297,8 +297,8 @@ class Cycle(Handed, Stated):
     def limits_of_segments(self) -> tuple[dict[int, float], ...]:
         """The limits that each segment was asked to keep, in SI units, by the order of the derivative."""
         return tuple(
-            limits_of_stretch(one, self._wanted, self.axis) if is_optimal(one.given) else {}
-            for one in self.programme.stretches
+            limits_of_stretch(stretch, self._wanted, self.axis) if is_optimal(stretch.given) else {}
+            for stretch in self.programme.stretches
         )
 
     @property

@@ -75,7 +75,7 @@ class Handed:
         >>> from optlaws import Cycle, Return, Rise
         >>> cycle = Cycle([Rise("1 m", "1 s", law="cubic"), Return(law="cubic")], period="3 s")
         >>> pieces = cycle.polynomials(unit="m")
-        >>> pieces.breaks, [[round(one, 9) for one in row] for row in pieces.coefficients]
+        >>> pieces.breaks, [[round(coefficient, 9) for coefficient in row] for row in pieces.coefficients]
         ((0.0, 1.0, 3.0), [[0.0, 0.0, 3.0, -2.0], [1.0, 0.0, -0.75, 0.25]])
         """
         return exported("pieces_of_cycle", self, tolerance, master=master, unit=unit)
@@ -103,7 +103,7 @@ class Handed:
         --------
         >>> from optlaws import Cycle, Return, Rise
         >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
-        >>> [one.axes.get_ylabel() for one in cycle.plot()][2]
+        >>> [artist.axes.get_ylabel() for artist in cycle.plot()][2]
         'acceleration, m/s²'
         """
         return plotted("cycle", self, ax, **style)

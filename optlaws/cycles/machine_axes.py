@@ -103,15 +103,26 @@ class Axes(Mapping[str, Cycle]):
         """The same motions at another speed of the master, as `Cycle.at` has them."""
         return Axes({name: cycle.at(speed) for name, cycle in self.items()})
 
-    def export(self, to: str | Mapping[str, str], **options: Any) -> dict[str, Any]:  # noqa: ANN401 - as a cycle takes them
+    def export(
+        self,
+        to: str | Mapping[str, str],
+        *,
+        master: Any = "360 deg",  # noqa: ANN401 - a quantity
+        points: int | str | None = None,
+        counts: int | None = None,
+        digits: int | None = None,
+        decimal: str | None = None,
+        interpolation: str | None = None,
+        task: str | None = None,
+    ) -> dict[str, Any]:
         """Every axis in the format of a controller, or each named axis in its own: an `Export` by the name of the axis.
 
         Parameters
         ----------
         to
             A format for all, or formats by the names of axes.
-        options
-            As `Cycle.export` takes them.
+        master, points, counts, digits, decimal, interpolation, task
+            As in `Cycle.export`, for every axis.
 
         Raises
         ------
@@ -128,11 +139,13 @@ class Axes(Mapping[str, Cycle]):
         [('x', 91), ('y', 91)]
         """
         formats = dict(to) if isinstance(to, Mapping) else dict.fromkeys(self, to)
+        asked: dict[str, Any] = {"master": master, "points": points, "counts": counts, "digits": digits}
+        asked |= {"decimal": decimal, "interpolation": interpolation, "task": task}
         made = {}
         for name, form in formats.items():
             cycle = self[name]
             try:
-                made[name] = cycle.export(form, **options)
+                made[name] = cycle.export(form, **asked)
             except InputError as error:
                 raise InputError(f"axis {name}: {error}") from None
         return made
@@ -153,7 +166,7 @@ class Axes(Mapping[str, Cycle]):
         stored = data.get("axes") if isinstance(data, Mapping) else None
         if not isinstance(stored, Mapping) or data.get("format", FORMAT) != FORMAT:
             raise InputError(f"stored axes have format {FORMAT!r} and a table of axes, got {shortened(data)}")
-        return cls({str(name): Cycle.from_dict(one) for name, one in stored.items()})
+        return cls({str(name): Cycle.from_dict(cycle) for name, cycle in stored.items()})
 
     def to_json(self) -> str:
         """What `to_dict` gives, as JSON text."""
@@ -225,7 +238,7 @@ class Axes(Mapping[str, Cycle]):
         return plotted("axes", self, ax, nu=nu, **style)
 
     def __repr__(self) -> str:
-        shown = {name: ", ".join(one.label for one in cycle.segments) for name, cycle in self.items()}
+        shown = {name: ", ".join(segment.label for segment in cycle.segments) for name, cycle in self.items()}
         listed = ", ".join(f"{name!r}: Cycle([{labels}])" for name, labels in shown.items())
         return f"Axes({{{listed}}}, period={self.duration:.6g} s)"
 
@@ -252,7 +265,7 @@ class Axes(Mapping[str, Cycle]):
 
     def _clock(self) -> dict[str, Any]:
         """What cycles take of the clock; nothing where each has its own."""
-        if self.speed is None and self.period is None and all(isinstance(one, Cycle) for one in self.axes.values()):
+        if self.speed is None and self.period is None and all(isinstance(axis, Cycle) for axis in self.axes.values()):
             return {}
         period_of(self.speed, self.period)
         return {"speed": self.speed, "period": self.period}

@@ -44,25 +44,25 @@ def values_at(asked: Programme, pieces: Sequence[Piece], times: Array, nu: int) 
     for i, piece in enumerate(pieces):
         here = which == i
         values[here] = piece.values(within[here], nu)
-    return values + turns * sum(one.displacement for one in asked.stretches) if nu == 0 else values
+    return values + turns * sum(stretch.displacement for stretch in asked.stretches) if nu == 0 else values
 
 
 def segment_peaks(asked: Programme, starts: Sequence[float], pieces: Sequence[Piece]) -> tuple[SegmentPeaks, ...]:
     """Least and greatest values in every segment; `starts` are the times of all joints, the last end among them."""
     return tuple(
-        SegmentPeaks(one.given.label, start, stop - start, _extremes(one, pieces, start, stop))
-        for one, (start, stop) in zip(asked.stretches, pairwise(starts), strict=True)
+        SegmentPeaks(stretch.given.label, start, stop - start, _extremes(stretch, pieces, start, stop))
+        for stretch, (start, stop) in zip(asked.stretches, pairwise(starts), strict=True)
     )
 
 
 def leaps(starts: Sequence[float], pieces: Sequence[Piece], peaks: Sequence[float]) -> tuple[dict[str, Any], ...]:
     """By how much velocity, acceleration and jerk leap where each segment starts; 0 where that is but rounding."""
-    found = []
+    leaps_there = []
     for start in starts:
         sizes = [_leap(pieces, start, nu) for nu in (1, 2, 3)]
         kept = [0.0 if abs(size) <= JOINED * peak else size for size, peak in zip(sizes, peaks, strict=True)]
-        found.append({"time": start, "velocity": kept[0], "acceleration": kept[1], "jerk": kept[2]})
-    return tuple(found)
+        leaps_there.append({"time": start, "velocity": kept[0], "acceleration": kept[1], "jerk": kept[2]})
+    return tuple(leaps_there)
 
 
 def _leap(pieces: Sequence[Piece], start: float, nu: int) -> float:
@@ -73,11 +73,11 @@ def _leap(pieces: Sequence[Piece], start: float, nu: int) -> float:
     return next(piece.leap(start, nu) for piece in pieces if piece.start < start < piece.stop)
 
 
-def _extremes(one: Stretch, pieces: Sequence[Piece], start: float, stop: float) -> tuple[tuple[Place, Place], ...]:
-    piece = next(one for one in reversed(pieces) if one.start <= start)
-    if isinstance(one.given, Move | Free):
+def _extremes(stretch: Stretch, pieces: Sequence[Piece], start: float, stop: float) -> tuple[tuple[Place, Place], ...]:
+    piece = next(earlier for earlier in reversed(pieces) if earlier.start <= start)
+    if isinstance(stretch.given, Move | Free):
         return tuple(piece.extremes(nu, start, stop) for nu in range(4))
     # straight: what its law has beside is rounding
     low, high = sorted((float(piece.values(np.array([time]), 0)[0]), time) for time in (start, stop))
-    speed = (one.displacement / (stop - start), start)
+    speed = (stretch.displacement / (stop - start), start)
     return (low, high), (speed, speed), ((0.0, start),) * 2, ((0.0, start),) * 2

@@ -29,7 +29,7 @@ def cycle_page(cycle: Any) -> str:  # noqa: ANN401 - a Cycle, which asks for thi
         return page("Cycle", facts({"turn, s": cycle.duration, "error": error}))
     unit = _UNITS[cycle.axis]
     names = [f"position, {unit}", f"velocity, {unit}/s", f"acceleration, {unit}/s²", f"jerk, {unit}/s³"]
-    rows = [(one.name, one.duration, *(one.peak(nu) for nu in (1, 2, 3))) for one in cycle.peaks]
+    rows = [(peak.name, peak.duration, *(peak.peak(nu) for nu in (1, 2, 3))) for peak in cycle.peaks]
     times = np.linspace(0.0, cycle.duration, _SAMPLES)
     drawings = [drawing(name, times.tolist(), cycle(times, nu).tolist()) for nu, name in enumerate(names)]
     return page("Cycle", facts(known), table(("segment", "duration, s", *names[1:]), rows), *drawings)

@@ -53,39 +53,39 @@ def segments_at(cycle: Made, share: float) -> list[CycleSegment]:
     """
     made: list[CycleSegment] = []
     times = zip(cycle.programme.stretches, pairwise(cycle.starts), strict=True)
-    for one, (start, stop) in times:
-        time, name = f"{(stop - start) * share!r} s", one.given.label
-        if isinstance(one.given, ConstantVelocity):
-            velocity = cycle.shown(one.displacement / (stop - start) / share)
+    for segment, (start, stop) in times:
+        time, name = f"{(stop - start) * share!r} s", segment.given.label
+        if isinstance(segment.given, ConstantVelocity):
+            velocity = cycle.shown(segment.displacement / (stop - start) / share)
             made.append(ConstantVelocity(f"{velocity}/s", time, name=name))
-        elif isinstance(one.given, Dwell):
+        elif isinstance(segment.given, Dwell):
             made.append(Dwell(time, name=name))
         else:
             piece = next(piece for piece in reversed(cycle.pieces) if piece.start <= start)
-            made += [replace(move, name=name) for move in _moves(cycle, piece, one, (start, stop), share)]
+            made += [replace(move, name=name) for move in _moves(cycle, piece, segment, (start, stop), share)]
     return made
 
 
-def _moves(cycle: Made, piece: Piece, one: Stretch, times: tuple[float, float], share: float) -> list[Move]:
+def _moves(cycle: Made, piece: Piece, stretch: Stretch, times: tuple[float, float], share: float) -> list[Move]:
     """What a law does in a stretch: one move, or two where it ends where it begins."""
-    (start, stop), moved = times, one.displacement
+    (start, stop), moved = times, stretch.displacement
     if piece.stroke == moved and (piece.start, piece.stop) == (start, stop):
         return [Move(cycle.shown(moved), f"{(stop - start) * share!r} s", law=piece.law)]
     law = piece.law
     if not isinstance(law, PiecewiseLaw):
-        raise InputError(f"{one.where} ends where it begins: give it to a Cycle of its own at the other speed")
+        raise InputError(f"{stretch.where} ends where it begins: give it to a Cycle of its own at the other speed")
     first, last = (_break(law, piece, time) for time in times)
     ends = [first, last]
     if abs(moved) <= CLOSE * abs(piece.stroke):
         heights = [abs(float(law(place)) - float(law(law.breaks[first]))) for place in law.breaks[first : last + 1]]
         ends.insert(1, first + heights.index(max(heights)))
-    found, left = list[Move](), moved
+    moves, left = list[Move](), moved
     for low, high in pairwise(ends):
         way = left if high == last else piece.stroke * (float(law(law.breaks[high])) - float(law(law.breaks[low])))
         time = piece.duration * (law.breaks[high] - law.breaks[low]) * share
-        found.append(Move(cycle.shown(way), f"{time!r} s", law=section(law, low, high)))
+        moves.append(Move(cycle.shown(way), f"{time!r} s", law=section(law, low, high)))
         left -= way
-    return found
+    return moves
 
 
 def _break(law: PiecewiseLaw, piece: Piece, time: float) -> int:
@@ -106,7 +106,7 @@ def cam_segments(cycle: Made, period: Any, damping: float) -> list[CycleSegment]
     if natural <= 0.0:
         raise InputError(f"follower: period must be above 0, got {period!r}")
     made: list[CycleSegment] = []
-    for one, given, piece in cycle.by_segment("the cam of an elastic follower is made move by move"):
+    for segment, given, piece in cycle.by_segment("the cam of an elastic follower is made move by move"):
         time = f"{piece.duration!r} s"
         if piece.stroke == 0.0:
             made.append(Dwell(time, name=given.label))
@@ -114,6 +114,6 @@ def cam_segments(cycle: Made, period: Any, damping: float) -> list[CycleSegment]
         try:
             law = polydyne(piece.law, TURN * piece.duration / natural, damping)
         except InputError as error:
-            raise InputError(f"{one.where}: {error}") from None
-        made.append(Move(cycle.shown(one.displacement), time, law=law, name=given.label))
+            raise InputError(f"{segment.where}: {error}") from None
+        made.append(Move(cycle.shown(segment.displacement), time, law=law, name=given.label))
     return made

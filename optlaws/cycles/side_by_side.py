@@ -46,8 +46,8 @@ class Comparison:
     Examples
     --------
     >>> from optlaws import compare
-    >>> found = compare("modified sine", "cycloidal")
-    >>> [row["law"] for row in found.rows], [round(row["C"], 4) for row in found.rows]
+    >>> comparison = compare("modified sine", "cycloidal")
+    >>> [row["law"] for row in comparison.rows], [round(row["C"], 4) for row in comparison.rows]
     (['modified sine', 'cycloidal'], [5.528, 6.2832])
     """
 
@@ -76,7 +76,10 @@ class Comparison:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict; None where a peak has no bound."""
-        rows = [{key: one if isinstance(one, str) else bounded(one) for key, one in row.items()} for row in self.rows]
+        rows = [
+            {key: value if isinstance(value, str) else bounded(value) for key, value in row.items()}
+            for row in self.rows
+        ]
         return {"rows": rows, "remarks": list(self.remarks)}
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported here alone
@@ -98,8 +101,8 @@ class Comparison:
         return page("Comparison", table((*self.rows[0], "a, b, c, j"), rows))
 
     def _row(self, law: MotionLaw) -> dict[str, float]:
-        one = law.constants
-        row = {name: float(getattr(one, name).value) for name in CONSTANTS[:-1]} | {"rms_c": one.rms_c}
+        constants = law.constants
+        row = {name: float(getattr(constants, name).value) for name in CONSTANTS[:-1]} | {"rms_c": constants.rms_c}
         if self.stroke is not None and self.time is not None:
             row |= {
                 text.format(self.unit): factor(self.stroke, self.time, nu) * law.peak(nu).value
@@ -138,8 +141,8 @@ def compare(
 
     Examples
     --------
-    >>> found = compare("modified sine", "cycloidal", stroke="35 mm", time="0.1 s", nu=20)
-    >>> [round(row["acceleration, m/s²"], 3) for row in found.rows]
+    >>> comparison = compare("modified sine", "cycloidal", stroke="35 mm", time="0.1 s", nu=20)
+    >>> [round(row["acceleration, m/s²"], 3) for row in comparison.rows]
     [19.348, 21.991]
     """
     if not laws:
@@ -153,8 +156,8 @@ def compare(
     if nu is not None:
         residual(nu=nu, damping=damping)
     named: dict[str, MotionLaw] = {}
-    for place, one in enumerate(laws, 1):
-        name, law = _named(one, place)
+    for place, given_law in enumerate(laws, 1):
+        name, law = _named(given_law, place)
         if name in named:
             raise InputError(f"{name} is given twice")
         named[name] = law

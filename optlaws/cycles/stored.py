@@ -111,7 +111,7 @@ class Stated:
         return _frame(self)
 
     def __repr__(self) -> str:
-        names = ", ".join(one.label for one in self.segments[:_SHOWN])
+        names = ", ".join(segment.label for segment in self.segments[:_SHOWN])
         more = f", and {len(self.segments) - _SHOWN} more" if len(self.segments) > _SHOWN else ""
         return f"Cycle([{names}{more}], period={self.duration:.6g} s, minimise={self.minimise!r})"
 
@@ -120,7 +120,7 @@ def _to_data(cycle: Any) -> dict[str, Any]:  # noqa: ANN401 - a Cycle
     """What a cycle was given, as plain data; its laws are looked for again when it is read."""
     given = {name: _plain(getattr(cycle, name)) for name in _ENTRIES if name != "segments"}
     kept = {name: value for name, value in given.items() if value not in (None, {}, ())}
-    return {"format": FORMAT, **kept, "segments": [_segment(one) for one in cycle.segments]}
+    return {"format": FORMAT, **kept, "segments": [_segment(segment) for segment in cycle.segments]}
 
 
 def _from_data(data: Any) -> dict[str, Any]:  # noqa: ANN401 - it is checked here
@@ -136,7 +136,7 @@ def _from_data(data: Any) -> dict[str, Any]:  # noqa: ANN401 - it is checked her
     load = given.get("load")
     if isinstance(load, Mapping) and "A" in load:
         given["load"] = Machine.from_dict(load)
-    return given | {"segments": [_read_segment(one, i) for i, one in enumerate(data["segments"], start=1)]}
+    return given | {"segments": [_read_segment(entry, i) for i, entry in enumerate(data["segments"], start=1)]}
 
 
 def problem_file(title: str, clock: Mapping[str, Any], cycles: Mapping[str, Stated]) -> str:
@@ -147,7 +147,11 @@ def problem_file(title: str, clock: Mapping[str, Any], cycles: Mapping[str, Stat
     InputError
         If a law or a load is a value that no problem file can hold.
     """
-    lines = ['job = "cycle"', f"title = {_text(title)}", *(f"{name} = {_value(one)}" for name, one in clock.items())]
+    lines = [
+        'job = "cycle"',
+        f"title = {_text(title)}",
+        *(f"{name} = {_value(value)}" for name, value in clock.items()),
+    ]
     for name, cycle in cycles.items():
         lines += ["", *_axis_lines(name, cycle)]
     return "\n".join(lines) + "\n"
@@ -156,21 +160,21 @@ def problem_file(title: str, clock: Mapping[str, Any], cycles: Mapping[str, Stat
 def _axis_lines(axis: str, cycle: Stated) -> list[str]:
     data = {name: value for name, value in _to_data(cycle).items() if name not in {"format", *_CLOCK}}
     segments = data.pop("segments")
-    for i, one in enumerate(segments, start=1):
-        if not isinstance(one.get("law", ""), str):
+    for i, segment in enumerate(segments, start=1):
+        if not isinstance(segment.get("law", ""), str):
             raise InputError(f"segment {i}: a problem file names its law: save the law as a JSON file and name that")
     if "A" in data.get("load", {}):
         raise InputError("load: a problem file takes a mass on a spring: a machine is kept by Cycle.to_json")
     lines = ["[[axis]]", f"name = {_text(axis)}", *(f"{name} = {_value(value)}" for name, value in data.items())]
-    for one in segments:
-        lines += ["", "[[axis.segment]]", *(f"{name} = {_value(value)}" for name, value in one.items())]
+    for segment in segments:
+        lines += ["", "[[axis.segment]]", *(f"{name} = {_value(value)}" for name, value in segment.items())]
     return lines
 
 
-def _segment(one: CycleSegment) -> dict[str, Any]:
-    kind = next(name for name, known in KINDS.items() if known is type(one))
-    given = {each.name: _plain(getattr(one, each.name)) for each in fields(one)}  # type: ignore[arg-type] # dataclasses
-    defaults = {each.name: each.default for each in fields(one)}  # type: ignore[arg-type]
+def _segment(segment: CycleSegment) -> dict[str, Any]:
+    kind = next(name for name, known in KINDS.items() if known is type(segment))
+    given = {each.name: _plain(getattr(segment, each.name)) for each in fields(segment)}  # type: ignore[arg-type] # dataclasses
+    defaults = {each.name: each.default for each in fields(segment)}  # type: ignore[arg-type]
     kept = {name: value for name, value in given.items() if value not in (None, {}, (), [], defaults[name])}
     return {"kind": kind, **kept}
 
@@ -193,9 +197,9 @@ def _plain(value: Any) -> Any:  # noqa: ANN401 - whatever a person gave
     if isinstance(value, MotionLaw | Machine):
         return value.to_dict()
     if isinstance(value, Mapping):
-        return {str(key): _plain(one) for key, one in value.items()}
+        return {str(key): _plain(part) for key, part in value.items()}
     if isinstance(value, list | tuple):
-        return [_plain(one) for one in value]
+        return [_plain(part) for part in value]
     return value if value is None or isinstance(value, bool | int | float) else str(written(value))
 
 
@@ -205,7 +209,7 @@ def _text(text: str) -> str:
 
 def _value(value: Any) -> str:  # noqa: ANN401 - plain data
     if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{_text(name)} = {_value(one)}" for name, one in value.items()) + " }"
+        return "{ " + ", ".join(f"{_text(name)} = {_value(part)}" for name, part in value.items()) + " }"
     if isinstance(value, list):
         return "[" + ", ".join(map(_value, value)) + "]"
     return json.dumps(value, ensure_ascii=False)

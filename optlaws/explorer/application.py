@@ -76,7 +76,7 @@ def application(start: dict[str, Any]) -> Starlette:
     ready(*(kind for kind, _ in QUESTIONS.values()), Study, wishes.Study)
     routes = [
         Route("/api/start", lambda _: _json(first)),
-        *(Route(f"/api/{name}", _asking(*one), methods=["POST"]) for name, one in QUESTIONS.items()),
+        *(Route(f"/api/{name}", _asking(*question), methods=["POST"]) for name, question in QUESTIONS.items()),
         *(Route("/" if name == "index.html" else f"/{name}", _file(name)) for name in page()),
     ]
     return Starlette(routes=routes, middleware=[Middleware(Guard)])
@@ -86,8 +86,8 @@ def application(start: dict[str, Any]) -> Starlette:
 def page() -> dict[str, bytes]:
     """The files of the page by their names."""
     folder = files("optlaws.explorer") / "page"
-    kept = [one for one in folder.iterdir() if f".{one.name.rpartition('.')[2]}" in _TYPES]
-    return {one.name: one.read_bytes() for one in sorted(kept, key=lambda one: one.name)}
+    kept = [entry for entry in folder.iterdir() if f".{entry.name.rpartition('.')[2]}" in _TYPES]
+    return {entry.name: entry.read_bytes() for entry in sorted(kept, key=lambda entry: entry.name)}
 
 
 def _file(name: str) -> Callable[[Request], Response]:

@@ -61,13 +61,14 @@ def _of_problem_file(file: Path) -> dict[str, Any]:
             f"{file} has neither a [problem] nor job = 'cycle' or 'cam': the explorer shows these and laws"
         )
     swept: Any = data.get("sweep")
-    first = {name: values[0] for one in swept for name, values in one.items()} if _is_sweep(swept) else {}
-    return _laws(_problem({name: one for name, one in (entries | first).items() if one != "free"}, file))
+    first = {name: values[0] for entry in swept for name, values in entry.items()} if _is_sweep(swept) else {}
+    return _laws(_problem({name: value for name, value in (entries | first).items() if value != "free"}, file))
 
 
 def _is_sweep(swept: Any) -> bool:  # noqa: ANN401 - of a file
     return isinstance(swept, list) and all(
-        isinstance(one, dict) and all(isinstance(values, list) and values for values in one.values()) for one in swept
+        isinstance(entry, dict) and all(isinstance(values, list) and values for values in entry.values())
+        for entry in swept
     )
 
 

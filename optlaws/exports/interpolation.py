@@ -49,7 +49,7 @@ def cubic_spline(
     Examples
     --------
     >>> spline = cubic_spline(np.array([0.0, 40.0, 100.0]), np.array([0.0, 20.0, 25.0]), slopes=(1.0, 0.0))
-    >>> [round(one, 9) for one in spline.coefficients[0]]
+    >>> [round(coefficient, 9) for coefficient in spline.coefficients[0]]
     [0.0, 1.0, -0.0175, 0.000125]
     """
     return PiecewiseMotion(x, spline_powers(x, y, ends, slopes))
@@ -67,8 +67,8 @@ def hermite(x: Array, values: Array) -> PiecewiseMotion:
 
     Examples
     --------
-    >>> one = hermite(np.array([0.0, 2.0]), np.array([[0.0, 1.0], [0.0, 0.0], [0.0, 0.0]]))
-    >>> one.coefficients[0]
+    >>> motion = hermite(np.array([0.0, 2.0]), np.array([[0.0, 1.0], [0.0, 0.0], [0.0, 0.0]]))
+    >>> motion.coefficients[0]
     (0.0, 0.0, 0.0, 1.25, -0.9375, 0.1875)
     """
     return PiecewiseMotion(x, hermite_powers(x, values))

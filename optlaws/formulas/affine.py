@@ -26,11 +26,13 @@ class Affine:
 
     def scaled(self, by: Formula) -> Affine:
         """Times a formula without the names."""
-        return Affine(tuple((name, multiplied([by, one])) for name, one in self.factors), multiplied([by, self.rest]))
+        return Affine(
+            tuple((name, multiplied([by, factor])) for name, factor in self.factors), multiplied([by, self.rest])
+        )
 
     def opposite(self) -> Affine:
         """With every sign turned."""
-        return Affine(tuple((name, opposite(one)) for name, one in self.factors), opposite(self.rest))
+        return Affine(tuple((name, opposite(factor)) for name, factor in self.factors), opposite(self.rest))
 
 
 def affine(formula: Formula, names: Collection[str]) -> Affine | None:
@@ -49,17 +51,17 @@ def affine(formula: Formula, names: Collection[str]) -> Affine | None:
     if isinstance(formula, Name):
         return Affine(((formula.name, Number(1.0)),), Number(0.0))
     if isinstance(formula, Negative):
-        found = affine(formula.of, names)
-        return None if found is None else found.opposite()
+        form = affine(formula.of, names)
+        return None if form is None else form.opposite()
     if isinstance(formula, Sum):
         return _sum([affine(term, names) for term in formula.terms])
     if isinstance(formula, Product):
         moving = [factor for factor in formula.factors if factor.names() & set(names)]
         if len(moving) > 1 or isinstance(moving[0], Reciprocal):
             return None
-        found = affine(moving[0], names)
+        form = affine(moving[0], names)
         still = [factor for factor in formula.factors if factor is not moving[0]]
-        return None if found is None else found.scaled(multiplied(still))
+        return None if form is None else form.scaled(multiplied(still))
     return None
 
 

@@ -67,9 +67,9 @@ def evaluate(formula: Formula, names: Mapping[str, Any], arithmetic: Arithmetic)
     if isinstance(formula, Negative):
         return -parts[0]
     if isinstance(formula, Sum):
-        return reduce(lambda one, other: one + other, parts)
+        return reduce(lambda total, other: total + other, parts)
     if isinstance(formula, Product):
-        return reduce(lambda one, other: one * other, parts)
+        return reduce(lambda product, other: product * other, parts)
     if isinstance(formula, Reciprocal):
         return arithmetic.number(1.0) / parts[0]
     if isinstance(formula, Power):
@@ -90,10 +90,10 @@ def _numpy_power(base: Any, exponent: Any) -> Any:  # noqa: ANN401 - numbers or 
 def _table(table: Table, at: Any) -> Any:  # noqa: ANN401 - numbers or arrays
     coefficients, places = pieces(table), np.array(table.places)
     piece = np.clip(np.searchsorted(places, at, side="right") - 1, 0, len(places) - 2)
-    s, found = np.asarray(at) - places[piece], np.zeros(np.shape(at))
+    s, values = np.asarray(at) - places[piece], np.zeros(np.shape(at))
     for column in coefficients.T[::-1]:
-        found = column[piece] + s * found
-    return found
+        values = column[piece] + s * values
+    return values
 
 
 def pieces(table: Table) -> Array:
@@ -105,10 +105,10 @@ def pieces(table: Table) -> Array:
     [[1.0, 1.0], [2.0, 2.0]]
     """
     lines = np.column_stack([table.values[:-1], np.diff(table.values) / np.diff(table.places)])
-    found = spline(table.places, table.values) if table.smooth else lines
+    rows = spline(table.places, table.values) if table.smooth else lines
     for _ in range(table.order):
-        found = found[:, 1:] * np.arange(1, found.shape[1]) if found.shape[1] > 1 else np.zeros((len(found), 1))
-    return found
+        rows = rows[:, 1:] * np.arange(1, rows.shape[1]) if rows.shape[1] > 1 else np.zeros((len(rows), 1))
+    return rows
 
 
 def horner(coefficients: Sequence[Any], x: Any) -> Any:  # noqa: ANN401 - numbers of any kind
@@ -119,10 +119,10 @@ def horner(coefficients: Sequence[Any], x: Any) -> Any:  # noqa: ANN401 - number
     >>> horner([1.0, 2.0], 3.0)
     7.0
     """
-    found = coefficients[-1]
+    total = coefficients[-1]
     for value in coefficients[-2::-1]:
-        found = value + found * x
-    return found
+        total = value + total * x
+    return total
 
 
 @lru_cache(maxsize=64)
@@ -146,11 +146,11 @@ def spline(places: tuple[float, ...], values: tuple[float, ...]) -> Array:
     matrix[0, :3] = h[1], -(h[0] + h[1]), h[0]
     matrix[-1, -3:] = h[-1], -(h[-2] + h[-1]), h[-2]
     bent = np.linalg.solve(matrix, right)
-    found = np.column_stack(
+    rows = np.column_stack(
         [y[:-1], slopes - h * (2.0 * bent[:-1] + bent[1:]) / 6.0, bent[:-1] / 2.0, np.diff(bent) / (6.0 * h)]
     )
-    found.setflags(write=False)
-    return found
+    rows.setflags(write=False)
+    return rows
 
 
 NUMPY = Arithmetic(
@@ -179,13 +179,13 @@ def casadi_arithmetic() -> Arithmetic:
     """CasADi's symbols."""
     import casadi as ca
 
-    def table(one: Table, at: Any) -> Any:  # noqa: ANN401 - a symbol
+    def table(lookup: Table, at: Any) -> Any:  # noqa: ANN401 - a symbol
         """The pieces, chosen by their places."""
-        rows = [horner(row, at - x) for x, row in zip(one.places[:-1], pieces(one).tolist(), strict=True)]
-        found = rows[0]
-        for x, row in zip(one.places[1:-1], rows[1:], strict=True):
-            found = ca.if_else(at >= x, row, found)
-        return found
+        rows = [horner(row, at - x) for x, row in zip(lookup.places[:-1], pieces(lookup).tolist(), strict=True)]
+        value = rows[0]
+        for x, row in zip(lookup.places[1:-1], rows[1:], strict=True):
+            value = ca.if_else(at >= x, row, value)
+        return value
 
     functions = {name: getattr(ca, name) for name in ("sin", "cos", "tan", "atan", "tanh", "exp", "log", "sqrt")}
     several = {"abs": ca.fabs, "max": ca.fmax, "min": ca.fmin, "norm": lambda x, y: ca.sqrt(x * x + y * y + _NOTHING)}

@@ -42,8 +42,8 @@ def branches(formula: Formula, names: Collection[str], sign: Sign) -> list[Formu
     >>> branches(read("-abs(c)"), "bc", lambda part: 1) is None
     True
     """
-    found = _Branches(frozenset(names), sign).of(formula, greatest=True)
-    return None if found is None or len(found) > _MOST else list(dict.fromkeys(found))
+    parts = _Branches(frozenset(names), sign).of(formula, greatest=True)
+    return None if parts is None or len(parts) > _MOST else list(dict.fromkeys(parts))
 
 
 def smooth(formula: Formula, names: Collection[str]) -> bool:
@@ -75,17 +75,17 @@ def switches(formula: Formula, names: Collection[str]) -> list[Formula]:
     >>> switches(read("max(abs(b) - 1, c, 0)"), "bc")
     [b, abs(b) - 1 - c, abs(b) - 1, c]
     """
-    found: list[Formula] = []
+    formulas: list[Formula] = []
     for part in reversed(list(formula.walk())):
         if smooth_itself(part) or not part.names() & set(names):
             continue
         if isinstance(part, Table):
-            found += [added([part.of, opposite(number(place))]) for place in part.places[1:-1]]
+            formulas += [added([part.of, opposite(number(place))]) for place in part.places[1:-1]]
         elif len(part.parts) == 1:
-            found += part.parts
+            formulas += part.parts
         else:
-            found += [added([one, opposite(other)]) for one, other in combinations(part.parts, 2)]
-    return [one for one in dict.fromkeys(found) if one.names() & set(names)]
+            formulas += [added([first, opposite(other)]) for first, other in combinations(part.parts, 2)]
+    return [fromkey for fromkey in dict.fromkeys(formulas) if fromkey.names() & set(names)]
 
 
 def branch_at(formula: Formula, names: Mapping[str, float]) -> Formula:
@@ -128,9 +128,9 @@ def rounded(formula: Formula, radius: float) -> Formula:
         return _hyperbola(parts[0], radius)
     sign = 1.0 if formula.function == "max" else -1.0
 
-    def greater(one: Formula, other: Formula) -> Formula:
-        apart = _hyperbola(added([one, opposite(other)]), radius)
-        return multiplied([Number(0.5), added([one, other, multiplied([number(sign), apart])])])
+    def greater(first: Formula, other: Formula) -> Formula:
+        apart = _hyperbola(added([first, opposite(other)]), radius)
+        return multiplied([Number(0.5), added([first, other, multiplied([number(sign), apart])])])
 
     return reduce(greater, parts)
 
@@ -212,5 +212,5 @@ class _Branches:
         return None if any(group is None for group in both) else known
 
 
-def _each(found: list[Formula] | None, change: Callable[[Formula], Formula]) -> list[Formula] | None:
-    return None if found is None else [change(branch) for branch in found]
+def _each(parts: list[Formula] | None, change: Callable[[Formula], Formula]) -> list[Formula] | None:
+    return None if parts is None else [change(branch) for branch in parts]

@@ -90,14 +90,14 @@ class Judge:
 
     def verdict(self, formula: Formula) -> Verdict:
         """What a formula is; rules first, then as a quadratic form."""
-        found = self.by_rules(formula)
-        if found.curvature is not Curvature.UNKNOWN:
-            return found
+        verdict = self.by_rules(formula)
+        if verdict.curvature is not Curvature.UNKNOWN:
+            return verdict
         for sign in (1, -1):
             if semidefinite(formula, self.names, self._interval, sign):
                 kind = Curvature.CONVEX if sign > 0 else Curvature.CONCAVE
                 return Verdict(kind, f"{formula} is a {kind.value} quadratic form at every k", formula)
-        return found
+        return verdict
 
     def by_rules(self, formula: Formula) -> Verdict:
         """What the rules say part by part."""
@@ -106,8 +106,8 @@ class Judge:
         if affine(formula, self.names) is not None:
             return Verdict(Curvature.AFFINE, f"{formula} is affine in the law", formula)
         if isinstance(formula, Negative):
-            found = self.by_rules(formula.of)
-            return replace(found, curvature=found.curvature.opposite)
+            verdict = self.by_rules(formula.of)
+            return replace(verdict, curvature=verdict.curvature.opposite)
         if isinstance(formula, Sum):
             return self._sum(formula)
         if isinstance(formula, Product):
@@ -129,32 +129,32 @@ class Judge:
 
     def sign(self, formula: Formula) -> int:
         """1 where it is nowhere below 0, -1 where nowhere above, 0 where neither is known."""
-        found = enclosed(formula, self._interval)
-        if float(np.min(found.low)) >= 0.0:
+        interval = enclosed(formula, self._interval)
+        if float(np.min(interval.low)) >= 0.0:
             return 1
-        return -1 if float(np.max(found.high)) <= 0.0 else 0
+        return -1 if float(np.max(interval.high)) <= 0.0 else 0
 
     def _sum(self, formula: Sum) -> Verdict:
-        found = [self.by_rules(term) for term in formula.terms]
+        verdicts = [self.by_rules(term) for term in formula.terms]
         for kind, fits in ((Curvature.CONVEX, "convex"), (Curvature.CONCAVE, "concave")):
-            if all(getattr(one.curvature, fits) for one in found):
+            if all(getattr(verdict.curvature, fits) for verdict in verdicts):
                 return Verdict(kind, f"every term of {formula} is {fits}", formula)
-        unknown = [one for one in found if one.curvature is Curvature.UNKNOWN]
+        unknown = [verdict for verdict in verdicts if verdict.curvature is Curvature.UNKNOWN]
         return unknown[0] if unknown else _unknown(f"{formula} adds convex and concave terms", formula)
 
     def _product(self, formula: Product) -> Verdict:
-        moving = [one for one in formula.factors if one.names() & self.names]
+        moving = [factor for factor in formula.factors if factor.names() & self.names]
         if len(moving) > 1:
             return _unknown(f"{formula} is a product of parts that both vary", formula)
-        found = self.by_rules(moving[0])
-        others = [one for one in formula.factors if one is not moving[0]]
+        verdict = self.by_rules(moving[0])
+        others = [factor for factor in formula.factors if factor is not moving[0]]
         sign = 1
-        for one in others:
-            sign *= self.sign(one)
-        if sign == 0 and found.curvature is not Curvature.AFFINE:
+        for factor in others:
+            sign *= self.sign(factor)
+        if sign == 0 and verdict.curvature is not Curvature.AFFINE:
             return _unknown(f"the factor of {moving[0]} in {formula} changes its sign", formula)
-        kind = found.curvature if sign > 0 else found.curvature.opposite
-        return Verdict(kind, f"{formula} is {moving[0]} times what does not change its sign; {found.why}", formula)
+        kind = verdict.curvature if sign > 0 else verdict.curvature.opposite
+        return Verdict(kind, f"{formula} is {moving[0]} times what does not change its sign; {verdict.why}", formula)
 
     def _of_power(self, formula: Power) -> Verdict:
         exponent = constant(formula.exponent)
@@ -195,15 +195,17 @@ class Judge:
         return Verdict(kind, f"{formula} bends one way and is of an affine part", formula)
 
     def _call(self, formula: Call) -> Verdict:
-        name, kinds = formula.function, [self.by_rules(one).curvature for one in formula.arguments]
+        name, kinds = formula.function, [self.by_rules(argument).curvature for argument in formula.arguments]
         if name in {"max", "exp"}:
-            return _when(all(one.convex for one in kinds), Curvature.CONVEX, formula, f"{name}, which rises, of parts")
+            return _when(
+                all(kind.convex for kind in kinds), Curvature.CONVEX, formula, f"{name}, which rises, of parts"
+            )
         if name in {"min", "sqrt", "log"}:
             return _when(
-                all(one.concave for one in kinds), Curvature.CONCAVE, formula, f"{name}, which rises, of parts"
+                all(kind.concave for kind in kinds), Curvature.CONCAVE, formula, f"{name}, which rises, of parts"
             )
         if name in {"abs", "norm"}:
-            fits = all(self._size_is_convex(one) for one in formula.arguments)
+            fits = all(self._size_is_convex(argument) for argument in formula.arguments)
             return _when(fits, Curvature.CONVEX, formula, f"{name} of parts")
         return _unknown(f"{name} bends both ways: {formula} is not convex", formula)
 

@@ -36,7 +36,7 @@ class Interval:
 
     def __mul__(self, other: Interval) -> Interval:
         with np.errstate(invalid="ignore"):
-            ends = [one * two for one in (self.low, self.high) for two in (other.low, other.high)]
+            ends = [low * two for low in (self.low, self.high) for two in (other.low, other.high)]
         # nothing times whatever is nothing
         ends = [np.where(np.isnan(end), 0.0, end) for end in ends]
         return Interval(np.minimum.reduce(ends), np.maximum.reduce(ends))
@@ -64,8 +64,8 @@ def enclosed(formula: Formula, names: Mapping[str, Interval]) -> Interval:
     Examples
     --------
     >>> from optlaws.formulas.reading import read
-    >>> found = enclosed(read("(1 + k)^2"), {"k": Interval(np.array(0.0), np.array(1.0))})
-    >>> round(float(found.low), 9), round(float(found.high), 9)
+    >>> values = enclosed(read("(1 + k)^2"), {"k": Interval(np.array(0.0), np.array(1.0))})
+    >>> round(float(values.low), 9), round(float(values.high), 9)
     (1.0, 4.0)
     """
     if isinstance(formula, Number):
@@ -76,9 +76,9 @@ def enclosed(formula: Formula, names: Mapping[str, Interval]) -> Interval:
     if isinstance(formula, Negative):
         return -parts[0]
     if isinstance(formula, Sum):
-        return reduce(lambda one, other: one + other, parts).outward()
+        return reduce(lambda total, other: total + other, parts).outward()
     if isinstance(formula, Product):
-        return reduce(lambda one, other: one * other, parts).outward()
+        return reduce(lambda product, other: product * other, parts).outward()
     if isinstance(formula, Reciprocal):
         return _reciprocal(parts[0])
     if isinstance(formula, Power):
@@ -99,8 +99,8 @@ def over_parts(formula: Formula, name: str, start: float, stop: float) -> tuple[
     0.0
     """
     edges = np.linspace(start, stop, _PARTS + 1)
-    found = enclosed(formula, {name: Interval(edges[:-1], edges[1:])})
-    return float(np.min(found.low)), float(np.max(found.high))
+    values = enclosed(formula, {name: Interval(edges[:-1], edges[1:])})
+    return float(np.min(values.low)), float(np.max(values.high))
 
 
 def _reciprocal(of: Interval) -> Interval:
@@ -119,8 +119,8 @@ def _power(base: Interval, exponent: Interval, known: float | None) -> Interval:
         low, high = np.minimum(*ends), np.maximum(*ends)
         if whole % 2 == 0:
             low = np.where((base.low <= 0.0) & (base.high >= 0.0), 0.0, low)
-        found = Interval(low, high)
-        return found if whole >= 0 else _reciprocal(found)
+        interval = Interval(low, high)
+        return interval if whole >= 0 else _reciprocal(interval)
     with np.errstate(all="ignore"):
         ends = [np.power(x, y) for x in (base.low, base.high) for y in (exponent.low, exponent.high)]
     return Interval(np.minimum.reduce(ends), np.maximum.reduce(ends))
@@ -135,9 +135,9 @@ def _table(table: Table, at: Interval) -> Interval:
         start, stop = (-np.inf if i == 0 else places[i]), (np.inf if i == len(rows) - 1 else places[i + 1])
         met = (at.low <= stop) & (at.high >= start)
         s = Interval(np.maximum(at.low, start) - places[i], np.minimum(at.high, stop) - places[i])
-        found = reduce(lambda sum_, value: between(value) + sum_ * s, row[::-1].tolist(), between(0.0))
-        lows = np.where(met, np.minimum(lows, found.low), lows)
-        highs = np.where(met, np.maximum(highs, found.high), highs)
+        total = reduce(lambda sum_, value: between(value) + sum_ * s, row[::-1].tolist(), between(0.0))
+        lows = np.where(met, np.minimum(lows, total.low), lows)
+        highs = np.where(met, np.maximum(highs, total.high), highs)
     return Interval(lows, highs)
 
 
@@ -149,7 +149,7 @@ def _call(function: str, parts: list[Interval]) -> Interval:
         return reduce(lambda p, q: Interval(np.minimum(p.low, q.low), np.minimum(p.high, q.high)), parts)
     if function == "norm":
         squares = [_power(part, part, 2.0) for part in parts]
-        return reduce(lambda one, other: one + other, squares).through(np.sqrt)
+        return reduce(lambda total, other: total + other, squares).through(np.sqrt)
     if function == "abs":
         return Interval(np.maximum(np.maximum(first.low, -first.high), 0.0), np.maximum(-first.low, first.high))
     if function in _RISING:
@@ -157,8 +157,8 @@ def _call(function: str, parts: list[Interval]) -> Interval:
     if function == "tan":
         # a pole lies where the half turns differ
         same = np.floor(first.low / pi + 0.5) == np.floor(first.high / pi + 0.5)
-        found = first.through(np.tan)
-        return Interval(np.where(same, found.low, -np.inf), np.where(same, found.high, np.inf))
+        tangents = first.through(np.tan)
+        return Interval(np.where(same, tangents.low, -np.inf), np.where(same, tangents.high, np.inf))
     quarter = pi / 2.0 if function == "sin" else 0.0
     return _wave(Interval(first.low - quarter, first.high - quarter))
 

@@ -50,7 +50,7 @@ class Motion:
     Examples
     --------
     >>> motion = of_text("c + 0.2*b")
-    >>> motion.curvature.value, {nu: str(one) for nu, one in motion.weights.items()}
+    >>> motion.curvature.value, {nu: str(weight) for nu, weight in motion.weights.items()}
     ('affine', {2: '1', 1: '0.2'})
     """
 
@@ -112,11 +112,11 @@ class Motion:
 
     def constant_weights(self) -> tuple[dict[int, float], float] | None:
         """The factors and the rest of an affine formula as numbers; None where one depends on k."""
-        found = {nu: constant(one) for nu, one in self.weights.items()}
+        constants = {nu: constant(weight) for nu, weight in self.weights.items()}
         rest = constant(self.rest)
-        if rest is None or None in found.values():
+        if rest is None or None in constants.values():
             return None
-        return {nu: value for nu, value in found.items() if value is not None}, rest
+        return {nu: value for nu, value in constants.items() if value is not None}, rest
 
     def degree(self, orders: Mapping[str, int]) -> int | None:
         """The degree in k where a, b, c, j have these; None where it is no polynomial."""
@@ -130,13 +130,13 @@ class Motion:
     @kept_property
     def kinks(self) -> tuple[float, ...]:
         """The k strictly between 0 and 1 at which a factor is not smooth, ascending."""
-        found: set[float] = set()
+        places: set[float] = set()
         for part in self.formula.walk():
             if isinstance(part, Table) and not part.names() & ORDERS.keys():
-                found.update(self._knots(part))
+                places.update(self._knots(part))
             if isinstance(part, Call) and part.function in {"abs", "max", "min"} and not part.names() & ORDERS.keys():
-                found.update(self._kinks(part))
-        return tuple(sorted(k for k in found if 0.0 < k < 1.0))
+                places.update(self._kinks(part))
+        return tuple(sorted(k for k in places if 0.0 < k < 1.0))
 
     def _knots(self, table: Table) -> list[float]:
         of = affine(table.of, ("k",))
@@ -148,14 +148,14 @@ class Motion:
 
     def _kinks(self, call: Call) -> list[float]:
         first, *others = call.arguments
-        parts = [first] if call.function == "abs" else [added([first, opposite(one)]) for one in others]
-        found: list[float] = []
+        parts = [first] if call.function == "abs" else [added([first, opposite(argument)]) for argument in others]
+        places: list[float] = []
         for part in parts:
             if not part.names():
                 continue
             series = interpolated(partial(_along, Motion(part)), str(part))
-            found += ((1.0 + real_parts_of_roots(series)) / 2.0).tolist()
-        return found
+            places += ((1.0 + real_parts_of_roots(series)) / 2.0).tolist()
+        return places
 
 
 def _along(motion: Motion, x: Array) -> Array:
@@ -191,7 +191,10 @@ def checked(motion: Motion, text: str) -> Motion:
         If it divides by what is 0 at some k, or takes roots and logarithms of what has none; `text` is shown.
     """
     for part in motion.formula.walk():
-        if isinstance(part, Product) and sum(bool(one.names() & {*ORDERS, "d"}) for one in part.factors) > _FACTORS:
+        if (
+            isinstance(part, Product)
+            and sum(bool(factor.names() & {*ORDERS, "d"}) for factor in part.factors) > _FACTORS
+        ):
             raise refused(f"a product may have {_FACTORS} factors that depend on the law", text, part)
     k = np.linspace(motion.start, motion.stop, 1025)
     still = [part for part in motion.formula.walk() if not part.names() & {*ORDERS, "d"}]

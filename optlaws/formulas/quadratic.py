@@ -30,12 +30,12 @@ def quadratic(formula: Formula, names: Collection[str], most: int = _MOST) -> Te
     if isinstance(formula, Name):
         return {(formula.name,): Number(1.0)}
     if isinstance(formula, Negative):
-        found = quadratic(formula.of, names, most)
-        return None if found is None else {key: opposite(one) for key, one in found.items()}
+        form = quadratic(formula.of, names, most)
+        return None if form is None else {key: opposite(coefficient) for key, coefficient in form.items()}
     if isinstance(formula, Sum):
         return _sum([quadratic(term, names, most) for term in formula.terms])
     if isinstance(formula, Product):
-        return _product([quadratic(one, names, most) for one in formula.factors], most)
+        return _product([quadratic(factor, names, most) for factor in formula.factors], most)
     if isinstance(formula, Power):
         exponent = constant(formula.exponent)
         if exponent is None or not 0.0 <= exponent <= most or exponent % 1.0:
@@ -55,20 +55,20 @@ def semidefinite(formula: Formula, names: Collection[str], within: Mapping[str, 
     >>> semidefinite(read("c^2 + 2*b*c + b^2"), "bc", {}, 1), semidefinite(read("c^2 + 3*b*c + b^2"), "bc", {}, 1)
     (True, False)
     """
-    found = quadratic(formula, names)
-    if found is None:
+    form = quadratic(formula, names)
+    if form is None:
         return False
-    kept = sorted({name for key in found if len(key) == _MOST for name in key})
+    kept = sorted({name for key in form if len(key) == _MOST for name in key})
     entries = {
-        (i, j): found.get((one, other), Number(0.0))
-        for i, one in enumerate(kept)
+        (i, j): form.get((first, other), Number(0.0))
+        for i, first in enumerate(kept)
         for j, other in enumerate(kept)
         if i <= j
     }
-    values = {place: constant(one) for place, one in entries.items()}
+    values = {place: constant(entry) for place, entry in entries.items()}
     if None not in values.values():
         return _exactly({place: sign * Fraction(value or 0.0) for place, value in values.items()}, len(kept))
-    return _widely({place: enclosed(one, within) for place, one in entries.items()}, len(kept), sign)
+    return _widely({place: enclosed(entry, within) for place, entry in entries.items()}, len(kept), sign)
 
 
 def _exactly(entries: Mapping[tuple[int, int], Fraction], size: int) -> bool:
@@ -86,13 +86,13 @@ def _exactly(entries: Mapping[tuple[int, int], Fraction], size: int) -> bool:
 
 def _widely(entries: Mapping[tuple[int, int], Interval], size: int, sign: int) -> bool:
     """By the eigenvalues at the middles of many parts, less what the entries may be off."""
-    count = max(np.size(one.low) for one in entries.values())
+    count = max(np.size(entry.low) for entry in entries.values())
     middles, reach = np.zeros((count, size, size)), np.zeros((count, size, size))
-    for (i, j), one in entries.items():
+    for (i, j), entry in entries.items():
         half = 1.0 if i == j else 0.5
         with np.errstate(invalid="ignore"):  # of an entry without bounds
-            middles[:, i, j] = middles[:, j, i] = sign * half * (one.low + one.high) / 2.0
-        reach[:, i, j] = reach[:, j, i] = half * (one.high - one.low) / 2.0
+            middles[:, i, j] = middles[:, j, i] = sign * half * (entry.low + entry.high) / 2.0
+        reach[:, i, j] = reach[:, j, i] = half * (entry.high - entry.low) / 2.0
     if not np.isfinite(middles).all() or not np.isfinite(reach).all():
         return False
     least = np.linalg.eigvalsh(middles)[:, 0] - np.linalg.norm(reach, axis=(1, 2))
@@ -110,17 +110,17 @@ def _sum(terms: list[Terms | None]) -> Terms | None:
 
 
 def _product(factors: list[Terms | None], most: int) -> Terms | None:
-    found: Terms = {(): Number(1.0)}
+    terms: Terms = {(): Number(1.0)}
     for factor in factors:
         if factor is None:
             return None
         products: list[Terms | None] = [
-            {tuple(sorted((*one, *other))): multiplied([first, second])}
-            for one, first in found.items()
+            {tuple(sorted((*name, *other))): multiplied([first, second])}
+            for name, first in terms.items()
             for other, second in factor.items()
         ]
         together = _sum(products)
         if together is None or any(len(key) > most for key in together):
             return None
-        found = together
-    return found
+        terms = together
+    return terms

@@ -99,8 +99,8 @@ class _Parser:
         place, minus = self.scanner.token.place, False
         if self.scanner.token.text in {"+", "-"}:
             minus = self.scanner.take().text == "-"
-        found = self._product(depth)
-        return Negative(found, place=place) if minus else found
+        product = self._product(depth)
+        return Negative(product, place=place) if minus else product
 
     def _product(self, depth: int) -> Formula:
         place = self.scanner.token.place
@@ -115,8 +115,8 @@ class _Parser:
         place = self._deeper(depth)
         if self.scanner.token.text in {"+", "-"}:
             minus = self.scanner.take().text == "-"
-            found = self._signed(depth + 1)
-            return Negative(found, place=place) if minus else found
+            factor = self._signed(depth + 1)
+            return Negative(factor, place=place) if minus else factor
         base = self._atom(depth)
         if not self._raises():
             return base
@@ -138,9 +138,9 @@ class _Parser:
             return Number(self._magnitude(), place=token.place)
         if token.text == "(":
             self.scanner.take()
-            found = self.sum(depth + 1)
+            inner = self.sum(depth + 1)
             self.scanner.close()
-            return found
+            return inner
         if token.kind != "name":
             self.scanner.refuse("expected a number, a name, a function or (")
         if self.scanner.following.text == "(":

@@ -84,16 +84,16 @@ class Scanner:
         self._at = 0
 
     def _read(self) -> list[Token]:
-        found, place, end = [], 0, len(self.text.rstrip())
+        tokens, place, end = [], 0, len(self.text.rstrip())
         while place < end:
             match = _TOKEN.match(self.text, place)
             if match is None:
                 place = _BLANK.match(self.text, place).end()  # type: ignore[union-attr] # blanks may be none
                 raise FormulaError(f"{self.text[place]!r} is not understood", self.text, place)
             kind = str(match.lastgroup)
-            found.append(Token(kind, match.group(kind), match.start(kind)))
+            tokens.append(Token(kind, match.group(kind), match.start(kind)))
             place = match.end()
-        return [*found, Token("end", "", len(self.text))]
+        return [*tokens, Token("end", "", len(self.text))]
 
     @property
     def token(self) -> Token:

@@ -142,16 +142,16 @@ def opposite(formula: Formula) -> Formula:
 
 def added(terms: list[Formula]) -> Formula:
     """The sum without what is 0."""
-    kept = [one for one in terms if one != _ZERO]
+    kept = [term for term in terms if term != _ZERO]
     return total(kept) if kept else _ZERO
 
 
 def multiplied(factors: list[Formula]) -> Formula:
     """The product without what is 1; 0 where a factor is; numbers first, as one."""
     value, others, minus = 1.0, [], False
-    for one in factors:
-        bare = one.of if isinstance(one, Negative) else one
-        minus ^= bare is not one
+    for factor in factors:
+        bare = factor.of if isinstance(factor, Negative) else factor
+        minus ^= bare is not factor
         if isinstance(bare, Number):
             value *= bare.value
         else:
@@ -159,5 +159,5 @@ def multiplied(factors: list[Formula]) -> Formula:
     if value == 0.0:
         return _ZERO
     kept = others if value == 1.0 and others else [Number(value), *others]
-    found = product(kept)
-    return Negative(found) if minus else found
+    derivative = product(kept)
+    return Negative(derivative) if minus else derivative

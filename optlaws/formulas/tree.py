@@ -37,7 +37,7 @@ class Formula:
 
     def names(self) -> frozenset[str]:
         """The names in it."""
-        return frozenset(one.name for one in self.walk() if isinstance(one, Name))
+        return frozenset(part.name for part in self.walk() if isinstance(part, Name))
 
     def within(self, level: int) -> str:
         """Its text, in brackets where it binds less than its surroundings."""
@@ -99,10 +99,10 @@ class Sum(Formula):
     def __str__(self) -> str:
         first, *others = self.terms
         text = str(first) if isinstance(first, Negative) else first.within(_PRODUCT)
-        for one in others:
-            minus = isinstance(one, Negative)
-            text += f" - {one.of.within(_PRODUCT)}" if isinstance(one, Negative) else " + "
-            text += "" if minus else one.within(_PRODUCT)
+        for factor in others:
+            minus = isinstance(factor, Negative)
+            text += f" - {factor.of.within(_PRODUCT)}" if isinstance(factor, Negative) else " + "
+            text += "" if minus else factor.within(_PRODUCT)
         return text
 
 
@@ -137,8 +137,8 @@ class Product(Formula):
     def __str__(self) -> str:
         first, *others = self.factors
         text = first.within(_PRODUCT)
-        for one in others:
-            text += f"/{one.of.within(_SIGNED)}" if isinstance(one, Reciprocal) else f"*{one.within(_SIGNED)}"
+        for factor in others:
+            text += f"/{factor.of.within(_SIGNED)}" if isinstance(factor, Reciprocal) else f"*{factor.within(_SIGNED)}"
         return text
 
 
@@ -230,7 +230,7 @@ def total(terms: list[Formula], place: int = 0) -> Formula:
     >>> total([Name("c"), Negative(Name("b"))])
     c - b
     """
-    flat = [one for term in terms for one in (term.terms if isinstance(term, Sum) else (term,))]
+    flat = [part for term in terms for part in (term.terms if isinstance(term, Sum) else (term,))]
     return flat[0] if len(flat) == 1 else Sum(tuple(flat), place=place)
 
 
@@ -242,7 +242,7 @@ def product(factors: list[Formula], place: int = 0) -> Formula:
     >>> product([Name("c"), Reciprocal(Name("b"))])
     c/b
     """
-    flat = [one for factor in factors for one in (factor.factors if isinstance(factor, Product) else (factor,))]
+    flat = [part for factor in factors for part in (factor.factors if isinstance(factor, Product) else (factor,))]
     return flat[0] if len(flat) == 1 else Product(tuple(flat), place=place)
 
 

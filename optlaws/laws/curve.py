@@ -215,7 +215,7 @@ class Curve(ABC):
         Examples
         --------
         >>> from optlaws.laws import smoothstep
-        >>> [round(one.value, 6) for one in smoothstep(2).power_extrema()]
+        >>> [round(extreme.value, 6) for extreme in smoothstep(2).power_extrema()]
         [-3.464102, 3.464102]
         """
         return self._extremes(self._whole_power, self._power, within)
@@ -257,7 +257,7 @@ class Curve(ABC):
         Examples
         --------
         >>> from optlaws.laws import smoothstep
-        >>> [one.tolist() for one in smoothstep(2).samples(3, nu=1)]
+        >>> [column.tolist() for column in smoothstep(2).samples(3, nu=1)]
         [[0.0, 0.5, 1.0], [0.0, 1.5, 0.0]]
         """
         order = derivative(nu)

@@ -109,11 +109,11 @@ def cut_at_roots(function: Callable[[float, float], Callable[[Array], Array]], e
     >>> cut_at_roots(lambda low, high: np.cos, [0.0, 2.0, 3.0])
     [0.0, 1.570796..., 2.0, 3.0]
     """
-    found = edges[:1]
+    edge = edges[:1]
     for low, high in pairwise(edges):
         of = function(low, high)
-        found += [*_changes(of, np.array([low, *roots_between(of, (low, high)), high])), high]
-    return found
+        edge += [*_changes(of, np.array([low, *roots_between(of, (low, high)), high])), high]
+    return edge
 
 
 def _changes(function: Callable[[Array], Array], places: Array) -> list[float]:

@@ -109,8 +109,8 @@ def gauss(count: int) -> tuple[Array, Array]:
     0.666666666...
     """
     places, weights = leggauss(count)
-    for one in (places, weights):
-        one.setflags(write=False)
+    for numbers in (places, weights):
+        numbers.setflags(write=False)
     return places, weights
 
 

@@ -183,8 +183,8 @@ def enclosed(function: Function, edges: Array, *, share: float = 1e-9, scale: fl
 
     Examples
     --------
-    >>> found = enclosed(np.sin, np.array([0.0, 2.0, 7.0]))
-    >>> round(found.most, 9), round(found.most_at, 4), 0.0 <= found.high - found.most < 1e-8
+    >>> enclosure = enclosed(np.sin, np.array([0.0, 2.0, 7.0]))
+    >>> round(enclosure.most, 9), round(enclosure.most_at, 4), 0.0 <= enclosure.high - enclosure.most < 1e-8
     (1.0, 1.5708, True)
     """
     starts, stops = np.asarray(edges[:-1], dtype=np.float64), np.asarray(edges[1:], dtype=np.float64)

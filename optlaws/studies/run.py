@@ -159,7 +159,7 @@ def _solve(study: StudyFile, points: Points, journal: Journal, crew: Crew, watch
             if not done:
                 alive.check()
             lost = {under_way[future]: error for future in done if (error := _failure(future)) is not None}
-            whole = [(number, one.result()) for one in done if (number := under_way.pop(one)) not in lost]
+            whole = [(number, answer.result()) for answer in done if (number := under_way.pop(answer)) not in lost]
             journal.append(whole)
             watch.advance(journal.counts)
             for number, error in lost.items():

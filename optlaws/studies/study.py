@@ -73,8 +73,8 @@ class Study:
     @property
     def counts(self) -> dict[str, int]:
         """How many points are done, by status."""
-        found = self._counted()
-        return {status: found[status] for status in STATUSES if found[status]}
+        counted = self._counted()
+        return {status: counted[status] for status in STATUSES if counted[status]}
 
     @property
     def finished(self) -> bool:
@@ -141,12 +141,12 @@ class Study:
         for name in wanted:
             if name not in self.file.names():
                 raise InputError(unknown_key(name, self.file.names(), "entry that varies"))
-        found = (
+        rows = (
             row
             for row in self._rows()
             if row[constant] is not None and all(row["inputs"][name] == value for name, value in wanted.items())
         )
-        best = min(found, key=lambda row: (row[constant], row["index"]), default=None)
+        best = min(rows, key=lambda row: (row[constant], row["index"]), default=None)
         if best is None:
             raise InputError(f"{self.path} has no law{f' with {wanted}' if wanted else ''}")
         return self._point(best)
@@ -220,10 +220,10 @@ class Study:
         """The journal as far as it is written; it is read again when it has grown."""
         file = self._directory.journal
         try:
-            found = file.stat()
+            state_of_file = file.stat()
         except FileNotFoundError:
             return Journal(file)
-        state = (found.st_ino, found.st_mtime_ns, found.st_size)
+        state = (state_of_file.st_ino, state_of_file.st_mtime_ns, state_of_file.st_size)
         if self._scanned is None or self._scanned[0] != state:
             self._scanned = (state, Journal(file))
         return self._scanned[1]
@@ -232,8 +232,8 @@ class Study:
         needed("pyarrow", f"reading {self._directory.table}")
         import pyarrow.parquet as pq
 
-        found = self._directory.table.stat()
-        state = (found.st_mtime_ns, found.st_size)
+        state_of_file = self._directory.table.stat()
+        state = (state_of_file.st_mtime_ns, state_of_file.st_size)
         if state != self._checked:
             table.check(self._directory, len(self))
             self._checked = state

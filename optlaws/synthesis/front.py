@@ -166,10 +166,10 @@ def undominated(solutions: Sequence[Solution], over: Sequence[str], values: Arra
     >>> [solution.problem.B for solution in undominated(solutions, ("B", "C"))]
     [1.6, 1.8]
     """
-    found = values_of(solutions, over) if values is None else values
-    order = np.lexsort(found.T[::-1])
-    order = order[~_beaten(found[order])]
-    rows, kept = found[order].tolist(), [0]
+    points = values_of(solutions, over) if values is None else values
+    order = np.lexsort(points.T[::-1])
+    order = order[~_beaten(points[order])]
+    rows, kept = points[order].tolist(), [0]
     for i in range(1, len(order)):
         if not _known_already(rows, kept, i):
             kept.append(i)
@@ -178,15 +178,15 @@ def undominated(solutions: Sequence[Solution], over: Sequence[str], values: Arra
 
 def _beaten(values: Array) -> NDArray[np.bool_]:
     """Which rows another is better than in one constant, and no worse in all."""
-    found = np.zeros(len(values), dtype=np.bool_)
+    kept = np.zeros(len(values), dtype=np.bool_)
     for begin in range(0, len(values), _BLOCK):
         some = values[begin : begin + _BLOCK]
         no_worse, better = np.ones((len(some), len(values)), np.bool_), np.zeros((len(some), len(values)), np.bool_)
         for own, others in zip(some.T, values.T, strict=True):
             no_worse &= others <= (own * (1.0 + SAME))[:, None]
             better |= others < (own * (1.0 - SAME))[:, None]
-        found[begin : begin + _BLOCK] = (no_worse & better).any(axis=1)
-    return found
+        kept[begin : begin + _BLOCK] = (no_worse & better).any(axis=1)
+    return kept
 
 
 def _known_already(rows: Sequence[Sequence[float]], kept: Sequence[int], place: int) -> bool:
@@ -195,7 +195,7 @@ def _known_already(rows: Sequence[Sequence[float]], kept: Sequence[int], place: 
     for other in map(rows.__getitem__, reversed(kept)):
         if abs(other[0] / row[0] - 1.0) > SAME:
             return False
-        if all(abs(one / own - 1.0) <= SAME for one, own in zip(other, row, strict=True)):
+        if all(abs(value / own - 1.0) <= SAME for value, own in zip(other, row, strict=True)):
             return True
     return False
 
@@ -225,10 +225,10 @@ def values_of(solutions: Sequence[Solution], names: Sequence[str]) -> Array:
 
 
 def _column(solutions: Sequence[Solution], name: str) -> Array:
-    if all(repr(one.problem.objective) == name for one in solutions):
-        return np.array([one.objective for one in solutions])
-    laws = [one.law for one in solutions]
+    if all(repr(solution.problem.objective) == name for solution in solutions):
+        return np.array([solution.objective for solution in solutions])
+    laws = [solution.law for solution in solutions]
     polynomials = [law for law in laws if isinstance(law, PolynomialLaw)]
     if len(laws) >= _MANY and name in IN_ARRAYS and len(polynomials) == len(laws):
         return of_polynomials(polynomials, name)
-    return np.array([value_of(one, name) for one in solutions])
+    return np.array([value_of(solution, name) for solution in solutions])

@@ -157,12 +157,14 @@ class _Curve:
         while values:
             results = line.at(np.array(values))
             proven = np.flatnonzero(results.status == Status.OPTIMAL.value)
-            found = [(values[i], one) for i in proven.tolist() if isinstance(one := results.result(i), Solution)]
+            points = [
+                (values[i], solution) for i in proven.tolist() if isinstance(solution := results.result(i), Solution)
+            ]
             if set(self.over) <= set(IN_ARRAYS):
                 columns = [getattr(results, name)[proven].tolist() for name in self.over]
                 self._values |= dict(zip([values[i] for i in proven.tolist()], zip(*columns, strict=True), strict=True))
-            self.points = sorted([*self.points, *found], key=lambda point: point[0])
-            if len(found) < len(values):
+            self.points = sorted([*self.points, *points], key=lambda point: point[0])
+            if len(points) < len(values):
                 # the others are looked at one by one
                 return
             widths = np.array(self._widths())

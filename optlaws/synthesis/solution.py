@@ -166,7 +166,7 @@ class Solution:
         --------
         >>> import optlaws
         >>> artists = optlaws.synthesize(optlaws.Problem(B=1.859, order=4)).plot()
-        >>> [one.get_label() for one in artists if "no law" in one.get_label()][0]
+        >>> [artist.get_label() for artist in artists if "no law" in artist.get_label()][0]
         'no law has a smaller C: 4.02314'
         """
         return plotted("solution", self, ax, **style)
@@ -266,8 +266,8 @@ def partly_known(known: dict[str, Any], later: Mapping[str, Callable[[Solution],
     --------
     >>> import optlaws
     >>> whole = optlaws.synthesize(optlaws.Problem(B=1.859, order=4))
-    >>> known = {one.name: getattr(whole, one.name) for one in fields(whole) if one.name != "law"}
-    >>> partly_known(known, {"law": lambda one: whole.law}) == whole
+    >>> known = {entry.name: getattr(whole, entry.name) for entry in fields(whole) if entry.name != "law"}
+    >>> partly_known(known, {"law": lambda whole_one: whole.law}) == whole
     True
     """
     made = object.__new__(Solution)
@@ -275,7 +275,7 @@ def partly_known(known: dict[str, Any], later: Mapping[str, Callable[[Solution],
     return made
 
 
-_DEFAULTS = {one.name: one.default for one in fields(Solution) if one.default is not MISSING}
+_DEFAULTS = {entry.name: entry.default for entry in fields(Solution) if entry.default is not MISSING}
 
 
 @cache

@@ -118,12 +118,12 @@ class SolutionArray:
     @kept_property
     def objective(self) -> Array:
         """The objective of each law, recomputed from it."""
-        return self._gathered(lambda part: part.found.objective, lambda one: one.objective)
+        return self._gathered(lambda part: part.found.objective, lambda solution: solution.objective)
 
     @kept_property
     def lower_bound(self) -> Array:
         """What is proven that no law of each problem is below."""
-        return self._gathered(lambda part: part.found.bound, lambda one: one.lower_bound)
+        return self._gathered(lambda part: part.found.bound, lambda solution: solution.lower_bound)
 
     @kept_property
     def gap(self) -> Array:
@@ -134,47 +134,47 @@ class SolutionArray:
     @kept_property
     def status(self) -> NDArray[np.str_]:
         """As of a solution, "optimal", "local" or "inaccurate"; "infeasible", "failed" or "invalid" without a law."""
-        known = [one.value for one in Status] + [INFEASIBLE, FAILED, INVALID]
-        found = np.full(self.size, Status.OPTIMAL.value, dtype=f"U{max(map(len, known))}")
+        known = [status.value for status in Status] + [INFEASIBLE, FAILED, INVALID]
+        words = np.full(self.size, Status.OPTIMAL.value, dtype=f"U{max(map(len, known))}")
         for part in self.parts:
-            found[part.places] = part.statuses
-        for place, one in self.others.items():
-            found[place] = one.status.value if isinstance(one, Solution) else status_of_error(one)
-        return _frozen(found.reshape(self.shape))
+            words[part.places] = part.statuses
+        for place, result in self.others.items():
+            words[place] = result.status.value if isinstance(result, Solution) else status_of_error(result)
+        return _frozen(words.reshape(self.shape))
 
     @kept_property
     def errors(self) -> Mapping[int, OptlawsError]:
         """Why there is no law, by places in the flattened array."""
-        return MappingProxyType({i: one for i, one in self.others.items() if isinstance(one, OptlawsError)})
+        return MappingProxyType({i: result for i, result in self.others.items() if isinstance(result, OptlawsError)})
 
     @kept_property
     def limit(self) -> Array:
         """What no law of any degree can beat; NaN where it is not known."""
-        found = np.full(self.size, np.nan)
+        limits = np.full(self.size, np.nan)
         for place in np.flatnonzero(~np.isnan(self.objective.reshape(-1))).tolist():
             known = known_limit(self.problems.problem(place))
-            found[place] = np.nan if known is None else known
-        return _frozen(found.reshape(self.shape))
+            limits[place] = np.nan if known is None else known
+        return _frozen(limits.reshape(self.shape))
 
     def stored_laws(self) -> list[dict[str, Any] | None]:
         """Each law as its `to_dict` gives it, in the order of the flattened array; None where there is none."""
-        found: list[dict[str, Any] | None] = [None] * self.size
+        laws: list[dict[str, Any] | None] = [None] * self.size
         for part in self.parts:
             for place, law in zip(part.places.tolist(), stored_laws(part.model.space, part.coordinates), strict=True):
-                found[place] = law
-        for place, one in self.others.items():
-            found[place] = one.law.to_dict() if isinstance(one, Solution) else None
-        return found
+                laws[place] = law
+        for place, result in self.others.items():
+            laws[place] = result.law.to_dict() if isinstance(result, Solution) else None
+        return laws
 
     @kept_property
     def z_series(self) -> Array:
         """Chebyshev coefficients of Z in 2k - 1, along the last axis; NaN beyond the end of shorter ones."""
-        return self._rows(lambda part: part.z_series, lambda one: np.array(one.z_series))
+        return self._rows(lambda part: part.z_series, lambda solution: np.array(solution.z_series))
 
     @kept_property
     def z(self) -> Array:
         """Coefficients of Z in each problem's basis, along the last axis; NaN beyond the end of shorter ones."""
-        return self._rows(lambda part: part.z, lambda one: np.array(one.z or ()))
+        return self._rows(lambda part: part.z, lambda solution: np.array(solution.z or ()))
 
     @property
     def coefficients(self) -> Array:
@@ -220,13 +220,13 @@ class SolutionArray:
         return {name: _frozen(self._filled(rows, most)) for name, rows in columns.items()}
 
     def _contacts_alone(self) -> Iterator[tuple[NDArray[np.intp], dict[str, NDArray[Any]]]]:
-        for place, one in self.others.items():
-            if isinstance(one, Solution):
-                rows = one.certificate.contacts
-                found = {"constraint": np.array([[row.constraint for row in rows]], dtype=object)}
+        for place, result in self.others.items():
+            if isinstance(result, Solution):
+                rows = result.certificate.contacts
+                columns = {"constraint": np.array([[row.constraint for row in rows]], dtype=object)}
                 for name in ("sign", "k", "multiplier"):
-                    found[name] = np.array([[getattr(row, name) for row in rows]])
-                yield np.array([place]), found
+                    columns[name] = np.array([[getattr(row, name) for row in rows]])
+                yield np.array([place]), columns
 
     def _filled(self, rows: list[tuple[NDArray[np.intp], NDArray[Any]]], most: int) -> NDArray[Any]:
         texts = any(values.dtype == object for _, values in rows)
@@ -259,11 +259,15 @@ class SolutionArray:
         `optlaws verify` checks each solution, and `from_dict` reads it again.
         """
         results = [self.result(place) for place in range(self.size)]
-        alone = {str(place): plain_alone(one) for place, one in self.others.items() if isinstance(one, Solution)}
+        alone = {
+            str(place): plain_alone(result) for place, result in self.others.items() if isinstance(result, Solution)
+        }
         return {
             "shape": list(self.shape),
             "seconds": self.seconds,
-            "solutions": [one.to_dict() if isinstance(one, Solution) else plain_error(one) for one in results],
+            "solutions": [
+                result.to_dict() if isinstance(result, Solution) else plain_error(result) for result in results
+            ],
             "problems": plain_problems(self.problems),
             "parts": [
                 {
@@ -294,7 +298,7 @@ class SolutionArray:
         True
         """
         stored = read_solutions(data)
-        parts = tuple(Part(places, model, found) for places, model, found in stored.parts)
+        parts = tuple(Part(places, model, laws) for places, model, laws in stored.parts)
         made = cls(stored.problems, parts, stored.others, stored.seconds)
         for place, row in enumerate(stored.rows):
             said, known = row.get("objective"), float(made.objective.reshape(-1)[place])
@@ -328,29 +332,33 @@ class SolutionArray:
         return self._placed(lambda _, part: np.arange(len(part.places)))
 
     def _placed(self, values: Callable[[int, Part], NDArray[np.intp]]) -> NDArray[np.intp]:
-        found = np.full(self.size, -1, dtype=np.intp)
+        numbers = np.full(self.size, -1, dtype=np.intp)
         for i, part in enumerate(self.parts):
-            found[part.places] = values(i, part)
-        return found
+            numbers[part.places] = values(i, part)
+        return numbers
 
     def _gathered(self, of_part: Callable[[Part], Array], of_solution: Callable[[Solution], float]) -> Array:
-        found = np.full(self.size, np.nan)
+        values = np.full(self.size, np.nan)
         for part in self.parts:
-            found[part.places] = of_part(part)
-        for place, one in self.others.items():
-            if isinstance(one, Solution):
-                found[place] = of_solution(one)
-        return _frozen(found.reshape(self.shape))
+            values[part.places] = of_part(part)
+        for place, result in self.others.items():
+            if isinstance(result, Solution):
+                values[place] = of_solution(result)
+        return _frozen(values.reshape(self.shape))
 
     def _rows(self, of_part: Callable[[Part], Array], of_solution: Callable[[Solution], Array]) -> Array:
         rows = [(part.places, of_part(part)) for part in self.parts]
-        rows += [(np.array([i]), of_solution(one)[None]) for i, one in self.others.items() if isinstance(one, Solution)]
+        rows += [
+            (np.array([i]), of_solution(result)[None])
+            for i, result in self.others.items()
+            if isinstance(result, Solution)
+        ]
         return _frozen(self._filled(rows, max((values.shape[1] for _, values in rows), default=0)))
 
     def _constant(self, name: str) -> Array:
         alone = self.problems.one_objective
         return self._gathered(
-            lambda part: part.constant(name, one_objective=alone), lambda one: constant_of(one.law, name)
+            lambda part: part.constant(name, one_objective=alone), lambda solution: constant_of(solution.law, name)
         )
 
     def _taken(self, places: NDArray[np.intp]) -> SolutionArray:

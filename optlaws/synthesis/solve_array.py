@@ -107,10 +107,10 @@ def solved(problems: ProblemArray, *, bound: str = "quick") -> SolutionArray:
     done = 0
     with Steps("laws", problems.size) as steps:
         for line in _lines(problems):
-            found = _along(problems, line, bound)
-            rows = np.flatnonzero(found.solved)
+            laws = _along(problems, line, bound)
+            rows = np.flatnonzero(laws.solved)
             if len(rows):
-                parts.append(Part(line.places[rows], line.path.model, found.taken(rows).frozen()))
+                parts.append(Part(line.places[rows], line.path.model, laws.taken(rows).frozen()))
                 for beyond in (line.places[: rows[0]][::-1], line.places[rows[-1] + 1 :]):
                     others.update(_beyond(problems, beyond, bound))
             done += len(line.places)
@@ -138,11 +138,11 @@ def _along(problems: ProblemArray, line: Line, bound: str) -> Found:
         return laws_along(line.path, line.t)
     if bound == TIGHT:
         return Found.none(len(line.t), 0, 0, 0)
-    found = laws_along(line.path, line.t)
-    sought = unrivalled(found, line.places, lambda place: Search(model_of(problems.problem(place))).least())
-    found = found.only(sought)
+    laws = laws_along(line.path, line.t)
+    sought = unrivalled(laws, line.places, lambda place: Search(model_of(problems.problem(place))).least())
+    laws = laws.only(sought)
     limits = [known_limit(problems.problem(place)) for place in line.places.tolist()]
-    return with_quick_bounds(line.path, line.t, found, np.array([-inf if one is None else one for one in limits]))
+    return with_quick_bounds(line.path, line.t, laws, np.array([-inf if limit is None else limit for limit in limits]))
 
 
 def _beyond(

@@ -61,8 +61,8 @@ def synthesize_many(
     Examples
     --------
     >>> problems = [Problem(B=B, order=order) for order in (3, 4) for B in (1.05, 1.6)]
-    >>> found = list(synthesize_many(problems, errors="return"))
-    >>> [round(one.objective, 4) if isinstance(one, Solution) else type(one).__name__ for one in found]
+    >>> results = list(synthesize_many(problems, errors="return"))
+    >>> [round(result.objective, 4) if isinstance(result, Solution) else type(result).__name__ for result in results]
     ['InfeasibleProblem', 4.6751, 'InfeasibleProblem', 5.2622]
     """
     check_errors(errors)
@@ -103,8 +103,8 @@ def sweep(problems: Iterable[Problem], *, errors: Errors = "raise") -> Iterator[
     >>> first = Problem(B=1.6, order=4)
     >>> [round(s.objective, 6) for s in sweep(replace(first, B=B) for B in (1.6, 1.62))]
     [5.262224, 5.173677]
-    >>> found = list(sweep((replace(first, B=B) for B in (1.1, 1.6)), errors="return"))
-    >>> [type(one).__name__ for one in found]
+    >>> results = list(sweep((replace(first, B=B) for B in (1.1, 1.6)), errors="return"))
+    >>> [type(result).__name__ for result in results]
     ['InfeasibleProblem', 'Solution']
     """
     check_errors(errors)
@@ -130,9 +130,9 @@ def _raised(results: Iterator[Result], errors: Errors) -> Iterator[Result]:
 
 def _together(problems: object) -> bool:
     """Whether there are problems that are as good solved together, and sooner: convex, or of least power on lines."""
-    if not isinstance(problems, Sequence) or not all(isinstance(one, Problem) for one in problems):
+    if not isinstance(problems, Sequence) or not all(isinstance(problem, Problem) for problem in problems):
         return False
-    others = [one for one in problems if not one.convex]
+    others = [problem for problem in problems if not problem.convex]
     if not all(map(least_power, others)):
         return False
     return sum(len(line.places) for line in lines_of(others, np.arange(len(others)))) == len(others)
@@ -151,8 +151,8 @@ def _in_turn(problems: Iterable[Problem]) -> Iterator[Result]:
 
 def _many(problems: Iterable[Problem], bound: str) -> Iterator[Result]:
     for chunk in _chunks(problems):
-        found = solved(chunk, bound=bound)
-        yield from map(found.result, range(chunk.size))
+        laws = solved(chunk, bound=bound)
+        yield from map(laws.result, range(chunk.size))
 
 
 def _chunks(problems: Iterable[Problem]) -> Iterator[ProblemArray]:

@@ -51,9 +51,9 @@ class SolvedLine:
         t = (values - self.low) / (self.high - self.low)
         order = np.argsort(t, kind="stable")
         order = order[(t[order] >= 0.0) & (t[order] <= 1.0)]
-        found = laws_on(self._path, self._segments, t[order])
-        rows = np.flatnonzero(found.solved)
-        parts = [Part(order[rows], self._path.model, found.taken(rows).frozen())] if len(rows) else []
+        laws = laws_on(self._path, self._segments, t[order])
+        rows = np.flatnonzero(laws.solved)
+        parts = [Part(order[rows], self._path.model, laws.taken(rows).frozen())] if len(rows) else []
         return completed(problems, parts, {}, began)
 
     @kept_property

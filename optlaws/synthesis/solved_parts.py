@@ -58,7 +58,7 @@ class Part:
         """Chebyshev coefficients of Z in 2k - 1, law by law."""
         space = self.model.space
         base = space.z_series(np.zeros(space.terms))
-        columns = np.array([space.z_series(one) for one in np.eye(space.terms)]).reshape(space.terms, -1)
+        columns = np.array([space.z_series(unit) for unit in np.eye(space.terms)]).reshape(space.terms, -1)
         return np.asarray(self.coordinates @ (columns - base) + base)
 
     @property
@@ -75,7 +75,7 @@ class Part:
             return self.found.objective
         space = self.model.space
         if not isinstance(space, PolynomialSpace):
-            return np.array([constant_of(space.law(one), name) for one in self.coordinates])
+            return np.array([constant_of(space.law(coordinate), name) for coordinate in self.coordinates])
         laws = [space.series(nu) for nu in (1, 2, 3)]
         b, c, j = (self.coordinates @ series[:, :-1].T + series[:, -1] for series in laws)
         if name in _PEAKS:
@@ -85,30 +85,30 @@ class Part:
     @property
     def contacts(self) -> dict[str, NDArray[Any]]:
         """Where rows bind, as columns of the laws' contacts."""
-        found = self.found
+        laws = self.found
         names = np.array([*(family.name for family in self.model.program.families), ""], dtype=object)
-        none = found.family == NO_CONTACT
-        k = np.full(found.u.shape, np.nan)
+        none = laws.family == NO_CONTACT
+        k = np.full(laws.u.shape, np.nan)
         for i, family in enumerate(self.model.program.families):
-            mine = found.family == i
-            k[mine] = np.clip(family.k(found.u[mine]), 0.0, 1.0)
-        rows: dict[str, NDArray[Any]] = {"constraint": names[found.family], "k": k}
-        rows["sign"] = np.where(none, np.nan, found.sign)
-        rows["multiplier"] = np.where(none, np.nan, found.multiplier)
+            mine = laws.family == i
+            k[mine] = np.clip(family.k(laws.u[mine]), 0.0, 1.0)
+        rows: dict[str, NDArray[Any]] = {"constraint": names[laws.family], "k": k}
+        rows["sign"] = np.where(none, np.nan, laws.sign)
+        rows["multiplier"] = np.where(none, np.nan, laws.multiplier)
         return rows
 
     def solution(self, row: int, problem: Problem, seconds: float) -> Solution:
         """The solution of a row, of which only what the array holds is there before it is asked for."""
         model, bound = self.model, float(self.found.bound[row])
 
-        def lower_bound(one: Solution) -> float:
-            return max(bound, -inf if one.limit is None else one.limit)
+        def lower_bound(solution: Solution) -> float:
+            return max(bound, -inf if solution.limit is None else solution.limit)
 
-        def proof(one: Solution) -> Certificate:
+        def proof(solution: Solution) -> Certificate:
             own = replace(model, problem=problem)
             if problem.convex:
-                return certificate(own, one.active_set, OBJECTIVE)
-            return certify(own, one.active_set, one.objective, one.limit)
+                return certificate(own, solution.active_set, OBJECTIVE)
+            return certify(own, solution.active_set, solution.objective, solution.limit)
 
         objective = float(self.found.objective[row])
         known = {
@@ -120,12 +120,12 @@ class Part:
         }
         later: dict[str, Callable[[Solution], Any]] = {
             "active_set": lambda _: self.found.active_set(row),
-            "law": lambda one: model.law(one.active_set.x),
-            "z_series": lambda one: tuple(model.space.z_series(model.coordinates(one.active_set.x)).tolist()),
+            "law": lambda solution: model.law(solution.active_set.x),
+            "z_series": lambda solution: tuple(model.space.z_series(model.coordinates(solution.active_set.x)).tolist()),
             "certificate": proof,
-            "limit": lambda one: known_limit(one.problem),
+            "limit": lambda solution: known_limit(solution.problem),
             "lower_bound": lower_bound,
-            "status": lambda one: status_of(one.objective, one.lower_bound, proven=problem.convex),
+            "status": lambda solution: status_of(solution.objective, solution.lower_bound, proven=problem.convex),
         }
         return partly_known(known, later)
 

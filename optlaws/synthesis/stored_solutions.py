@@ -95,7 +95,7 @@ def plain_alone(solution: Solution) -> Plain:
     state = solution.active_set
     return {
         "z_series": list(solution.z_series),
-        "active_set": {one.name: getattr(state, one.name).tolist() for one in fields(state)},
+        "active_set": {field.name: getattr(state, field.name).tolist() for field in fields(state)},
     }
 
 
@@ -117,21 +117,23 @@ def read_solutions(data: object) -> Stored:
     InputError
         If an entry is missing or wrong.
     """
-    found = stated(data, StatedSolutions, "stored array of solutions")
-    size, shape = prod(found.shape), tuple(found.shape)
-    if min(shape, default=0) < 0 or size != len(found.solutions):
-        raise InputError(f"an array of solutions of shape {shape} has {size} solutions, got {len(found.solutions)}")
-    together = [place for part in found.parts for place in part.places]
+    stated_array = stated(data, StatedSolutions, "stored array of solutions")
+    size, shape = prod(stated_array.shape), tuple(stated_array.shape)
+    if min(shape, default=0) < 0 or size != len(stated_array.solutions):
+        raise InputError(
+            f"an array of solutions of shape {shape} has {size} solutions, got {len(stated_array.solutions)}"
+        )
+    together = [place for part in stated_array.parts for place in part.places]
     others = [place for place in range(size) if place not in set(together)]
     if len(together) + len(others) != size:
         raise InputError("the parts of an array of solutions name a place twice, or one that it does not have")
     try:
         return Stored(
-            _problems(found, shape),
-            [_part(part) for part in found.parts],
-            {place: _alone(found.solutions[place], found.alone.get(str(place))) for place in others},
-            found.seconds,
-            found.solutions,
+            _problems(stated_array, shape),
+            [_part(part) for part in stated_array.parts],
+            {place: _alone(stated_array.solutions[place], stated_array.alone.get(str(place))) for place in others},
+            stated_array.seconds,
+            stated_array.solutions,
         )
     except (IndexError, KeyError, TypeError, ValueError) as error:
         raise (
@@ -139,12 +141,12 @@ def read_solutions(data: object) -> Stored:
         ) from None
 
 
-def _problems(found: StatedSolutions, shape: tuple[int, ...]) -> ProblemArray:
-    if found.problems is None:
+def _problems(stated_array: StatedSolutions, shape: tuple[int, ...]) -> ProblemArray:
+    if stated_array.problems is None:
         return ProblemArray.of(
-            [problem_of(row["problem"]) if "problem" in row else None for row in found.solutions], shape
+            [problem_of(row["problem"]) if "problem" in row else None for row in stated_array.solutions], shape
         )
-    made = ProblemArray(**{name: _read(value) for name, value in found.problems.items()})
+    made = ProblemArray(**{name: _read(value) for name, value in stated_array.problems.items()})
     if made.shape == shape:
         return made
     # entries without arrays may have been taken many times
@@ -153,9 +155,9 @@ def _problems(found: StatedSolutions, shape: tuple[int, ...]) -> ProblemArray:
 
 
 def _part(part: StatedPart) -> tuple[NDArray[np.intp], Model, Found]:
-    places, model, found = np.array(part.places, dtype=np.intp), model_of(problem_of(part.problem)), part.found
-    optima = Found.from_dict(found).frozen()
-    rows = {len(getattr(optima, one.name)) for one in fields(optima)}
+    places, model, laws = np.array(part.places, dtype=np.intp), model_of(problem_of(part.problem)), part.found
+    optima = Found.from_dict(laws).frozen()
+    rows = {len(getattr(optima, field.name)) for field in fields(optima)}
     if rows != {len(places)} or optima.x.shape[1] != model.program.size:
         raise InputError("a part of an array of solutions has optima of other problems, or more or fewer than places")
     return places, model, optima
@@ -208,9 +210,9 @@ def _plain(value: Any) -> Any:  # noqa: ANN401
     if isinstance(value, Basis):
         return {"basis": dict(value.to_dict())}
     if isinstance(value, Mapping):
-        return {"named": {_name(key): _plain(one) for key, one in value.items()}}
+        return {"named": {_name(key): _plain(part) for key, part in value.items()}}
     if isinstance(value, list | tuple):
-        return [_plain(one) for one in value]
+        return [_plain(part) for part in value]
     if value is None or type(value) in {bool, int, float, str}:
         return value
     raise TypeError(type(value).__name__)
@@ -219,10 +221,10 @@ def _plain(value: Any) -> Any:  # noqa: ANN401
 def _plain_array(values: NDArray[Any]) -> Plain:
     shape = list(values.shape)
     if values.dtype == object:
-        return {"objects": [_plain_object(one) for one in values.reshape(-1).tolist()], "shape": shape}
+        return {"objects": [_plain_object(value) for value in values.reshape(-1).tolist()], "shape": shape}
     if values.dtype.kind not in "fiub":
         raise TypeError(str(values.dtype))
-    flat = [one if np.isfinite(one) else str(one) for one in values.reshape(-1).tolist()]
+    flat = [value if np.isfinite(value) else str(value) for value in values.reshape(-1).tolist()]
     return {"array": flat, "shape": shape, "type": str(values.dtype)}
 
 
@@ -268,11 +270,11 @@ def _read(value: Any) -> Any:  # noqa: ANN401
         numbers = [float(one) if isinstance(one, str) else one for one in value["array"]]
         return np.array(numbers, dtype=kind).reshape(value["shape"])
     if "objects" in value:
-        found = np.empty(len(value["objects"]), dtype=object)
+        objects = np.empty(len(value["objects"]), dtype=object)
         for i, one in enumerate(value["objects"]):
-            found[i] = _read_object(one)
-        return found.reshape(value["shape"])
+            objects[i] = _read_object(one)
+        return objects.reshape(value["shape"])
     if "basis" in value:
         entries = dict(value["basis"])
         return basis(entries.pop("basis"), entries.pop("degree"), **entries)
-    return {name: _read(one) for name, one in value["named"].items()}
+    return {name: _read(part) for name, part in value["named"].items()}

@@ -41,8 +41,8 @@ def verify(source: Mapping[str, Any] | Path | str) -> Verification:
     --------
     >>> import optlaws
     >>> solution = optlaws.synthesize(optlaws.Problem(B=1.859, order=4, basis=optlaws.Chebyshev(9)))
-    >>> found = verify(solution.to_dict())
-    >>> found.proven, round(found.bound, 9), abs(found.gap) < 1e-12
+    >>> verification = verify(solution.to_dict())
+    >>> verification.proven, round(verification.bound, 9), abs(verification.gap) < 1e-12
     (True, 4.647776025, True)
     """
     _need_flint()
@@ -66,8 +66,8 @@ def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification
     --------
     >>> import optlaws
     >>> law = optlaws.smoothstep(2)
-    >>> found = verify_all({"printed": [{"law": law.to_dict(), "constants": law.constants.to_dict()}]})
-    >>> [(place, one.proven) for place, one in found.items()]
+    >>> verification = verify_all({"printed": [{"law": law.to_dict(), "constants": law.constants.to_dict()}]})
+    >>> [(place, told.proven) for place, told in verification.items()]
     [('printed[0]', True)]
     """
     _need_flint()

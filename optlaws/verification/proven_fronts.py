@@ -58,12 +58,14 @@ def proven_front(front: ProvenFront, stated: float) -> Verification:
 
 def _known(front: ProvenFront, point: FrontPoint, law: ExactLaw, claim: float) -> _Known:
     number = front.number
-    found = excesses(point.problem, law)
+    excess_of_laws = excesses(point.problem, law)
     top = Fraction(enclosed(law.sum(point.problem.objective))[1])
     slope = Fraction(enclosed(law.term(number.weighted))[1]) if number.concave else Fraction(0)
     proof = prove_along(point.certificate, _along(front, point, claim))
-    broken = tuple(one for one in found if not one.holds)
-    return _Known(Fraction(point.value), top, slope, proof, broken, max((one.by for one in found), default=0.0))
+    broken = tuple(excess for excess in excess_of_laws if not excess.holds)
+    return _Known(
+        Fraction(point.value), top, slope, proof, broken, max((excess.by for excess in excess_of_laws), default=0.0)
+    )
 
 
 def _along(front: ProvenFront, point: FrontPoint, claim: float) -> Along:
@@ -75,19 +77,19 @@ def _along(front: ProvenFront, point: FrontPoint, claim: float) -> Along:
 
 
 def _laws(number: RunningNumber, known: list[_Known]) -> Iterator[Claim]:
-    wrong = [one for one in known if one.broken]
+    wrong = [point for point in known if point.broken]
     if wrong:
         first = wrong[0]
         detail = f"{first.broken[0].name} is broken by {first.broken[0].by:.1e} at {number.name} = {float(first.at)!r}"
         yield Claim("laws", proven=False, detail=f"{len(wrong)} of {len(known)} break conditions: {detail}")
         return
-    worst = max(one.worst for one in known)
+    worst = max(point.worst for point in known)
     yield Claim("laws", proven=True, detail=f"{len(known)} keep every condition, off by at most {max(worst, 0.0):.1e}")
 
 
 def _certificates(number: RunningNumber, known: list[_Known]) -> Iterator[Claim]:
-    wrong = [one for one in known if one.proof.value is None or one.proof.negative or one.proof.unknown]
-    changed = max(one.proof.correction for one in known)
+    wrong = [point for point in known if point.proof.value is None or point.proof.negative or point.proof.unknown]
+    changed = max(point.proof.correction for point in known)
     detail = (
         f"{len(known)} prove a bound, corrected by at most {changed:.1e} of the greatest multiplier"
         if not wrong
@@ -101,29 +103,29 @@ def _certificates(number: RunningNumber, known: list[_Known]) -> Iterator[Claim]
 
 def _gap(known: list[_Known], number: RunningNumber) -> float | None:
     """The greatest gap of any value, relative as of a solution, rounded up."""
-    found = [_between(one, other, number) for one, other in pairwise(known)]
-    return None if None in found else rounded_up(max(one for one in found if one is not None))
+    gaps = [_between(point, other, number) for point, other in pairwise(known)]
+    return None if None in gaps else rounded_up(max(gap for gap in gaps if gap is not None))
 
 
-def _between(one: _Known, other: _Known, number: RunningNumber) -> Fraction | None:
+def _between(point: _Known, other: _Known, number: RunningNumber) -> Fraction | None:
     """The greatest difference of a chord and two lines, each an affine function: at the ends or where they cross."""
-    if one.proof.value is None or other.proof.value is None:
+    if point.proof.value is None or other.proof.value is None:
         return None
-    width = other.at - one.at
+    width = other.at - point.at
     if number.concave:
         differences = [
-            (one.top - one.proof.value, one.top + one.top_slope * width - other.proof.value),
-            (other.top - other.top_slope * width - one.proof.value, other.top - other.proof.value),
+            (point.top - point.proof.value, point.top + point.top_slope * width - other.proof.value),
+            (other.top - other.top_slope * width - point.proof.value, other.top - other.proof.value),
         ]
     else:
-        rise, fall = one.proof.slope[0] * width, other.proof.slope[1] * width
+        rise, fall = point.proof.slope[0] * width, other.proof.slope[1] * width
         differences = [
-            (one.top - one.proof.value, other.top - one.proof.value - rise),
-            (one.top - other.proof.value + fall, other.top - other.proof.value),
+            (point.top - point.proof.value, other.top - point.proof.value - rise),
+            (point.top - other.proof.value + fall, other.top - other.proof.value),
         ]
     (first, last), (second, end) = differences
     turn = (last - first) - (end - second)
     shares = [Fraction(0), Fraction(1), *([(second - first) / turn] if turn else [])]
     gaps = [min(first + (last - first) * s, second + (end - second) * s) for s in shares if 0 <= s <= 1]
-    least = min(one.top, other.top)
+    least = min(point.top, other.top)
     return max(gaps) / (least if least > Fraction(NOTHING) else 1)

@@ -52,7 +52,7 @@ class Jet:
 
     def __add__(self, other: Jet | Term) -> Jet:
         if isinstance(other, Jet):
-            return Jet(tuple(one + two for one, two in zip(self.terms, other.terms, strict=False)))
+            return Jet(tuple(term + two for term, two in zip(self.terms, other.terms, strict=False)))
         return Jet((self.terms[0] + other, *self.terms[1:]))
 
     def __sub__(self, other: Jet | Term) -> Jet:
@@ -67,23 +67,23 @@ class Jet:
     def __truediv__(self, other: Jet | Term) -> Jet:
         if not isinstance(other, Jet):
             return Jet(tuple(term / other for term in self.terms))
-        found: list[Term] = []
+        terms: list[Term] = []
         for i in range(min(len(self.terms), len(other.terms))):
             rest = self.terms[i]
             for j in range(1, i + 1):
-                rest = rest - other.terms[j] * found[i - j]
-            found.append(rest / other.terms[0])
-        return Jet(tuple(found))
+                rest = rest - other.terms[j] * terms[i - j]
+            terms.append(rest / other.terms[0])
+        return Jet(tuple(terms))
 
     def root(self) -> Jet:
         """The square root of a positive function."""
-        found = [np.sqrt(self.terms[0])]
+        terms = [np.sqrt(self.terms[0])]
         for i in range(1, len(self.terms)):
             rest = self.terms[i]
             for j in range(1, i):
-                rest = rest - found[j] * found[i - j]
-            found.append(rest / (2.0 * found[0]))
-        return Jet(tuple(found))
+                rest = rest - terms[j] * terms[i - j]
+            terms.append(rest / (2.0 * terms[0]))
+        return Jet(tuple(terms))
 
     def waves(self) -> tuple[Jet, Jet]:
         """Its sine and its cosine."""
@@ -123,7 +123,7 @@ def turned(pair: Pair, by: Jet) -> Pair:
     Examples
     --------
     >>> quarter = turned((Jet((1.0,)), Jet((0.0,))), Jet((np.pi / 2,)))
-    >>> [round(float(one.terms[0]), 12) for one in quarter]
+    >>> [round(float(jet.terms[0]), 12) for jet in quarter]
     [0.0, 1.0]
     """
     sine, cosine = by.waves()
@@ -136,7 +136,7 @@ def _convolved(first: Sequence[Term], second: Sequence[Term], i: int) -> Term:
 
 
 def _total(parts: Sequence[Term]) -> Term:
-    found = parts[0]
+    total = parts[0]
     for part in parts[1:]:
-        found = found + part
-    return found
+        total = total + part
+    return total

@@ -120,7 +120,7 @@ class CamMotion:
             If the cycle goes on from where it ends, as no cam can.
         """
         pieces = cycle.pieces
-        moved = sum(one.displacement for one in cycle.programme.stretches)
+        moved = sum(stretch.displacement for stretch in cycle.programme.stretches)
         size = max(abs(piece.stroke) for piece in pieces)
         if abs(moved) > _CLOSED * size:
             raise InputError(
@@ -178,7 +178,7 @@ class CamMotion:
     @property
     def breaks(self) -> tuple[float, ...]:
         """Angles between which the motion is smooth, both ends included, rad."""
-        return (*(one.start for one in self.stretches), self.stretches[-1].stop)
+        return (*(stretch.start for stretch in self.stretches), self.stretches[-1].stop)
 
     @kept_property
     def range(self) -> tuple[float, float]:
@@ -205,7 +205,7 @@ class CamMotion:
     def jet(self, angle: Array, order: int, *, before: bool = False) -> Jet:
         """The displacement with its derivatives up to an order; at a break those just after it, or just before it."""
         at = self.within(angle)
-        inner = [one.start for one in self.stretches[1:]]
+        inner = [stretch.start for stretch in self.stretches[1:]]
         which = np.searchsorted(inner, at, side="left" if before else "right")
         terms = tuple(np.empty(at.shape) for _ in range(order + 1))
         for i in np.unique(which):
@@ -229,12 +229,12 @@ class CamMotion:
         return np.clip(angle, first, last)
 
     def _extremes(self, nu: int) -> tuple[float, float]:
-        lows, highs = zip(*(one.extremes(nu) for one in self.stretches), strict=True)
+        lows, highs = zip(*(stretch.extremes(nu) for stretch in self.stretches), strict=True)
         return min(lows), max(highs)
 
     def reversed(self) -> Self:
         """The same motion downward, as the second follower of a pair moves."""
-        turned = tuple(replace(one, offset=-one.offset, stroke=-one.stroke) for one in self.stretches)
+        turned = tuple(replace(stretch, offset=-stretch.offset, stroke=-stretch.stroke) for stretch in self.stretches)
         return replace(self, stretches=turned)
 
 
@@ -266,12 +266,12 @@ def as_motion(given: Any, axis: str) -> CamMotion:  # noqa: ANN401 - it is check
 def _parts(piece: Piece) -> Sequence[Stretch]:
     """The smooth parts of a law in its place."""
     first = float(piece.law.a(0.0))
-    found = []
+    stretches = []
     for (start, stop), segment in zip(pairwise(piece.law.breaks), _segments(piece.law), strict=True):
         offset = piece.offset + piece.stroke * (float(piece.law.a(start)) - first)
         low, high = piece.start + start * piece.duration, piece.start + stop * piece.duration
-        found.append(Stretch(low, high, offset, piece.stroke, piece.duration, segment, stop - start))
-    return found
+        stretches.append(Stretch(low, high, offset, piece.stroke, piece.duration, segment, stop - start))
+    return stretches
 
 
 def _segments(law: MotionLaw) -> Sequence[Segment]:

@@ -138,7 +138,7 @@ class PlaneCurve(ABC):
 
     def normal_jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:
         """The unit normal away from the cam with its derivatives up to an order."""
-        x, y = (one.slope() for one in self.jets(angle, order + 1, before=before))
+        x, y = (jet.slope() for jet in self.jets(angle, order + 1, before=before))
         length = (x * x + y * y).root()
         return y / length * -self.turning, x / length * self.turning
 

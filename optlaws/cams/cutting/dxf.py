@@ -67,7 +67,7 @@ def as_arcs(outline: Outline, asked: Cutting) -> str:
             if bulge == 0.0:
                 space.add_line(start.tolist(), stop.tolist(), dxfattribs=attributes)
                 continue
-            first, last = (degrees(atan2(*(one - centre)[::-1])) for one in (start, stop))
+            first, last = (degrees(atan2(*(point - centre)[::-1])) for point in (start, stop))
             # an ARC always runs counterclockwise
             first, last = (first, last) if bulge > 0.0 else (last, first)
             space.add_arc(centre.tolist(), float(radius), first, last, dxfattribs=attributes)

@@ -61,13 +61,13 @@ def format_of(file: Path, name: str | None = None) -> str:
         if name not in FORMATS:
             raise InputError(unknown_key(name, FORMATS, "format"))
         return name
-    found = ENDINGS.get(file.suffix.lower())
-    if found is None:
+    known = ENDINGS.get(file.suffix.lower())
+    if known is None:
         raise InputError(
             f"the ending of {file.name!r} says no format: end it with {', '.join(sorted(ENDINGS))}, or name one of "
             f"{', '.join(FORMATS)}"
         )
-    return found
+    return known
 
 
 def text(outline: Outline, name: str, asked: Cutting) -> str:

@@ -14,7 +14,7 @@ from optlaws.files.writing import MARK
 def as_line_moves(outline: Outline, asked: Cutting) -> str:
     """G1 from corner to corner, once around, back to the first."""
     corners = 1e3 * polygon(outline, asked.metres).corners
-    moves = [f"G1 {_at(one, asked)}" for one in (*corners[1:], corners[0])]
+    moves = [f"G1 {_at(corner, asked)}" for corner in (*corners[1:], corners[0])]
     return _program(corners[0], moves, asked)
 
 

@@ -44,7 +44,7 @@ def stretches(outline: Outline) -> list[tuple[float, float]]:
     InputError
         If its breaks do not run from 0 to a whole turn.
     """
-    breaks = [float(one) for one in outline.breaks]
+    breaks = [float(place) for place in outline.breaks]
     if len(breaks) < 2 or abs(breaks[0]) > 1e-12 or abs(breaks[-1] - tau) > 1e-9:
         raise InputError("only a closed outline can be cut: its breaks must run from 0 to a whole turn")
     return list(pairwise(breaks))

@@ -115,8 +115,8 @@ def _clamped(outline: Outline, angles: Array, degree: int) -> tuple[Array, Array
             _derivatives(outline, angles[0]),
             _derivatives(outline, angles[-1] - _BEFORE * (angles[-1] - angles[-2])),
         )
-    found = make_interp_spline(angles, points, k=degree, bc_type=ends)  # type: ignore[arg-type] # stubs know no pairs
-    return np.asarray(found.t), np.asarray(found.c)
+    spline = make_interp_spline(angles, points, k=degree, bc_type=ends)  # type: ignore[arg-type] # stubs know no pairs
+    return np.asarray(spline.t), np.asarray(spline.c)
 
 
 def _derivatives(outline: Outline, angle: float) -> list[tuple[int, Array]]:

@@ -21,7 +21,7 @@ def as_svg(outline: Outline, asked: Cutting) -> str:
     # SVG's y points down
     points = beziers(spline(outline, asked.metres)) * [1e3, -1e3]
     low, high = points.min(axis=(0, 1)) - _MARGIN, points.max(axis=(0, 1)) + _MARGIN
-    box = [asked.rounded(one) for one in (*low, *(high - low))]
+    box = [asked.rounded(length) for length in (*low, *(high - low))]
     pieces = "\n".join(f"C {_pair(a, asked)} {_pair(b, asked)} {_pair(c, asked)}" for _, a, b, c in points)
     return (
         f'<svg xmlns="http://www.w3.org/2000/svg" width="{box[2]}mm" height="{box[3]}mm" viewBox="{" ".join(box)}">\n'

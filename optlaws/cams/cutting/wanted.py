@@ -81,7 +81,9 @@ class Cutting:
     @property
     def line(self) -> str:
         """What the file says of itself, on one line of plain characters."""
-        kept = "".join(one if " " <= one <= "~" and one not in "()<>&" else " " for one in self.about)
+        kept = "".join(
+            character if " " <= character <= "~" and character not in "()<>&" else " " for character in self.about
+        )
         return " ".join(kept.split())[:200] or "cam"
 
     def rounded(self, value: float) -> str:

@@ -172,8 +172,8 @@ class _Look:
         ends = where[: len(low)], where[len(low) :]
         whole, curved = value[count:], bend[count:] * 2.0
         seen = [(value[end], slope[end] * sign) for end, sign in zip(ends, (1.0, -1.0), strict=True)]
-        most = [_most(one.high, rate.high, curved.high, width) for one, rate in seen]
-        least = [-_most(-one.low, -rate.low, -curved.low, width) for one, rate in seen]
+        most = [_most(reached.high, rate.high, curved.high, width) for reached, rate in seen]
+        least = [-_most(-reached.low, -rate.low, -curved.low, width) for reached, rate in seen]
         turns = _turns(slope.middle[ends[0]], slope.middle[ends[1]], low, high)
         return _Cells(low, high, np.fmax.reduce([*least, whole.low]), np.fmin.reduce([*most, whole.high]), turns)
 
@@ -182,7 +182,7 @@ class _Look:
         angles = np.where(places == 1.0, self.stretch.stop, angles)  # to the last bit, where sides may differ
         low, high = int(np.argmin(value.high)), int(np.argmax(value.low))
         self.lowest = min(self.lowest, (float(value.high[low]), float(angles[low])))
-        self.highest = max(self.highest, (float(value.low[high]), float(angles[high])), key=lambda one: one[0])
+        self.highest = max(self.highest, (float(value.low[high]), float(angles[high])), key=lambda pair: pair[0])
 
 
 def _half(low: Array, high: Array) -> Array:
@@ -195,8 +195,8 @@ def _most(start: Array, rate: Array, bend: Array, width: Array) -> Array:
         top = np.clip(np.where(bend < 0.0, -rate / bend, width), 0.0, width)
         risen = np.maximum(rate * top + 0.5 * bend * top * top, 0.0)
         roundings = 32.0 * np.abs(risen) + 4.0 * np.abs(start) + 8.0 * np.abs(rate) * width
-        found = start + risen + ROUNDING * roundings
-    return np.where(np.isnan(found), np.inf, found)
+        most = start + risen + ROUNDING * roundings
+    return np.where(np.isnan(most), np.inf, most)
 
 
 def _turns(first: Array, last: Array, low: Array, high: Array) -> Array:

@@ -50,14 +50,14 @@ def enclosed_jet(stretch: Stretch, middle: Array, half: Array, order: int) -> Je
         return Jet((exact(np.full(middle.shape, stretch.offset)), *(exact(np.zeros(middle.shape)),) * order))
     values = _of_segment(stretch.segment, stretch.length, middle, half, order)
     terms = [
-        _scaled(one, stretch.stroke / stretch.duration**nu / factorial(nu), (nu + 3) * ROUNDING)
-        for nu, one in enumerate(values)
+        _scaled(value, stretch.stroke / stretch.duration**nu / factorial(nu), (nu + 3) * ROUNDING)
+        for nu, value in enumerate(values)
     ]
     return Jet((terms[0] + stretch.offset, *terms[1:]))
 
 
-def _scaled(one: Enclosure, factor: float, rounding: float) -> Enclosure:
-    return one * Enclosure(np.array(factor), np.array(abs(factor) * rounding))
+def _scaled(enclosure: Enclosure, factor: float, rounding: float) -> Enclosure:
+    return enclosure * Enclosure(np.array(factor), np.array(abs(factor) * rounding))
 
 
 def _of_segment(segment: Segment, length: float, middle: Array, half: Array, order: int) -> list[Enclosure]:
@@ -82,13 +82,13 @@ def _by_taylor(segment: Segment, length: float, middle: Array, half: Array, orde
         values = [np.asarray(segment.derivative(middle, length, nu)) for nu in range(last)]
     errors = [share * size for size in sizes]
     steps = half * length * (1.0 + 4.0 * ROUNDING)
-    found = []
+    enclosures = []
     for nu in range(order + 1):
         radius = sizes[last] * steps ** (last - nu) / factorial(last - nu)
         for i in range(last - nu - 1, 0, -1):
             radius = radius + (np.abs(values[nu + i]) + errors[nu + i]) * steps**i / factorial(i)
-        found.append(Enclosure(values[nu], (radius + errors[nu]) * (1.0 + 64.0 * ROUNDING)))
-    return found
+        enclosures.append(Enclosure(values[nu], (radius + errors[nu]) * (1.0 + 64.0 * ROUNDING)))
+    return enclosures
 
 
 @lru_cache(maxsize=512)
@@ -122,11 +122,11 @@ def _of_powers(segment: FractionalSegment, length: float, middle: Array, half: A
     low, high = np.maximum(np.minimum(*ends), 0.0), np.maximum(*ends)
     slack = 4.0 * ROUNDING * max(segment.first, segment.last)
     inside = np.maximum(low - np.where(low > 0.0, slack, 0.0), 0.0), high + np.where(half > 0.0, slack, 0.0)
-    found = [_power_sum(segment.powers(length, nu), *inside) for nu in range(1, order + 1)]
+    derivatives = [_power_sum(segment.powers(length, nu), *inside) for nu in range(1, order + 1)]
     at = np.asarray(segment.derivative(middle, length, 0))
     size = abs(segment.steady) * length + float(np.abs(segment.derivative(np.array([0.0, 1.0]), length, 0)).max())
-    swiftest = np.abs(found[0].middle) + found[0].radius if order else np.asarray(0.0)
-    return [Enclosure(at, swiftest * half * length * (1.0 + 16.0 * ROUNDING) + 64.0 * ROUNDING * size), *found]
+    swiftest = np.abs(derivatives[0].middle) + derivatives[0].radius if order else np.asarray(0.0)
+    return [Enclosure(at, swiftest * half * length * (1.0 + 16.0 * ROUNDING) + 64.0 * ROUNDING * size), *derivatives]
 
 
 def _power_sum(powers: dict[float, float], low: Array, high: Array) -> Enclosure:

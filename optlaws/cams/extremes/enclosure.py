@@ -127,8 +127,8 @@ _FUNCTIONS: dict[Any, Callable[..., Enclosure]] = {
     np.sqrt: Enclosure.root,
     np.sin: Enclosure.sine,
     np.cos: Enclosure.cosine,
-    np.add: lambda one, two: _enclosure(one) + two,
-    np.subtract: lambda one, two: _enclosure(one) - two,
-    np.multiply: lambda one, two: _enclosure(one) * two,
-    np.divide: lambda one, two: _enclosure(one) / two,
+    np.add: lambda left, right: _enclosure(left) + right,
+    np.subtract: lambda left, right: _enclosure(left) - right,
+    np.multiply: lambda left, right: _enclosure(left) * right,
+    np.divide: lambda left, right: _enclosure(left) / right,
 }

@@ -90,8 +90,8 @@ def cam_extremes(motion: CamMotion, contact: Contact) -> CamExtremes:
     --------
     >>> from optlaws.cams.followers.translating_roller import SlidingRoller
     >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
-    >>> found = cam_extremes(rise, SlidingRoller(1.0, 0.0, 0.08, 0.0, 0.012))
-    >>> round(degrees(found.greatest_pressure_angle.value), 6), found.undercut.free
+    >>> extremes = cam_extremes(rise, SlidingRoller(1.0, 0.0, 0.08, 0.0, 0.012))
+    >>> round(degrees(extremes.greatest_pressure_angle.value), 6), extremes.undercut.free
     (21.223026, True)
     """
     pressure = pressure_angles(motion, contact)
@@ -109,7 +109,7 @@ def pressure_angles(motion: CamMotion, contact: Contact) -> tuple[Extreme, Extre
     --------
     >>> from optlaws.cams.followers.translating_flat import SlidingFace
     >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
-    >>> [abs(one.value) < 1e-200 for one in pressure_angles(rise, SlidingFace(1.0, 0.0, 0.08))]
+    >>> [abs(angle.value) < 1e-200 for angle in pressure_angles(rise, SlidingFace(1.0, 0.0, 0.08))]
     [True, True]
     """
     low, high = enclosed_extremes(motion, contact.pressure, 1)
@@ -123,7 +123,7 @@ def pitch_curvatures(motion: CamMotion, contact: RollerContact) -> tuple[Extreme
     --------
     >>> from optlaws.cams.followers.translating_roller import SlidingRoller
     >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
-    >>> [round(one.value, 6) for one in pitch_curvatures(rise, SlidingRoller(1.0, 0.0, 0.08, 0.0, 0.012))]
+    >>> [round(curvature.value, 6) for curvature in pitch_curvatures(rise, SlidingRoller(1.0, 0.0, 0.08, 0.0, 0.012))]
     [4.471807, 12.867777]
     """
     return enclosed_extremes(motion, contact.curvature, 2)

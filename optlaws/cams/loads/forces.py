@@ -82,10 +82,10 @@ class CamForces:
     def rate(self) -> float:
         """The cam's angular velocity, rad/s."""
         if self.speed is not None:
-            found = quantity(self.speed, "angular velocity", "speed")
-            if found <= 0.0:
+            rate = quantity(self.speed, "angular velocity", "speed")
+            if rate <= 0.0:
                 raise InputError(f"speed must be above 0, got {shortened(self.speed)}")
-            return found
+            return rate
         if not isinstance(self.cam.motion, Cycle):
             raise InputError("forces need the cam's speed: give one, such as speed='300 rpm'")
         return TURN / self.cam.motion.duration
@@ -104,9 +104,9 @@ class CamForces:
     def edges(self) -> Array:
         """Angles between which forces are smooth, rad: breaks of the motion, and where the follower turns back."""
         places = [np.array(self.cam.displacement.breaks)]
-        for one in self.cam.displacement.stretches:
-            inner = one.segment.candidates(one.length, 0) if one.stroke else np.empty(0)
-            places.append(one.start + (one.stop - one.start) * inner)
+        for stretch in self.cam.displacement.stretches:
+            inner = stretch.segment.candidates(stretch.length, 0) if stretch.stroke else np.empty(0)
+            places.append(stretch.start + (stretch.stop - stretch.start) * inner)
         return np.unique(np.concatenate(places))
 
     def follower_force(self, angle: Any) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
@@ -167,11 +167,11 @@ class CamForces:
 
     def to_dict(self) -> dict[str, Any]:
         """Peaks with their places in degrees, and means, as plain data in SI units."""
-        found = {name: _plain(getattr(self, name)) for name in ("contact", "torque")}
+        extremes = {name: _plain(getattr(self, name)) for name in ("contact", "torque")}
         pressed = {} if self.width is None else {"pressure": _plain(self.pressure)}
         return {
             "speed": self.rate,
-            **found,
+            **extremes,
             **pressed,
             "rms_torque": self.rms_torque[1],
             "mean_torque": 0.5 * sum(self.mean_torque),
@@ -230,10 +230,10 @@ class CamForces:
         return transmission(self.cam.contact, self.cam.displacement.jet(angle, 2))
 
     def _contact_force(self, angle: Array) -> Array:
-        one = self._transmission(angle)
+        transmission = self._transmission(angle)
         faced = isinstance(self.cam.contact, FaceContact)
-        held = self._friction.held_back(one, self.cam.contact.turning, faced=faced)
-        lever = self._lever(one) - self.direction(angle) * held
+        held = self._friction.held_back(transmission, self.cam.contact.turning, faced=faced)
+        lever = self._lever(transmission) - self.direction(angle) * held
         if np.any(lever <= 0.0):
             place = degrees(float(angle.flat[int(np.argmin(lever))]))
             raise InputError(
@@ -242,15 +242,15 @@ class CamForces:
             )
         return np.asarray(self._follower_force(angle) / lever)
 
-    def _lever(self, one: Transmission) -> Array:
+    def _lever(self, transmission: Transmission) -> Array:
         """What drives the follower for a normal force of 1 N, a roller or a face that is dragged along."""
         faced = isinstance(self.cam.contact, FaceContact)
-        return one.lever + self._friction.contact * one.dragged if faced else one.lever
+        return transmission.lever + self._friction.contact * transmission.dragged if faced else transmission.lever
 
     def _torque(self, angle: Array) -> Array:
-        one, force = self._transmission(angle), self._contact_force(angle)
-        driven = force * self._lever(one) * np.asarray(self.cam.displacement(angle, 1))
-        return np.asarray(driven + self._friction.contact * one.sliding * np.maximum(force, 0.0))
+        transmission, force = self._transmission(angle), self._contact_force(angle)
+        driven = force * self._lever(transmission) * np.asarray(self.cam.displacement(angle, 1))
+        return np.asarray(driven + self._friction.contact * transmission.sliding * np.maximum(force, 0.0))
 
     def _pressure(self, angle: Array) -> Array:
         return np.sqrt(np.maximum(self._squared_pressure(angle), 0.0))
@@ -261,12 +261,12 @@ class CamForces:
         return self._line.squared(self._contact_force(angle), np.asarray(self.cam.radius_of_curvature(angle)))
 
 
-def _plain(one: Enclosure) -> dict[str, float]:
+def _plain(enclosure: Enclosure) -> dict[str, float]:
     return {
-        "least": one.least,
-        "least_at": degrees(one.least_at),
-        "most": one.most,
-        "most_at": degrees(one.most_at),
-        "low": one.low,
-        "high": one.high,
+        "least": enclosure.least,
+        "least_at": degrees(enclosure.least_at),
+        "most": enclosure.most,
+        "most_at": degrees(enclosure.most_at),
+        "low": enclosure.low,
+        "high": enclosure.high,
     }

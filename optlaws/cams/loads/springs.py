@@ -150,7 +150,7 @@ class _Asked:
 
     def rate(self, angle: Array, side: float) -> Array:
         """The speed at which the force is least (side 1) or greatest (-1): an end of the range, or between."""
-        square, linear = (side * one for one in self._moved(angle))
+        square, linear = (side * part for part in self._moved(angle))
         inner = np.clip(-0.5 * linear / np.where(square > 0.0, square, 1.0), self.slow, self.fast)
         rates = np.stack([np.full(square.shape, self.slow), np.full(square.shape, self.fast), inner])
         return np.asarray(np.take_along_axis(rates, np.argmin(square * rates**2 + linear * rates, axis=0)[None], 0)[0])
@@ -171,7 +171,7 @@ def _asked(cam: DiscCam, drive: Mapping[str, Any], speeds: Sequence[Any], force:
     for key in ("stiffness", "preload"):
         if key in drive:
             raise InputError(f"drive: the {key} is sought with the spring: to fix it give {key}=... beside the drive")
-    slow, fast = (quantity(one, "angular velocity", "speeds") for one in speeds)
+    slow, fast = (quantity(speed, "angular velocity", "speeds") for speed in speeds)
     if not 0.0 <= slow <= fast or fast == 0.0:
         raise InputError(f"speeds must rise from at least 0, got {shortened(speeds)}")
     least = 0.0 if force is None else quantity(force, _UNITS[cam.displacement.axis][0], "force")
@@ -181,10 +181,10 @@ def _asked(cam: DiscCam, drive: Mapping[str, Any], speeds: Sequence[Any], force:
 def _known(value: str | None, dimension: str, name: str) -> float | None:
     if value is None:
         return None
-    found = quantity(value, dimension, name)
-    if found < 0.0:
+    known = quantity(value, dimension, name)
+    if known < 0.0:
         raise InputError(f"{name} must be at least 0, got {shortened(value)}")
-    return found
+    return known
 
 
 def _sought(asked: _Asked, given: _Given) -> Spring:
@@ -193,12 +193,12 @@ def _sought(asked: _Asked, given: _Given) -> Spring:
     angles = np.linspace(edges[0], edges[-1], _FIRST)
     for _ in range(_STEPS):
         best = _program(asked, angles, given)
-        found, pushed = _extremes(asked, best)
+        force, pushed = _extremes(asked, best)
         slack = _KEPT * max(pushed.peak, asked.least)
-        if found.low >= asked.least - slack and (given.objective != "greatest" or pushed.high <= best[2] + slack):
+        if force.low >= asked.least - slack and (given.objective != "greatest" or pushed.high <= best[2] + slack):
             break
-        angles = np.append(angles, [found.least_at, pushed.most_at])
-    return _stronger(asked, given, best, found)
+        angles = np.append(angles, [force.least_at, pushed.most_at])
+    return _stronger(asked, given, best, force)
 
 
 def _extremes(asked: _Asked, spring: tuple[float, float, float]) -> tuple[Enclosure, Enclosure]:
@@ -224,12 +224,12 @@ def _program(asked: _Asked, angles: Array, given: _Given) -> tuple[float, float,
     rows = np.concatenate([np.stack([-ones, -y, 0.0 * ones], axis=1), np.stack([ones, y, -ones], axis=1)])
     sides = np.concatenate([low - asked.least, -high]) / unit
     known = (given.preload, given.stiffness)
-    bounds = [(0.0, None) if one is None else (one / by,) * 2 for one, by in zip(known, units, strict=True)]
+    bounds = [(0.0, None) if value is None else (value / by,) * 2 for value, by in zip(known, units, strict=True)]
     weights = {"preload": (1.0, 0.0, 0.0), "stiffness": (0.0, 1.0, 0.0), "greatest": (0.0, 0.0, 1.0)}[given.objective]
-    found = linprog(weights, A_ub=rows, b_ub=sides, bounds=[*bounds, (None, None)], method="highs")
-    if found.status != 0 or found.x is None:
+    optimum = linprog(weights, A_ub=rows, b_ub=sides, bounds=[*bounds, (None, None)], method="highs")
+    if optimum.status != 0 or optimum.x is None:
         _refuse(asked, angles, given)
-    preload, stiffness, greatest = (float(one) for one in found.x)
+    preload, stiffness, greatest = (float(number) for number in optimum.x)
     return max(preload, 0.0) * unit, max(stiffness, 0.0) * units[1], greatest * unit
 
 
@@ -242,14 +242,14 @@ def _refuse(asked: _Asked, angles: Array, given: _Given) -> NoReturn:
     )
 
 
-def _stronger(asked: _Asked, given: _Given, best: tuple[float, float, float], found: Enclosure) -> Spring:
+def _stronger(asked: _Asked, given: _Given, best: tuple[float, float, float], force: Enclosure) -> Spring:
     """The spring made stronger by what it may miss, and what is then left everywhere."""
     preload, stiffness, greatest = best
     bound = {"preload": preload, "stiffness": stiffness, "greatest": greatest}[given.objective]
-    missing = max(asked.least - found.low, 0.0)
+    missing = max(asked.least - force.low, 0.0)
     if given.preload is None:
         preload += missing
-    elif (up := float(asked.displacement(np.array(found.least_at)))) > _RAISED * asked.forces.cam.displacement.range[1]:
+    elif (up := float(asked.displacement(np.array(force.least_at)))) > _RAISED * asked.forces.cam.displacement.range[1]:
         stiffness += missing / up
     least, pushed = _extremes(asked, (preload, stiffness, greatest))
     rate = float(asked.rate(np.array([least.least_at]), 1.0)[0])

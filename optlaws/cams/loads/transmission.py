@@ -63,15 +63,15 @@ class Friction:
     overhang: float = 0.0
     length: float = 1.0
 
-    def held_back(self, one: Transmission, turning: float, *, faced: bool) -> Array:
+    def held_back(self, transmission: Transmission, turning: float, *, faced: bool) -> Array:
         """Friction in the guide, of either sign of the velocity, for a normal force of 1 N."""
         if not self.guide:
-            return 0.0 * one.lever
+            return 0.0 * transmission.lever
         # the surface of the cam drags a face along; a roller gives way
         dragged = -turning * self.contact if faced else 0.0
-        across = one.across + dragged
-        near = one.aside + (self.overhang + self.length) * across
-        far = one.aside + self.overhang * across
+        across = transmission.across + dragged
+        near = transmission.aside + (self.overhang + self.length) * across
+        far = transmission.aside + self.overhang * across
         return np.asarray(self.guide * (np.abs(near) + np.abs(far)) / self.length)
 
 
@@ -93,7 +93,7 @@ def transmission(contact: Contact, s: Jet) -> Transmission:  # noqa: ARG001 - fo
 def _sliding_roller(contact: SlidingRoller, s: Jet) -> Transmission:
     tangent = np.asarray(contact.pressure(s).terms[0])
     cosine = 1.0 / np.sqrt(1.0 + tangent**2)
-    along, across = (np.asarray(one.terms[0]) for one in contact.components(s))
+    along, across = (np.asarray(component.terms[0]) for component in contact.components(s))
     none = 0.0 * cosine
     return Transmission(cosine, _rolling(contact, along, across), none, tangent * cosine * contact.turning, none)
 
@@ -102,7 +102,7 @@ def _sliding_roller(contact: SlidingRoller, s: Jet) -> Transmission:
 def _swinging_roller(contact: SwingingRoller, s: Jet) -> Transmission:
     tangent = np.asarray(contact.pressure(s).terms[0])
     lever = contact.arm / np.sqrt(1.0 + tangent**2)
-    along, across = (np.asarray(one.terms[0]) for one in contact.components(s))
+    along, across = (np.asarray(component.terms[0]) for component in contact.components(s))
     none = 0.0 * lever
     return Transmission(lever, _rolling(contact, along, across), none, none, none)
 
@@ -118,8 +118,8 @@ def _sliding_face(contact: SlidingFace, s: Jet) -> Transmission:
 @transmission.register
 def _swinging_face(contact: SwingingFace, s: Jet) -> Transmission:
     lever = np.abs(np.asarray(contact.reach(s).terms[0]))
-    x, y = (np.asarray(one.terms[0]) for one in contact.point(s))
-    nx, ny = (np.asarray(one.terms[0]) for one in contact.normal(s))
+    x, y = (np.asarray(coordinate.terms[0]) for coordinate in contact.point(s))
+    nx, ny = (np.asarray(coordinate.terms[0]) for coordinate in contact.normal(s))
     rate = np.asarray(s.slope().terms[0])
     sliding = np.abs(contact.turning * (x * nx + y * ny) + rate * contact.offset)
     none = 0.0 * lever

@@ -133,7 +133,7 @@ def _leap(following: Following, edges: Array, size: float) -> float:
 
 
 def _meant(cam: DiscCam, nu: int) -> float:
-    return max(abs(value) for one in cam.displacement.stretches for value in one.extremes(nu))
+    return max(abs(value) for stretch in cam.displacement.stretches for value in stretch.extremes(nu))
 
 
 def as_made(
@@ -224,7 +224,7 @@ def with_error(cam: DiscCam, error: Any, waves: Any) -> AsMade:  # noqa: ANN401 
     if amplitude <= 0.0:
         raise InputError(f"error must be above 0, got {shortened(error)}")
     made = [run_against(cam, Wavy(cam.profile, amplitude, count, shift), leaps=False) for shift in _SHIFTS]
-    return AsMade(*(max(getattr(one, name) for one in made) for name in AsMade.__dataclass_fields__))
+    return AsMade(*(max(getattr(peaks_made, name) for peaks_made in made) for name in AsMade.__dataclass_fields__))
 
 
 def rounding_bound(resolution: float, step: float) -> float:
@@ -263,10 +263,10 @@ def _chain(outline: Outline, asked: Cutting) -> Outline:
 
 
 def _rounded(values: Array, asked: Cutting, *, closed: bool) -> Array:
-    found = 1e-3 * np.round(1e3 * values, asked.decimals)
+    rounded = 1e-3 * np.round(1e3 * values, asked.decimals)
     if closed:
-        found[-1] = found[0]
-    return found
+        rounded[-1] = rounded[0]
+    return rounded
 
 
 _MADE: dict[str, Callable[[Outline, Cutting], Outline]] = {

@@ -58,8 +58,8 @@ class Following:
     >>> from optlaws.cams.curves.motion_by_angle import CamMotion
     >>> motion = CamMotion.of_law("cycloidal", "40 mm", "360 deg")
     >>> cam = DiscCam(motion, base_radius="80 mm", follower=TranslatingRoller("12 mm"))
-    >>> found = Following(cam.contact, cam.profile)
-    >>> angle, displacement = (float(one) for one in found.at(np.array(1.0), 0))
+    >>> following = Following(cam.contact, cam.profile)
+    >>> angle, displacement = (float(value) for value in following.at(np.array(1.0), 0))
     >>> round(angle, 12), round(displacement - cam.displacement(1.0), 12) + 0.0
     (1.0, 0.0)
     """
@@ -82,10 +82,10 @@ class Following:
     def at(self, places: Array, nu: int) -> tuple[Array, Array]:
         """The cam's angle at places of the curve, rad, and the derivative of order nu of the displacement by it."""
         angle, displacement = self.jets(places, nu)
-        found = displacement
+        derivative = displacement
         for _ in range(nu):
-            found = found.slope() / angle.slope().cut(found.order - 1)
-        return np.asarray(angle.terms[0]), np.asarray(found.terms[0])
+            derivative = derivative.slope() / angle.slope().cut(derivative.order - 1)
+        return np.asarray(angle.terms[0]), np.asarray(derivative.terms[0])
 
     def jets(self, places: Array, order: int) -> tuple[Jet, Jet]:
         """The cam's angle and the displacement, by the curve's parameter."""
@@ -104,7 +104,7 @@ class Following:
         if isinstance(self.curve, PlaneCurve):
             return self.curve.jets(places, order)
         values = [self.curve(places, nu) / factorial(nu) for nu in range(order + 1)]
-        return Jet(tuple(one[..., 0] for one in values)), Jet(tuple(one[..., 1] for one in values))
+        return Jet(tuple(value[..., 0] for value in values)), Jet(tuple(value[..., 1] for value in values))
 
 
 def bearing(x: Jet, y: Jet) -> Jet:

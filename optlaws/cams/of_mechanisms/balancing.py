@@ -68,8 +68,8 @@ class Balancing:
     --------
     >>> from optlaws import Cycle, Dwell, Return, Rise
     >>> moves = [Rise("40 mm", "90 deg", law="K"), Dwell("90 deg"), Return(duration="90 deg", law="K"), Dwell()]
-    >>> one = Balancing(Cycle(moves, speed="120 rpm", drive={"mass": "3 kg"}))
-    >>> round(one.before.peak, 6), one.after.peak < 1e-12 * one.before.peak
+    >>> balancing = Balancing(Cycle(moves, speed="120 rpm", drive={"mass": "3 kg"}))
+    >>> round(balancing.before.peak, 6), balancing.after.peak < 1e-12 * balancing.before.peak
     (0.757986, True)
     """
 
@@ -126,23 +126,27 @@ class Balancing:
         axis, way = either(stroke, ("length", "angle"), "stroke")
         if way <= 0.0:
             raise InputError(f"stroke must be above 0, got {shortened(stroke)}")
-        moving = [(piece, one) for piece, one in zip(self.cycle.pieces, self._loaders, strict=True) if one is not None]
+        moving = [
+            (piece, loader)
+            for piece, loader in zip(self.cycle.pieces, self._loaders, strict=True)
+            if loader is not None
+        ]
         if len(moving) < len(self._loaders):
             raise InputError("the loader of a cycle that dwells has a clutch or runs on: take dwell_machine")
-        if len(moving) % 2 or not all(one.symmetric for _, one in moving):
+        if len(moving) % 2 or not all(loader.symmetric for _, loader in moving):
             raise InputError("the loader comes back over an even number of moves by symmetric laws")
-        parts = [self._part(piece, one, way * (-1.0) ** i) for i, (piece, one) in enumerate(moving)]
+        parts = [self._part(piece, loader, way * (-1.0) ** i) for i, (piece, loader) in enumerate(moving)]
         return CamMotion(tuple(stretch for some in parts for stretch in some), axis, closed=True)
 
-    def _part(self, piece: Piece, one: Loader, way: float) -> list[Stretch]:
+    def _part(self, piece: Piece, loader: Loader, way: float) -> list[Stretch]:
         """The loader during one move: it goes out by half of its stroke and comes back."""
         start, angle = piece.start * self.rate, piece.duration * self.rate
-        found = []
-        for low, high in pairwise(one.law.breaks):
-            segment = PartSegment(one.law, low, high, 1.0)
+        stretches = []
+        for low, high in pairwise(loader.law.breaks):
+            segment = PartSegment(loader.law, low, high, 1.0)
             places = (start + low * angle, start + high * angle)
-            found.append(Stretch(*places, way * float(one.law.a(low)), way, angle, segment, high - low))
-        return found
+            stretches.append(Stretch(*places, way * float(loader.law.a(low)), way, angle, segment, high - low))
+        return stretches
 
     @kept_property
     def _loaders(self) -> tuple[Loader | None, ...]:
@@ -177,8 +181,8 @@ class Balancing:
     def _edges(self) -> Array:
         """Times between which everything is smooth."""
         places = []
-        for piece, one in zip(self.cycle.pieces, self._loaders, strict=True):
-            breaks = piece.law.breaks if one is None else (*piece.law.breaks, *one.law.breaks)
+        for piece, loader in zip(self.cycle.pieces, self._loaders, strict=True):
+            breaks = piece.law.breaks if loader is None else (*piece.law.breaks, *loader.law.breaks)
             places.append(piece.start + piece.duration * np.unique(breaks))
         return np.unique(np.round(np.concatenate(places), 15))
 
@@ -188,19 +192,19 @@ class Balancing:
     def _loader(self, time: Array) -> Array:
         return self._by_piece(time, self._of_loader)
 
-    def _of_loader(self, piece: Piece, one: Loader | None, time: Array) -> Array:
+    def _of_loader(self, piece: Piece, loader: Loader | None, time: Array) -> Array:
         """Its power over the shaft's speed: its own velocity times its own acceleration."""
-        if one is None:
+        if loader is None:
             return np.zeros(time.shape)
         # mass times stroke squared, in full: eq. (2)
-        moved = self.share * self.load.inertia * (piece.stroke / one.Y) ** 2
-        return np.asarray(moved / piece.duration**3 * one.law.d(piece.places(time)) / self.rate)
+        moved = self.share * self.load.inertia * (piece.stroke / loader.Y) ** 2
+        return np.asarray(moved / piece.duration**3 * loader.law.d(piece.places(time)) / self.rate)
 
     def _by_piece(self, time: Array, values: Callable[[Piece, Loader | None, Array], Array]) -> Array:
         pieces = self.cycle.pieces
         which = np.searchsorted([piece.start for piece in pieces[1:]], time, side="right")
-        found = np.empty(np.shape(time))
+        values_by_piece = np.empty(np.shape(time))
         for i in np.unique(which):
             here = which == i
-            found[here] = values(pieces[i], self._loaders[i], np.asarray(time)[here])
-        return found
+            values_by_piece[here] = values(pieces[i], self._loaders[i], np.asarray(time)[here])
+        return values_by_piece

@@ -63,27 +63,34 @@ class DwellMachine:
     @property
     def balanced_torque(self) -> float:
         """The greatest torque that the loader takes from the shaft, N m: D I gS²/(ph_v T_v²) (eq. 22)."""
-        one = self.mechanism
-        return peak_power(one.law) * self.inertia * one.swing**2 / (one.rise * (one.rise / self.rate) ** 2)
+        mechanism = self.mechanism
+        return (
+            peak_power(mechanism.law)
+            * self.inertia
+            * mechanism.swing**2
+            / (mechanism.rise * (mechanism.rise / self.rate) ** 2)
+        )
 
     @property
     def driven_torque(self) -> float:
         """The greatest inertia torque at the executive rocker, N m: C I gS/T_v²."""
-        one = self.mechanism
-        return one.law.peak(2).value * self.inertia * one.swing / (one.rise / self.rate) ** 2
+        mechanism = self.mechanism
+        return mechanism.law.peak(2).value * self.inertia * mechanism.swing / (mechanism.rise / self.rate) ** 2
 
     @property
     def residual_torque(self) -> float:
         """The greatest torque of the loader's rocker alone in the dwells, at the shaft, N m (eq. 19); 0 for type I."""
-        return max((self._power(one) for one in self._sections), default=0.0)
+        return max((self._power(section) for section in self._sections), default=0.0)
 
     @property
     def loader_driven_torque(self) -> float:
         """The same at the loader's rocker itself, N m (eq. 20)."""
-        found = 0.0
+        torque = 0.0
         for law, scale, whole in self._sections:
-            found = max(found, law.peak(2).value * self._swing(scale) * self.loader_inertia / (whole / self.rate) ** 2)
-        return found
+            torque = max(
+                torque, law.peak(2).value * self._swing(scale) * self.loader_inertia / (whole / self.rate) ** 2
+            )
+        return torque
 
     @property
     def reduction(self) -> float:
@@ -98,11 +105,11 @@ class DwellMachine:
         InputError
             If rise, return and dwells do not make a turn.
         """
-        one = self._turn()
-        swing = f"{one.swing!r} rad"
-        rests = [[Dwell(f"{dwell!r} rad")] if dwell else [] for dwell in (one.dwell, one.lower_dwell)]
-        rise = Rise(swing, f"{one.rise!r} rad", law=one.law)
-        back = Return(swing, f"{one.return_angle!r} rad", law=one.return_law)
+        turn = self._turn()
+        swing = f"{turn.swing!r} rad"
+        rests = [[Dwell(f"{dwell!r} rad")] if dwell else [] for dwell in (turn.dwell, turn.lower_dwell)]
+        rise = Rise(swing, f"{turn.rise!r} rad", law=turn.law)
+        back = Return(swing, f"{turn.return_angle!r} rad", law=turn.return_law)
         return Cycle([rise, *rests[0], back, *rests[1]], period=f"{tau / self.rate!r} s")
 
     def loader_motion(self) -> CamMotion:
@@ -113,11 +120,11 @@ class DwellMachine:
         InputError
             If rise, return and dwells do not make a turn.
         """
-        one = self._turn()
+        turn = self._turn()
         stretches = []
-        for (low, high), segment in zip(pairwise(one.motion.breaks), one.motion.segments, strict=True):
-            offset = one.swing * float(one.motion.a(low))
-            stretches.append(Stretch(tau * low, tau * high, offset, one.swing, tau, segment, high - low))
+        for (low, high), segment in zip(pairwise(turn.motion.breaks), turn.motion.segments, strict=True):
+            offset = turn.swing * float(turn.motion.a(low))
+            stretches.append(Stretch(tau * low, tau * high, offset, turn.swing, tau, segment, high - low))
         return CamMotion(tuple(stretches), axis="angle", closed=True)
 
     def cams(self, roller: str, pivot_distance: str) -> dict[str, DiscCam]:
@@ -151,9 +158,9 @@ class DwellMachine:
     def _sections(self) -> list[tuple[MotionLaw, float, float]]:
         """Laws of the loader's rocker alone, with their strokes in S and the angles of the whole laws."""
         return [
-            (one.law, abs(one.scale), one.angle / (one.end - one.start))
-            for one in self.mechanism.sections
-            if one.law is not None and one.name in _DWELL
+            (section.law, abs(section.scale), section.angle / (section.end - section.start))
+            for section in self.mechanism.sections
+            if section.law is not None and section.name in _DWELL
         ]
 
     def _swing(self, scale: float) -> float:
@@ -248,7 +255,7 @@ def dwell_machine(
 
 
 def _above(value: str, dimension: str, name: str) -> float:
-    found = quantity(value, dimension, name)
-    if found <= 0.0:
+    known = quantity(value, dimension, name)
+    if known <= 0.0:
         raise InputError(f"{name} must be above 0, got {shortened(value)}")
-    return found
+    return known

@@ -81,10 +81,10 @@ class LeverCam:
     --------
     >>> from math import radians
     >>> lever = TorsionLever(beta=0.75, lam=1, rho=0.15, nu=0.15, swing=radians(60))
-    >>> one = LeverCam(lever, inertia="0.05 kg m^2", stroke="120 deg", speed="150 rpm")
-    >>> round(one.stiffness, 3), round(one.torque(1.0).peak, 9), round(one.torque(1.1).peak, 6)
+    >>> lever_cam = LeverCam(lever, inertia="0.05 kg m^2", stroke="120 deg", speed="150 rpm")
+    >>> round(lever_cam.stiffness, 3), round(lever_cam.torque(1.0).peak, 9), round(lever_cam.torque(1.1).peak, 6)
     (26.17, 0.0, 1.23782)
-    >>> round(one.unbalanced(1.0).peak, 6)
+    >>> round(lever_cam.unbalanced(1.0).peak, 6)
     5.89438
     """
 
@@ -99,26 +99,26 @@ class LeverCam:
     @kept_property
     def moved(self) -> float:
         """The moment of inertia, kg m²."""
-        found = quantity(self.inertia, "moment of inertia", "inertia")
-        if found <= 0.0:
+        inertia = quantity(self.inertia, "moment of inertia", "inertia")
+        if inertia <= 0.0:
             raise InputError(f"inertia must be above 0, got {shortened(self.inertia)}")
-        return found
+        return inertia
 
     @kept_property
     def angle(self) -> float:
         """The stroke's angle, rad."""
-        found = quantity(self.stroke, "angle", "stroke")
-        if not 0.0 < found <= pi:
+        angle = quantity(self.stroke, "angle", "stroke")
+        if not 0.0 < angle <= pi:
             raise InputError(f"stroke must be above 0 and at most 180 deg, got {shortened(self.stroke)}")
-        return found
+        return angle
 
     @kept_property
     def rate(self) -> float:
         """The cam's angular velocity, rad/s."""
-        found = quantity(self.speed, "angular velocity", "speed")
-        if found <= 0.0:
+        rate = quantity(self.speed, "angular velocity", "speed")
+        if rate <= 0.0:
             raise InputError(f"speed must be above 0, got {shortened(self.speed)}")
-        return found
+        return rate
 
     @property
     def stiffness(self) -> float:

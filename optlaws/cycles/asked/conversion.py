@@ -83,16 +83,16 @@ class Piece:
 
     def extremes(self, nu: int, first: float, last: float) -> tuple[tuple[float, float], tuple[float, float]]:
         """Least and greatest value with their times, over the whole of the stretch from `first` to `last`."""
-        low, high = (float(one) for one in self.places(np.array([first, last])))
+        low, high = (float(place) for place in self.places(np.array([first, last])))
         if nu >= _LEAPS:
             # what leaps where a segment ends has the value of the segment, not of its neighbour
             low, high = low + _WITHIN * (low > 0.0), high - _WITHIN * (high < 1.0)
-        found = self.law.extrema(nu, within=(low, high))
+        extremes = self.law.extrema(nu, within=(low, high))
         base = self.offset - self.stroke * float(self.law.a(0.0)) if nu == 0 else 0.0
         sized = [
-            (base + factor(self.stroke, self.duration, nu) * one.value if self.stroke else base,
-             self.start + one.k * self.duration)
-            for one in found
+            (base + factor(self.stroke, self.duration, nu) * extreme.value if self.stroke else base,
+             self.start + extreme.k * self.duration)
+            for extreme in extremes
         ]  # fmt: skip
         return min(sized), max(sized)
 

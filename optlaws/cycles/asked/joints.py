@@ -81,7 +81,7 @@ class Span:
     @property
     def where(self) -> str:
         """What errors call it."""
-        return " and ".join(one.where for one in self.stretches)
+        return " and ".join(stretch.where for stretch in self.stretches)
 
 
 @dataclass(frozen=True)
@@ -105,11 +105,11 @@ def layout(asked: Programme, durations: Sequence[float], *, whole: bool = False,
         If velocities do not meet at a joint, or a law is given in a cycle that is one.
     """
     starts = tuple(accumulate(durations, initial=0.0))
-    offsets = tuple(accumulate((one.displacement for one in asked.stretches), initial=asked.start))
+    offsets = tuple(accumulate((stretch.displacement for stretch in asked.stretches), initial=asked.start))
     pieces = {
-        i: _piece(one, starts[i], durations[i], offsets[i])
-        for i, one in enumerate(asked.stretches)
-        if not is_optimal(one.given)
+        i: _piece(stretch, starts[i], durations[i], offsets[i])
+        for i, stretch in enumerate(asked.stretches)
+        if not is_optimal(stretch.given)
     }
     joints = [_joint(asked, pieces, i) for i in range(len(asked.stretches))]
     if whole or joints[0] is None:
@@ -117,12 +117,12 @@ def layout(asked: Programme, durations: Sequence[float], *, whole: bool = False,
     return Layout(starts, tuple(pieces.values()), _spans(asked, starts, offsets, joints))
 
 
-def _piece(one: Stretch, start: float, duration: float, offset: float) -> Piece:
-    if isinstance(one.given, Dwell):
+def _piece(stretch: Stretch, start: float, duration: float, offset: float) -> Piece:
+    if isinstance(stretch.given, Dwell):
         return Piece(start, duration, offset, 0.0, UNIFORM)
-    if isinstance(one.given, Move):
-        return Piece(start, duration, offset, one.displacement, named_law(one.given.law, one.where))
-    return Piece(start, duration, offset, one.displacement, UNIFORM)
+    if isinstance(stretch.given, Move):
+        return Piece(start, duration, offset, stretch.displacement, named_law(stretch.given.law, stretch.where))
+    return Piece(start, duration, offset, stretch.displacement, UNIFORM)
 
 
 def _joint(asked: Programme, pieces: dict[int, Piece], i: int) -> State | None:
@@ -141,8 +141,8 @@ def _joint(asked: Programme, pieces: dict[int, Piece], i: int) -> State | None:
 def _known(asked: Programme, pieces: dict[int, Piece], i: int, side: int) -> State | None:
     if i in pieces:
         return State(pieces[i].end(1, side), pieces[i].end(2, side))
-    one = asked.stretches[i].given
-    given = (one.start_velocity, one.end_velocity)[side] if isinstance(one, Move) else None
+    stretch = asked.stretches[i].given
+    given = (stretch.start_velocity, stretch.end_velocity)[side] if isinstance(stretch, Move) else None
     if given is None:
         return None
     name = f"{asked.stretches[i].where}: {('start', 'end')[side]}_velocity"
@@ -150,12 +150,12 @@ def _known(asked: Programme, pieces: dict[int, Piece], i: int, side: int) -> Sta
 
 
 def _check_velocities(asked: Programme, before: int, after: int, ended: State, begun: State) -> None:
-    size = max((abs(one.displacement) for one in asked.stretches), default=0.0) / asked.period
+    size = max((abs(stretch.displacement) for stretch in asked.stretches), default=0.0) / asked.period
     if abs(ended.velocity - begun.velocity) <= CLOSE * max(size, abs(ended.velocity), abs(begun.velocity)):
         return
     first, second = asked.stretches[before], asked.stretches[after]
     unit = "mm/s" if asked.axis == "length" else "deg/s"
-    shown = [_shown(one.velocity, asked.axis) for one in (ended, begun)]
+    shown = [_shown(state.velocity, asked.axis) for state in (ended, begun)]
     meant = second if not isinstance(second.given, Dwell | ConstantVelocity) else first
     raise InputError(
         f"{first.where} ends with {shown[0]} {unit} and {second.where} starts with {shown[1]} {unit}: put a motion "
@@ -169,11 +169,11 @@ def _shown(velocity: float, axis: str) -> str:
 
 def _whole(asked: Programme, starts: Sequence[float], offsets: Sequence[float], joints: Sequence[State | None]) -> Span:
     """The cycle as one span; of its stretches those whose law is not looked for must be straight."""
-    for one in asked.stretches:
-        if isinstance(one.given, Move) and not is_optimal(one.given):
+    for stretch in asked.stretches:
+        if isinstance(stretch.given, Move) and not is_optimal(stretch.given):
             raise InputError(
-                f"{one.where}: give it law='optimal': the cycle is sought as one law; or begin it where velocity and "
-                "acceleration are known, after a Dwell, a ConstantVelocity or a Move"
+                f"{stretch.where}: give it law='optimal': the cycle is sought as one law; or begin it where velocity "
+                "and acceleration are known, after a Dwell, a ConstantVelocity or a Move"
             )
     last = len(asked.stretches) - 1
     passed = [
@@ -192,7 +192,7 @@ def _whole(asked: Programme, starts: Sequence[float], offsets: Sequence[float], 
 def _forward(offsets: Sequence[float]) -> float:
     """How far a cycle goes on: positions are sums, which come back but for rounding."""
     moved = offsets[-1] - offsets[0]
-    return moved if abs(moved) > CLOSE * max(abs(one - offsets[0]) for one in offsets) else 0.0
+    return moved if abs(moved) > CLOSE * max(abs(offset - offsets[0]) for offset in offsets) else 0.0
 
 
 def _spans(
@@ -237,10 +237,10 @@ def _span(
 
 
 def _via(asked: Programme, j: int, start: float, stop: float) -> list[tuple[float, float]]:
-    one = asked.stretches[j]
+    stretch = asked.stretches[j]
     points = []
-    for i, point in enumerate(one.given.via if isinstance(one.given, Free) else ()):
-        name = f"{one.where}: via[{i}]"
+    for i, point in enumerate(stretch.given.via if isinstance(stretch.given, Free) else ()):
+        name = f"{stretch.where}: via[{i}]"
         if len(point) != 2:
             raise InputError(f"{name} must be a pair of a time or angle and a position, got {point!r}")
         place = start + time_of(point[0], asked.period, f"{name}, when")

@@ -75,12 +75,12 @@ def period_of(speed: Any, period: Any) -> float:  # noqa: ANN401 - it is checked
 
 def axis_of(segments: Sequence[CycleSegment]) -> str:
     """Whether positions are lengths or angles, by the first that is given; lengths if none is."""
-    for one in segments:
-        for value in (getattr(one, "by", None), getattr(one, "to", None)):
+    for segment in segments:
+        for value in (getattr(segment, "by", None), getattr(segment, "to", None)):
             if value is not None:
-                return either(value, ("length", "angle"), f"{one.label}: displacement")[0]
-        if isinstance(one, ConstantVelocity):
-            kind = either(one.velocity, ("velocity", "angular velocity"), f"{one.label}: velocity")[0]
+                return either(value, ("length", "angle"), f"{segment.label}: displacement")[0]
+        if isinstance(segment, ConstantVelocity):
+            kind = either(segment.velocity, ("velocity", "angular velocity"), f"{segment.label}: velocity")[0]
             return "length" if kind == "velocity" else "angle"
     return "length"
 
@@ -99,11 +99,11 @@ def programme(segments: Sequence[CycleSegment], period: float, start: Any, advan
     durations = _durations(segments, period)
     stretches: list[Stretch] = []
     position = first
-    for i, (one, (least, most)) in enumerate(zip(segments, durations, strict=True)):
+    for i, (segment, (least, most)) in enumerate(zip(segments, durations, strict=True)):
         moved = _displacement(
-            one, axis, f"segment {i + 1} ({one.label})", here=position, last=first + forward, duration=least
+            segment, axis, f"segment {i + 1} ({segment.label})", here=position, last=first + forward, duration=least
         )
-        stretches.append(Stretch(i + 1, one, least, most, moved))
+        stretches.append(Stretch(i + 1, segment, least, most, moved))
         position += moved
     _check_closed(position - first, forward, stretches, axis)
     return Programme(period, axis, tuple(stretches), first)
@@ -127,9 +127,11 @@ def time_of(value: Any, period: float, name: str) -> float:  # noqa: ANN401 - it
 
 
 def _durations(segments: Sequence[CycleSegment], period: float) -> list[tuple[float, float]]:
-    found = [_bounds(one, period, f"segment {i + 1} ({one.label}): duration") for i, one in enumerate(segments)]
-    low, high = (sum(side) for side in zip(*found, strict=True))
-    free = [i for i, (least, most) in enumerate(found) if least != most]
+    bounds = [
+        _bounds(segment, period, f"segment {i + 1} ({segment.label}): duration") for i, segment in enumerate(segments)
+    ]
+    low, high = (sum(side) for side in zip(*bounds, strict=True))
+    free = [i for i, (least, most) in enumerate(bounds) if least != most]
     if low > period * (1.0 + CLOSE) or high < period * (1.0 - CLOSE):
         total = low if low > period else high
         share = 360.0 * total / period
@@ -139,57 +141,63 @@ def _durations(segments: Sequence[CycleSegment], period: float) -> list[tuple[fl
             "or leave the duration of one of them out: it takes what is left"
         )
     if len(free) == 1:
-        left = period - (low - found[free[0]][0])
+        left = period - (low - bounds[free[0]][0])
         if left <= CLOSE * period:
             raise InputError(f"segment {free[0] + 1} ({segments[free[0]].label}): nothing is left for it")
-        found[free[0]] = (left, left)
+        bounds[free[0]] = (left, left)
     for i in free if len(free) > 1 else ():
         if not isinstance(segments[i], Move):
             raise InputError(
                 f"segment {i + 1} ({segments[i].label}): give it a duration; with several free ones only moves share"
                 " what is left"
             )
-    return found
+    return bounds
 
 
-def _bounds(one: CycleSegment, period: float, name: str) -> tuple[float, float]:
-    if one.duration is None:
+def _bounds(segment: CycleSegment, period: float, name: str) -> tuple[float, float]:
+    if segment.duration is None:
         return 0.0, inf
-    if isinstance(one.duration, list | tuple):
-        if len(one.duration) != 2:
-            raise InputError(f"{name} must be one quantity, or two between which it is free, not {len(one.duration)}")
-        least, most = (time_of(value, period, name) for value in one.duration)
+    if isinstance(segment.duration, list | tuple):
+        if len(segment.duration) != 2:
+            raise InputError(
+                f"{name} must be one quantity, or two between which it is free, not {len(segment.duration)}"
+            )
+        least, most = (time_of(value, period, name) for value in segment.duration)
     else:
-        least = most = time_of(one.duration, period, name)
+        least = most = time_of(segment.duration, period, name)
     if not 0.0 < least <= most and not (least == 0.0 < most):
-        raise InputError(f"{name} must be above 0, the least first, got {shortened(one.duration)}")
+        raise InputError(f"{name} must be above 0, the least first, got {shortened(segment.duration)}")
     return least, most
 
 
-def _displacement(one: CycleSegment, axis: str, where: str, *, here: float, last: float, duration: float) -> float:
-    if isinstance(one, ConstantVelocity):
-        return quantity(one.velocity, AXES[axis][1], f"{where}: velocity") * duration
-    if isinstance(one, Dwell):
+def _displacement(segment: CycleSegment, axis: str, where: str, *, here: float, last: float, duration: float) -> float:
+    if isinstance(segment, ConstantVelocity):
+        return quantity(segment.velocity, AXES[axis][1], f"{where}: velocity") * duration
+    if isinstance(segment, Dwell):
         return 0.0
-    if not isinstance(one, Move | Free):
-        raise InputError(f"{where} must be a Dwell, ConstantVelocity, Move, Rise, Return or Free, got {shortened(one)}")
-    if (one.by is None) == (one.to is None):
-        if one.by is None and isinstance(one, Return):
+    if not isinstance(segment, Move | Free):
+        raise InputError(
+            f"{where} must be a Dwell, ConstantVelocity, Move, Rise, Return or Free, got {shortened(segment)}"
+        )
+    if (segment.by is None) == (segment.to is None):
+        if segment.by is None and isinstance(segment, Return):
             return last - here
         raise InputError(f"{where}: give it either a displacement `by` or a position `to`")
-    if one.to is not None:
-        return quantity(one.to, axis, f"{where}: to") - here
-    moved = quantity(one.by, axis, f"{where}: by")
-    if isinstance(one, Rise | Return) and moved <= 0.0:
-        raise InputError(f"{where}: `by` is given as a positive displacement, got {shortened(one.by)}; or take a Move")
-    return -moved if isinstance(one, Return) else moved
+    if segment.to is not None:
+        return quantity(segment.to, axis, f"{where}: to") - here
+    moved = quantity(segment.by, axis, f"{where}: by")
+    if isinstance(segment, Rise | Return) and moved <= 0.0:
+        raise InputError(
+            f"{where}: `by` is given as a positive displacement, got {shortened(segment.by)}; or take a Move"
+        )
+    return -moved if isinstance(segment, Return) else moved
 
 
 def _check_closed(moved: float, forward: float, stretches: Sequence[Stretch], axis: str) -> None:
-    size = max((abs(one.displacement) for one in stretches), default=0.0)
+    size = max((abs(stretch.displacement) for stretch in stretches), default=0.0)
     if abs(moved - forward) <= CLOSE * max(size, abs(forward)):
         return
-    shown, wanted = (in_small_units(one, axis) for one in (moved, forward))
+    shown, wanted = (in_small_units(angle, axis) for angle in (moved, forward))
     raise InputError(
         f"the positions do not close: the cycle ends {shown} from its start, not {wanted}: change a displacement by "
         f"{in_small_units(forward - moved, axis)}, end with Return(duration=...), or give advance={shown!r} if each"
@@ -202,9 +210,11 @@ def in_small_units(value: float, axis: str) -> str:
     return f"{value * 1e3:.9g} mm" if axis == "length" else f"{value * 360.0 / TURN:.9g} deg"
 
 
-def is_optimal(one: CycleSegment) -> bool:
+def is_optimal(segment: CycleSegment) -> bool:
     """Whether its law is looked for."""
-    return isinstance(one, Free) or (isinstance(one, Move) and isinstance(one.law, str) and one.law == OPTIMAL)
+    return isinstance(segment, Free) or (
+        isinstance(segment, Move) and isinstance(segment.law, str) and segment.law == OPTIMAL
+    )
 
 
 def _positive(value: float, name: str, given: Any) -> float:  # noqa: ANN401

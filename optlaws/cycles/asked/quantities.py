@@ -121,7 +121,7 @@ def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, flo
     for dimension in dimensions:
         if unit.dimensionality == _registry().parse_units(DIMENSIONS[dimension][0]).dimensionality:
             return dimension, quantity(value, dimension, name)
-    kinds = " or ".join(f"{_article(one)} such as {DIMENSIONS[one][1]!r}" for one in dimensions)
+    kinds = " or ".join(f"{_article(kind)} such as {DIMENSIONS[kind][1]!r}" for kind in dimensions)
     raise InputError(f"{name} must be {kinds}, but {shortened(value)} is {_kind(unit)}")
 
 

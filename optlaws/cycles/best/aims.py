@@ -109,12 +109,12 @@ def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tupl
     >>> read_load_limits({"load deflection": "2 mm"}, read_load({"period": "20 ms"}, "length"))
     {('deflection', False): 0.002}
     """
-    found = {}
+    limits = {}
     for name, value in entries.items():
         asked = load_output(name, load)
         if asked is not None and load is not None:
-            found[asked] = load.limit(value, asked[0], f"limits, {name}")
-    return found
+            limits[asked] = load.limit(value, asked[0], f"limits, {name}")
+    return limits
 
 
 def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, float]:
@@ -130,16 +130,16 @@ def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, 
     >>> read_limits({"velocity": "616 mm/s"}, "length", "limits")
     {1: 0.616}
     """
-    found = {}
+    limits = {}
     for name, value in entries.items():
         if name in LIMITS:
-            found[LIMITS[name]] = _above_zero(value, _dimension(LIMITS[name], axis), f"{where}, {name}")
+            limits[LIMITS[name]] = _above_zero(value, _dimension(LIMITS[name], axis), f"{where}, {name}")
             continue
         if where != "limits" and name in MEANS:
             raise InputError(f"{where}, {name} is of the whole cycle: give it among the limits of the Cycle")
         if name not in MEANS and (where != "limits" or not name.removeprefix("rms ").startswith(LOAD)):
             raise InputError(f"{where}: {unknown_key(name, (*LIMITS, *MEANS), 'limit')}")
-    return found
+    return limits
 
 
 def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
@@ -168,16 +168,16 @@ def _dimension(nu: int, axis: str) -> str:
 
 
 def _above_zero(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - it is checked here
-    found = quantity(value, dimension, name)
-    if found <= 0.0:
+    rating = quantity(value, dimension, name)
+    if rating <= 0.0:
         raise InputError(f"{name} must be above 0, got {shortened(value)}")
-    return found
+    return rating
 
 
-def limits_of_stretch(one: Stretch, wanted: Wanted, axis: str) -> dict[int, float]:
+def limits_of_stretch(stretch: Stretch, wanted: Wanted, axis: str) -> dict[int, float]:
     """Limits of a segment by order: its own and those of the whole cycle, whichever is less."""
-    entries = one.given.limits if isinstance(one.given, Move | Free) else {}
-    given = read_limits(entries, axis, f"{one.where}: limits")
+    entries = stretch.given.limits if isinstance(stretch.given, Move | Free) else {}
+    given = read_limits(entries, axis, f"{stretch.where}: limits")
     orders = {*wanted.limits, *given}
     infinite = float("inf")
     return {nu: min(wanted.limits.get(nu, infinite), given.get(nu, infinite)) for nu in sorted(orders)}

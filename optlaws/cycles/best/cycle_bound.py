@@ -40,9 +40,9 @@ def span_bound(span: Span, piece: Piece, solution: Solution, wanted: Wanted) -> 
     if nu not in {FORCE, POWER}:
         return least * abs(factor(piece.stroke, piece.duration, nu))
     driven = driven_mean if mean else partial(driven_peak, nu=nu)
-    found = driven(span, wanted.drive, piece.stroke)
+    effort = driven(span, wanted.drive, piece.stroke)
     # neither a peak nor a mean is below 0, whether or not anything is proven
-    return hypot(max(least, 0.0) * found.unit, sqrt(max(found.friction, 0.0)))
+    return hypot(max(least, 0.0) * effort.unit, sqrt(max(effort.friction, 0.0)))
 
 
 def _taken(piece: Piece, wanted: Wanted) -> float:

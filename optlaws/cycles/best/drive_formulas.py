@@ -132,7 +132,7 @@ def _known(drive: Drive | None) -> Drive:
 def _friction(span: Span, drive: Drive) -> float:
     """What dry friction adds to the mean square of the force of a motion that may turn back, at least."""
     times = zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True)
-    moving = sum(stop - start for one, start, stop in times if not isinstance(one.given, Dwell))
+    moving = sum(stop - start for segment, start, stop in times if not isinstance(segment.given, Dwell))
     gained = 0.0 if span.turns else abs(span.last.velocity) - abs(span.first.velocity)
     positions = [span.offset, *(position for _, position in span.via), span.offset + span.displacement]
     way = sum(abs(after - before) for before, after in pairwise(positions))

@@ -66,10 +66,10 @@ def durations(asked: Programme, wanted: Wanted) -> tuple[float, ...]:
     InfeasibleProblem
         If no durations keep the limits.
     """
-    free = [i for i, one in enumerate(asked.stretches) if not one.fixed]
+    free = [i for i, stretch in enumerate(asked.stretches) if not stretch.fixed]
     if not free:
-        return tuple(one.least for one in asked.stretches)
-    left = asked.period - sum(one.least for one in asked.stretches if one.fixed)
+        return tuple(stretch.least for stretch in asked.stretches)
+    left = asked.period - sum(stretch.least for stretch in asked.stretches if stretch.fixed)
     for i in free:
         _check_rest(asked, i)
     nu, mean = kind_of(wanted.minimise)
@@ -82,14 +82,14 @@ def durations(asked: Programme, wanted: Wanted) -> tuple[float, ...]:
         Share(asked.stretches[i], _cost(asked, i, wanted, nu, mean=mean), _quickest(asked, i, wanted)) for i in free
     ]
     level = _slopes(shares, nu) if mean else [share.cost for share in shares]
-    found = dict(zip(free, _levelled(shares, level, left, asked.period), strict=True))
-    return tuple(found.get(i, one.least) for i, one in enumerate(asked.stretches))
+    given = dict(zip(free, _levelled(shares, level, left, asked.period), strict=True))
+    return tuple(given.get(i, stretch.least) for i, stretch in enumerate(asked.stretches))
 
 
 def _check_rest(asked: Programme, i: int) -> None:
     for j in (i - 1, (i + 1) % len(asked.stretches)):
-        one = asked.stretches[j].given
-        if isinstance(one, ConstantVelocity | Free):
+        given = asked.stretches[j].given
+        if isinstance(given, ConstantVelocity | Free):
             raise InputError(
                 f"{asked.stretches[i].where}: give it a duration: it is free only between dwells and moves, and "
                 f"{asked.stretches[j].where} is none"
@@ -113,25 +113,25 @@ def _cost(asked: Programme, i: int, wanted: Wanted, nu: int, *, mean: bool) -> C
 
 
 def _quickest(asked: Programme, i: int, wanted: Wanted) -> float:
-    one = asked.stretches[i]
-    most = limits_of_stretch(one, wanted, asked.axis).get(1) if is_optimal(one.given) else None
-    return 0.0 if most is None else abs(one.displacement) / most
+    stretch = asked.stretches[i]
+    most = limits_of_stretch(stretch, wanted, asked.axis).get(1) if is_optimal(stretch.given) else None
+    return 0.0 if most is None else abs(stretch.displacement) / most
 
 
 def _shape(asked: Programme, i: int, wanted: Wanted, nu: int, *, mean: bool) -> Callable[[float], float]:
     """The constant of a move's law over its duration: one unless a limit binds; inf where no law keeps it."""
-    one = asked.stretches[i]
-    if not is_optimal(one.given) and isinstance(one.given, Move):
-        law = named_law(one.given.law, one.where)
+    stretch = asked.stretches[i]
+    if not is_optimal(stretch.given) and isinstance(stretch.given, Move):
+        law = named_law(stretch.given.law, stretch.where)
         value = _constant(law, nu, mean=mean)
         return lambda _: value
     offset = asked.start + sum(other.displacement for other in asked.stretches[:i])
     unlimited: list[MotionLaw] = []
 
     def shape(duration: float) -> float:
-        span = Span((one,), (0.0,), duration, offset, one.displacement, _REST, _REST, ())
+        span = Span((stretch,), (0.0,), duration, offset, stretch.displacement, _REST, _REST, ())
         try:
-            problem = span_problem(span, wanted, asked.axis, one.displacement)
+            problem = span_problem(span, wanted, asked.axis, stretch.displacement)
             if not unlimited:
                 unlimited.append(synthesize(replace(problem, B=None, C=None, J=None)).law)
             limits = {order: problem.range(name) for order, name in ((1, "B"), (2, "C"), (3, "J"))}
@@ -175,14 +175,16 @@ def _levelled(
     shares: Sequence[Share], level: Sequence[Callable[[float], float]], left: float, period: float
 ) -> list[float]:
     """Durations at which what falls with each is equal, within their bounds, with the given sum."""
-    bounds = [(max(one.stretch.least, one.quickest, _SHORT * period), min(one.stretch.most, left)) for one in shares]
+    bounds = [
+        (max(part.stretch.least, part.quickest, _SHORT * period), min(part.stretch.most, left)) for part in shares
+    ]
     if sum(low for low, _ in bounds) >= left or any(low > high for low, high in bounds):
         raise InfeasibleProblem(_TOO_FAST)
     level = [cache(fall) for fall in level]
-    found = _by_powers(level, bounds, left) or _by_halves(level, bounds, left)
-    inside = [low < one < high for one, (low, high) in zip(found, bounds, strict=True)]
-    share = (left - sum(found)) / max(sum(inside), 1)
-    return [one + share if within else one for one, within in zip(found, inside, strict=True)]
+    times = _by_powers(level, bounds, left) or _by_halves(level, bounds, left)
+    inside = [low < time < high for time, (low, high) in zip(times, bounds, strict=True)]
+    share = (left - sum(times)) / max(sum(inside), 1)
+    return [time + share if within else time for time, within in zip(times, inside, strict=True)]
 
 
 def _by_powers(
@@ -194,7 +196,7 @@ def _by_powers(
     powers = np.ones(len(level))
     before: tuple[NDArray[np.float64], NDArray[np.float64]] | None = None
     for _ in range(_ROUNDS):
-        values = np.log([fall(one) for fall, one in zip(level, times.tolist(), strict=True)])
+        values = np.log([fall(time) for fall, time in zip(level, times.tolist(), strict=True)])
         if not np.isfinite(values).all():
             return None
         if before is not None:
@@ -203,7 +205,7 @@ def _by_powers(
             powers = np.where(moved, np.clip(-(values - before[1]) / steps, 0.3, 60.0), powers)
         nearer = _shared(np.log(times), values, powers, low, high, left=left)
         if np.abs(nearer - times).max() <= _SAME * left:
-            return [float(one) for one in nearer]
+            return [float(time) for time in nearer]
         before, times = (np.log(times), values), nearer
     return None
 

@@ -33,14 +33,14 @@ def joined_basis(span: Span, order: int, degree: int, minimised: int) -> Pieces:
     >>> len(solution.problem.basis.breaks), solution.problem.basis.degree
     (49, 3)
     """
-    curved = sum(is_optimal(one.given) for one in span.stretches) + len(span.via)
+    curved = sum(is_optimal(stretch.given) for stretch in span.stretches) + len(span.via)
     each = min(2 * (degree + order), _MOST // curved)
     if minimised in _FEW:
         each = min(each, _FEW[minimised] * (degree + order) // 12)
     each = max(1, each)
     breaks, straight = [0.0], list[int]()
-    for one, start, stop in zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True):
-        if not is_optimal(one.given):
+    for stretch, start, stop in zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True):
+        if not is_optimal(stretch.given):
             straight.append(len(breaks) - 1)
             breaks.append(place(span, stop))
             continue

@@ -132,8 +132,8 @@ class _Shared:
     def _least_squares(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
         """What no other laws than these, of least root mean squares, can take less."""
         asked = self._of_force()
-        bounds = (span_bound(span, *one, asked) for span, one in zip(self.layout.spans, laws, strict=True))
-        return sum(one.duration * bound**2 for one, bound in zip(self.layout.spans, bounds, strict=True))
+        bounds = (span_bound(span, *law, asked) for span, law in zip(self.layout.spans, laws, strict=True))
+        return sum(stretch.duration * bound**2 for stretch, bound in zip(self.layout.spans, bounds, strict=True))
 
     def _of_force(self, peak: float = inf) -> Wanted:
         """The least root mean square of the force, where what is minimised is at most a peak."""

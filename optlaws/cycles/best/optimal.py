@@ -117,7 +117,7 @@ def scale(span: Span) -> float:
     if span.displacement:
         return span.displacement
     ways = [abs(position - span.offset) for _, position in span.via]
-    known = (one for one in (span.first, span.last, *span.states) if one is not None)
+    known = (edge_state for edge_state in (span.first, span.last, *span.states) if edge_state is not None)
     ways += [abs(state.velocity) * span.duration for state in known]
     return max(ways, default=0.0)
 
@@ -135,7 +135,7 @@ def span_problem(span: Span, wanted: Wanted, axis: str, stroke: float) -> Proble
     if span.turns or len(span.stretches) > 1 or span.via:
         return _problem_of_several(span, wanted, axis, stroke)
     ends = _ends(span, stroke, wanted.order)
-    plain = not any(any(one[1:]) for one in (ends.start, ends.end))
+    plain = not any(any(end[1:]) for end in (ends.start, ends.end))
     bounds, parts = _limits(span, wanted, axis, stroke)
     forced = kind_of(wanted.minimise)[0] in _DRIVEN or any(constant not in _PEAKS.values() for constant in bounds)
     return Problem(
@@ -183,9 +183,11 @@ def _end(state: State, duration: float, stroke: float, order: int) -> tuple[floa
 def _limits(span: Span, wanted: Wanted, axis: str, stroke: float) -> tuple[dict[Any, Range], tuple[Window, ...]]:
     """Limits of the whole span as bounds of its constants, those of parts of it as windows."""
     _check_mean(span, wanted, axis)
-    of_each = [limits_of_stretch(one, wanted, axis) if is_optimal(one.given) else None for one in span.stretches]
-    sought = [one for one in of_each if one is not None]
-    if all(one == sought[0] for one in sought) and _straight_within(span, sought[0].get(1, inf)):
+    of_each = [
+        limits_of_stretch(stretch, wanted, axis) if is_optimal(stretch.given) else None for stretch in span.stretches
+    ]
+    sought = [limits for limits in of_each if limits is not None]
+    if all(limits == sought[0] for limits in sought) and _straight_within(span, sought[0].get(1, inf)):
         return dict(_bound(span, wanted, stroke, nu, most) for nu, most in sought[0].items()), ()
     windows = []
     for own, start, stop in _alike(of_each, (*span.starts, span.stop)):
@@ -220,7 +222,10 @@ def _of_load(wanted: Wanted, output: str, mean: bool, span: Span) -> Functional:
 def _straight_within(span: Span, most: float) -> bool:
     """Whether uniform motions keep a limit of the velocity."""
     times = zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True)
-    return all(is_optimal(one.given) or abs(one.displacement) <= most * (stop - start) for one, start, stop in times)
+    return all(
+        is_optimal(stretch.given) or abs(stretch.displacement) <= most * (stop - start)
+        for stretch, start, stop in times
+    )
 
 
 def _alike(
@@ -235,12 +240,12 @@ def _alike(
 
 def _check_mean(span: Span, wanted: Wanted, axis: str) -> None:
     """Refuse a limit of the velocity that is no more than the mean velocity: such a law cannot even start from rest."""
-    for one, start, stop in zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True):
-        most = limits_of_stretch(one, wanted, axis).get(1) if is_optimal(one.given) else None
-        mean = abs(one.displacement) / (stop - start)
+    for stretch, start, stop in zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True):
+        most = limits_of_stretch(stretch, wanted, axis).get(1) if is_optimal(stretch.given) else None
+        mean = abs(stretch.displacement) / (stop - start)
         if most is not None and mean >= most:
             raise InfeasibleProblem(
-                f"{one.where}: {in_small_units(abs(one.displacement), axis)} in {stop - start:.9g} s are "
+                f"{stretch.where}: {in_small_units(abs(stretch.displacement), axis)} in {stop - start:.9g} s are "
                 f"{in_small_units(mean, axis)}/s on average, but its velocity is to be at most "
                 f"{in_small_units(most, axis)}/s: give it more time or a wider limit"
             )

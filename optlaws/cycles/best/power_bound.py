@@ -58,21 +58,23 @@ def bound_by_energy(span: Span, wanted: Wanted, stroke: float, solution: Solutio
     if solution.problem.convex or not (least or most) or wanted.drive is None or not _is_plain(span, wanted.drive):
         return solution.lower_bound
     unit = driven_peak(span, wanted.drive, stroke, POWER).unit
-    found = min(solution.objective if least else inf, most / unit if most else inf)
+    ceiling = min(solution.objective if least else inf, most / unit if most else inf)
     try:
-        relaxed = synthesize(_relaxed(solution.problem, _powers(span, wanted.drive, stroke, unit), found, least=least))
+        relaxed = synthesize(
+            _relaxed(solution.problem, _powers(span, wanted.drive, stroke, unit), ceiling, least=least)
+        )
     except (InfeasibleProblem, SolverFailure):
         return solution.lower_bound
     # laws that are faster than the relaxed ones may be take more power than the one found
     return max(solution.lower_bound, min(relaxed.lower_bound, solution.objective))
 
 
-def _relaxed(problem: Problem, powers: _Powers, found: float, *, least: bool) -> Problem:
+def _relaxed(problem: Problem, powers: _Powers, ceiling: float, *, least: bool) -> Problem:
     """The problem with energies in place of the power, among laws that are no faster than so much power makes them."""
-    fastest, known = powers.fastest(found), problem.range("B")
+    fastest, known = powers.fastest(ceiling), problem.range("B")
     energies = powers.energies(fastest, forth=problem.monotone)
     kept = {constant: asked for constant, asked in problem.bounds.items() if constant.convex}
-    bounds: dict[Any, Range] = kept if least else kept | dict.fromkeys(energies, Range(0.0, found))
+    bounds: dict[Any, Range] = kept if least else kept | dict.fromkeys(energies, Range(0.0, ceiling))
     most = Range(0.0, fastest if known is None else min(fastest, known.high))
     minimise = maximum(*energies) if least else problem.minimise
     return replace(problem, minimise=minimise, bounds=bounds, B=most, D=None)

@@ -61,13 +61,13 @@ class Drive:
     def formula(self, stroke: float, duration: float, offset: float, direction: float, unit: float) -> str:
         """The force in a unit, as a formula of a law that moves forth (direction 1), back (-1) or lies still (0)."""
         constant = self.constant + self.stiffness * offset + self.dry * direction
-        factors = [one / unit for one in self._factors(stroke, duration)]
+        factors = [factor / unit for factor in self._factors(stroke, duration)]
         terms = [f"({value!r})*{name}" for value, name in zip(factors, "abc", strict=True) if value]
         return " + ".join([*terms, f"({constant / unit!r})"])
 
     def size(self, stroke: float, duration: float, offset: float) -> float:
         """About how great the force is along a motion: a unit in which it is near 1."""
-        spring, damper, inertia = (abs(one) for one in self._factors(stroke, duration))
+        spring, damper, inertia = (abs(factor) for factor in self._factors(stroke, duration))
         return 4.0 * inertia + 2.0 * damper + spring + abs(self.constant + self.stiffness * offset) + self.dry
 
     def _factors(self, stroke: float, duration: float) -> tuple[float, float, float]:
@@ -100,10 +100,12 @@ def read_drive(entries: Mapping[str, Any], axis: str) -> Drive:
     for key in entries:
         if key not in known:
             raise InputError(f"drive: {unknown_key(key, known)}")
-    found = {key: quantity(value, known[key], f"drive: {key}") for key, value in entries.items()}
+    quantities = {key: quantity(value, known[key], f"drive: {key}") for key, value in entries.items()}
     for key in ("mass", "inertia", "viscous", "dry"):
-        if found.get(key, 0.0) < 0.0:
+        if quantities.get(key, 0.0) < 0.0:
             raise InputError(f"drive: {key} must be at least 0, got {entries[key]!r}")
-    inertia = found.get("mass", 0.0) + found.get("inertia", 0.0)
-    constant = found.get("preload", 0.0) + found.get("gravity", 0.0)
-    return Drive(inertia, found.get("viscous", 0.0), found.get("stiffness", 0.0), constant, found.get("dry", 0.0))
+    inertia = quantities.get("mass", 0.0) + quantities.get("inertia", 0.0)
+    constant = quantities.get("preload", 0.0) + quantities.get("gravity", 0.0)
+    return Drive(
+        inertia, quantities.get("viscous", 0.0), quantities.get("stiffness", 0.0), constant, quantities.get("dry", 0.0)
+    )

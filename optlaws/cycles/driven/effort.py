@@ -106,8 +106,8 @@ def _standstills(piece: Piece, even: Array) -> Array:
     def velocity(time: float) -> float:
         return float(piece.values(np.array([time]), 1)[0])
 
-    found = [brentq(velocity, even[i], even[i + 1], xtol=1e-15) for i in leaps]
-    return np.array(found, dtype=np.float64)
+    standstills = [brentq(velocity, even[i], even[i + 1], xtol=1e-15) for i in leaps]
+    return np.array(standstills, dtype=np.float64)
 
 
 def _peak(piece: Piece, values: Callable[[Array], Array]) -> float:
@@ -122,11 +122,11 @@ def _peak(piece: Piece, values: Callable[[Array], Array]) -> float:
     near = np.abs(values(0.5 * (marks[:-1] + marks[1:])))
     for i in np.argsort(near)[-3:]:
         low, high = marks[max(i - 1, 0)], marks[min(i + 2, len(marks) - 1)]
-        found = minimize_scalar(
+        minimum = minimize_scalar(
             lambda t: -float(abs(values(np.array([t]))[0])), bounds=(low, high), method="bounded",
             options={"xatol": 1e-12 * piece.duration},
         )  # fmt: skip
-        best = max(best, -float(found.fun))
+        best = max(best, -float(minimum.fun))
     return best
 
 

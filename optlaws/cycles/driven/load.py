@@ -60,10 +60,10 @@ class Load:
     def limit(self, value: Any, output: str, name: str) -> float:  # noqa: ANN401 - it is checked here
         """A limit of an output in SI units: with its unit where that is known, else a number."""
         known = self.dimensions.get(output)
-        found = not_negative(value, name) if known is None else quantity(value, known, name)
-        if found <= 0.0:
+        bound = not_negative(value, name) if known is None else quantity(value, known, name)
+        if bound <= 0.0:
             raise InputError(f"{name} must be above 0, got {shortened(value)}")
-        return found
+        return bound
 
 
 def read_load(given: Any, axis: str) -> Load:  # noqa: ANN401 - it is checked here

@@ -133,10 +133,10 @@ def solved(problem: Problem) -> Solution | InfeasibleProblem | SolverFailure:
     # while a law is dragged each problem is next to the last one: a convex one has the same optimum from wherever
     start = _LAST.get(0) if problem.convex else None
     try:
-        found = _LAST[0] = synthesize(problem, start=start)
+        solution = _LAST[0] = synthesize(problem, start=start)
     except (InfeasibleProblem, SolverFailure) as error:
         return error
-    return found
+    return solution
 
 
 def without(problem: Problem, constant: str, **asked: Any) -> Problem:  # noqa: ANN401 - entries of a problem
@@ -150,7 +150,7 @@ def without(problem: Problem, constant: str, **asked: Any) -> Problem:  # noqa: 
     if hasattr(problem, constant):
         free: dict[str, Any] = {constant: None}
         return replace(problem, **free, **asked)
-    others = {one: bound for one, bound in problem.bounds.items() if one.name != constant}
+    others = {name: bound for name, bound in problem.bounds.items() if name.name != constant}
     return replace(problem, bounds=others, **asked)
 
 
@@ -206,5 +206,5 @@ def value(law: MotionLaw, constant: str) -> float:
     >>> value(given_law(AskedLaw(name="cubic")), "C")
     6.0
     """
-    found: float = FUNCTIONALS[constant].value(law)
-    return found
+    number: float = FUNCTIONALS[constant].value(law)
+    return number

@@ -55,24 +55,24 @@ def _answered(question: str) -> dict[str, Any]:
 
 
 def _panels(forces: CamForces) -> list[dict[str, Any]]:
-    found = [
+    panels = [
         _panel("contact force", "N", 1.0, forces.contact_force, forces.contact),
         _panel("torque at the shaft", "N m", 1.0, forces.shaft_torque, forces.torque),
     ]
     if forces.width is not None:
         pressed = _panel("Hertz's pressure", "MPa", _MICRO, forces.contact_pressure, forces.pressure)
-        found.append(pressed | {"peaks": pressed["peaks"][-1:]})
-    return found
+        panels.append(pressed | {"peaks": pressed["peaks"][-1:]})
+    return panels
 
 
-def _panel(name: str, unit: str, factor: float, values: Callable[[Array], Any], found: Enclosure) -> dict[str, Any]:
+def _panel(name: str, unit: str, factor: float, values: Callable[[Array], Any], extremes: Enclosure) -> dict[str, Any]:
     """A curve over the turn with its least and greatest value."""
     angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
-    ends = [(found.least, found.least_at), (found.most, found.most_at)]
+    ends = [(extremes.least, extremes.least_at), (extremes.most, extremes.most_at)]
     marks = [
         {"at": round(degrees(at), 4), "value": value * factor, "text": digits(value * factor, 6)}
         for value, at in ends
-        if abs(value) > _NOTHING * found.peak
+        if abs(value) > _NOTHING * extremes.peak
     ]
     return panel(name, unit, drawn(np.degrees(angles), 4), factor * np.asarray(values(angles)), marks)
 
@@ -91,15 +91,15 @@ def _facts(forces: CamForces) -> list[str]:
     return told
 
 
-def _spring(found: Found) -> list[str]:
+def _spring(bodies: Found) -> list[str]:
     """The least spring, where a range of speeds is asked; or why there is none."""
     try:
-        spring = found.spring
+        spring = bodies.spring
     except (InfeasibleProblem, InputError) as error:
         return [f"no spring: {error.args[0]}"]
     if spring is None:
         return []
-    axis = found.cam.displacement.axis
+    axis = bodies.cam.displacement.axis
     preload = 0.0 if abs(spring.preload) <= _NOTHING * spring.greatest else spring.preload
     sizes = f"{digits(spring.stiffness, 6)} {_STIFFNESS[axis]}, preload {digits(preload, 6)} {_FORCE[axis]}"
     return [

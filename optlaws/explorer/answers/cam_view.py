@@ -109,7 +109,9 @@ def _frames(cam: DiscCam, angles: Array) -> dict[str, Any]:
     return {
         "centre": _points(_as_seen(cam, angles, np.asarray(cam.pitch_curve(angles)))),
         "contact": _points(_as_seen(cam, angles, np.asarray(cam.profile(angles)))),
-        "edge": [drawn(one, 6) for one in _as_seen(cam, angles, np.asarray(cam.profile.tangent(angles)))],
+        "edge": [
+            drawn(coordinates, 6) for coordinates in _as_seen(cam, angles, np.asarray(cam.profile.tangent(angles)))
+        ],
     }
 
 
@@ -155,29 +157,29 @@ def panel(name: str, unit: str, turns: Any, values: Array, peaks: list[dict[str,
     return {"name": name, "unit": unit, "at": turns, "values": drawn(values), "limits": [], "peaks": peaks}
 
 
-def _mark(one: Extreme, factor: float, signed_by: DiscCam | None = None) -> dict[str, Any]:
-    value = one.value
+def _mark(extreme: Extreme, factor: float, signed_by: DiscCam | None = None) -> dict[str, Any]:
+    value = extreme.value
     if signed_by is not None:
-        value = float(np.copysign(value, signed_by.pressure_angle(one.angle)))
-    return {"at": round(degrees(one.angle), 4), "value": value * factor, "text": digits(value * factor, 6)}
+        value = float(np.copysign(value, signed_by.pressure_angle(extreme.angle)))
+    return {"at": round(degrees(extreme.angle), 4), "value": value * factor, "text": digits(value * factor, 6)}
 
 
 def _trust(cam: DiscCam) -> dict[str, Any]:
     """What is proven of the cam, in words; extremes are enclosed over the whole turn."""
-    found = cam.extremes
-    word, status = _HEARD[found.undercut.status]
+    extremes = cam.extremes
+    word, status = _HEARD[extremes.undercut.status]
     facts = [
-        f"greatest pressure angle {_told(found.greatest_pressure_angle, degrees(1.0), 'deg')}",
-        f"least radius of curvature {_told(found.bulging_radius, _MILLI, 'mm')}",
+        f"greatest pressure angle {_told(extremes.greatest_pressure_angle, degrees(1.0), 'deg')}",
+        f"least radius of curvature {_told(extremes.bulging_radius, _MILLI, 'mm')}",
     ]
-    if found.hollow_radius is not None:
-        facts.append(f"hollow with a radius of {_told(found.hollow_radius, _MILLI, 'mm')}: a cutter must be smaller")
-    text = str(found.undercut)
+    if extremes.hollow_radius is not None:
+        facts.append(f"hollow with a radius of {_told(extremes.hollow_radius, _MILLI, 'mm')}: a cutter must be smaller")
+    text = str(extremes.undercut)
     return {"status": status, "word": word, "advice": f"{text[0].upper()}{text[1:]}.", "gap": "", "facts": facts}
 
 
-def _told(one: Extreme, factor: float, unit: str) -> str:
-    return f"{digits(one.value * factor)} {unit} at {digits(degrees(one.angle), 5)} deg"
+def _told(extreme: Extreme, factor: float, unit: str) -> str:
+    return f"{digits(extreme.value * factor)} {unit} at {digits(degrees(extreme.angle), 5)} deg"
 
 
 def sizes(asked: AskedCam) -> dict[str, Any]:
@@ -188,7 +190,7 @@ def sizes(asked: AskedCam) -> dict[str, Any]:
     >>> sizes(AskedCam(study=example()))["facts"]
     ['least base circle that keeps these limits: 58.60757 mm, by the pressure angle']
     """
-    others = {name: one for name, one in asked.study.items() if name not in {"cutter_radius", "title", "text"}}
+    others = {name: value for name, value in asked.study.items() if name not in {"cutter_radius", "title", "text"}}
     return {"facts": list(_least(json.dumps(others | {"title": "a cam"}, sort_keys=True)))}
 
 

@@ -83,9 +83,9 @@ def check_axis(axis: Axis) -> None:
     """
     if axis.order > MOST_ORDER or axis.degree > MOST_DEGREE:
         raise InputError(f"the explorer takes cycles of order up to {MOST_ORDER} and degree up to {MOST_DEGREE}")
-    for one in axis.segment:
-        if one.law is not None and reading.is_file(one.law):
-            raise InputError(f"law: {one.law} names a file, and the page reads none: take a law of the catalogue")
+    for segment in axis.segment:
+        if segment.law is not None and reading.is_file(segment.law):
+            raise InputError(f"law: {segment.law} names a file, and the page reads none: take a law of the catalogue")
 
 
 def cycle(asked: AskedCycle) -> Cycle:
@@ -141,11 +141,15 @@ def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
     for piece in shown.pieces:
         breaks = piece.start + piece.duration * np.array(piece.law.breaks)
         times = np.unique(np.concatenate([np.linspace(piece.start, piece.stop, _EACH), breaks]))
-        places += [_degrees(shown, one) for one in times.tolist()]
+        places += [_degrees(shown, time) for time in times.tolist()]
         values += drawn(factor * piece.values(times, nu))
     limits = [
-        {"from": _degrees(shown, one.start), "to": _degrees(shown, one.start + one.duration), "value": own[nu] * factor}
-        for one, own in zip(shown.peaks, _limits(shown), strict=True)
+        {
+            "from": _degrees(shown, peak.start),
+            "to": _degrees(shown, peak.start + peak.duration),
+            "value": own[nu] * factor,
+        }
+        for peak, own in zip(shown.peaks, _limits(shown), strict=True)
         if nu in own
     ]
     name = QUANTITIES[nu]
@@ -155,8 +159,8 @@ def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
 def _peaks(shown: Cycle, nu: int) -> list[dict[str, Any]]:
     """The least and the greatest value of the cycle."""
     factor = UNITS[shown.axis][nu][1]
-    low = min((one.extremes[nu][0] for one in shown.peaks), key=lambda pair: pair[0])
-    high = max((one.extremes[nu][1] for one in shown.peaks), key=lambda pair: pair[0])
+    low = min((peak.extremes[nu][0] for peak in shown.peaks), key=lambda pair: pair[0])
+    high = max((peak.extremes[nu][1] for peak in shown.peaks), key=lambda pair: pair[0])
     seen = [pair for pair in (low, high) if abs(pair[0]) > _ROUNDING * shown.peak(nu)]
     return [
         {"at": _degrees(shown, time), "value": value * factor, "text": digits(value * factor, 6)}
@@ -166,20 +170,20 @@ def _peaks(shown: Cycle, nu: int) -> list[dict[str, Any]]:
 
 def _segments(shown: Cycle) -> Iterator[dict[str, Any]]:
     units = UNITS[shown.axis]
-    for one, own, stretch in zip(shown.peaks, _limits(shown), shown.programme.stretches, strict=True):
+    for peak, own, stretch in zip(shown.peaks, _limits(shown), shown.programme.stretches, strict=True):
         peaks = [
             {
-                "text": _plain(one.peak(nu) * units[nu][1], shown.peak(nu) * units[nu][1]),
-                "beyond": one.peak(nu) > own.get(nu, inf) * _KEPT,
+                "text": _plain(peak.peak(nu) * units[nu][1], shown.peak(nu) * units[nu][1]),
+                "beyond": peak.peak(nu) > own.get(nu, inf) * _KEPT,
             }
             for nu in (1, 2, 3)
         ]
         yield {
-            "name": one.name,
-            "from": digits(_degrees(shown, one.start), 6),
-            "to": digits(_degrees(shown, one.start + one.duration), 6),
-            "at": [_degrees(shown, one.start), _degrees(shown, one.start + one.duration)],
-            "time": digits(1e3 * one.duration, 6),
+            "name": peak.name,
+            "from": digits(_degrees(shown, peak.start), 6),
+            "to": digits(_degrees(shown, peak.start + peak.duration), 6),
+            "at": [_degrees(shown, peak.start), _degrees(shown, peak.start + peak.duration)],
+            "time": digits(1e3 * peak.duration, 6),
             "by": _plain(stretch.displacement * units[0][1], shown.peak(0) * units[0][1]),
             "peaks": peaks,
         }

@@ -80,8 +80,8 @@ def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
 
     Examples
     --------
-    >>> found = front(Problem(order=4), "B", "C")
-    >>> found["words"], len(found["line"]) > 30
+    >>> shown = front(Problem(order=4), "B", "C")
+    >>> shown["words"], len(shown["line"]) > 30
     ('least C at each B: proven at every point', True)
     """
     span = _span(problem, x)
@@ -103,10 +103,10 @@ def _span(problem: Problem, x: str) -> tuple[float, float] | None:
             return None
         ends = max(low, least), high if greatest is None else min(high, greatest)
     else:
-        found = solved(replace(problem, minimise=x))
-        if not isinstance(found, Solution):
+        optimum = solved(replace(problem, minimise=x))
+        if not isinstance(optimum, Solution):
             return None
-        ends = max(low, found.objective * (1.0 + _ROOM)), high
+        ends = max(low, optimum.objective * (1.0 + _ROOM)), high
     return ends if ends[0] < ends[1] else None
 
 
@@ -123,8 +123,8 @@ def _at_most(value: float) -> Range:
 
 def _places(laws: SolutionArray, x: str, y: str) -> list[Place]:
     """Constants of the laws themselves; a law whose bound of x does not bind stands where its own x is."""
-    found = np.column_stack([getattr(laws, x), getattr(laws, y)])
-    return [[round(one, 7) for one in row] for row in found[~np.isnan(laws.objective)].tolist()]
+    points = np.column_stack([getattr(laws, x), getattr(laws, y)])
+    return [[round(value, 7) for value in row] for row in points[~np.isnan(laws.objective)].tolist()]
 
 
 def _proven(laws: SolutionArray) -> bool:
@@ -150,8 +150,8 @@ def _limits(problem: Problem, x: str, y: str) -> list[Place]:
     if x != "B" or str(problem.minimise) != y:
         return []
     values = [B for B in np.linspace(*RANGES[x], _LIMITS).tolist() if _jerk_allows(problem, B)]
-    found = [(B, known_limit(replace(problem, B=B))) for B in values]
-    return [[round(B, 6), round(least, 6)] for B, least in found if least is not None]
+    limits = [(B, known_limit(replace(problem, B=B))) for B in values]
+    return [[round(B, 6), round(least, 6)] for B, least in limits if least is not None]
 
 
 def _jerk_allows(problem: Problem, B: float) -> bool:

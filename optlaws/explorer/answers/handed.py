@@ -35,7 +35,7 @@ def formats() -> list[dict[str, Any]]:
 
     Examples
     --------
-    >>> next(one["target"] for one in formats() if one["name"] == "codesys-xyva")
+    >>> next(entry["target"] for entry in formats() if entry["name"] == "codesys-xyva")
     'CODESYS SoftMotion, SMC_CAMXYVA in MC_CAM_REF'
     """
     from optlaws.exports import format as known

@@ -24,22 +24,22 @@ def points(x: str, y: str) -> list[dict[str, Any]]:
 
     Examples
     --------
-    >>> next(one["text"] for one in points("B", "C") if one["name"] == "cycloidal")
+    >>> next(entry["text"] for entry in points("B", "C") if entry["name"] == "cycloidal")
     'cycloidal: B = 2, C = 6.28319'
     """
-    found = []
+    points = []
     for name in catalogue:
         law = catalogue[name].law
         place = _place(law, x, y)
         if place is not None:
             text = f"{name}: {x} = {digits(place[0], 6)}, {y} = {digits(place[1], 6)}"
-            found.append({"name": name, "at": place, "text": text, "named": name in NAMED})
-    return found
+            points.append({"name": name, "at": place, "text": text, "named": name in NAMED})
+    return points
 
 
 def _place(law: MotionLaw, x: str, y: str) -> tuple[float, float] | None:
     pair = value(law, x), value(law, y)
-    return pair if all(bounded(one) is not None for one in pair) and pair[1] > 0.0 else None
+    return pair if all(bounded(number) is not None for number in pair) and pair[1] > 0.0 else None
 
 
 @cache
@@ -48,14 +48,14 @@ def families(x: str, y: str) -> list[dict[str, Any]]:
 
     Examples
     --------
-    >>> [one["name"] for one in families("B", "C")]
+    >>> [entry["name"] for entry in families("B", "C")]
     ['I', 'II', 'III', 'IV']
     """
-    found = []
+    lines = []
     for name in FAMILIES:
         family = SavinFamily.of(name)
         low, high = map(float, family.range)
         laws = [family.law(alpha) for alpha in np.linspace(low, high, _MEMBERS).tolist()]
         columns = [drawn(np.array([value(law, constant) for law in laws]), 5) for constant in (x, y)]
-        found.append({"name": name, "line": [list(one) for one in zip(*columns, strict=True)]})
-    return found
+        lines.append({"name": name, "line": [list(column) for column in zip(*columns, strict=True)]})
+    return lines

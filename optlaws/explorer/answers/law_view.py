@@ -27,7 +27,7 @@ _LONG_NUMBER = re.compile(r"\d+\.\d{4,}")
 
 def answer(asked: AskedLaws) -> dict[str, Any]:
     """A view of each law, or why there is none."""
-    return {"laws": [view(msgspec.json.encode(one)) for one in asked.laws]}
+    return {"laws": [view(msgspec.json.encode(law)) for law in asked.laws]}
 
 
 @lru_cache(maxsize=256)
@@ -65,11 +65,11 @@ def _given(asked: AskedLaw) -> dict[str, Any]:
 
 def _optimal(asked: AskedLaw) -> dict[str, Any]:
     problem = problem_of(asked)
-    found = solved(problem)
+    solution = solved(problem)
     name = {"title": asked.title or title(problem)}
-    if not isinstance(found, Solution):
-        return name | {"refused": refusal(found)}
-    return name | {"trust": trust(found)} | shown(found.law)
+    if not isinstance(solution, Solution):
+        return name | {"refused": refusal(solution)}
+    return name | {"trust": trust(solution)} | shown(solution.law)
 
 
 def title(problem: Problem) -> str:
@@ -93,7 +93,7 @@ def wanted(problem: Problem) -> str:
     >>> wanted(Problem(order=4, minimise="C/4 + D/2.25"))
     '0.25*C + 0.4444*D'
     """
-    return _LONG_NUMBER.sub(lambda found: f"{float(found[0]):.4g}", problem.titled(str(problem.minimise)))
+    return _LONG_NUMBER.sub(lambda match: f"{float(match[0]):.4g}", problem.titled(str(problem.minimise)))
 
 
 def _ranges(problem: Problem) -> list[tuple[str, Any]]:
@@ -154,20 +154,24 @@ def drawn(values: NDArray[np.float64], decimals: int = _DRAWN) -> list[float | N
     [1.234568, None]
     """
     rounded = np.round(values, decimals)
-    found: list[float | None] = rounded.tolist()
-    return found if np.isfinite(rounded).all() else [one if isfinite(one) else None for one in rounded.tolist()]
+    drawn_values: list[float | None] = rounded.tolist()
+    return (
+        drawn_values
+        if np.isfinite(rounded).all()
+        else [value if isfinite(value) else None for value in rounded.tolist()]
+    )
 
 
 def peaks(law: MotionLaw) -> dict[str, list[dict[str, Any]]]:
     """The least and the greatest value of each curve but a, where they are finite and not 0."""
-    found = {letter: law.extrema(nu) for letter, nu in _ORDERS.items() if nu}
-    found["d"] = law.power_extrema()
-    return {letter: [_mark(one) for one in pair if _seen(one, pair)] for letter, pair in found.items()}
+    extremes = {letter: law.extrema(nu) for letter, nu in _ORDERS.items() if nu}
+    extremes["d"] = law.power_extrema()
+    return {letter: [_mark(extreme) for extreme in pair if _seen(extreme, pair)] for letter, pair in extremes.items()}
 
 
-def _seen(one: Peak, pair: tuple[Peak, Peak]) -> bool:
+def _seen(extreme: Peak, pair: tuple[Peak, Peak]) -> bool:
     size = max(abs(other.value) for other in pair)
-    return bounded(one.value) is not None and abs(one.value) > 1e-9 * size
+    return bounded(extreme.value) is not None and abs(extreme.value) > 1e-9 * size
 
 
 def _mark(peak: Peak) -> dict[str, Any]:

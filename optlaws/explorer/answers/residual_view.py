@@ -30,12 +30,12 @@ def answer(asked: AskedResidual) -> dict[str, Any]:
 
     Examples
     --------
-    >>> found = answer(AskedResidual(laws=[AskedLaw(name="cycloidal")], nu=20.0))
-    >>> found["laws"][0]["text"]
+    >>> answered = answer(AskedResidual(laws=[AskedLaw(name="cycloidal")], nu=20.0))
+    >>> answered["laws"][0]["text"]
     '2.38289'
     """
     nu = np.linspace(_LOW, asked.most, _COUNT)
-    return {"nu": drawn(nu), "laws": [_spectrum(one, nu, asked) for one in asked.laws], "at": asked.nu}
+    return {"nu": drawn(nu), "laws": [_spectrum(law, nu, asked) for law in asked.laws], "at": asked.nu}
 
 
 def _spectrum(asked: AskedLaw, nu: Any, follower: AskedResidual) -> dict[str, Any] | None:  # noqa: ANN401 - an array

@@ -190,7 +190,7 @@ def problem_file(law: AskedLaw) -> str:
     entries = problem.to_dict()
     swept = "B" if isinstance(entries.get("B"), float) else "order"
     value = entries.pop(swept)
-    entries = {name: _bounds(one) for name, one in entries.items()}
+    entries = {name: _bounds(entry) for name, entry in entries.items()}
     return to_toml({"job": "solutions", "title": title(problem), "problem": entries, "sweep": [{swept: [value]}]})
 
 
@@ -198,14 +198,14 @@ def _bounds(value: Any) -> Any:  # noqa: ANN401 - an entry
     """A range without an upper end has none in JSON, but an infinite one in a file."""
     if isinstance(value, list) and len(value) == 2 and value[1] is None:
         return [value[0], float("inf")]
-    return {name: _bounds(one) for name, one in value.items()} if isinstance(value, dict) else value
+    return {name: _bounds(entry) for name, entry in value.items()} if isinstance(value, dict) else value
 
 
 def stored(law: AskedLaw) -> str:
     """The law as JSON; a solution with its problem and its proof, for `optlaws verify`."""
-    found = solved(problem_of(law)) if law.problem is not None else None
-    data = found.to_dict() if isinstance(found, Solution) else law_of(law).to_dict()
-    return json.dumps({"about": MARK, **data} if isinstance(found, Solution) else data, indent=1) + "\n"
+    solution = solved(problem_of(law)) if law.problem is not None else None
+    data = solution.to_dict() if isinstance(solution, Solution) else law_of(law).to_dict()
+    return json.dumps({"about": MARK, **data} if isinstance(solution, Solution) else data, indent=1) + "\n"
 
 
 def _of_cycle(asked: AskedFile) -> File:
@@ -251,7 +251,7 @@ def cycle_python(cycle: Cycle, follower: AskedFollower | None = None) -> str:
     asked = {name: getattr(cycle, name) for name in ("speed", "period", "minimise", "limits", "start", "advance")}
     asked |= {"drive": cycle.drive, "order": cycle.order, "degree": cycle.degree}
     given = ", ".join(f"{name}={value!r}" for name, value in asked.items() if value not in (None, {}))
-    segments = "\n".join(f"    {one!r}," for one in cycle.segments)
+    segments = "\n".join(f"    {segment!r}," for segment in cycle.segments)
     lines = [
         f"segments = [\n{segments}\n]",
         f"cycle = Cycle(segments, {given})"

@@ -64,15 +64,15 @@ def _moved(cam: DiscCam) -> tuple[str, str]:
     off = np.asarray(cam.displacement(angles)) - float(cam.displacement(float(angles[0])))
     if isinstance(cam.contact, SwingingRoller | SwingingFace):
         pivot = f"{_MILLI * cam.contact.distance:.3f} 0"
-        return "rotate", ";".join(f"{np.degrees(one):.4f} {pivot}" for one in off)
-    return "translate", ";".join(f"0 {-_MILLI * one:.4f}" for one in off)
+        return "rotate", ";".join(f"{np.degrees(angle):.4f} {pivot}" for angle in off)
+    return "translate", ";".join(f"0 {-_MILLI * length:.4f}" for length in off)
 
 
 def _follower(cam: DiscCam) -> str:
     """The follower as it is at first."""
     contact, first = cam.contact, np.array(cam.displacement.interval[0])
     s = cam.displacement.jet(first, 2)
-    x, y = (_MILLI * float(one.terms[0]) for one in contact.point(s))
+    x, y = (_MILLI * float(coordinate.terms[0]) for coordinate in contact.point(s))
     if not contact.roller:
         normal = contact.normal(s)
         along = (

@@ -22,14 +22,14 @@ _HEADINGS = ("what", "value", "no laws are below", "unit", "status")
 
 def told(cams: Cams) -> dict[str, Any]:
     """What a program is told, in SI units; nothing where the laws are those of the cycle."""
-    found = cams.best
-    if found is None:
+    best = cams.best
+    if best is None:
         return {}
-    if isinstance(found, BestCam):
-        said = {"minimise": cams.cycle.minimise, "objective": found.objective, "status": found.status.value}
-        return {"best": said | {"lower_bound": found.lower_bound}}
-    radius = {"minimise": "base circle", "objective": found.least.radius, "status": _status_of_size(cams)}
-    return {"best": radius | {"lower_bound": found.lower_bound}}
+    if isinstance(best, BestCam):
+        said = {"minimise": cams.cycle.minimise, "objective": best.objective, "status": best.status.value}
+        return {"best": said | {"lower_bound": best.lower_bound}}
+    radius = {"minimise": "base circle", "objective": best.least.radius, "status": _status_of_size(cams)}
+    return {"best": radius | {"lower_bound": best.lower_bound}}
 
 
 def limits_of(cams: Cams, spec: Study) -> Limits:
@@ -45,19 +45,19 @@ def limits_of(cams: Cams, spec: Study) -> Limits:
 
 def add(page: Page, cams: Cams, spec: Study) -> None:
     """Put what was found on the page."""
-    found = cams.best
-    if found is None:
+    best = cams.best
+    if best is None:
         return
     page.heading("Laws for the cam")
-    if isinstance(found, BestCam):
-        page.table(_HEADINGS, _law_rows(cams, found), digits=_DIGITS)
+    if isinstance(best, BestCam):
+        page.table(_HEADINGS, _law_rows(cams, best), digits=_DIGITS)
         return
-    least = found.least
+    least = best.least
     rows: list[list[tables.Cell]] = [
         [
             "least base circle of all laws",
             _MILLI * least.radius,
-            _MILLI * found.lower_bound,
+            _MILLI * best.lower_bound,
             "mm",
             _status_of_size(cams),
         ]
@@ -68,20 +68,20 @@ def add(page: Page, cams: Cams, spec: Study) -> None:
     page.table(_HEADINGS, rows, digits=_DIGITS)
 
 
-def _law_rows(cams: Cams, found: BestCam) -> list[list[tables.Cell]]:
+def _law_rows(cams: Cams, best: BestCam) -> list[list[tables.Cell]]:
     name, unit = cams.cycle.minimise, objective_unit(cams.cycle)
     return [
-        [f"least {name} under the limits of the cam", found.objective, found.lower_bound, unit, found.status.value],
+        [f"least {name} under the limits of the cam", best.objective, best.lower_bound, unit, best.status.value],
         [f"least {name} without them", cams.cycle.objective, cams.cycle.lower_bound, unit, cams.cycle.status.value],
     ]
 
 
 def _status_of_size(cams: Cams) -> str:
-    found = cams.best
-    assert found is not None  # noqa: S101 - it was asked for
-    if isinstance(found, BestCam):
-        return found.status.value
-    met = found.least.radius - found.lower_bound <= _MET * found.least.radius
+    best = cams.best
+    assert best is not None  # noqa: S101 - it was asked for
+    if isinstance(best, BestCam):
+        return best.status.value
+    met = best.least.radius - best.lower_bound <= _MET * best.least.radius
     return "optimal" if met else "local"
 
 

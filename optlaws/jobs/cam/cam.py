@@ -35,18 +35,18 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         return barrels.run(data, file, out)
     spec, cams = read(data, file)
     cam, about = cams.first, f"{spec.title}; from {file.name}"
-    found, sizes = Found(spec, cam, cams.cycle), Sizes(spec, cams)
-    stored = {"about": f"{about}; {writing.MARK}", **_told(cams, found, sizes)}
+    findings, sizes = Found(spec, cam, cams.cycle), Sizes(spec, cams)
+    stored = {"about": f"{about}; {writing.MARK}", **_told(cams, findings, sizes)}
     texts = {
-        "cam.md": str(page(spec, cams, found, sizes)),
+        "cam.md": str(page(spec, cams, findings, sizes)),
         "cam.json": json.dumps(stored, indent=1) + "\n",
         "cam.csv": tables.to_csv(_columns(spec, cams), _rows(spec, cams), about=about),
     }
-    drawn = figures(found, spec.title) | pair.figures(cams, spec.title)
+    drawn = figures(findings, spec.title) | pair.figures(cams, spec.title)
     return [
         *(writing.write(out / name, text) for name, text in texts.items()),
         *drawing.save_pictures(drawn, out),
-        *files(found, out, about),
+        *files(findings, out, about),
         *pair.files(cams, spec.file, out, about),
     ]
 
@@ -66,16 +66,16 @@ def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
 
 
 def _told(cams: Cams, found_beside: Found, sizes: Sizes) -> dict[str, Any]:
-    found = cams.first.extremes
-    undercut, limits = found.undercut, sizes.limits
+    extremes = cams.first.extremes
+    undercut, limits = extremes.undercut, sizes.limits
     told: dict[str, Any] = {
         "unit": "SI",
         **best.told(cams),
-        "greatest_pressure_angle": enclosure(found.greatest_pressure_angle, limits.pressure),
-        "least_pressure_angle": enclosure(found.pressure_angles[0], limits.pressure),
-        "largest_pressure_angle": enclosure(found.pressure_angles[1], limits.pressure),
-        "bulging_radius": enclosure(found.bulging_radius, limits.radius),
-        "hollow_radius": None if found.hollow_radius is None else enclosure(found.hollow_radius),
+        "greatest_pressure_angle": enclosure(extremes.greatest_pressure_angle, limits.pressure),
+        "least_pressure_angle": enclosure(extremes.pressure_angles[0], limits.pressure),
+        "largest_pressure_angle": enclosure(extremes.pressure_angles[1], limits.pressure),
+        "bulging_radius": enclosure(extremes.bulging_radius, limits.radius),
+        "hollow_radius": None if extremes.hollow_radius is None else enclosure(extremes.hollow_radius),
         "undercut": {"status": undercut.status, "simple": undercut.simple},
     }
     least, roller = sizes.least, sizes.roller
@@ -171,10 +171,10 @@ def _rows(spec: Study, cams: Cams) -> list[list[tables.Cell]]:
     cam, turns = cams.first, np.linspace(0.0, _TURN, spec.rows)
     angles = np.radians(turns)
     curves: list[PlaneCurve] = []
-    for one in (cam, cams.second):
-        if one is not None:
-            curves += [one.pitch_curve, one.profile]
-            curves += [one.cutter_path(spec.cutter_radius)] if spec.cutter_radius else []
+    for disc in (cam, cams.second):
+        if disc is not None:
+            curves += [disc.pitch_curve, disc.profile]
+            curves += [disc.cutter_path(spec.cutter_radius)] if spec.cutter_radius else []
     columns = [
         turns,
         cam.displacement(angles),

@@ -38,21 +38,21 @@ class Limits:
 
 def extreme_rows(cam: DiscCam, limits: Limits) -> list[list[tables.Cell]]:
     """Rows of a table of extreme pressure angles and radii of curvature."""
-    found = cam.extremes
+    extremes = cam.extremes
     angles = [
-        ("greatest pressure angle", found.greatest_pressure_angle),
-        ("pressure angle, least", found.pressure_angles[0]),
-        ("pressure angle, greatest", found.pressure_angles[1]),
+        ("greatest pressure angle", extremes.greatest_pressure_angle),
+        ("pressure angle, least", extremes.pressure_angles[0]),
+        ("pressure angle, greatest", extremes.pressure_angles[1]),
     ]
-    seen = [(name, one) for name, one in angles if found.greatest_pressure_angle.value > _NOTHING]
-    rows = [extreme_row(name, one, degrees(1.0), "deg", limits.pressure) for name, one in seen]
-    rows.append(extreme_row("least radius of curvature, bulging", found.bulging_radius, _MILLI, "mm", limits.radius))
-    if found.hollow_radius is not None:
-        rows.append(extreme_row("least radius of curvature, hollow", found.hollow_radius, _MILLI, "mm"))
+    seen = [(name, extreme) for name, extreme in angles if extremes.greatest_pressure_angle.value > _NOTHING]
+    rows = [extreme_row(name, extreme, degrees(1.0), "deg", limits.pressure) for name, extreme in seen]
+    rows.append(extreme_row("least radius of curvature, bulging", extremes.bulging_radius, _MILLI, "mm", limits.radius))
+    if extremes.hollow_radius is not None:
+        rows.append(extreme_row("least radius of curvature, hollow", extremes.hollow_radius, _MILLI, "mm"))
     return rows
 
 
-def extreme_row(name: str, one: Extreme, factor: float, unit: str, limit: float | None = None) -> list[tables.Cell]:
+def extreme_row(name: str, extreme: Extreme, factor: float, unit: str, limit: float | None = None) -> list[tables.Cell]:
     """One of them, in a unit of so many to the SI unit; its angle is left out where it is a limit that laws touch.
 
     Examples
@@ -60,18 +60,18 @@ def extreme_row(name: str, one: Extreme, factor: float, unit: str, limit: float 
     >>> extreme_row("radius", Extreme(0.01, 0.01, 0.0), 1e3, "mm")
     ['radius', 10.0, 10.0, 'mm', 0.0]
     """
-    low, high = (plain(factor * value) for value in (one.low, one.high))
-    return [name, low, high if np.isfinite(high) else None, unit, _angle(one, limit, degrees(one.angle))]
+    low, high = (plain(factor * value) for value in (extreme.low, extreme.high))
+    return [name, low, high if np.isfinite(high) else None, unit, _angle(extreme, limit, degrees(extreme.angle))]
 
 
-def enclosure(one: Extreme, limit: float | None = None) -> dict[str, float | None]:
+def enclosure(extreme: Extreme, limit: float | None = None) -> dict[str, float | None]:
     """One of them for a program, in SI units."""
-    high = one.high if np.isfinite(one.high) else None
-    return {"low": one.low, "high": high, "angle": _angle(one, limit, one.angle)}
+    high = extreme.high if np.isfinite(extreme.high) else None
+    return {"low": extreme.low, "high": high, "angle": _angle(extreme, limit, extreme.angle)}
 
 
-def _angle(one: Extreme, limit: float | None, angle: float) -> float | None:
-    return None if Limits.reached(one.value, limit) else angle
+def _angle(extreme: Extreme, limit: float | None, angle: float) -> float | None:
+    return None if Limits.reached(extreme.value, limit) else angle
 
 
 def plain(value: float) -> float:

@@ -102,12 +102,12 @@ def check(spec: More, cam: DiscCam, cycle: Cycle) -> None:
     InputError
         If an entry of a file is wrong, or forces have no drive.
     """
-    for one in spec.file:
-        if Path(one.name).name != one.name:
-            raise InputError(f"file: name must be that of a file in the folder of results, got {one.name!r}")
-        writing.check_name(Path(one.name))
-        format_of(Path(one.name), one.format)
-        entries = one.asked()
+    for entry in spec.file:
+        if Path(entry.name).name != entry.name:
+            raise InputError(f"file: name must be that of a file in the folder of results, got {entry.name!r}")
+        writing.check_name(Path(entry.name))
+        format_of(Path(entry.name), entry.format)
+        entries = entry.asked()
         curve_of(cam, entries.pop("curve", None), entries.pop("cutter_radius", None))
         Cutting(**entries)
     forces_of(spec, cam, cycle)
@@ -153,27 +153,27 @@ class Found:
         asked, cam = self.spec.as_made, self.cam
         if asked is None:
             return {}
-        found: dict[str, AsMade | None] = {}
+        made: dict[str, AsMade | None] = {}
         for points in asked.points:
             for decimals in asked.decimals:
                 table: dict[str, Any] = {"curve": asked.curve, "points": points, "decimals": decimals}
                 name = f"{points} points of the {asked.curve}, {decimals} decimals of a mm"
-                found[name] = _tried(partial(as_made, cam, "csv", **table))
+                made[name] = _tried(partial(as_made, cam, "csv", **table))
         for waves in asked.waves if asked.error else ():
             name = f"error of {asked.error}, {waves} waves a turn"
-            found[name] = _tried(partial(with_error, cam, asked.error, waves))
-        return found
+            made[name] = _tried(partial(with_error, cam, asked.error, waves))
+        return made
 
     def told(self) -> dict[str, Any]:
         """What a program is told, in SI units."""
-        found: dict[str, Any] = {}
+        data: dict[str, Any] = {}
         if self.forces is not None:
-            found["forces"] = self.forces.to_dict()
+            data["forces"] = self.forces.to_dict()
         if self.spring is not None:
-            found["spring"] = self.spring.to_dict()
+            data["spring"] = self.spring.to_dict()
         if self.made:
-            found["as_made"] = {name: None if one is None else one.to_dict() for name, one in self.made.items()}
-        return found
+            data["as_made"] = {name: None if peaks is None else peaks.to_dict() for name, peaks in self.made.items()}
+        return data
 
 
 def _tried(run: Callable[[], AsMade]) -> AsMade | None:
@@ -183,9 +183,9 @@ def _tried(run: Callable[[], AsMade]) -> AsMade | None:
         return None
 
 
-def add(page: Page, found: Found) -> Page:
+def add(page: Page, findings: Found) -> Page:
     """The page with what was asked beside the geometry."""
-    forces, spring, cam = found.forces, found.spring, found.cam
+    forces, spring, cam = findings.forces, findings.spring, findings.cam
     if forces is not None:
         page.heading("Forces").figure("forces", "Forces over the turn")
         page.table(("what", "least", "at, deg", "greatest", "at, deg", "unit"), _force_rows(forces), digits=6)
@@ -196,41 +196,51 @@ def add(page: Page, found: Found) -> Page:
         )
     if spring is not None:
         page.heading("Spring").table(("what", "value", "unit"), _spring_rows(spring, cam), digits=6)
-    if found.made:
+    if findings.made:
         unit = "um" if cam.displacement.axis == "length" else "urad"
         headings = ("what", f"deviation, {unit}", "peak acceleration, ratio", "peak jerk, ratio")
-        page.heading("As made").table(headings, [_made_row(*one) for one in found.made.items()], digits=5)
-        if None in found.made.values():
+        page.heading("As made").table(headings, [_made_row(*item) for item in findings.made.items()], digits=5)
+        if None in findings.made.values():
             page.text("Where nothing stands the follower does not reach all of the cam: it has hollows.")
-    if found.spec.animation:
+    if findings.spec.animation:
         page.heading("Turning").figure("animation", "The cam turns under its follower")
-    if found.spec.file:
-        page.heading("Files").text("\n".join(f"- [{one.name}]({one.name})" for one in found.spec.file))
+    if findings.spec.file:
+        page.heading("Files").text("\n".join(f"- [{entry.name}]({entry.name})" for entry in findings.spec.file))
     return page
 
 
-def figures(found: Found, title: str) -> dict[str, Figure]:
+def figures(findings: Found, title: str) -> dict[str, Figure]:
     """Pictures by their names."""
-    drawn = {"cam": draw(found.cam, title)}
-    return drawn if found.forces is None else drawn | {"forces": draw_forces(found.forces, title)}
+    drawn = {"cam": draw(findings.cam, title)}
+    return drawn if findings.forces is None else drawn | {"forces": draw_forces(findings.forces, title)}
 
 
-def files(found: Found, out: Path, about: str) -> list[Path]:
+def files(findings: Found, out: Path, about: str) -> list[Path]:
     """Write the files that cut the cam, and the one that shows it turn."""
-    cut = [found.cam.export(out / one.name, one.format, about=about, **one.asked()) for one in found.spec.file]
-    return [*cut, *([writing.write(out / "animation.svg", animated(found.cam))] if found.spec.animation else [])]
+    cut = [
+        findings.cam.export(out / entry.name, entry.format, about=about, **entry.asked())
+        for entry in findings.spec.file
+    ]
+    return [*cut, *([writing.write(out / "animation.svg", animated(findings.cam))] if findings.spec.animation else [])]
 
 
 def _force_rows(forces: CamForces) -> list[list[tables.Cell]]:
-    found = [("contact force", "N", 1.0, forces.contact), ("torque at the shaft", "N m", 1.0, forces.torque)]
+    curves = [("contact force", "N", 1.0, forces.contact), ("torque at the shaft", "N m", 1.0, forces.torque)]
     if forces.width is not None:
-        found.append(("Hertz's pressure", "MPa", 1.0 / _MICRO, forces.pressure))
+        curves.append(("Hertz's pressure", "MPa", 1.0 / _MICRO, forces.pressure))
     rows: list[list[tables.Cell]] = []
-    for name, unit, factor, one in found:
-        high = one.peak * factor
-        places = [_rounded(degrees(at), 360.0) for at in (one.least_at, one.most_at)]
+    for name, unit, factor, curve in curves:
+        high = curve.peak * factor
+        places = [_rounded(degrees(at), 360.0) for at in (curve.least_at, curve.most_at)]
         rows.append(
-            [name, _rounded(one.least * factor, high), places[0], _rounded(one.most * factor, high), places[1], unit]
+            [
+                name,
+                _rounded(curve.least * factor, high),
+                places[0],
+                _rounded(curve.most * factor, high),
+                places[1],
+                unit,
+            ]
         )
     return rows
 
@@ -249,10 +259,10 @@ def _spring_rows(spring: Spring, cam: DiscCam) -> list[list[tables.Cell]]:
     ]
 
 
-def _made_row(name: str, one: AsMade | None) -> list[tables.Cell]:
-    if one is None:
+def _made_row(name: str, peaks: AsMade | None) -> list[tables.Cell]:
+    if peaks is None:
         return [name, None, None, None]
-    return [name, _MICRO * one.deviation, one.acceleration_ratio, one.jerk_ratio]
+    return [name, _MICRO * peaks.deviation, peaks.acceleration_ratio, peaks.jerk_ratio]
 
 
 def _rounded(value: float, size: float) -> float:

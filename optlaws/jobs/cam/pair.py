@@ -21,13 +21,13 @@ def told(cams: Cams) -> dict[str, Any]:
     """What a program is told of the second cam, in metres and radians; nothing where there is none."""
     if cams.second is None:
         return {}
-    found = cams.second.extremes
+    extremes = cams.second.extremes
     return {
         "return_cam": {
             "base_radius": positive(cams.second.base_radius, "base_radius"),
-            "greatest_pressure_angle": enclosure(found.greatest_pressure_angle),
-            "bulging_radius": enclosure(found.bulging_radius),
-            "undercut": {"status": found.undercut.status, "simple": found.undercut.simple},
+            "greatest_pressure_angle": enclosure(extremes.greatest_pressure_angle),
+            "bulging_radius": enclosure(extremes.bulging_radius),
+            "undercut": {"status": extremes.undercut.status, "simple": extremes.undercut.simple},
         }
     }
 
@@ -39,7 +39,7 @@ def add(page: Page, cams: Cams, asked: Sequence[AskedFile]) -> Page:
     page.heading("Return cam").figure("pair", "Both cams on one shaft, with their followers at the start")
     page.text(f"Undercut: {cams.second.extremes.undercut}.")
     page.table(EXTREMES, extreme_rows(cams.second, Limits()), digits=7)
-    return page.text("\n".join(f"- [{name_of(one)}]({name_of(one)})" for one in asked))
+    return page.text("\n".join(f"- [{name_of(entry)}]({name_of(entry)})" for entry in asked))
 
 
 def figures(cams: Cams, title: str) -> dict[str, Figure]:
@@ -52,7 +52,7 @@ def files(cams: Cams, asked: Sequence[AskedFile], out: Path, about: str) -> list
     second = cams.second
     if second is None:
         return []
-    return [second.export(out / name_of(one), one.format, about=about, **one.asked()) for one in asked]
+    return [second.export(out / name_of(entry), entry.format, about=about, **entry.asked()) for entry in asked]
 
 
 def name_of(asked: AskedFile) -> str:

@@ -144,8 +144,8 @@ def _figure() -> tuple[Figure, list[Axes]]:
     right: list[Axes] = []
     for row in range(len(PANELS)):
         right.append(figure.add_subplot(grid[row, 1], sharex=right[0] if right else None))
-    for one in right[:-1]:
-        one.tick_params(labelbottom=False)
+    for edge in right[:-1]:
+        edge.tick_params(labelbottom=False)
     return figure, [figure.add_subplot(grid[:, 0]), *right]
 
 
@@ -223,6 +223,6 @@ def _holder(cam: DiscCam, contact: Contact, angle: float, centre: Array) -> Arra
 
 def _phase(cam: DiscCam, angle: float) -> float:
     """By how much the cam's coordinates are turned: where its curve is beside where its follower is."""
-    x, y = (float(one.terms[0]) for one in cam.contact.point(cam.displacement.jet(np.array(angle), 2)))
+    x, y = (float(coordinate.terms[0]) for coordinate in cam.contact.point(cam.displacement.jet(np.array(angle), 2)))
     curve = cam.pitch_curve(np.array(angle))
     return float(np.arctan2(curve[1], curve[0]) - np.arctan2(y, x) + cam.contact.turning * angle)

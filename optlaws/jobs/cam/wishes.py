@@ -128,8 +128,8 @@ def _made(spec: Study) -> Cams:
         cam = DiscCam(cycle, spec.base_radius, follower, turning=spec.turning)
         return Cams(cycle, cam, None, _second(spec.pair, cam))
     if spec.best == "laws":
-        found = best_cam(cycle, spec.base_radius, follower, **wanted)
-        return Cams(cycle, found.cam, found, _second(spec.pair, found.cam))
+        best = best_cam(cycle, spec.base_radius, follower, **wanted)
+        return Cams(cycle, best.cam, best, _second(spec.pair, best.cam))
     least = best_base_circle(cycle, follower, **wanted)
     return Cams(cycle, least.least.cam, least, _second(spec.pair, least.least.cam))
 
@@ -167,5 +167,5 @@ def follower_of(asked: AskedFollower) -> Follower:
     for name in taken:
         if name not in given and name not in {"offset", "face_offset"}:
             raise InputError(f"follower: a {asked.kind} needs its {name}, such as {name} = '12 mm'")
-    found: Follower = kind(**given)
-    return found
+    follower: Follower = kind(**given)
+    return follower

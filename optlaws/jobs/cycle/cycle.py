@@ -45,7 +45,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     if len(cycles) > 1:
         figures[TOGETHER] = draw_together(cycles, spec.title)
     files = [writing.write(out / name, text) for name, text in texts.items()] + drawing.save_pictures(figures, out)
-    return files + [one.write(out / name) for named in made.values() for name, one in named.items()]
+    return files + [export.write(out / name) for named in made.values() for name, export in named.items()]
 
 
 def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
@@ -79,8 +79,8 @@ def _headings(cycle: Cycle) -> list[str]:
 def _segment_rows(cycle: Cycle) -> list[list[tables.Cell]]:
     position, factor = cycle.programme.start, UNITS[cycle.axis][0][1]
     rows: list[list[tables.Cell]] = []
-    for one, peaks in zip(cycle.programme.stretches, cycle.peaks, strict=True):
-        position += one.displacement
+    for stretch, peaks in zip(cycle.programme.stretches, cycle.peaks, strict=True):
+        position += stretch.displacement
         rows.append(
             [
                 peaks.name,
@@ -197,9 +197,9 @@ def _facts(cycle: Cycle) -> dict[str, Any]:
         "objective": cycle.objective if cycle.solutions else None,
         "lower_bound": cycle.lower_bound if cycle.solutions else None,
         "segments": [
-            {"name": one.name, "start": one.start, "duration": one.duration}
-            | {name: one.peak(nu) for nu, name in enumerate(QUANTITIES) if nu}
-            for one in cycle.peaks
+            {"name": peak.name, "start": peak.start, "duration": peak.duration}
+            | {name: peak.peak(nu) for nu, name in enumerate(QUANTITIES) if nu}
+            for peak in cycle.peaks
         ],
         "joints": list(cycle.joints),
         **drive,

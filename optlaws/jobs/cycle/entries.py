@@ -104,13 +104,13 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, dict[str, Cycle]]:
     """
     spec = convert(data, Study, file)
     cycles: dict[str, Cycle] = {}
-    for one in spec.axis:
-        if one.name in cycles:
-            raise InputError(f"{file}: two axes are called {one.name}: give each a name of its own")
+    for axis in spec.axis:
+        if axis.name in cycles:
+            raise InputError(f"{file}: two axes are called {axis.name}: give each a name of its own")
         try:
-            cycles[one.name] = cycle_of(one, spec.speed, spec.period)
+            cycles[axis.name] = cycle_of(axis, spec.speed, spec.period)
         except InputError as error:
-            raise InputError(f"{file}: axis {one.name}: {error}") from None
+            raise InputError(f"{file}: axis {axis.name}: {error}") from None
     return spec, cycles
 
 
@@ -122,8 +122,8 @@ def cycle_of(axis: Axis, speed: str | None, period: str | None) -> Cycle:
     InputError
         If durations, positions or velocities do not fit, or a quantity is wrong.
     """
-    found = Cycle(
-        [segment_of(one, i + 1) for i, one in enumerate(axis.segment)],
+    cycle = Cycle(
+        [segment_of(entry, i + 1) for i, entry in enumerate(axis.segment)],
         speed=speed,
         period=period,
         minimise=axis.minimise,
@@ -135,7 +135,7 @@ def cycle_of(axis: Axis, speed: str | None, period: str | None) -> Cycle:
         order=axis.order,
         degree=axis.degree,
     )
-    return found if axis.follower is None else found.cam(axis.follower.period, axis.follower.damping)
+    return cycle if axis.follower is None else cycle.cam(axis.follower.period, axis.follower.damping)
 
 
 def _given(asked: msgspec.Struct) -> dict[str, Any]:
@@ -165,5 +165,5 @@ def segment_of(asked: AskedSegment, number: int) -> CycleSegment:
             raise InputError(f"segment {number}: a {asked.kind} takes no {name}; it takes {', '.join(taken)}")
     if asked.kind == "constant velocity" and asked.velocity is None:
         raise InputError(f"segment {number}: a constant velocity needs its velocity, such as velocity = '300 mm/s'")
-    found: CycleSegment = kind(**given)
-    return found
+    segment: CycleSegment = kind(**given)
+    return segment

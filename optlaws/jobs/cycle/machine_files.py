@@ -59,7 +59,7 @@ def add_exports(page: Page, made: Mapping[str, Export]) -> None:
     """A table of what controllers will run, where there are exports."""
     if made:
         page.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
-        page.table(_HEADINGS, [_row(name, one) for name, one in made.items()], digits=7)
+        page.table(_HEADINGS, [_row(name, export) for name, export in made.items()], digits=7)
 
 
 def _of_axis(axis: Axis, cycle: Cycle, taken: set[str]) -> dict[str, Export]:
@@ -92,8 +92,8 @@ def _file_name(axis: str, asked: AskedExport) -> str:
     return name
 
 
-def _row(name: str, one: Export) -> list[tables.Cell]:
-    ratios = [one.report.ratio(nu) for nu in (1, 2, 3)]
+def _row(name: str, export: Export) -> list[tables.Cell]:
+    ratios = [export.report.ratio(nu) for nu in (1, 2, 3)]
     shown = [f"{ratio:.7g}" if abs(ratio) < float("inf") else "leaps" for ratio in ratios]
-    deviation = f"{one.report.deviation[0].value:.3g} {one.motion.units.slave}"
-    return [name, one.format.name, one.points, *shown, deviation]
+    deviation = f"{export.report.deviation[0].value:.3g} {export.motion.units.slave}"
+    return [name, export.format.name, export.points, *shown, deviation]

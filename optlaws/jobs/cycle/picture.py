@@ -53,10 +53,10 @@ def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:  #
             axes = list(drawing.new_figure(8.6, 8.2).subplots(4, 1, sharex=True))
     panels = four(axes)
     artists: list[Artist] = []
-    for nu, one in enumerate(panels):
-        artists += draw_curve(cycle, one, nu, {"color": drawing.BLUES[3]} | style)
-        mark_segments(cycle, one)
-        artists += _mark_limits(cycle, one, nu)
+    for nu, panel in enumerate(panels):
+        artists += draw_curve(cycle, panel, nu, {"color": drawing.BLUES[3]} | style)
+        mark_segments(cycle, panel)
+        artists += _mark_limits(cycle, panel, nu)
     name_segments(cycle, panels[0])
     panels[-1].set(xlabel="time, ms", xlim=(0.0, 1e3 * cycle.duration))
     return artists

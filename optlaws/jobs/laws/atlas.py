@@ -65,20 +65,20 @@ def _page(title: str, points: Sequence[StudyPoint]) -> Page:
 def _costs(points: Sequence[StudyPoint], constant: str) -> tuple[list[str], list[list[tables.Cell]]]:
     """By B the least constant of each order, and what each order costs over the one below it."""
     degree = max(point.inputs["degree"] for point in points)
-    found = {
+    objectives = {
         (point.inputs["B"], point.inputs["order"]): point.constants.get(constant)
         for point in points
         if point.inputs["minimise"] == constant and point.inputs["degree"] == degree
     }
-    velocities, orders = (sorted({key[i] for key in found}) for i in (0, 1))
+    velocities, orders = (sorted({key[i] for key in objectives}) for i in (0, 1))
     headings = ["B", *(f"l = {order}" for order in orders)]
     headings += [f"l = {order} over {below}, %" for below, order in pairwise(orders)]
     rows: list[list[tables.Cell]] = []
     for B in velocities[:: max(1, len(velocities) // _ROWS)]:
-        values = [found[B, order] for order in orders]
+        values = [objectives[B, order] for order in orders]
         steps = [
-            None if one is None or other is None else f"{100.0 * (other / one - 1.0):.1f}"
-            for one, other in pairwise(values)
+            None if objective is None or other is None else f"{100.0 * (other / objective - 1.0):.1f}"
+            for objective, other in pairwise(values)
         ]
         rows.append([B, *values, *steps])
     return headings, rows
@@ -131,6 +131,6 @@ def _limits(points: Sequence[StudyPoint]) -> dict[float, float]:
 
 
 def _heights(points: Sequence[StudyPoint]) -> tuple[float, float]:
-    found = [point.objective for point in points if point.objective is not None]
-    low = min([*_limits(points).values(), *found])
-    return 0.95 * low, min(1.03 * max(found), _ROOM * float(np.median(found)))
+    objectives = [point.objective for point in points if point.objective is not None]
+    low = min([*_limits(points).values(), *objectives])
+    return 0.95 * low, min(1.03 * max(objectives), _ROOM * float(np.median(objectives)))

@@ -85,21 +85,21 @@ def best_law(
         If no law of the greatest degree exists or none of any degree is found.
     """
     degrees = sorted({point.degree for point in read(file) if point.order == order}, reverse=True)
-    found: list[Solution] = []
+    solutions: list[Solution] = []
     failed: list[SolverFailure] = []
     for degree in degrees:
         try:
-            found.append(synthesize(_problem(degree, minimise, order, B, most or {})))
+            solutions.append(synthesize(_problem(degree, minimise, order, B, most or {})))
         except InfeasibleProblem:
-            if not found and not failed:
+            if not solutions and not failed:
                 raise
         except SolverFailure as error:
             failed.append(error)
-        if found and found[0].status is Status.OPTIMAL:
+        if solutions and solutions[0].status is Status.OPTIMAL:
             break
-    if not found:
+    if not solutions:
         raise failed[0]
-    return min(found, key=lambda solution: solution.objective)
+    return min(solutions, key=lambda solution: solution.objective)
 
 
 def _problem(degree: int, minimise: str, order: int, B: float | None, most: Mapping[str, float]) -> Problem:

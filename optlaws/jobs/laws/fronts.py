@@ -86,20 +86,20 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         raise InputError(f"figure: names must differ, got {', '.join(names)}")
     for picture in spec.figure:
         check_beside(picture)
-    found: Fronts = [(picture, [_front(spec, picture, one) for one in picture.front]) for picture in spec.figure]
+    drawn: Fronts = [(picture, [_front(spec, picture, asked) for asked in picture.front]) for picture in spec.figure]
     about = f"{spec.title}; from {file.name}"
     lines = [
         [picture.name, *line]
-        for picture, fronts in found
+        for picture, fronts in drawn
         for curve, front in zip(picture.front, fronts, strict=True)
         for line in _lines(curve, front)
     ]
     written = [
         writing.write(out / "fronts.csv", tables.to_csv(("figure", "front", *HEADINGS), lines, about=about)),
-        writing.write(out / "fronts.md", str(_page(spec, found))),
-        writing.write(out / "fronts.json", _json(about, found)),
+        writing.write(out / "fronts.md", str(_page(spec, drawn))),
+        writing.write(out / "fronts.json", _json(about, drawn)),
     ]
-    for picture, fronts in found:
+    for picture, fronts in drawn:
         figure = draw(picture, fronts)
         written += drawing.save_picture(figure, out / picture.name)
     return written
@@ -122,9 +122,9 @@ def _lines(curve: Curve, front: Front) -> list[list[tables.Cell]]:
     return [[curve.label, *row[:5], gap(point), *row[6:]] for row, point in zip(rows, front, strict=True)]
 
 
-def _page(spec: Study, found: Fronts) -> Page:
+def _page(spec: Study, drawn: Fronts) -> Page:
     page = Page(spec.title).text(spec.text)
-    for picture, fronts in found:
+    for picture, fronts in drawn:
         few = []
         for curve, front in zip(picture.front, fronts, strict=True):
             lines = _lines(curve, front)
@@ -134,9 +134,9 @@ def _page(spec: Study, found: Fronts) -> Page:
     return page
 
 
-def _json(about: str, found: Fronts) -> str:
+def _json(about: str, drawn: Fronts) -> str:
     fronts = []
-    for picture, some in found:
+    for picture, some in drawn:
         for curve, front in zip(picture.front, some, strict=True):
             head = json.dumps({"figure": picture.name, "front": curve.label, "over": list(front.over)})
             points = ",\n".join(
@@ -208,8 +208,8 @@ def _smoothsteps(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
 def _laws(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
     """Laws of the catalogue as numbered points, with their names in the legend."""
     named = [name for name in picture.catalogue if name not in FAMILIES and name != SMOOTHSTEPS]
-    found = [(catalogue[name].name, _point(catalogue[name].law, picture)) for name in named]
-    shown = [(name, point) for name, point in found if _inside(point, x, y)]
+    points = [(catalogue[name].name, _point(catalogue[name].law, picture)) for name in named]
+    shown = [(name, point) for name, point in points if _inside(point, x, y)]
     for number, (name, point) in enumerate(shown, 1):
         diamond: dict[str, Any] = {"color": drawing.WARM, "markersize": 5.0, "zorder": 5}
         axes.plot(*point, "D", label=f"{number}  {name}", **diamond)
@@ -296,15 +296,15 @@ def _limit_curves(axes: Axes, picture: Picture, fronts: Sequence[Front], x: Ends
     drawn: list[list[float | None]] = []
     for front in fronts:
         asked = front[0].problem
-        found = [known_limit(replace(asked, B=float(B), minimise=picture.over[1])) for B in values]
-        if None in found or found in drawn:
+        limits = [known_limit(replace(asked, B=float(B), minimise=picture.over[1])) for B in values]
+        if None in limits or limits in drawn:
             continue
         label = "limit of all laws" if not drawn else f"the same of order {asked.order}"
         stroke = ("-", "-.")[min(len(drawn), 1)]
         axes.plot(
-            values, np.array(found, dtype=float), label=label, color=drawing.GREY, linewidth=1.2, linestyle=stroke
+            values, np.array(limits, dtype=float), label=label, color=drawing.GREY, linewidth=1.2, linestyle=stroke
         )
-        drawn.append(found)
+        drawn.append(limits)
 
 
 def _corners(axes: Axes, picture: Picture, fronts: Sequence[Front], shades: Sequence[str]) -> None:

@@ -58,7 +58,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     count = max(len(start.z) for start in spec.start)
     problems = [Problem(B=B, order=spec.order, basis=Powers(count - 1)) for B in sorted(set(spec.B))]
     least = {solution.problem.B: solution.objective for solution in sweep(problems)}
-    rows = [_row(one, least[one.B]) for one in ended]
+    rows = [_row(attempt, least[attempt.B]) for attempt in ended]
     page = Page(spec.title).text(spec.text).table(HEADINGS, rows)
     return [
         writing.write(out / "searches.csv", tables.to_csv(HEADINGS, rows, about=f"{spec.title}; from {file.name}")),
@@ -92,7 +92,7 @@ def _affine(order: int, count: int, k: Array, nu: int) -> tuple[Array, Array]:
     return plain, np.column_stack(shares)
 
 
-def _row(one: Ended, least: float) -> Sequence[tables.Cell]:
+def _row(search: Ended, least: float) -> Sequence[tables.Cell]:
     # where such a search stops hangs on rounding: more digits would not be the same on another machine
-    C = one.law.constants.C.value
-    return [one.B, one.start, one.said, round(C, 2), least, round(100.0 * (C / least - 1.0), 1)]
+    C = search.law.constants.C.value
+    return [search.B, search.start, search.said, round(C, 2), least, round(100.0 * (C / least - 1.0), 1)]

@@ -115,7 +115,7 @@ def solved(spec: Table, lines: Sequence[Mapping[str, str]]) -> tuple[list[Row], 
     values = [float(line["B"]) for line in lines]
     solved = {degree: _by_velocity(spec, degree, values) for degree in {*spec.degrees, *spec.figure.degrees}}
     richer = [{degree: solved[degree][B] for degree in spec.degrees} for B in values]
-    same = [_same_shape(spec, line, B, found) for line, B, found in zip(lines, values, richer, strict=True)]
+    same = [_same_shape(spec, line, B, optima) for line, B, optima in zip(lines, values, richer, strict=True)]
     rows = [Row(*parts) for parts in zip(lines, laws, same, richer, strict=True)]
     return rows, {degree: list(solved[degree].values()) for degree in spec.figure.degrees}
 
@@ -131,11 +131,11 @@ def _by_velocity(spec: Table, degree: int, values: Sequence[float]) -> dict[floa
     return dict(zip(ordered, sweep(problems), strict=True))
 
 
-def _same_shape(spec: Table, line: Mapping[str, str], B: float, found: Mapping[int, Solution]) -> Solution:
+def _same_shape(spec: Table, line: Mapping[str, str], B: float, optima: Mapping[int, Solution]) -> Solution:
     base = spec.bases[line["base"]]
     degree = len(line["z"].split()) - 1 if base.same is None else base.same
-    if base.order == spec.order and degree in found:
-        return found[degree]
+    if base.order == spec.order and degree in optima:
+        return optima[degree]
     (solution,) = sweep([Problem(B=B, order=base.order, basis=Chebyshev(degree), monotone=spec.monotone)])
     return solution
 

@@ -49,9 +49,9 @@ class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec = convert(data, Study, file)
-    families = [SavinFamily.of(one) for one in spec.families]
+    families = [SavinFamily.of(family) for family in spec.families]
     about = f"{spec.title}; from {file.name}"
-    lines = [line for one in families for line in _lines(one, spec.rows)]
+    lines = [line for family in families for line in _lines(family, spec.rows)]
     written = [
         writing.write(out / "table.csv", tables.to_csv(HEADINGS, lines, about=about)),
         writing.write(out / "table.md", str(_page(spec, families, lines))),
@@ -68,7 +68,7 @@ def _lines(family: SavinFamily, rows: int) -> list[list[tables.Cell]]:
     steps = rows // 2
     alphas = {low * i / steps for i in range(steps + 1)} | {high * i / steps for i in range(steps + 1)}
     named = {Fraction(family.least_C[0]), Fraction(family.least_D[0])}
-    alphas |= {one for one in named if all(abs(one - other) > 1e-9 for other in alphas)}
+    alphas |= {given for given in named if all(abs(given - other) > 1e-9 for other in alphas)}
     return [_line(family, alpha) for alpha in sorted(alphas)]
 
 
@@ -102,7 +102,7 @@ def _best(family: SavinFamily) -> list[tables.Cell]:
 
 def _page(spec: Study, families: list[SavinFamily], lines: list[list[tables.Cell]]) -> Page:
     page = Page(spec.title).text(spec.text).figure("figure", spec.title)
-    page.table(BEST, [_best(one) for one in families], digits=10)
+    page.table(BEST, [_best(family) for family in families], digits=10)
     return page.table(HEADINGS, lines, digits=8)
 
 

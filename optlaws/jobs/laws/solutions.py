@@ -71,13 +71,13 @@ class Row:
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec = convert(data, Study, file)
-    for name in [*spec.columns, *(name for one in spec.compare for name in one.columns)]:
+    for name in [*spec.columns, *(name for compared in spec.compare for name in compared.columns)]:
         if name not in COLUMNS:
             raise InputError(unknown_key(name, COLUMNS, "column"))
     entries = list(_entries(spec))
     beside = _beside(spec, file, entries)
-    problems = [_problems(spec, i, one) for i, one in enumerate(entries, 1)]
-    rows = [_solved(spec, one, *asked) for one, asked in zip(entries, problems, strict=True)]
+    problems = [_problems(spec, i, entry) for i, entry in enumerate(entries, 1)]
+    rows = [_solved(spec, entry, *asked) for entry, asked in zip(entries, problems, strict=True)]
     headings, cells = _cells(spec, rows, beside)
     about = f"{spec.title}; from {file.name}"
     return [
@@ -91,8 +91,8 @@ def _entries(spec: Study) -> Iterator[dict[str, Any]]:
     """The swept entries of each row; the last table of `sweep` varies fastest."""
     parts = []
     names: list[str] = []
-    for i, one in enumerate(spec.sweep):
-        values = one.given()
+    for i, swept in enumerate(spec.sweep):
+        values = swept.given()
         lengths = {len(value) for value in values.values()}
         if len(lengths) != 1:
             raise InputError(f"sweep[{i}]: needs one or more lists of one length, got lengths {sorted(lengths)}")
@@ -107,7 +107,10 @@ def _entries(spec: Study) -> Iterator[dict[str, Any]]:
 
 def _problems(spec: Study, number: int, entries: Mapping[str, Any]) -> tuple[Problem, list[Problem]]:
     base = spec.problem.given()
-    others = [problem(f"compare, {one.name}, row {number}", base, entries, one.problem.given()) for one in spec.compare]
+    others = [
+        problem(f"compare, {compared.name}, row {number}", base, entries, compared.problem.given())
+        for compared in spec.compare
+    ]
     return problem(f"row {number}", base, entries), others
 
 
@@ -121,7 +124,7 @@ def _solved(spec: Study, entries: Mapping[str, Any], asked: Problem, others: Seq
         proof = error.proof if isinstance(error.proof, Certificate) and error.proof.problem == asked else None
     except SolverFailure:
         status = "not found"
-    return Row(entries, asked, solution, tuple(_tried(one) for one in others), status, proof)
+    return Row(entries, asked, solution, tuple(_tried(rival) for rival in others), status, proof)
 
 
 def _tried(asked: Problem) -> Solution | None:
@@ -143,12 +146,12 @@ def _beside(spec: Study, file: Path, entries: Sequence[Mapping[str, Any]]) -> li
         if name not in lines[0]:
             raise InputError(f"beside: {source}: {unknown_key(name, lines[0], 'column')}")
     by_value = {printed.number(line[spec.beside.match], str(source)): line for line in lines}
-    found: list[list[tables.Cell]] = []
-    for one in entries:
-        value = one.get(spec.beside.match)
+    table: list[list[tables.Cell]] = []
+    for entry in entries:
+        value = entry.get(spec.beside.match)
         line = by_value.get(value, {}) if isinstance(value, float) else {}
-        found.append([line.get(name) for name in spec.beside.columns])
-    return found
+        table.append([line.get(name) for name in spec.beside.columns])
+    return table
 
 
 def _header(source: Path) -> tuple[str, ...]:
@@ -164,15 +167,15 @@ def _cells(
 ) -> tuple[list[str], list[list[tables.Cell]]]:
     swept = list(rows[0].entries)
     headings = [ENTRIES[name].heading for name in swept] + spec.columns
-    headings += [f"{column}, {one.name}" for one in spec.compare for column in one.columns]
+    headings += [f"{column}, {compared.name}" for compared in spec.compare for column in compared.columns]
     if spec.beside is not None:
         headings += [f"{column}, {spec.beside.name}" for column in spec.beside.columns]
     cells = []
     for row, aside in zip(rows, beside, strict=True):
         line: list[tables.Cell] = [shown(name, row.entries[name]) for name in swept]
         line += [row.status if name == "status" else _cell(row.solution, name) for name in spec.columns]
-        for one, other in zip(spec.compare, row.others, strict=True):
-            line += [_cell(other, name) for name in one.columns]
+        for compared, other in zip(spec.compare, row.others, strict=True):
+            line += [_cell(other, name) for name in compared.columns]
         cells.append([*line, *aside])
     return headings, cells
 

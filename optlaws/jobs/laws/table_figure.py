@@ -66,10 +66,10 @@ def _shape(solution: Solution) -> str:
 
 
 def _optima(axes: Axes, curves: Curves) -> None:
-    for (degree, found), shade in zip(curves.items(), drawing.shades(len(curves)), strict=True):
-        line = [s.objective for s in found]
+    for (degree, curve), shade in zip(curves.items(), drawing.shades(len(curves)), strict=True):
+        line = [s.objective for s in curve]
         label = "optimal, by degree of Z(k)" if degree == max(curves) else None
-        velocities = values_of(found, ("B",))[:, 0].tolist()
+        velocities = values_of(curve, ("B",))[:, 0].tolist()
         axes.plot(velocities, line, color=shade, label=label)
         axes.annotate(
             f"{degree}",

@@ -88,7 +88,7 @@ class Measure(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         InputError
             If it is none of the three, or more than one.
         """
-        if sum(one is not None for one in (self.peak, self.rms, self.residual)) != 1:
+        if sum(wish is not None for wish in (self.peak, self.rms, self.residual)) != 1:
             raise InputError(
                 "a constant of the machine is one of peak and rms, each of an output, and residual of a mode"
             )
@@ -129,7 +129,7 @@ class Sought(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         try:
             entries = from_entries({"order": 3, **self.problem})
             wanted = self.minimise if isinstance(self.minimise, str) else self.minimise.constant(machine)
-            kept = {one.bounded(machine): at_most(one.most) for one in self.keep}
+            kept = {bound.bounded(machine): at_most(bound.most) for bound in self.keep}
             entries["bounds"] = {**entries.get("bounds", {}), **kept}
             return Problem(**entries, minimise=wanted)
         except InputError as error:

@@ -98,12 +98,12 @@ class Compared:
     def residuals(self) -> list[float]:
         """Those of every mode that is asked: too slow, as it should be, too fast; and the greatest in between."""
         spread = self.vibration.spread
-        found = []
+        residuals = []
         for number in self.vibration.modes:
-            found += self.left(number, np.array([1.0 - spread, 1.0, 1.0 + spread])).tolist()
+            residuals += self.left(number, np.array([1.0 - spread, 1.0, 1.0 + spread])).tolist()
             assert self.law is not None  # noqa: S101 - as above
-            found.append(self.machine.residual(number, self.vibration.output, spread=spread).value(self.law))
-        return found
+            residuals.append(self.machine.residual(number, self.vibration.output, spread=spread).value(self.law))
+        return residuals
 
 
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
@@ -112,7 +112,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     machine = spec.machine.machine()
     _check(spec, machine)
     laws = list(compared(spec, machine))
-    headings, lines = _headings(spec), [_line(spec, one) for one in laws]
+    headings, lines = _headings(spec), [_line(spec, law) for law in laws]
     about = f"{spec.title}; from {file.name}"
     written = [
         writing.write(out / "table.csv", tables.to_csv(headings, lines, about=about)),
@@ -126,8 +126,8 @@ def _check(spec: Study, machine: Machine) -> None:
     for where, output in (
         ("vibration", spec.vibration.output),
         ("figure", spec.figure.output),
-        *(("report", one) for one in spec.report),
-        *(("units", one) for one in spec.units),
+        *(("report", heading) for heading in spec.report),
+        *(("units", unit) for unit in spec.units),
     ):
         try:
             machine.place(output)
@@ -142,13 +142,13 @@ def _check(spec: Study, machine: Machine) -> None:
     for name in spec.figure.laws:
         if name not in known:
             raise InputError(f"figure: no law is called {name!r}; there are {', '.join(known)}")
-    for one in spec.sought:
-        one.asked(machine)
+    for asked in spec.sought:
+        asked.asked(machine)
 
 
 def _names(spec: Study) -> list[str]:
     shaped = [f"{name}, {shaper}" for name in spec.standard for shaper in SHAPERS]
-    return [*spec.standard, *shaped, *(one.name for one in spec.sought)]
+    return [*spec.standard, *shaped, *(asked.name for asked in spec.sought)]
 
 
 def compared(spec: Study, machine: Machine) -> Iterator[Compared]:
@@ -163,9 +163,9 @@ def compared(spec: Study, machine: Machine) -> Iterator[Compared]:
             except InputError:
                 shaped = None  # the vibration is too slow for it: the table says so
             yield Compared(f"{name}, {shaper}", machine, spec.vibration, shaped)
-    for one in spec.sought:
-        solution = synthesize(one.asked(machine))
-        yield Compared(one.name, machine, spec.vibration, solution.law, solution)
+    for asked in spec.sought:
+        solution = synthesize(asked.asked(machine))
+        yield Compared(asked.name, machine, spec.vibration, solution.law, solution)
 
 
 def _headings(spec: Study) -> list[str]:
@@ -176,16 +176,16 @@ def _headings(spec: Study) -> list[str]:
     return ["law", "B", "C", "J", *peaks, *residuals, "lower bound", "gap", "status"]
 
 
-def _line(spec: Study, one: Compared) -> list[tables.Cell]:
-    if one.law is None:
-        return [one.name, *[None] * (len(_headings(spec)) - 2), "no time for it"]
-    constants, response = one.law.constants, one.machine.response(one.law)
+def _line(spec: Study, law: Compared) -> list[tables.Cell]:
+    if law.law is None:
+        return [law.name, *[None] * (len(_headings(spec)) - 2), "no time for it"]
+    constants, response = law.law.constants, law.machine.response(law.law)
     peaks = [response.rise_peak(name).value for name in spec.report]
     proof: list[tables.Cell] = [None, None, None]
-    if one.solution is not None:
-        proof = [one.solution.lower_bound, gap(one.solution), one.solution.status.value]
+    if law.solution is not None:
+        proof = [law.solution.lower_bound, gap(law.solution), law.solution.status.value]
     shown = [constants.B.value, constants.C.value, _finite(constants.J.value)]
-    return [one.name, *shown, *peaks, *one.residuals, *proof]
+    return [law.name, *shown, *peaks, *law.residuals, *proof]
 
 
 def _finite(value: float) -> float | None:
@@ -194,7 +194,7 @@ def _finite(value: float) -> float | None:
 
 def _laws(about: str, laws: Sequence[Compared]) -> str:
     """The laws that were sought with all that proves them, for `optlaws verify`."""
-    lines = [f"{json.dumps(one.name)}: {json.dumps(record(one.solution))}" for one in laws if one.solution is not None]
+    lines = [f"{json.dumps(law.name)}: {json.dumps(record(law.solution))}" for law in laws if law.solution is not None]
     head = json.dumps({"about": f"{about}; {writing.MARK}"})[1:-1]
     return f'{{{head}, "laws": {{\n' + ",\n".join(lines) + "\n}}\n"
 
@@ -241,7 +241,7 @@ def _in_machine_units(machine: MachineTable) -> str:
 
 def draw(spec: Study, machine: Machine, laws: Sequence[Compared]) -> Figure:
     """What is left of each mode over its frequency, and an output over time."""
-    drawn = [one for name in spec.figure.laws for one in laws if one.name == name and one.law is not None]
+    drawn = [law for name in spec.figure.laws for law in laws if law.name == name and law.law is not None]
     with drawing.style():
         modes = spec.vibration.modes
         figure = drawing.figure(9.6 + 3.6 * (len(modes) - 1), 4.6)
@@ -259,7 +259,7 @@ def _residuals(axes: Axes, spec: Study, number: int, laws: Sequence[Compared]) -
     spread = spec.figure.spread
     factors = np.linspace(1.0 - spread, 1.0 + spread, _POINTS)
     courses = [law.left(number, factors) for law in laws]
-    least = _FLOOR * max(float(one.max()) for one in courses)
+    least = _FLOOR * max(float(values.max()) for values in courses)
     for course, style in zip(courses, _styles(laws), strict=True):
         axes.semilogy(100.0 * (factors - 1.0), np.maximum(course, least), **style)
     band = 100.0 * spec.vibration.spread
@@ -270,9 +270,9 @@ def _residuals(axes: Axes, spec: Study, number: int, laws: Sequence[Compared]) -
 
 def _outputs(axes: Axes, spec: Study, machine: Machine, laws: Sequence[Compared]) -> None:
     k = np.linspace(0.0, 1.0 + spec.figure.dwell, _POINTS)
-    for one, style in zip(laws, _styles(laws), strict=True):
-        assert one.law is not None  # noqa: S101 - only those that are there are drawn
-        axes.plot(k, machine.response(one.law, dwell=spec.figure.dwell)[spec.figure.output](k), label=one.name, **style)
+    for law, style in zip(laws, _styles(laws), strict=True):
+        assert law.law is not None  # noqa: S101 - only those that are there are drawn
+        axes.plot(k, machine.response(law.law, dwell=spec.figure.dwell)[spec.figure.output](k), label=law.name, **style)
     axes.axvline(1.0, color="black", linewidth=0.7, linestyle=":")
     axes.set(xlim=(0.0, k[-1]), xlabel="k", title=spec.titled(spec.figure.output))
 
@@ -280,10 +280,10 @@ def _outputs(axes: Axes, spec: Study, machine: Machine, laws: Sequence[Compared]
 def _styles(laws: Sequence[Compared]) -> list[dict[str, Any]]:
     ours = iter((drawing.BLUES[-1], drawing.GREEN, "#66c2a5", drawing.BLUES[1]))
     known = iter((drawing.GREY, drawing.WARM, "#fdae61", "#8c8c8c", "#a6761d"))
-    found = []
-    for one in laws:
-        if one.solution is None:
-            found.append({"color": next(known, drawing.GREY), "linestyle": "--", "linewidth": 1.2})
+    styles = []
+    for law in laws:
+        if law.solution is None:
+            styles.append({"color": next(known, drawing.GREY), "linestyle": "--", "linewidth": 1.2})
         else:
-            found.append({"color": next(ours, drawing.BLUES[-1]), "linewidth": 1.6})
-    return found
+            styles.append({"color": next(ours, drawing.BLUES[-1]), "linewidth": 1.6})
+    return styles

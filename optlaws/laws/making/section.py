@@ -35,10 +35,10 @@ def section(law: PiecewiseLaw, first: int, last: int) -> PiecewiseLaw:
     if moved == 0.0:
         raise InputError(f"the part of the law from {start:g} to {stop:g} ends where it begins")
     parts = []
-    for one in law.segments[first:last]:
-        if not isinstance(one, PolynomialSegment):
+    for segment in law.segments[first:last]:
+        if not isinstance(segment, PolynomialSegment):
             raise InputError("a part can be taken of a law of polynomial segments only")
-        bent = tuple(length * length / moved * value for value in one.acceleration)
-        parts.append(PolynomialSegment(bent, length / moved * one.b0))
+        bent = tuple(length * length / moved * value for value in segment.acceleration)
+        parts.append(PolynomialSegment(bent, length / moved * segment.b0))
     inner = [(place - start) / length for place in law.breaks[first + 1 : last]]
     return PiecewiseLaw([0.0, *inner, 1.0], parts)

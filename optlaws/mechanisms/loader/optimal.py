@@ -125,8 +125,8 @@ def balanced_law(
 
     Examples
     --------
-    >>> found = balanced_law(1.875, order=3, basis=Chebyshev(9))
-    >>> found.status.value, round(found.loader.C, 6), round(found.lower_bound, 6)
+    >>> balanced = balanced_law(1.875, order=3, basis=Chebyshev(9))
+    >>> balanced.status.value, round(balanced.loader.C, 6), round(balanced.lower_bound, 6)
     ('local', 4.632673, 4.459318)
     >>> proven = balanced_law(1.875, order=3, basis=Chebyshev(9), bound="tight")
     >>> proven.status.value, proven.gap < 1e-8

@@ -63,10 +63,10 @@ class TrapeziumSubstitute:
 
     Examples
     --------
-    >>> one = TrapeziumSubstitute(e13=0.6, gamma_w=0.30)
-    >>> round(one.m, 6), one.n, round(one.Y, 6)
+    >>> substitute = TrapeziumSubstitute(e13=0.6, gamma_w=0.30)
+    >>> round(substitute.m, 6), substitute.n, round(substitute.Y, 6)
     (0.071429, 0.1, 0.91971)
-    >>> one.law
+    >>> substitute.law
     PiecewiseLaw(segments=6, B=1.66667, C=5.55556, D=4.81598, J=77.7778)
     """
 

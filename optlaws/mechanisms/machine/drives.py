@@ -35,7 +35,7 @@ def of_law(
     >>> rise.ends[1].round(12).ravel().tolist()
     [1.0, 0.0, 0.0]
     """
-    return [drive for one in forcings(law, start, length, a0, stroke) for drive in _drives(one)]
+    return [drive for forcing in forcings(law, start, length, a0, stroke) for drive in _drives(forcing)]
 
 
 def rest(start: float, length: float, level: Array) -> Drive:
@@ -64,24 +64,24 @@ def of_space(space: LawSpace) -> list[Drive]:
     """
     breaks: Sequence[float] = getattr(space, "breaks", (0.0, 1.0))
     x = chebyshev.nodes(_terms(space))
-    found = []
+    drives = []
     for low, high in pairwise(breaks):
         k = low + 0.5 * (high - low) * (x + 1.0)
         values = np.stack([_values(space, nu, k) for nu in range(3)], axis=1)
         series = chebyshev.from_values(values.reshape(len(k), -1)).reshape(values.shape)
-        found.append(Drive(float(low), float(high - low), np.ascontiguousarray(series)))
-    return found
+        drives.append(Drive(float(low), float(high - low), np.ascontiguousarray(series)))
+    return drives
 
 
 def backward(drives: Sequence[Drive], start: float, length: float, level: Array) -> list[Drive]:
     """The return of such drives, level - (a - a(0)), stretched to a length."""
-    found = []
+    panels = []
     low = drives[0].ends[0][0]
-    for one in drives:
-        series = -one.series / length ** np.arange(3.0)[:, None]
+    for drive in drives:
+        series = -drive.series / length ** np.arange(3.0)[:, None]
         series[0, 0] += level + low
-        found.append(Drive(start + length * one.start, length * one.length, series))
-    return found
+        panels.append(Drive(start + length * drive.start, length * drive.length, series))
+    return panels
 
 
 def _terms(space: LawSpace) -> int:
@@ -104,15 +104,15 @@ def _values(space: LawSpace, nu: int, k: Array) -> Array:
 
 
 def _drives(forcing: Forcing) -> list[Drive]:
-    fastest = max((one.frequency for one in forcing.sines), default=0.0)
+    fastest = max((sine.frequency for sine in forcing.sines), default=0.0)
     count = max(1, ceil(fastest * forcing.length / _RADIANS))
     length = forcing.length / count
     terms = max(len(forcing.acceleration) + 2, _COUNT if forcing.sines else 0)
     places = 0.5 * length * (chebyshev.nodes(terms) + 1.0)
-    found = []
+    drives = []
     for i in range(count):
         s = np.minimum(i * length + places, forcing.length)
         values = np.column_stack([forcing.derivative(s, order) for order in range(3)])
         series = np.asarray(chebyshev.from_values(values))[:, :, None]
-        found.append(Drive(forcing.start + i * length, length, series))
-    return found
+        drives.append(Drive(forcing.start + i * length, length, series))
+    return drives

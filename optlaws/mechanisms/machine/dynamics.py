@@ -85,9 +85,9 @@ class Panel:
 
     def output(self, states: Complex, direct: Array) -> Array:
         """Series of states . x + direct . (a, b, c), shape (coefficients, columns)."""
-        found = np.ascontiguousarray(np.einsum("s,nsc->nc", states, self.states).real)
-        found[: len(self.drive)] += np.einsum("i,nic->nc", direct, self.drive)
-        return found
+        output = np.ascontiguousarray(np.einsum("s,nsc->nc", states, self.states).real)
+        output[: len(self.drive)] += np.einsum("i,nic->nc", direct, self.drive)
+        return output
 
 
 class Dynamics:
@@ -177,17 +177,17 @@ class Dynamics:
                 group.join(i)
         starts = [drive.start + low * drive.length for low in edges[:-1]]
         states = [place[j][0].states[:, :, place[j][1]].swapaxes(0, 1) for j in range(len(parts))]
-        return [Panel(*one) for one in zip(starts, lengths, states, series, strict=True)]
+        return [Panel(*panel) for panel in zip(starts, lengths, states, series, strict=True)]
 
     def edges(self, length: float, radians: float) -> list[float]:
         """Shares of a stretch between which its panels lie: equal ones, and short ones at first for what decays."""
         count = max(1, ceil(self.fastest * length / radians))
-        found, total = [0.0], self.decay * length
+        edges, total = [0.0], self.decay * length
         reach = DECAY / total if total else inf
         while reach < 1.0 / count:
-            found.append(reach)
+            edges.append(reach)
             reach *= 2.0
-        return [*found, *((i + 1) / count for i in range(count))]
+        return [*edges, *((i + 1) / count for i in range(count))]
 
     def terms(self, drive: int, half: float) -> int:
         """Coefficients that resolve the motion on a panel of half that length, under a drive of so many."""
@@ -237,11 +237,11 @@ class _Group:
 
 def _alike(lengths: Sequence[float]) -> list[list[int]]:
     """Which of some lengths are the same but for rounding."""
-    found = dict[float, list[int]]()
+    groups = dict[float, list[int]]()
     for j, length in enumerate(lengths):
-        same = next((known for known in found if abs(known - length) <= ROUNDING * length), length)
-        found.setdefault(same, []).append(j)
-    return list(found.values())
+        same = next((known for known in groups if abs(known - length) <= ROUNDING * length), length)
+        groups.setdefault(same, []).append(j)
+    return list(groups.values())
 
 
 def solutions(root: complex, load: Complex) -> Complex:
@@ -278,11 +278,11 @@ def solutions(root: complex, load: Complex) -> Complex:
         right[:2, -1] = -1.0, step[1]
         bands[1, 0], bands[2, 0] = -2.0 * step[0], 0.0
     solved = solve_banded((1, 1), bands, right, overwrite_ab=True, overwrite_b=True, check_finite=False)
-    found = np.empty((count, columns + 1), dtype=np.complex128)
-    found[1:] = solved
-    found[0] = solved[0]
-    found[first, :-1], found[first, -1] = 0.0, 1.0
-    return found
+    solution = np.empty((count, columns + 1), dtype=np.complex128)
+    solution[1:] = solved
+    solution[0] = solved[0]
+    solution[first, :-1], solution[first, -1] = 0.0, 1.0
+    return solution
 
 
 def inverse_gain(A: Array, load: Array, states: Array, direct: Array) -> tuple[int, float]:

@@ -67,7 +67,7 @@ class Machine(MadeMachine):
         ((-1.0,),)
         """
         duration = 1.0 / positive(factor, "factor")
-        A, B, C, D = (np.array(one) for one in (self.A, self.B, self.C, self.D))
+        A, B, C, D = (np.array(matrix) for matrix in (self.A, self.B, self.C, self.D))
         return self.from_units(A, B, C, D, duration=duration, inputs=self.inputs, outputs=self.outputs)
 
     @kept_property

@@ -221,8 +221,8 @@ def matrices(system: Any) -> Matrices:  # noqa: ANN401 - of any package
     if step is not None and step != 0:
         raise InputError(f"a system must be continuous in time, got one with steps of {shortened(step)}")
     try:
-        found = _state_space(system)
-        A, B, C, D = (getattr(found, name) for name in "ABCD")
+        state_space = _state_space(system)
+        A, B, C, D = (getattr(state_space, name) for name in "ABCD")
     except (AttributeError, TypeError, ValueError, NotImplementedError) as error:
         raise InputError(
             "a system must be one of scipy.signal (StateSpace, TransferFunction, ZerosPolesGain) or of python-control "

@@ -100,8 +100,8 @@ class Assembly:
     def _positions(self) -> dict[str, Array]:
         """Displacements as rows over the coordinates and the law."""
         rows = np.eye(len(self.free) + 1)
-        found = dict(zip(self.free, rows, strict=False)) | {GROUND: np.zeros(len(rows))}
-        return found | {self.driven: found[self.base] + rows[-1]}
+        positions = dict(zip(self.free, rows, strict=False)) | {GROUND: np.zeros(len(rows))}
+        return positions | {self.driven: positions[self.base] + rows[-1]}
 
     def _sum(self, what: str) -> Array:
         """Stiffness or damping over the coordinates and the law."""
@@ -140,26 +140,26 @@ class Assembly:
     @kept_property
     def outputs(self) -> dict[str, Array]:
         """Rows over coordinates, their velocities, and a, b and c, by the names of outputs."""
-        found = {DRIVE_FORCE: self._drive_force()}
+        outputs = {DRIVE_FORCE: self._drive_force()}
         for name in self.masses:
-            found |= {f"{what} {name}": self._moved(self._positions[name], nu) for nu, what in enumerate(_MOTIONS)}
+            outputs |= {f"{what} {name}": self._moved(self._positions[name], nu) for nu, what in enumerate(_MOTIONS)}
         for link in self.links:
             row = self._positions[link.first] - self._positions[link.second]
             deflection = self._moved(row, 0)
-            found[f"deflection {link.name}"] = deflection
-            found[f"force {link.name}"] = link.stiffness * deflection + link.damping * self._moved(row, 1)
-        return found
+            outputs[f"deflection {link.name}"] = deflection
+            outputs[f"force {link.name}"] = link.stiffness * deflection + link.damping * self._moved(row, 1)
+        return outputs
 
     def _moved(self, row: Array, nu: int) -> Array:
         """A displacement's derivative as a row."""
         size = len(self.free)
-        found = np.zeros(2 * size + 3)
+        motion = np.zeros(2 * size + 3)
         if nu < 2:
-            found[nu * size : (nu + 1) * size] = row[:-1]
+            motion[nu * size : (nu + 1) * size] = row[:-1]
         else:
-            found += row[:-1] @ self._accelerations
-        found[2 * size + nu] += row[-1]
-        return found
+            motion += row[:-1] @ self._accelerations
+        motion[2 * size + nu] += row[-1]
+        return motion
 
     def _drive_force(self) -> Array:
         """What the drive exerts: the work of the law's displacement."""
@@ -203,8 +203,12 @@ def assembly(
             f'first, ("camshaft", "roller"), got {shortened(drive)}'
         )
     base, driven = pair
-    joined = tuple(one if isinstance(one, Link) else _link(one) for one in _many(links))
-    for name in (driven, *((base,) if base != GROUND else ()), *(n for one in joined for n in (one.first, one.second))):
+    joined = tuple(link if isinstance(link, Link) else _link(link) for link in _many(links))
+    for name in (
+        driven,
+        *((base,) if base != GROUND else ()),
+        *(n for link in joined for n in (link.first, link.second)),
+    ):
         if name not in masses and name != GROUND:
             raise InputError(unknown_key(name, [*masses, GROUND], "mass"))
     if driven in {base, GROUND}:

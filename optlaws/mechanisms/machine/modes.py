@@ -77,14 +77,14 @@ def mode(machine: StateSpace, number: object) -> Mode:
     >>> mode(StateSpace([[0.0, 5.0], [-5.0, 0.0]], [[3.0], [0.0]], [[1.0, 0.0]]), 1).frequency
     5.0
     """
-    found = modes(machine)
-    if not found:
+    vibrations = modes(machine)
+    if not vibrations:
         raise InputError("the machine has no mode that vibrates: ask for peaks of its outputs in the dwell instead")
     if isinstance(number, str):
-        raise InputError(f"mode is a number from 1 to {len(found)}, before the output: residual(1, {number!r})")
-    if not isinstance(number, int | float) or isinstance(number, bool) or number not in range(1, len(found) + 1):
-        raise InputError(f"mode must be a whole number from 1 to {len(found)}, got {number!r}")
-    return found[int(number) - 1]
+        raise InputError(f"mode is a number from 1 to {len(vibrations)}, before the output: residual(1, {number!r})")
+    if not isinstance(number, int | float) or isinstance(number, bool) or number not in range(1, len(vibrations) + 1):
+        raise InputError(f"mode must be a whole number from 1 to {len(vibrations)}, got {number!r}")
+    return vibrations[int(number) - 1]
 
 
 def participation(machine: StateSpace, wanted: Mode, output: str) -> complex:
@@ -161,9 +161,9 @@ class ModalModel:
         bent, turning = unit[:size].sum(axis=0), unit[size : 2 * size].sum(axis=0)
         bending = -shares.sum() * unit[-1]
         bending[:size], bending[size : 2 * size] = -(frequencies**2), -2.0 * dampings * frequencies
-        found = {"position": bent + unit[-3], "velocity": turning + unit[-2], "acceleration": bending + unit[-1]}
+        rows_by_name = {"position": bent + unit[-3], "velocity": turning + unit[-2], "acceleration": bending + unit[-1]}
         alone = {f"deflection {i + 1}": unit[i] for i in range(size)} if size > 1 else {}
-        return found | {"deflection": bent} | alone
+        return rows_by_name | {"deflection": bent} | alone
 
 
 def modal_model(modes: Any) -> ModalModel:  # noqa: ANN401 - whatever users give

@@ -132,8 +132,8 @@ class OutputConstant(Functional):
         if self._gain is not None and self.both:
             order, factor = self._gain
             return ((order, factor, factor * abs(self.offset)),)
-        found = space.cached(("size", self.name), lambda: np.array(self._reached(space) or ()))
-        return ((int(found[0]), float(found[1]), float(found[2])),) if len(found) else ()
+        reached = space.cached(("size", self.name), lambda: np.array(self._reached(space) or ()))
+        return ((int(reached[0]), float(reached[1]), float(reached[2])),) if len(reached) else ()
 
     @property
     def both(self) -> bool:
@@ -270,11 +270,11 @@ class OutputPeak(OutputConstant):
         """Series in the place u, which falls with time, a panel each; before each its start."""
         panels = self.panels(space)
         count = max(len(series) for *_, series in panels)
-        found = np.zeros((len(panels), count + 1, panels[0][2].shape[1]))
+        rows = np.zeros((len(panels), count + 1, panels[0][2].shape[1]))
         for i, (start, _, series) in enumerate(panels):
-            found[i, 0] = start
-            found[i, 1 : 1 + len(series)] = series * np.where(np.arange(len(series)) % 2, -1.0, 1.0)[:, None]
-        return np.ascontiguousarray(found[:, : 1 + _terms(found[:, 1:])])
+            rows[i, 0] = start
+            rows[i, 1 : 1 + len(series)] = series * np.where(np.arange(len(series)) % 2, -1.0, 1.0)[:, None]
+        return np.ascontiguousarray(rows[:, : 1 + _terms(rows[:, 1:])])
 
 
 def _terms(series: Array) -> int:
@@ -320,8 +320,8 @@ class OutputRms(OutputConstant):
         free, base = matrix[:, :-1], matrix[:, -1]
         if not base.any():
             return space.law(np.linalg.lstsq(free, np.array(direction), rcond=None)[0])
-        *found, length = np.linalg.lstsq(np.column_stack([-free, direction]), base, rcond=None)[0]
-        return space.law(np.array(found)) if length > 0.0 else None
+        *weights, length = np.linalg.lstsq(np.column_stack([-free, direction]), base, rcond=None)[0]
+        return space.law(np.array(weights)) if length > 0.0 else None
 
     def _matrix(self, space: LawSpace) -> Array:
         return self._kept(space, lambda: self.rows_of_output(space))

@@ -131,21 +131,24 @@ class OutputCurve(Curve):
     def _of_order(self, nu: int) -> list[Array]:
         if nu not in self._series:
             lower = self._of_order(nu - 1)
-            found = [chebyshev.derivative(one) / length for one, length in zip(lower, self.lengths, strict=True)]
-            self._series[nu] = found
+            series = [
+                chebyshev.derivative(panel_series) / length
+                for panel_series, length in zip(lower, self.lengths, strict=True)
+            ]
+            self._series[nu] = series
         return self._series[nu]
 
     def _derivative(self, k: Array, nu: int) -> Array:
         places = np.clip(np.searchsorted(self.starts, k, side="right") - 1, 0, len(self.starts) - 1)
-        found, series = np.empty(np.shape(k)), self._of_order(nu)
+        values, series = np.empty(np.shape(k)), self._of_order(nu)
         for i in np.unique(places):
             here = places == i
             x = 2.0 * (k[here] - self.starts[i]) / self.lengths[i] - 1.0
-            found[here] = chebyshev.value(series[i], np.clip(x, -1.0, 1.0))
-        return found
+            values[here] = chebyshev.value(series[i], np.clip(x, -1.0, 1.0))
+        return values
 
     def _before_breaks(self, nu: int) -> Array:
-        return np.array([float(one.sum()) for one in self._of_order(nu)[:-1]])
+        return np.array([float(series.sum()) for series in self._of_order(nu)[:-1]])
 
     def _impulses(self, nu: int) -> Sides:
         places, values = self.impulses
@@ -156,7 +159,7 @@ class OutputCurve(Curve):
 
     def _power_sides(self) -> Sides:
         products = [chebyshev.product(b, c) for b, c in zip(self._of_order(1), self._of_order(2), strict=True)]
-        return self._candidates(products, [chebyshev.derivative(one) for one in products])
+        return self._candidates(products, [chebyshev.derivative(product) for product in products])
 
     def _candidates(self, series: list[Array], slopes: list[Array]) -> Sides:
         places, values = [], []
@@ -167,5 +170,5 @@ class OutputCurve(Curve):
         return np.concatenate(places), np.concatenate(values)
 
     def _mean_square(self, nu: int) -> float:
-        squares = [chebyshev.mean_product(one, one) for one in self._of_order(nu)]
+        squares = [chebyshev.mean_product(series, series) for series in self._of_order(nu)]
         return float(self.lengths @ np.array(squares)) / float(self.lengths.sum())

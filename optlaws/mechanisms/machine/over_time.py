@@ -118,8 +118,8 @@ class MachineMotion(ABC):
     def _curve(self, output: str) -> OutputCurve:
         states, direct = self.machine.output_rows(output)
         panels = self._panels
-        parts = tuple(trimmed(one.output(states, direct)[:, 0]) for one in panels)
-        starts, lengths = (np.array([getattr(one, name) for one in panels]) for name in ("start", "length"))
+        parts = tuple(trimmed(panel.output(states, direct)[:, 0]) for panel in panels)
+        starts, lengths = (np.array([getattr(panel, name) for panel in panels]) for name in ("start", "length"))
         jumps = self._velocity_jumps if direct[2] else []
         impulses = np.array([k for k, _ in jumps]), np.array([np.copysign(np.inf, direct[2] * b) for _, b in jumps])
         return OutputCurve(output, starts, lengths, parts, impulses)
@@ -187,10 +187,10 @@ class MachineResponse(MachineMotion):
     @kept_property
     def _panels(self) -> list[Panel]:
         level = np.array([float(self.law.a(0.0))])
-        found = drives.of_law(self.law)
+        moved = drives.of_law(self.law)
         if self.dwell > BRIEF:
-            found.append(drives.rest(1.0, self.dwell, np.array([float(self.law.a(1.0))])))
-        return self.machine.dynamics.moved(found, self.machine.settled(level))[0]
+            moved.append(drives.rest(1.0, self.dwell, np.array([float(self.law.a(1.0))])))
+        return self.machine.dynamics.moved(moved, self.machine.settled(level))[0]
 
     @property
     def _velocity_jumps(self) -> list[tuple[float, float]]:
@@ -240,8 +240,8 @@ class MachineCycle(MachineMotion):
         low, high = (np.array([float(self.rise.a(k))]) for k in (0.0, 1.0))
         back = 1.0 + self.dwell
         rise, fall = drives.of_law(self.rise), drives.of_law(self.fall, back, self.fall_duration, float(high[0]), -1.0)
-        found = around(rise, fall, (high, low), (self.dwell, self.fall_duration, self.rest))
-        return steady(self.machine, found)
+        moved = around(rise, fall, (high, low), (self.dwell, self.fall_duration, self.rest))
+        return steady(self.machine, moved)
 
     @property
     def _velocity_jumps(self) -> list[tuple[float, float]]:
@@ -269,8 +269,8 @@ class RepeatedMotion(MachineMotion):
     >>> from optlaws import Machine, smoothstep
     >>> mass = Machine([[0, 1], [-400, -2]], [[0], [400]], [[1, 0]], outputs=["position"])
     >>> there, back = drives.of_law(smoothstep(4)), drives.of_law(smoothstep(4), 1.0, 1.0, 1.0, -1.0)
-    >>> found, own = RepeatedMotion(mass, (*there, *back), ()), mass.cycle(smoothstep(4), dwell=0, rest=0)
-    >>> bool(abs(found.peak("position").value - own.peak("position").value) < 1e-12)
+    >>> repeated, own = RepeatedMotion(mass, (*there, *back), ()), mass.cycle(smoothstep(4), dwell=0, rest=0)
+    >>> bool(abs(repeated.peak("position").value - own.peak("position").value) < 1e-12)
     True
     """
 
@@ -295,13 +295,13 @@ def around(
 ) -> list[Drive]:
     """A cycle: rise, dwell at the upper level, return, rest at the lower one; `durations` are those after the rise."""
     (high, low), (dwell, fall_duration, pause) = levels, durations
-    found = list(rise)
+    moved = list(rise)
     if dwell > BRIEF:
-        found.append(drives.rest(1.0, dwell, high))
-    found += fall
+        moved.append(drives.rest(1.0, dwell, high))
+    moved += fall
     if pause > BRIEF:
-        found.append(drives.rest(1.0 + dwell + fall_duration, pause, low))
-    return found
+        moved.append(drives.rest(1.0 + dwell + fall_duration, pause, low))
+    return moved
 
 
 def steady(machine: StateSpace, cycle: Sequence[Drive], radians: float = RADIANS) -> list[Panel]:

@@ -110,8 +110,8 @@ class ModeResidual(Functional):
     def worst(self, law: MotionLaw) -> Peak:
         """The greatest over the box; its `k` is the frequency at which it is, in radians in the rise's duration."""
         transform = velocity_transform_of(law)
-        found = [_greatest(edge, lambda roots: self.share * transform(roots)) for edge in self.edges]
-        value, root = max(found, key=lambda one: one[0])
+        edge_peaks = [_greatest(edge, lambda roots: self.share * transform(roots)) for edge in self.edges]
+        value, root = max(edge_peaks, key=lambda pair: pair[0])
         return Peak(value, abs(root))
 
     @kept_property
@@ -124,16 +124,16 @@ class ModeResidual(Functional):
         """The edges of the box; one where it is thin."""
         own = mode(self.machine, self.mode)
         low, high = ((1.0 + sign * self.spread) * own.frequency for sign in (-1.0, 1.0))
-        least, most = (asin(one) for one in self.dampings or (own.damping, own.damping))
+        least, most = (asin(damping) for damping in self.dampings or (own.damping, own.damping))
         corners = [(low, least), (high, least), (high, most), (low, most)]
         sides = [Edge(*sorted((a, b))) for a, b in zip(corners, [*corners[1:], corners[0]], strict=True)]
-        kept = list(dict.fromkeys(one for one in sides if not one.single)) or [Edge(corners[0], corners[0])]
+        kept = list(dict.fromkeys(side for side in sides if not side.single)) or [Edge(corners[0], corners[0])]
         return tuple(kept)
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[ConeFamily, ...]:
         """One cone for each place of each edge. In units of the bound, or of what the base law leaves."""
         check_rest(self.name, space)
-        found = []
+        families = []
         for i, edge in enumerate(self.edges):
             columns = self._columns(space, i)
             wide = np.zeros((len(columns), len(slack) + 1), dtype=np.complex128)
@@ -141,8 +141,8 @@ class ModeResidual(Functional):
             unit = self.unit(space, i, bound, sought=bool(slack.any()))
             domain = (1.0, 1.0) if edge.single else (-1.0, 1.0)
             name = f"{self.name}, edge {i + 1}" if i else self.name
-            found.append(ConeFamily(name, slack / unit, bound / unit, domain=domain, series=wide / unit))
-        return tuple(found)
+            families.append(ConeFamily(name, slack / unit, bound / unit, domain=domain, series=wide / unit))
+        return tuple(families)
 
     def unit(self, space: LawSpace, edge: int, bound: float, *, sought: bool) -> float:
         """The size of the rows of an edge: the bound, or what the base law leaves where none is given but sought."""
@@ -260,10 +260,12 @@ def mode_residual(
 
 
 def _mode_number(machine: StateSpace, number: float, output: str) -> int:
-    found = mode(machine, number)
-    if found.frequency > _WIDEST * 10.0 or found.damping > _MOST_DAMPING:
-        raise InputError(f"mode {found.number} hardly vibrates: ask for the peak of {output!r} in the dwell instead")
-    return found.number
+    vibration = mode(machine, number)
+    if vibration.frequency > _WIDEST * 10.0 or vibration.damping > _MOST_DAMPING:
+        raise InputError(
+            f"mode {vibration.number} hardly vibrates: ask for the peak of {output!r} in the dwell instead"
+        )
+    return vibration.number
 
 
 MAKERS.setdefault("mode_residual", mode_residual)

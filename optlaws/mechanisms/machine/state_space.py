@@ -67,8 +67,8 @@ class StateSpace:
         if not _nothing(D):
             says = f"a row for each of {len(rows)} outputs, a column for each input"
             direct = _matrix(D, "D", (len(rows), count), says)
-        for name, one in zip("ABCD", (square, load, rows, direct), strict=True):
-            object.__setattr__(self, name, tuple(map(tuple, one.tolist())))
+        for name, matrix in zip("ABCD", (square, load, rows, direct), strict=True):
+            object.__setattr__(self, name, tuple(map(tuple, matrix.tolist())))
         object.__setattr__(self, "inputs", inputs)
         object.__setattr__(self, "outputs", _names(outputs, len(rows)))
         self._check_stability()
@@ -122,7 +122,7 @@ class StateSpace:
         """
         T, h = positive(duration, "duration"), positive(stroke, "stroke")
         _check_inputs(inputs)
-        units = np.array([h / T ** SYMBOLS.index(one) for one in inputs])
+        units = np.array([h / T ** SYMBOLS.index(symbol) for symbol in inputs])
         scaled = _scaled(A, "A", T), _scaled(B, "B", T * units), C, _scaled(D, "D", units)
         return cls(*scaled, inputs=inputs, outputs=outputs)
 
@@ -224,9 +224,9 @@ def _check_inputs(inputs: Any) -> None:  # noqa: ANN401 - whatever users give
 
 
 def _spread(matrix: Array, inputs: str) -> Array:
-    found = np.zeros((len(matrix), 3))
-    found[:, [SYMBOLS.index(one) for one in inputs]] = matrix
-    return found
+    columns = np.zeros((len(matrix), 3))
+    columns[:, [SYMBOLS.index(symbol) for symbol in inputs]] = matrix
+    return columns
 
 
 def _matrix(
@@ -237,14 +237,14 @@ def _matrix(
     limit: int = MOST_OUTPUTS,
 ) -> Array:
     try:
-        found = real_times(value)
+        times = real_times(value)
     except InputError:
         raise InputError(f"{name} must be a matrix of finite numbers, got {shortened(value)}") from None
-    if found.ndim != 2 or not found.size or max(found.shape) > limit or np.abs(found).max() > MAGNITUDE_LIMIT:
+    if times.ndim != 2 or not times.size or max(times.shape) > limit or np.abs(times).max() > MAGNITUDE_LIMIT:
         raise InputError(f"{name} must be a matrix, a list of rows, at most {limit} of them, got {shortened(value)}")
-    if shape is not None and any(want not in {None, have} for want, have in zip(shape, found.shape, strict=True)):
-        raise InputError(f"{name} must have {says}, got shape {found.shape}")
-    return found + 0.0
+    if shape is not None and any(want not in {None, have} for want, have in zip(shape, times.shape, strict=True)):
+        raise InputError(f"{name} must have {says}, got shape {times.shape}")
+    return times + 0.0
 
 
 def _nothing(value: Any) -> bool:  # noqa: ANN401
@@ -255,8 +255,8 @@ def _scaled(value: Any, name: str, factor: Any) -> Any:  # noqa: ANN401
     """A matrix times numbers, where it is one; what is none is refused elsewhere."""
     if _nothing(value):
         return value
-    found = _matrix(value, name)
-    return found * factor if np.ndim(factor) == 0 or found.shape[1] == len(factor) else found
+    matrix = _matrix(value, name)
+    return matrix * factor if np.ndim(factor) == 0 or matrix.shape[1] == len(factor) else matrix
 
 
 def _listed(names: Any) -> tuple[Any, ...]:  # noqa: ANN401 - they are checked later
@@ -271,10 +271,10 @@ def _names(names: Any, count: int) -> tuple[str, ...]:  # noqa: ANN401
     given = _listed(names)
     if not given:
         return tuple(f"output {i}" for i in range(1, count + 1))
-    for one in given:
-        plain = isinstance(one, str) and one.strip() and one.isprintable() and not set(one) & set("\"'\\")
-        if not plain or len(one) > LONGEST_NAME:
-            raise InputError(f"an output's name must be a short text without quotes, got {shortened(one)}")
+    for entry in given:
+        plain = isinstance(entry, str) and entry.strip() and entry.isprintable() and not set(entry) & set("\"'\\")
+        if not plain or len(entry) > LONGEST_NAME:
+            raise InputError(f"an output's name must be a short text without quotes, got {shortened(entry)}")
     if len(given) != count or len(set(given)) != count:
         raise InputError(f"outputs must be {count} different names, one for each row of C, got {shortened(names)}")
     return given

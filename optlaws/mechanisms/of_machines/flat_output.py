@@ -48,7 +48,7 @@ def flat_output(machine: StateSpace, output: str | None = None) -> tuple[float, 
     row, column = np.array(machine.C[place]), load[:, 0] + A @ (load[:, 1] + A @ load[:, 2])
     feeds = [direct[2], direct[1] + row @ load[:, 2], direct[0] + row @ (load[:, 1] + A @ load[:, 2])]
     size, fastest = len(A), max(1.0, float(np.abs(machine.dynamics.roots).max()))
-    if any(abs(one) > _NOTHING * fastest**i for i, one in enumerate(feeds)):
+    if any(abs(coefficient) > _NOTHING * fastest**i for i, coefficient in enumerate(feeds)):
         raise InputError(f"{name!r} is not flat: the law enters it directly, so that it has as many zeros as roots")
     reach, most = row, np.abs(row)
     for order in range(1, size + 1):
@@ -113,9 +113,11 @@ def _zeros(A: Array, column: Array, row: Array) -> str:
 
     size = len(A)
     pencil = np.block([[A, column[:, None]], [row[None, :], np.zeros((1, 1))]])
-    found = eigvals(pencil, np.diag([*np.ones(size), 0.0]))
-    finite = found[np.isfinite(found) & (np.abs(found) < 1e6 * max(1.0, float(np.linalg.norm(A, 2))))]
-    listed = ", ".join(f"{one.real:.4g}{one.imag:+.4g}i" if one.imag else f"{one.real:.4g}" for one in finite)
+    zeros = eigvals(pencil, np.diag([*np.ones(size), 0.0]))
+    finite = zeros[np.isfinite(zeros) & (np.abs(zeros) < 1e6 * max(1.0, float(np.linalg.norm(A, 2))))]
+    listed = ", ".join(
+        f"{machine.real:.4g}{machine.imag:+.4g}i" if machine.imag else f"{machine.real:.4g}" for machine in finite
+    )
     return (
         f"its transfer function has zeros ({listed}), such as dampers between masses make, so that the law that drives "
         "it would move on after the output has come to rest"

@@ -148,19 +148,19 @@ def machine_spectrum(
     asked = np.array(numbers(np.atleast_1d(np.asarray(values)).tolist(), "values"))
     if not len(asked):
         raise InputError("values must be at least one number")
-    machines: list[Any] = [make(float(one)) for one in asked]
-    for one in machines:
-        if not isinstance(one, Machine) or one.outputs != machines[0].outputs:
+    machines: list[Any] = [make(float(value)) for value in asked]
+    for machine in machines:
+        if not isinstance(machine, Machine) or machine.outputs != machines[0].outputs:
             raise InputError("make must give a Machine for every value, all with the same outputs")
     known, pause = motion_law(law), not_negative(dwell, "dwell")
-    responses = [one.response(known, dwell=pause) for one in machines]
+    responses = [machine.response(known, dwell=pause) for machine in machines]
     names = machines[0].outputs
     output = names[machines[0].place(output)]
-    peaks = {name: np.array([one.peak(name).value for one in responses]) for name in names}
-    count = max((len(one.modes) for one in machines), default=0)
+    peaks = {name: np.array([response.peak(name).value for response in responses]) for name in names}
+    count = max((len(machine.modes) for machine in machines), default=0)
     frequencies, residuals = np.full((len(asked), count), np.nan), np.full((len(asked), count), np.nan)
-    for i, one in enumerate(machines):
-        for mode in one.modes:
+    for i, machine in enumerate(machines):
+        for mode in machine.modes:
             frequencies[i, mode.number - 1] = mode.frequency
-            residuals[i, mode.number - 1] = one.residual(mode.number, output).value(known)
+            residuals[i, mode.number - 1] = machine.residual(mode.number, output).value(known)
     return MachineSpectrum(asked, peaks, frequencies, residuals, output, str(parameter))

@@ -124,15 +124,17 @@ def whole(name: str, value: Any) -> int:  # noqa: ANN401 - it is checked here
 
 def axes(study: StudyFile) -> list[Axis]:
     """The factors in the order of the file, that of B last: neighbours along it start each other."""
-    found = [Axis((name,), (_column(name, values),), name) for name, values in study.vary.items()]
+    found_axes = [Axis((name,), (_column(name, values),), name) for name, values in study.vary.items()]
     for i, table in enumerate(study.together, 1):
         lengths = {len(values) for values in table.values()}
         if len(lengths) != 1:
             raise InputError(f"together: lists of one table must be of one length, got {sorted(lengths)}")
         columns = tuple(_column(name, values) for name, values in table.items())
-        found.append(Axis(tuple(table), columns, f"together {i}"))
-    found += [Axis(tuple(one.over), sampled(one), f"sample {i}") for i, one in enumerate(study.sample, 1)]
-    return sorted(found, key=lambda axis: axis.names == ("B",))
+        found_axes.append(Axis(tuple(table), columns, f"together {i}"))
+    found_axes += [
+        Axis(tuple(sampling.over), sampled(sampling), f"sample {i}") for i, sampling in enumerate(study.sample, 1)
+    ]
+    return sorted(found_axes, key=lambda axis: axis.names == ("B",))
 
 
 def _column(name: str, values: list[Any] | Steps) -> Sequence[Any]:

@@ -82,8 +82,10 @@ class Points:
         base, first = self.study.problem.given(), self.inputs(0)
         objectives = [value for axis in self.axes for value in axis.values("minimise")] or [base.get("minimise", "C")]
         try:
-            asked = (Problem.from_dict(entries(base, {**first, "minimise": one})) for one in objectives)
-            return all(one.convex or (least_power(one) and self.shape[-1] >= least_count(one)) for one in asked)
+            asked = (Problem.from_dict(entries(base, {**first, "minimise": objective})) for objective in objectives)
+            return all(
+                problem.convex or (least_power(problem) and self.shape[-1] >= least_count(problem)) for problem in asked
+            )
         except InputError:
             return False
 
@@ -113,12 +115,12 @@ class Points:
 
     def _snake(self, positions: NDArray[np.int64]) -> list[NDArray[np.int64]]:
         """The places on each axis of the points that are solved at these positions."""
-        found, before = [], np.zeros_like(positions)
+        digits_by_axis, before = [], np.zeros_like(positions)
         for digits, length in zip(np.unravel_index(positions, self.shape), self.shape, strict=True):
             # an axis runs backwards where those before it have made an odd number of steps
-            found.append(np.where(before % 2, length - 1 - digits, digits))
+            digits_by_axis.append(np.where(before % 2, length - 1 - digits, digits))
             before = before * length + digits
-        return found
+        return digits_by_axis
 
     def chunk_of(self, index: int) -> int:
         """The chunk in which a point is solved."""

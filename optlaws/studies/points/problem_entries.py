@@ -108,9 +108,9 @@ def shown(name: str, value: Any) -> str | float | int:  # noqa: ANN401 - an entr
     ('at most 60', '1.5 to 1.8', 1.641, '0, 0.5')
     """
     if isinstance(value, dict):
-        return "; ".join(f"{key} {shown('B', one)}" for key, one in value.items())
+        return "; ".join(f"{key} {shown('B', item)}" for key, item in value.items())
     if isinstance(value, list) and ENTRIES[name].kind not in {Kind.CONSTANT, Kind.CONSTANTS}:
-        return ("; " if ENTRIES[name].kind is Kind.WINDOWS else ", ").join(_brief(one) for one in value)
+        return ("; " if ENTRIES[name].kind is Kind.WINDOWS else ", ").join(_brief(item) for item in value)
     if isinstance(value, Range):
         value = [value.low, value.high]
     if isinstance(value, list):

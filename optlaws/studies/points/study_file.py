@@ -90,7 +90,7 @@ class StudyFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
     def names(self) -> list[str]:
         """The entries that vary, in the order of the file."""
-        tables: Iterable[Iterable[str]] = (self.vary, *self.together, *(one.over for one in self.sample))
+        tables: Iterable[Iterable[str]] = (self.vary, *self.together, *(sampling.over for sampling in self.sample))
         return [name for table in tables for name in table]
 
 
@@ -154,8 +154,8 @@ def _check_fillings(study: StudyFile, name: str, file: str) -> None:
 
 def places(study: StudyFile) -> set[str]:
     """Names in braces within text of the problem and of what varies."""
-    values = [value for one in study.vary.values() if isinstance(one, list) for value in one]
-    values += [value for table in study.together for one in table.values() for value in one]
+    values = [value for column in study.vary.values() if isinstance(column, list) for value in column]
+    values += [value for table in study.together for column in table.values() for value in column]
     base = study.problem.given()
     values += [base.get("minimise"), *base.get("bounds", {}), *study.names()]
     return {name for text in values if isinstance(text, str) for name in _PLACE.findall(text)}
@@ -170,9 +170,9 @@ def filled(text: str, values: Mapping[str, Any]) -> str:
     '0.25*C/4 + 0.75*D/2.25'
     """
 
-    def number(found: re.Match[str]) -> str:
-        value = finite(values[found[1]], found[1])
-        return repr(1.0 - value if found[0].startswith("{1-") else value)
+    def number(match: re.Match[str]) -> str:
+        value = finite(values[match[1]], match[1])
+        return repr(1.0 - value if match[0].startswith("{1-") else value)
 
     return _PLACE.sub(number, text)
 

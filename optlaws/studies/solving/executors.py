@@ -77,5 +77,5 @@ def cores() -> int:
 
 
 def _size(executor: Executor) -> int:
-    found = getattr(executor, "_max_workers", None)
-    return found if isinstance(found, int) else cores()
+    workers = getattr(executor, "_max_workers", None)
+    return workers if isinstance(workers, int) else cores()

@@ -53,12 +53,12 @@ class Processes:
             If no process can be started, or a module to be imported is not there.
         """
         task = typed(data, Task)
-        found: list[bytes] = []
+        rows: list[bytes] = []
         strikes: Counter[int] = Counter()
         begin = 0
-        while len(found) < len(task.points):
-            reason = self._advance(task, begin, found)
-            place = len(found)
+        while len(rows) < len(task.points):
+            reason = self._advance(task, begin, rows)
+            place = len(rows)
             if reason is None or place == len(task.points):
                 continue
             strikes[place] += 1
@@ -66,14 +66,12 @@ class Processes:
                 # of points that are solved together nobody knows which one it was
                 task, strikes = msgspec.structs.replace(task, alone=True), Counter()
             elif isinstance(reason, TookTooLong):
-                found.append(
-                    failed(task, place, TIME_LIMIT, f"no answer within {task.time_limit:g} s", task.time_limit)
-                )
-                begin = len(found)
+                rows.append(failed(task, place, TIME_LIMIT, f"no answer within {task.time_limit:g} s", task.time_limit))
+                begin = len(rows)
             elif strikes[place] == STRIKES:
-                found.append(failed(task, place, DIED, f"its process died {STRIKES} times: {reason}", 0.0))
-                begin = len(found)
-        return found
+                rows.append(failed(task, place, DIED, f"its process died {STRIKES} times: {reason}", 0.0))
+                begin = len(rows)
+        return rows
 
     def close(self) -> None:
         """End all processes; chunks under way raise `Stopped`."""
@@ -85,20 +83,20 @@ class Processes:
         for process in idle:
             process.clear()
 
-    def _advance(self, task: Task, begin: int, found: list[bytes]) -> Died | TookTooLong | None:
+    def _advance(self, task: Task, begin: int, rows: list[bytes]) -> Died | TookTooLong | None:
         """Add rows to those found until the chunk or its process ends; the rows before them are known and pass by."""
         process, seen, done = self._taken(), begin, False
         try:
             for row in process.rows(task, begin):
-                if seen == len(found):
-                    found.append(row)
+                if seen == len(rows):
+                    rows.append(row)
                 seen += 1
             done = True
         except Died as reason:
             return reason
         except TookTooLong as reason:
             # a row that came in time before is not to blame for a machine that has become slow
-            return reason if seen == len(found) else Died("slow")
+            return reason if seen == len(rows) else Died("slow")
         finally:
             self._given_back(process, usable=done)
         return None

@@ -63,9 +63,9 @@ def blocks(task: Task, begin: int = 0) -> Iterator[list[bytes]]:
     for module in task.imports:
         importlib.import_module(module)
     for run in together.runs(task.points[begin:]):
-        found = _together(task, run)
-        if found is not None:
-            yield [encode(row) for row in found]
+        rows = _together(task, run)
+        if rows is not None:
+            yield [encode(row) for row in rows]
         else:
             yield from ([encode(row)] for row in _in_turn(task, run))
 
@@ -79,13 +79,13 @@ def _together(task: Task, run: Run) -> Iterator[Row] | None:
     if problems is None:
         return None
     try:
-        found, seconds = together.solved_rows(problems, task.bound)
+        rows, seconds = together.solved_rows(problems, task.bound)
     except Exception:  # noqa: BLE001 - whichever point it is of, alone it spoils its own row only
         return None
     blanks = _blanks(task, run) if along else (blank(task, index, inputs) for index, inputs in run)
     return (
-        {**one, **(_of_error(row, seconds) if isinstance(row, OptlawsError) else {**row, "seconds": seconds})}
-        for one, row in zip(blanks, found, strict=True)
+        {**entry, **(_of_error(row, seconds) if isinstance(row, OptlawsError) else {**row, "seconds": seconds})}
+        for entry, row in zip(blanks, rows, strict=True)
     )
 
 

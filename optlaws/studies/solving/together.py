@@ -50,7 +50,7 @@ def runs(points: Sequence[tuple[int, Inputs]]) -> Iterator[list[tuple[int, Input
 def _numbers(value: object) -> bool:
     """Whether a value is a number, or a pair of bounds."""
     pair = value if isinstance(value, list | tuple) else (value,)
-    return all(isinstance(one, float) or (isinstance(one, int) and pair is value) for one in pair)
+    return all(isinstance(number, float) or (isinstance(number, int) and pair is value) for number in pair)
 
 
 def along_B(base: Mapping[str, Any], run: Sequence[tuple[int, Inputs]]) -> bool:
@@ -120,15 +120,15 @@ def solved_rows(problems: ProblemArray, bound: str) -> tuple[list[Row | OptlawsE
     return rows, (perf_counter() - began) / max(len(rows), 1)
 
 
-def _rows(found: SolutionArray) -> list[Row | OptlawsError]:
-    columns: dict[str, list[Any]] = {name: _plain(getattr(found, name)) for name in _NUMBERS}
-    columns["status"], columns["law"] = found.status.tolist(), found.stored_laws()
-    iterations = [0] * found.size
-    for place, one in found.others.items():
-        iterations[place] = getattr(one, "iterations", 0)
+def _rows(laws: SolutionArray) -> list[Row | OptlawsError]:
+    columns: dict[str, list[Any]] = {name: _plain(getattr(laws, name)) for name in _NUMBERS}
+    columns["status"], columns["law"] = laws.status.tolist(), laws.stored_laws()
+    iterations = [0] * laws.size
+    for place, result in laws.others.items():
+        iterations[place] = getattr(result, "iterations", 0)
     columns["iterations"] = iterations
     rows = [dict(zip(columns, values, strict=True)) for values in zip(*columns.values(), strict=True)]
-    return [found.errors.get(i, row) for i, row in enumerate(rows)]
+    return [laws.errors.get(i, row) for i, row in enumerate(rows)]
 
 
 def _plain(values: NDArray[np.float64]) -> list[float | None]:

@@ -178,19 +178,19 @@ def check_rows(file: Path, points: int, counts: Mapping[str, int] | None = None)
             missing = [name for name in ("index", "key", "status", "law", "error") if name not in table.schema.names]
             if missing:
                 raise DamagedTable(file, f"it has no column {missing[0]!r}")
-            found: Counter[str] = Counter()
+            counted: Counter[str] = Counter()
             count = 0
             for batch in table.iter_batches(batch_size=GROUP):
                 if batch["index"].to_pylist() != list(range(count, count + len(batch))):
                     raise DamagedTable(file, f"its rows from {count} on are not in the order of the points")
-                found.update(batch["status"].to_pylist())
+                counted.update(batch["status"].to_pylist())
                 count += len(batch)
     except (pa.ArrowException, OSError, ValueError, TypeError) as error:
         if isinstance(error, DamagedTable):
             raise
         raise DamagedTable(file, f"it cannot be read: {' '.join(str(error).split())[:200]}") from None
-    if count != points or (counts is not None and found != counts):
-        raise DamagedTable(file, f"it has {count} rows of {points} points, {dict(found)}")
+    if count != points or (counts is not None and counted != counts):
+        raise DamagedTable(file, f"it has {count} rows of {points} points, {dict(counted)}")
 
 
 def digest(file: Path) -> str:
@@ -233,7 +233,7 @@ def arrow(rows: Sequence[StoredRow], shape: pa.Schema) -> pa.Table:
             asked = inputs[name]
             columns[name] = [row.inputs[asked] for row in rows]
             if str(shape.field(name).type) == "string":
-                columns[name] = [one if isinstance(one, str) else json.dumps(one) for one in columns[name]]
+                columns[name] = [value if isinstance(value, str) else json.dumps(value) for value in columns[name]]
         elif name == "law":
             columns[name] = [None if row.law == _NONE else bytes(row.law).decode() for row in rows]
         else:

@@ -65,38 +65,38 @@ def laws_on(path: Path, segments: list[Segment], t: Array) -> Found:
     """The optima at ascending t on segments that are known."""
     most = max((segment.structure.count for segment in segments), default=0)
     program = path.model.program
-    found = Found.none(len(t), program.size, most, len(program.right))
+    laws = Found.none(len(t), program.size, most, len(program.right))
     for segment in segments:
         places = np.flatnonzero((t >= segment.begin) & (t <= segment.end))
         if len(places):
-            _fill(found, path, segment, places, t[places])
+            _fill(laws, path, segment, places, t[places])
     beside = _BESIDE * (segments[-1].end - segments[0].begin) if segments else 0.0
     for segment in segments:
         # what lies between two segments is tried with both
-        places = np.flatnonzero((t >= segment.begin - beside) & (t <= segment.end + beside) & ~found.solved)
+        places = np.flatnonzero((t >= segment.begin - beside) & (t <= segment.end + beside) & ~laws.solved)
         if len(places):
-            _enter(found, path, segment, places, (t[places], segment.interpolated(t[places])))
+            _enter(laws, path, segment, places, (t[places], segment.interpolated(t[places])))
     bounds = path.numbers(t).bounds
     for i in path.measured:
         # in the law's own program the bound is the unit
-        found.multiplier[:] = np.where(found.family == i, found.multiplier * bounds[:, i, None], found.multiplier)
-    return found
+        laws.multiplier[:] = np.where(laws.family == i, laws.multiplier * bounds[:, i, None], laws.multiplier)
+    return laws
 
 
-def _fill(found: Found, path: Path, segment: Segment, places: NDArray[np.intp], t: Array) -> None:
+def _fill(laws: Found, path: Path, segment: Segment, places: NDArray[np.intp], t: Array) -> None:
     if segment.structure.affine and path.one_cost and segment.begin < segment.end:
-        _affine(found, path, segment, places, t)
+        _affine(laws, path, segment, places, t)
         return
     for own, guess in _guesses(path, segment, t, (segment.begin, segment.end)):
-        _enter(found, path, segment, places[own], (t[own], guess))
+        _enter(laws, path, segment, places[own], (t[own], guess))
 
 
-def _enter(found: Found, path: Path, segment: Segment, places: NDArray[np.intp], near: tuple[Array, States]) -> None:
+def _enter(target: Found, path: Path, segment: Segment, places: NDArray[np.intp], near: tuple[Array, States]) -> None:
     """Enter laws at some t, with states near to theirs, as far as they are proven."""
     (t, guess), size = near, _chunk(segment.structure)
     for i in range(0, len(t), size):
         own = slice(i, i + size)
-        laws = _Laws(found, path, segment.structure, places[own], path.numbers(t[own]))
+        laws = _Laws(target, path, segment.structure, places[own], path.numbers(t[own]))
         laws.solve(guess.taken(own))
 
 
@@ -192,7 +192,7 @@ def _settled(rows: Array) -> bool:
     return bool((np.abs(highest) <= _TAIL * np.maximum(1.0, np.abs(rows).max(axis=0))).all())
 
 
-def _affine(found: Found, path: Path, segment: Segment, places: NDArray[np.intp], t: Array) -> None:
+def _affine(laws: Found, path: Path, segment: Segment, places: NDArray[np.intp], t: Array) -> None:
     """Enter laws between the ends of a segment along which they are affine."""
     structure = segment.structure
     ends = States.unpacked(segment.rows[[0, -1]], structure)
@@ -207,23 +207,23 @@ def _affine(found: Found, path: Path, segment: Segment, places: NDArray[np.intp]
     bound = lower_bounds(path, structure, own, first, value)
     objective = path.model.unit * (x @ own.cost[0])
     sound = np.abs(objective - bound) <= _GAP * np.maximum(np.abs(objective), _EXACT)
-    one = (np.broadcast_to(part, (len(t), part.shape[1])) for part in (first.u, first.weights, first.equations))
-    states = States(x, *one).taken(sound)
-    _put(found, structure, places[sound], states, (objective[sound], bound[sound], np.full(int(sound.sum()), excess)))
+    end_parts = (np.broadcast_to(part, (len(t), part.shape[1])) for part in (first.u, first.weights, first.equations))
+    states = States(x, *end_parts).taken(sound)
+    _put(laws, structure, places[sound], states, (objective[sound], bound[sound], np.full(int(sound.sum()), excess)))
 
 
 def _put(
-    found: Found, structure: Structure, places: NDArray[np.intp], states: States, proven: tuple[Array, Array, Array]
+    laws: Found, structure: Structure, places: NDArray[np.intp], states: States, proven: tuple[Array, Array, Array]
 ) -> None:
     count = structure.count
-    found.x[places] = states.x
-    found.family[places, :count] = structure.family
-    found.u[places, :count] = states.u
-    found.sign[places, :count] = structure.sign
-    found.free[places, :count] = structure.free
-    found.multiplier[places, :count] = np.maximum(states.weights, 0.0)
-    found.equations[places] = states.equations
-    found.objective[places], found.bound[places], found.excess[places] = proven
+    laws.x[places] = states.x
+    laws.family[places, :count] = structure.family
+    laws.u[places, :count] = states.u
+    laws.sign[places, :count] = structure.sign
+    laws.free[places, :count] = structure.free
+    laws.multiplier[places, :count] = np.maximum(states.weights, 0.0)
+    laws.equations[places] = states.equations
+    laws.objective[places], laws.bound[places], laws.excess[places] = proven
 
 
 def _barycentric(nodes: Array, t: Array) -> Array:

@@ -65,13 +65,13 @@ class Columns(Tangents):
     @kept_property
     def _parts(self) -> tuple[tuple[NDArray[np.intp], Array], ...]:
         """For f and its first two derivatives: which polynomials they are made of, and with what coefficients."""
-        found = []
+        parts = []
         series = self.family.series
         for _ in range(3):
             kept = np.flatnonzero(series.any(axis=1))
-            found.append((kept, np.ascontiguousarray(series[kept])))
+            parts.append((kept, np.ascontiguousarray(series[kept])))
             series = np.asarray(chebyshev.chebder(series), dtype=np.float64)
-        return tuple(found)
+        return tuple(parts)
 
     @kept_property
     def rounding(self) -> Array:
@@ -131,7 +131,7 @@ class Products(CurvedTangents):
 
     def greatest(self, point: Array) -> Array:
         """The greatest magnitude of f in each law over the whole interval."""
-        first, second = (point @ one.series.T for one in (self.family.first, self.family.second))
+        first, second = (point @ family.series.T for family in (self.family.first, self.family.second))
         return peaks(product(first, second))
 
 
@@ -206,7 +206,7 @@ class Cones(CurvedTangents):
         low, high = self.family.domain
         if low == high:
             return np.abs(self._jets(np.full((len(point), 1), low), point)[1][0, :, 0])
-        real, imaginary = (point @ one.T for one in (self.family.series.real, self.family.series.imag))
+        real, imaginary = (point @ part.T for part in (self.family.series.real, self.family.series.imag))
         return np.asarray(np.sqrt(peaks(product(real, real) + product(imaginary, imaginary))))
 
 
@@ -214,10 +214,10 @@ def _polynomials(u: Array, count: int) -> Array:
     """Chebyshev polynomials at many places, shape (count, places)."""
     if u.size * count < _SMALL:
         return np.asarray(np.cos(np.arange(count)[:, None] * np.arccos(np.minimum(np.maximum(u, -1.0), 1.0))))
-    found = np.empty((max(count, 2), len(u)))
-    found[0], found[1] = 1.0, np.clip(u, -1.0, 1.0)
-    twice = 2.0 * found[1]
+    polynomials = np.empty((max(count, 2), len(u)))
+    polynomials[0], polynomials[1] = 1.0, np.clip(u, -1.0, 1.0)
+    twice = 2.0 * polynomials[1]
     for n in range(2, count):
-        np.multiply(twice, found[n - 1], out=found[n])
-        found[n] -= found[n - 2]
-    return found[:count]
+        np.multiply(twice, polynomials[n - 1], out=polynomials[n])
+        polynomials[n] -= polynomials[n - 2]
+    return polynomials[:count]

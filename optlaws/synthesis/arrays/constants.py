@@ -65,7 +65,7 @@ def of_polynomials(laws: Sequence[PolynomialLaw], name: str) -> Array:
 def product(first: Array, second: Array) -> Array:
     """Products of Chebyshev series, law by law."""
     count = first.shape[1] + second.shape[1]
-    values = [one @ chebyshev.chebvander(nodes(count), one.shape[1] - 1).T for one in (first, second)]
+    values = [factor @ chebyshev.chebvander(nodes(count), factor.shape[1] - 1).T for factor in (first, second)]
     return from_values((values[0] * values[1]).T).T
 
 

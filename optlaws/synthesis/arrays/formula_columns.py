@@ -46,7 +46,7 @@ class Formulas(CurvedTangents):
         """Planes that touch the formula and its derivative by the place."""
         jets = [part.at(u, point) for part in self._parts]
         rows, slopes = (np.array([jet[i] for jet in jets]) for i in (0, 1))
-        values, turned = (np.einsum("impn,mn->imp", one, point) for one in (rows, slopes))
+        values, turned = (np.einsum("impn,mn->imp", matrix, point) for matrix in (rows, slopes))
         names, formula = self._names(values, u), self.family.slopes
         gradient, bent = formula.gradient(names), formula.hessian(names)
         way = np.concatenate([turned, np.full((1, *u.shape), -0.5)])
@@ -119,8 +119,8 @@ class Formulas(CurvedTangents):
         u = low + (high - low) * (nodes(count) + 1.0) / 2.0
         values = np.array([point @ part.family.columns(u)[0].T for part in self._parts])
         places = np.broadcast_to(u, values.shape[1:])
-        found = Motion(formula).values(self._names(values, places))
-        return from_values(np.broadcast_to(found, places.shape).T).T
+        heights = Motion(formula).values(self._names(values, places))
+        return from_values(np.broadcast_to(heights, places.shape).T).T
 
 
 @dataclass(frozen=True, eq=False)
@@ -153,8 +153,8 @@ class Integrals(CurvedTangents):
         value, share, rows = self._planes(point)
         plane = share[:, None] * rows
         plane[:, -1] += value - (plane * point).sum(axis=1)
-        found = np.repeat(plane[:, None, :], u.shape[1], axis=1)
-        return found, np.zeros_like(found), np.zeros(u.shape)
+        planes = np.repeat(plane[:, None, :], u.shape[1], axis=1)
+        return planes, np.zeros_like(planes), np.zeros(u.shape)
 
     def hidden(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - it has no place
         """By the slopes of the formula at each node."""
@@ -168,13 +168,13 @@ class Integrals(CurvedTangents):
     def hessian(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
         """Of the integral, or of its root."""
         bent = self.family.slopes.hessian(self._names(point)) * self.family.weights
-        found = _between(bent, self.family.columns[:, None, :, :-1])
+        between = _between(bent, self.family.columns[:, None, :, :-1])
         if self.family.root:
             value, share, rows = self._planes(point)
             own = rows[:, :-1]
             across = own[:, :, None] * own[:, None, :]
-            found = share[:, None, None] * found - across / (4.0 * value**3)[:, None, None]
-        return np.asarray(found * weights.sum(axis=1)[:, None, None])
+            between = share[:, None, None] * between - across / (4.0 * value**3)[:, None, None]
+        return np.asarray(between * weights.sum(axis=1)[:, None, None])
 
     def greatest(self, point: Array) -> Array:
         """The integral in each law."""
@@ -186,7 +186,7 @@ def _between(bent: Array, rows: Array) -> Array:
     turned = np.einsum("ijmp,jmpn->impn", bent, np.broadcast_to(rows, (len(rows), *bent.shape[2:], rows.shape[-1])))
     wide = np.broadcast_to(rows, turned.shape)
     names, laws, places, size = turned.shape
-    left, right = (one.transpose(1, 3, 0, 2).reshape(laws, size, names * places) for one in (wide, turned))
+    left, right = (part.transpose(1, 3, 0, 2).reshape(laws, size, names * places) for part in (wide, turned))
     return np.asarray(np.matmul(left, right.transpose(0, 2, 1)))
 
 

@@ -80,7 +80,7 @@ class Found:
 
     def taken(self, places: NDArray[np.intp]) -> Found:
         """Some of the rows."""
-        return Found(**{one.name: getattr(self, one.name)[places] for one in fields(self)})
+        return Found(**{field.name: getattr(self, field.name)[places] for field in fields(self)})
 
     def only(self, kept: NDArray[np.bool_]) -> Self:
         """The same without the objectives of the others, so that they count as not solved."""
@@ -88,14 +88,14 @@ class Found:
 
     def frozen(self) -> Self:
         """The same, whose arrays nobody can write to."""
-        for one in fields(self):
-            getattr(self, one.name).setflags(write=False)
+        for field in fields(self):
+            getattr(self, field.name).setflags(write=False)
         return self
 
     def put(self, places: NDArray[np.intp], part: Found) -> None:
         """Enter the rows of a part with as many contacts or fewer."""
-        for one in fields(self):
-            mine, given = getattr(self, one.name), getattr(part, one.name)
+        for field in fields(self):
+            mine, given = getattr(self, field.name), getattr(part, field.name)
             if mine.ndim == 1:
                 mine[places] = given
             else:
@@ -103,7 +103,7 @@ class Found:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain lists, NaN as None."""
-        return {one.name: _plain(getattr(self, one.name)) for one in fields(self)}
+        return {field.name: _plain(getattr(self, field.name)) for field in fields(self)}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:

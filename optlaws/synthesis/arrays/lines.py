@@ -63,7 +63,7 @@ def least_count(problem: Problem) -> int:
         return _LEAST_OF_POWER
     if all(isinstance(constant, RootMeanSquare) for constant in problem.constants):
         return _LEAST_OF_SMOOTH
-    return _LEAST_OF_JERK if any(getattr(one, "nu", 0) >= _JERK for one in problem.constants) else _LEAST
+    return _LEAST_OF_JERK if any(getattr(term, "nu", 0) >= _JERK for term in problem.constants) else _LEAST
 
 
 def lines_of(problems: Sequence[Problem], places: NDArray[np.intp]) -> Iterator[Line]:
@@ -105,10 +105,10 @@ def _line(problems: list[Problem], values: Array) -> Line | None:
 
 def _on(path: Path, t: float, problem: Problem) -> bool:
     """Whether a problem's program is the path's at t, but for rounding."""
-    found, own = path.numbers(np.array([t])), numbers_of(in_units_of(path.model.program, model_of(problem).program))
+    numbers, own = path.numbers(np.array([t])), numbers_of(in_units_of(path.model.program, model_of(problem).program))
     return all(
-        getattr(found, name).shape == getattr(own, name).shape
-        and np.allclose(getattr(found, name), getattr(own, name), rtol=_OFF, atol=_OFF)
+        getattr(numbers, name).shape == getattr(own, name).shape
+        and np.allclose(getattr(numbers, name), getattr(own, name), rtol=_OFF, atol=_OFF)
         for name in ("right", "bounds", "cost")
     )
 
@@ -118,8 +118,8 @@ def form_of(problem: Problem) -> Form:
 
     Examples
     --------
-    >>> one, other = (form_of(Problem(B=B, order=4)) for B in (1.6, 1.7))
-    >>> one.key == other.key, one.numbers, other.numbers
+    >>> first, second = (form_of(Problem(B=B, order=4)) for B in (1.6, 1.7))
+    >>> first.key == second.key, first.numbers, second.numbers
     (True, (1.0, 1.6), (1.0, 1.7))
     """
     bounded = problem.bounded

@@ -124,10 +124,10 @@ def best_nearby(structure: Structure, states: States) -> NDArray[np.bool_]:
     jets = _Jets.of(structure, states)
     system = _system(structure, states, jets, states.weights[:, structure.moving] / jets.bend)
     known = np.isfinite(system).all(axis=(1, 2))
-    found = np.zeros(len(states), dtype=np.bool_)
+    definite = np.zeros(len(states), dtype=np.bool_)
     rows = system.shape[1] - structure.model.program.size
-    found[known] = (np.linalg.eigvalsh(system[known]) < 0.0).sum(axis=1) == rows
-    return found
+    definite[known] = (np.linalg.eigvalsh(system[known]) < 0.0).sum(axis=1) == rows
+    return definite
 
 
 def converged(structure: Structure, numbers: Numbers, states: States) -> tuple[States, NDArray[np.bool_]]:
@@ -157,8 +157,8 @@ def _solved(system: Array, right: Array) -> Array:
         return np.asarray(np.linalg.solve(system, right), dtype=np.float64)
     except np.linalg.LinAlgError:
         # one singular system must not spoil the others
-        found = np.full_like(right, np.nan)
-        for i, (one, side) in enumerate(zip(system, right, strict=True)):
+        solution = np.full_like(right, np.nan)
+        for i, (matrix, side) in enumerate(zip(system, right, strict=True)):
             with suppress(np.linalg.LinAlgError):
-                found[i] = np.linalg.solve(one, side)
-        return found
+                solution[i] = np.linalg.solve(matrix, side)
+        return solution

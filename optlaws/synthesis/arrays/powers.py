@@ -50,7 +50,7 @@ def least_power(problem: Problem) -> bool:
     )
 
 
-def unrivalled(found: Found, places: NDArray[np.intp], sought: Callable[[int], float | None]) -> NDArray[np.bool_]:
+def unrivalled(laws: Found, places: NDArray[np.intp], sought: Callable[[int], float | None]) -> NDArray[np.bool_]:
     """Which laws of a path lie between two for which a search from all starts found no other.
 
     Parameters
@@ -60,16 +60,16 @@ def unrivalled(found: Found, places: NDArray[np.intp], sought: Callable[[int], f
     sought
         The objective that a search for one law from all starts ends with; None where it ends with no law.
     """
-    known = np.flatnonzero(found.solved)
+    known = np.flatnonzero(laws.solved)
     kept = np.zeros(len(places), dtype=np.bool_)
     before: int | None = None
     for row in _looked_at(known).tolist():
         best = sought(int(places[row]))
-        same = best is not None and abs(best / found.objective[row] - 1.0) <= _SAME
+        same = best is not None and abs(best / laws.objective[row] - 1.0) <= _SAME
         if same:
             kept[row if before is None else before : row + 1] = True
         before = row if same else None
-    return kept & found.solved
+    return kept & laws.solved
 
 
 def _looked_at(known: NDArray[np.intp]) -> NDArray[np.intp]:
@@ -80,7 +80,7 @@ def _looked_at(known: NDArray[np.intp]) -> NDArray[np.intp]:
     return np.unique(known[np.round(np.linspace(0, len(known) - 1, count)).astype(np.intp)])
 
 
-def with_quick_bounds(path: Path, t: Array, found: Found, limits: Array) -> Found:
+def with_quick_bounds(path: Path, t: Array, laws: Found, limits: Array) -> Found:
     """The laws with what is proven of each: the limit, or the least D of the relaxed program where that may be more.
 
     Parameters
@@ -91,17 +91,17 @@ def with_quick_bounds(path: Path, t: Array, found: Found, limits: Array) -> Foun
         What no law of each problem is below; minus infinity where nothing is known.
     """
     weight = _weights(path, t)
-    objective = weight * _powers(path, found)
+    objective = weight * _powers(path, laws)
     bound = limits.copy()
-    low = np.flatnonzero(found.solved & ~(weight * _needed_roots(path, found) ** 2 < limits))
+    low = np.flatnonzero(laws.solved & ~(weight * _needed_roots(path, laws) ** 2 < limits))
     if len(low):
         roots = _least_roots(path, t[low])
         proven = weight[low] * roots**2 * (1.0 - _SETTLED)
         bound[low] = np.maximum(bound[low], proven)
         # where the relaxed program has no proof
         bound[low[np.isnan(roots)]] = np.nan
-    sound = found.solved & np.isfinite(bound)
-    return replace(found, objective=np.where(sound, objective, np.nan), bound=np.where(sound, bound, np.nan))
+    sound = laws.solved & np.isfinite(bound)
+    return replace(laws, objective=np.where(sound, objective, np.nan), bound=np.where(sound, bound, np.nan))
 
 
 def _weights(path: Path, t: Array) -> Array:
@@ -109,23 +109,23 @@ def _weights(path: Path, t: Array) -> Array:
     return np.asarray(path.model.unit * path.numbers(t).cost[:, path.model.places[D.name]])
 
 
-def _powers(path: Path, found: Found) -> Array:
+def _powers(path: Path, laws: Found) -> Array:
     """The peak power of each law, recomputed over the whole interval."""
     space = path.model.space
     if not isinstance(space, PolynomialSpace):
         raise TypeError(f"laws of {type(space).__name__} are not solved in arrays")
-    point = with_one(found.x[:, : space.terms])
+    point = with_one(laws.x[:, : space.terms])
     b, c = (point @ space.series(nu).T for nu in (1, 2))
-    powers = np.full(len(found.x), np.nan)
-    powers[found.solved] = power_peaks(b[found.solved], c[found.solved])
+    powers = np.full(len(laws.x), np.nan)
+    powers[laws.solved] = power_peaks(b[laws.solved], c[laws.solved])
     return powers
 
 
-def _needed_roots(path: Path, found: Found) -> Array:
+def _needed_roots(path: Path, laws: Found) -> Array:
     """The least r with |b| <= r sqrt(2k) and r sqrt(2(1-k)) everywhere, nearly, of each law."""
     k = np.arange(1, _PLACES) / _PLACES
     columns = path.model.space.columns(1, 1.0 - 2.0 * k)
-    speeds = np.abs(with_one(found.x[:, : path.model.space.terms]) @ columns.T)
+    speeds = np.abs(with_one(laws.x[:, : path.model.space.terms]) @ columns.T)
     return np.asarray((speeds / np.sqrt(2.0 * np.minimum(k, 1.0 - k))).max(axis=1))
 
 
@@ -135,7 +135,7 @@ def _least_roots(path: Path, t: Array) -> Array:
     With D >= 2 s r - s² for any s the program's bound says the same of r, whatever the s.
     """
     first, last = path.problems
-    tangent = max([1.0, *(one.B for one in path.problems if isinstance(one.B, float))])
+    tangent = max([1.0, *(asked.B for asked in path.problems if isinstance(asked.B, float))])
     loose = between(first, last, lambda problem: relaxed(problem, tangent))
     if loose is None:
         return np.full(len(t), np.nan)

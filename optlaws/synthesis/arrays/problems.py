@@ -74,9 +74,13 @@ class ProblemArray:
         self._entries = {name: _frozen(value) for name, value in named.items() if value is not NOT_GIVEN}
         arrays = {name: list(_arrays(value)) for name, value in self._entries.items()}
         try:
-            shape = np.broadcast_shapes(*(one.shape for found in arrays.values() for one in found))
+            shape = np.broadcast_shapes(
+                *(array.shape for arrays_of_name in arrays.values() for array in arrays_of_name)
+            )
         except ValueError:
-            shapes = ", ".join(f"{name} {one.shape}" for name, found in arrays.items() for one in found)
+            shapes = ", ".join(
+                f"{name} {array.shape}" for name, arrays_of_name in arrays.items() for array in arrays_of_name
+            )
             raise InputError(
                 f"the arrays of a ProblemArray must be of one shape when broadcast, got {shapes}"
             ) from None
@@ -116,9 +120,11 @@ class ProblemArray:
     @kept_property
     def varied(self) -> dict[str, tuple[NDArray[Any], ...]]:
         """The entries that hold arrays, with these, each of the common shape."""
-        found = {name: tuple(_arrays(value)) for name, value in self._entries.items()}
+        arrays_by_name = {name: tuple(_arrays(value)) for name, value in self._entries.items()}
         return {
-            name: tuple(np.broadcast_to(one, self._shape) for one in arrays) for name, arrays in found.items() if arrays
+            name: tuple(np.broadcast_to(array, self._shape) for array in arrays)
+            for name, arrays in arrays_by_name.items()
+            if arrays
         }
 
     def __len__(self) -> int:
@@ -174,7 +180,9 @@ class ProblemArray:
             return ProblemArray.of([self._given[i] for i in places.ravel()], places.shape)
         flat = places.ravel()
         entries = {
-            name: _mapped(value, lambda one: np.broadcast_to(one, self._shape).reshape(-1)[flat].reshape(places.shape))
+            name: _mapped(
+                value, lambda array: np.broadcast_to(array, self._shape).reshape(-1)[flat].reshape(places.shape)
+            )
             for name, value in self._entries.items()
         }
         made = ProblemArray(**entries)
@@ -186,7 +194,7 @@ class ProblemArray:
         """Whether the same is minimised in all of them."""
         if self._given is None:
             return "minimise" not in self.varied
-        return len({repr(one.objective) for one in self._given if isinstance(one, Problem)}) <= 1
+        return len({repr(problem.objective) for problem in self._given if isinstance(problem, Problem)}) <= 1
 
     @kept_property
     def velocities(self) -> Array | None:
@@ -218,27 +226,27 @@ def each(function: Callable[..., Any], *arrays: Any) -> NDArray[Any]:  # noqa: A
     ['0.5*C/4 + J/32', '1*C/4 + J/32']
     """
     try:
-        given = np.broadcast_arrays(*(np.asarray(one) for one in arrays))
+        given = np.broadcast_arrays(*(np.asarray(array) for array in arrays))
     except ValueError:
         raise InputError(
-            f"the arrays must be of one shape when broadcast, got {[np.shape(one) for one in arrays]}"
+            f"the arrays must be of one shape when broadcast, got {[np.shape(array) for array in arrays]}"
         ) from None
-    found = np.empty(given[0].shape if given else (), dtype=object)
-    for at in np.ndindex(found.shape):
-        found[at] = function(*(_plain(one[at]) for one in given))
-    found.setflags(write=False)
-    return found
+    results = np.empty(given[0].shape if given else (), dtype=object)
+    for at in np.ndindex(results.shape):
+        results[at] = function(*(_plain(array[at]) for array in given))
+    results.setflags(write=False)
+    return results
 
 
 def _arrays(value: Any) -> Iterator[NDArray[Any]]:  # noqa: ANN401
     if isinstance(value, np.ndarray):
         yield value
     elif isinstance(value, Mapping):
-        for one in value.values():
-            yield from _arrays(one)
+        for entry in value.values():
+            yield from _arrays(entry)
     elif isinstance(value, list | tuple):
-        for one in value:
-            yield from _arrays(one)
+        for entry in value:
+            yield from _arrays(entry)
 
 
 def _mapped(value: Any, change: Callable[[NDArray[Any]], Any]) -> Any:  # noqa: ANN401
@@ -246,14 +254,14 @@ def _mapped(value: Any, change: Callable[[NDArray[Any]], Any]) -> Any:  # noqa: 
     if isinstance(value, np.ndarray):
         return change(value)
     if isinstance(value, Mapping) and any(True for _ in _arrays(value)):
-        return {name: _mapped(one, change) for name, one in value.items()}
+        return {name: _mapped(entry, change) for name, entry in value.items()}
     if isinstance(value, list | tuple) and any(True for _ in _arrays(value)):
-        return tuple(_mapped(one, change) for one in value)
+        return tuple(_mapped(entry, change) for entry in value)
     return value
 
 
 def _at(value: Any, shape: tuple[int, ...], at: tuple[Any, ...]) -> Any:  # noqa: ANN401
-    return _mapped(value, lambda one: _plain(np.broadcast_to(one, shape)[at]))
+    return _mapped(value, lambda array: _plain(np.broadcast_to(array, shape)[at]))
 
 
 def _plain(value: Any) -> Any:  # noqa: ANN401
@@ -263,8 +271,8 @@ def _plain(value: Any) -> Any:  # noqa: ANN401
 def _frozen(value: Any) -> Any:  # noqa: ANN401
     """The value with copies of its arrays that nobody can write to."""
 
-    def copied(one: NDArray[Any]) -> NDArray[Any]:
-        kept = one.copy()
+    def copied(array: NDArray[Any]) -> NDArray[Any]:
+        kept = array.copy()
         kept.setflags(write=False)
         return kept
 
@@ -272,4 +280,4 @@ def _frozen(value: Any) -> Any:  # noqa: ANN401
 
 
 def _shown(value: Any) -> str:  # noqa: ANN401
-    return shortened(_mapped(value, lambda one: f"array of shape {one.shape}"))
+    return shortened(_mapped(value, lambda array: f"array of shape {array.shape}"))

@@ -82,7 +82,7 @@ class Path:
     def numbers(self, t: Array) -> Numbers:
         """The numbers at many t."""
         ways = ("right", "bounds", "cost")
-        return Numbers(*(getattr(self.begin, one) + t[:, None] * getattr(self.slope, one) for one in ways))
+        return Numbers(*(getattr(self.begin, way) + t[:, None] * getattr(self.slope, way) for way in ways))
 
     def program(self, t: float) -> Program:
         """The program at one t."""
@@ -129,34 +129,38 @@ def in_units_of(first: Program, other: Program) -> Program:
     return replace(other, families=families) if families != other.families else other
 
 
-def _measured(one: Family, other: Family) -> Family:
-    if not isinstance(one, ConeFamily) or not isinstance(other, ConeFamily) or one.series.shape != other.series.shape:
+def _measured(first: Family, other: Family) -> Family:
+    if (
+        not isinstance(first, ConeFamily)
+        or not isinstance(other, ConeFamily)
+        or first.series.shape != other.series.shape
+    ):
         return other
-    size, own = (float(np.abs(family.series).max(initial=0.0)) for family in (one, other))
+    size, own = (float(np.abs(family.series).max(initial=0.0)) for family in (first, other))
     if size == own or not own:
         return other
     share = size / own
-    if np.abs(one.series - share * other.series).max() > _ROUNDED * size:
+    if np.abs(first.series - share * other.series).max() > _ROUNDED * size:
         return other
-    return replace(other, series=one.series, slack=share * other.slack, bound=share * other.bound)
+    return replace(other, series=first.series, slack=share * other.slack, bound=share * other.bound)
 
 
-def _alike(one: Family, other: Family) -> bool:
-    if type(one) is not type(other) or tangents_of(one) is None:
+def _alike(first: Family, other: Family) -> bool:
+    if type(first) is not type(other) or tangents_of(first) is None:
         return False
-    plain = (one.name, one.signs, one.domain, one.held) == (other.name, other.signs, other.domain, other.held)
-    return plain and np.array_equal(one.slack, other.slack) and _same_rows(one, other)
+    plain = (first.name, first.signs, first.domain, first.held) == (other.name, other.signs, other.domain, other.held)
+    return plain and np.array_equal(first.slack, other.slack) and _same_rows(first, other)
 
 
-def _same_rows(one: Family, other: Family) -> bool:
-    if isinstance(one, ProductFamily) and isinstance(other, ProductFamily):
-        return _same_rows(one.first, other.first) and _same_rows(one.second, other.second)
-    if isinstance(one, NormFamily) and isinstance(other, NormFamily):
-        return np.array_equal(one.matrix, other.matrix)
-    if isinstance(one, ConeFamily) and isinstance(other, ConeFamily):
-        return np.array_equal(one.series, other.series)
-    if isinstance(one, LinearFamily) and isinstance(other, LinearFamily):
-        return one.series is other.series or np.array_equal(one.series, other.series)
-    if isinstance(one, OfFormula) and isinstance(other, OfFormula):
-        return one is other or one.same_rows(other)
+def _same_rows(first: Family, other: Family) -> bool:
+    if isinstance(first, ProductFamily) and isinstance(other, ProductFamily):
+        return _same_rows(first.first, other.first) and _same_rows(first.second, other.second)
+    if isinstance(first, NormFamily) and isinstance(other, NormFamily):
+        return np.array_equal(first.matrix, other.matrix)
+    if isinstance(first, ConeFamily) and isinstance(other, ConeFamily):
+        return np.array_equal(first.series, other.series)
+    if isinstance(first, LinearFamily) and isinstance(other, LinearFamily):
+        return first.series is other.series or np.array_equal(first.series, other.series)
+    if isinstance(first, OfFormula) and isinstance(other, OfFormula):
+        return first is other or first.same_rows(other)
     return False

@@ -66,7 +66,7 @@ class Structure:
     def slacks(self) -> Array:
         """Right sides of all families in the variables."""
         program = self.model.program
-        return np.array([one.slack for one in program.families]).reshape(-1, program.size)
+        return np.array([family.slack for family in program.families]).reshape(-1, program.size)
 
     @kept_property
     def domains(self) -> Array:
@@ -87,10 +87,10 @@ class Structure:
     def hidden(self, x: Array, u: Array, weights: Array) -> Array:
         """What rounding may hide of each entry of the sum of weights times rows, (laws, variables + 1)."""
         point, columns = with_one(x), columns_of(self.model)
-        found = np.zeros(point.shape)
+        values = np.zeros(point.shape)
         for i, own in self._own:
-            found += columns[i].hidden(weights[:, own], u[:, own], point)
-        return found
+            values += columns[i].hidden(weights[:, own], u[:, own], point)
+        return values
 
     @kept_property
     def of_families(self) -> list[slice]:
@@ -123,20 +123,20 @@ class Structure:
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | float:
         """Second derivatives by the variables of the sum of weights times s f; 0 where all is affine."""
-        found: Array | float = 0.0
+        total: Array | float = 0.0
         if self.model.program.curved:
             point, columns = with_one(x), columns_of(self.model)
             for i, own in self._own:
                 bent = columns[i].hessian(u[:, own], point, self.sign[own] * weights[:, own])
-                found = found if bent is None else found + bent
-        return found
+                total = total if bent is None else total + bent
+        return total
 
 
 def structure_of(model: Model, optimum: ActiveSet) -> tuple[Structure, NDArray[np.intp]]:
     """The structure of an optimum, and the order of its contacts in it: by family and place."""
     order = np.lexsort((optimum.s, optimum.u, optimum.family))
-    found = Structure(model, optimum.family[order], optimum.s[order], optimum.free[order])
-    return found, order
+    structure = Structure(model, optimum.family[order], optimum.s[order], optimum.free[order])
+    return structure, order
 
 
 def with_one(x: Array) -> Array:
@@ -172,10 +172,10 @@ def columns_of(model: Model) -> Sequence[Columns | CurvedTangents]:
 
 
 def _known(family: Family) -> Columns | CurvedTangents:
-    found = tangents_of(family)
-    if found is None:
+    tangents = tangents_of(family)
+    if tangents is None:
         raise TypeError(f"rows of {type(family).__name__} are not solved in arrays")
-    return found
+    return tangents
 
 
 def tangents_of(family: Family) -> Columns | CurvedTangents | None:

@@ -75,13 +75,13 @@ class Segment:
 
     def guessed(self, t: Array) -> States:
         """States at other t, by the polynomial through some that are known near to each."""
-        return self.states(np.array([self._weights(one) for one in t.tolist()]) @ self.rows)
+        return self.states(np.array([self._weights(number) for number in t.tolist()]) @ self.rows)
 
     def states(self, rows: Array) -> States:
         """States from rows that were interpolated, in which places that may not move are exactly where they are."""
-        found = States.unpacked(rows, self.structure)
+        states = States.unpacked(rows, self.structure)
         known = States.unpacked(self.rows[:1], self.structure)
-        return replace(found, u=np.where(self.structure.free, found.u, known.u))
+        return replace(states, u=np.where(self.structure.free, states.u, known.u))
 
     def _weights(self, t: float) -> Array:
         """What each known state counts for at t: the nearest, and others that are not too near to each other."""
@@ -94,10 +94,10 @@ class Segment:
                 break
             if all(abs(known[i] - known[j]) > least for j in chosen):
                 chosen.append(i)
-        found = np.zeros(len(known))
+        weights = np.zeros(len(known))
         for i in chosen:
-            found[i] = prod((t - known[j]) / (known[i] - known[j]) for j in chosen if j != i)
-        return found
+            weights[i] = prod((t - known[j]) / (known[i] - known[j]) for j in chosen if j != i)
+        return weights
 
     def interpolated(self, t: Array) -> States:
         """States between those that are known, by the polynomial through the nearest on both sides."""
@@ -156,9 +156,14 @@ class Walk:
     def _begun(self, t: float, optimum: ActiveSet) -> Segment | None:
         """A segment that begins with one law; None where that is not proven optimal."""
         merged = optimum.merged(_SAME)
-        for one in (optimum,) if merged is optimum else (optimum, merged):
-            structure, order = structure_of(self.path.model, one)
-            own = (one.x, _on_ends(structure, one.u[order]), one.multipliers[order], one.equality_multipliers)
+        for candidate in (optimum,) if merged is optimum else (optimum, merged):
+            structure, order = structure_of(self.path.model, candidate)
+            own = (
+                candidate.x,
+                _on_ends(structure, candidate.u[order]),
+                candidate.multipliers[order],
+                candidate.equality_multipliers,
+            )
             rows, sound, _ = self._solved(structure, np.array([t]), States(*(part[None] for part in own)))
             if sound[0]:
                 return Segment(structure, np.array([t]), rows)
@@ -192,9 +197,9 @@ class Walk:
             if (goal - t) * way < 0.0:
                 return None
             optimum = polished(self.path.program(t), near, None)
-            found = None if optimum is None else self._begun(t, optimum)
-            if found is not None and (found.structure.signature != segment.structure.signature or share == _BEYOND[-1]):
-                return found
+            begun = None if optimum is None else self._begun(t, optimum)
+            if begun is not None and (begun.structure.signature != segment.structure.signature or share == _BEYOND[-1]):
+                return begun
         optimum = solve(self.path.program(t), near).optimum
         return None if optimum is None else self._begun(t, optimum)
 
@@ -229,7 +234,7 @@ class Walk:
                 (at, off) for at, off in zip(t[count:].tolist(), worst[count:].tolist(), strict=True) if not isnan(off)
             ]
             if known:
-                broken = sorted([*broken, *known], key=lambda one: abs(one[0] - good))[:_KNOWN]
+                broken = sorted([*broken, *known], key=lambda pair: abs(pair[0] - good))[:_KNOWN]
                 bad = broken[0][0]
             near = (_SHARP if broken else _FAINT) * self.reach
             if min(abs(bad - good), stride) <= near:
@@ -256,10 +261,10 @@ class Walk:
         sound, worst = np.zeros(len(t), dtype=np.bool_), np.full(len(t), np.nan)
         if done.any():
             own = clipped(structure, states.taken(done))
-            found = judged(self.path, structure, numbers.taken(done), own)
+            verdicts = judged(self.path, structure, numbers.taken(done), own)
             inside = np.abs(own.u - states.u[done]).max(axis=1, initial=0.0)
-            sound[done] = found.sound & (inside <= _OUTSIDE)
-            worst[done] = np.maximum(found.broken, inside)
+            sound[done] = verdicts.sound & (inside <= _OUTSIDE)
+            worst[done] = np.maximum(verdicts.broken, inside)
         return rows, sound, worst
 
 
@@ -275,22 +280,22 @@ def _on_ends(structure: Structure, u: Array) -> Array:
 
 def _probes(good: float, bad: float, stride: float, broken: list[tuple[float, float]]) -> Array:
     """Where to look next beyond a law that holds: around where what is broken begins to be, or some strides on."""
-    found = good + stride * _STRIDES
+    probes = good + stride * _STRIDES
     if len(broken) > 1:
         near, event = broken[0][0], _event(broken)
         if event is not None:
-            found = np.concatenate([found[:2], event + (near - event) * _CLOSER, event + (good - event) * _CLOSER])
+            probes = np.concatenate([probes[:2], event + (near - event) * _CLOSER, event + (good - event) * _CLOSER])
     elif len(broken) == 1:
-        found = np.concatenate([found, bad + (good - bad) * _CLOSER])
+        probes = np.concatenate([probes, bad + (good - bad) * _CLOSER])
     low, high = min(good, bad), max(good, bad)
-    kept = found[(low < found) & (found < high)]
+    kept = probes[(low < probes) & (probes < high)]
     if not broken:
         # nothing is known to be broken short of the end
-        kept = np.append(kept, bad) if abs(found[-1] - good) >= abs(bad - good) else kept
+        kept = np.append(kept, bad) if abs(probes[-1] - good) >= abs(bad - good) else kept
     elif not len(kept):
         kept = np.array([(good + bad) / 2.0])
-    found = np.unique(kept)
-    return found if bad > good else found[::-1]
+    probes = np.unique(kept)
+    return probes if bad > good else probes[::-1]
 
 
 def _event(broken: list[tuple[float, float]]) -> float | None:
@@ -307,4 +312,4 @@ def _event(broken: list[tuple[float, float]]) -> float | None:
 
 def gaps(segments: list[Segment]) -> list[tuple[float, float]]:
     """Stretches between segments in which no law is known."""
-    return [(one.end, other.begin) for one, other in pairwise(segments) if other.begin > one.end]
+    return [(segment.end, other.begin) for segment, other in pairwise(segments) if other.begin > segment.end]

@@ -49,7 +49,7 @@ class ActiveSet:
             return self
         order = np.lexsort((self.u, self.s, self.family))
         family = self.family[order]
-        u, s, weights = (one[order] for one in (self.u, self.s, self.multipliers))
+        u, s, weights = (part[order] for part in (self.u, self.s, self.multipliers))
         close = (np.diff(family) == 0) & (np.diff(s) == 0.0) & (np.diff(u) < near)
         if not close.any():
             return self

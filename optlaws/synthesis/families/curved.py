@@ -204,7 +204,8 @@ class CurvedFamily(OfFormula):
         if not isinstance(other, CurvedFamily) or (self.formula, self.names) != (other.formula, other.names):
             return False
         rows = (
-            np.array_equal(one.series, two.series) for (_, one), (_, two) in zip(self.parts, other.parts, strict=True)
+            np.array_equal(first.series, two.series)
+            for (_, first), (_, two) in zip(self.parts, other.parts, strict=True)
         )
         return (self.tangents, self.edges) == (other.tangents, other.edges) and all(rows)
 

@@ -90,9 +90,9 @@ class KinkedIntegralFamily(IntegralFamily):
 
     def _split(self, point: Array) -> Split:
         stretches, total, slope = self._stretches(point), 0.0, np.zeros(len(point))
-        for one in stretches:
-            names, columns, weights = self._rule(point, one)
-            slopes = _slopes(one.formula, self.names)
+        for stretch in stretches:
+            names, columns, weights = self._rule(point, stretch)
+            slopes = _slopes(stretch.formula, self.names)
             total += float(weights @ slopes.value(names))
             slope += np.einsum("ip,ipn->n", slopes.gradient(names) * weights, columns[0])
         return Split(stretches, total, slope)
@@ -102,15 +102,15 @@ class KinkedIntegralFamily(IntegralFamily):
         for switch in self._switches:
             value = partial(self._value, switch, point)
             edges = cut_at_roots(_same(value), edges)
-        found: list[Stretch] = []
+        stretches: list[Stretch] = []
         for low, high in pairwise(edges):
             names, _ = self._names_at(point, np.array([(low + high) / 2.0]))
             formula = branch_at(self.formula, {name: float(value[0]) for name, value in names.items()})
-            if found and found[-1].formula == formula and low not in self.edges:
-                found[-1] = replace(found[-1], high=high)
+            if stretches and stretches[-1].formula == formula and low not in self.edges:
+                stretches[-1] = replace(stretches[-1], high=high)
             else:
-                found.append(Stretch(low, high, formula))
-        return found
+                stretches.append(Stretch(low, high, formula))
+        return stretches
 
     def _value(self, formula: Formula, point: Array, k: Array) -> Array:
         names, _ = self._names_at(point, k)
@@ -147,22 +147,22 @@ class KinkedIntegralFamily(IntegralFamily):
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002 - it has no place
         """Of f, times the sum of weights."""
         own, point = self.split(x), np.append(x, 1.0)
-        found = np.zeros((len(x), len(x)))
-        for one in own.stretches:
-            names, columns, share = self._rule(point, one)
-            found += bent(_slopes(one.formula, self.names).hessian(names) * share, columns[0][..., :-1])
+        matrix = np.zeros((len(x), len(x)))
+        for stretch in own.stretches:
+            names, columns, share = self._rule(point, stretch)
+            matrix += bent(_slopes(stretch.formula, self.names).hessian(names) * share, columns[0][..., :-1])
         for left, right in pairwise(own.stretches):
-            found += self._moved(point, left, right)
+            matrix += self._moved(point, left, right)
         if self.root:
             size, slope = self.outer(np.array(own.total))
-            found = slope * found - np.outer(own.slope[:-1], own.slope[:-1]) / (4.0 * size**3)
-        return np.asarray(found * float(weights.sum()))
+            matrix = slope * matrix - np.outer(own.slope[:-1], own.slope[:-1]) / (4.0 * size**3)
+        return np.asarray(matrix * float(weights.sum()))
 
     def _moved(self, point: Array, left: Stretch, right: Stretch) -> Array:
         """What it adds that the kink between two stretches moves: it is where their formulas have one value."""
         k = np.array([right.low])
         names, columns = self._names_at(point, k)
-        both = [_slopes(one.formula, (*self.names, "k")).gradient(names)[:, 0] for one in (left, right)]
+        both = [_slopes(side.formula, (*self.names, "k")).gradient(names)[:, 0] for side in (left, right)]
         apart = both[0] - both[1]
         across = apart[:-1] @ columns[0][:, 0, :-1]
         falls = float(apart[:-1] @ (columns[1][:, 0] @ point) + apart[-1])

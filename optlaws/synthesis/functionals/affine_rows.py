@@ -52,7 +52,7 @@ def sides(motion: Motion, name: str, signs: tuple[float, ...], *, symmetric: boo
         here, there = _sampled(first), _sampled(other)
         size = _SAME * float(np.abs(here).max())
         with np.errstate(invalid="ignore"):
-            even, odd = (float(np.abs(one).max()) <= size for one in (here - there, here + there))
+            even, odd = (float(np.abs(part).max()) <= size for part in (here - there, here + there))
         if even:
             return [Side(name, first, signs)]
         if odd:
@@ -73,11 +73,11 @@ def _sampled(motion: Motion) -> Array:
 def columns(space: LawSpace, motion: Motion, u: Array) -> Array:
     """An affine formula at places u = 1 - 2k: of the free functions, then of the base law with what is left."""
     k = (1.0 - u) / 2.0
-    found = np.zeros((len(u), space.terms + 1))
+    columns_there = np.zeros((len(u), space.terms + 1))
     for nu, factor in motion.weights.items():
-        found += _at(factor, k)[:, None] * space.columns(nu, u)
-    found[:, -1] += _at(motion.rest, k)
-    return found
+        columns_there += _at(factor, k)[:, None] * space.columns(nu, u)
+    columns_there[:, -1] += _at(motion.rest, k)
+    return columns_there
 
 
 def _at(factor: Formula, k: Array) -> Array:
@@ -103,8 +103,8 @@ def rows(space: LawSpace, side: Side, slack: Array, bound: float) -> LinearFamil
         return LinearFamily(side.name, slack, bound, side.signs, domain, series=wide)
     series = [_series(space, motion, ends) for ends in pairwise(edges)]
     stacked = np.zeros((len(series), max(map(len, series)), len(slack) + 1))
-    for i, one in enumerate(series):
-        stacked[i, : len(one)] = space.widened(one, len(slack))
+    for i, coefficients in enumerate(series):
+        stacked[i, : len(coefficients)] = space.widened(coefficients, len(slack))
     pieces = PieceSeries(np.array(edges), stacked)
     jumps = any(space.jumps(nu) for nu in motion.orders)
     return PieceFamily(side.name, slack, bound, side.signs, domain, series=np.zeros((1, 1)), pieces=pieces, jumps=jumps)

@@ -27,11 +27,11 @@ _LARGEST = 400
 
 def extremes_along(motion: Motion, law: MotionLaw) -> tuple[Peak, Peak]:
     """The least and the greatest value of a formula in a law, each with its place; infinite where it has no bound."""
-    found = [_candidates(motion, law, ends) for ends in pairwise(_edges(motion, law))]
-    if not found:
+    candidates = [_candidates(motion, law, ends) for ends in pairwise(_edges(motion, law))]
+    if not candidates:
         k = np.array([motion.start])
         return extremes(k, _values(motion, law, k))
-    k, values = (np.concatenate(several) for several in zip(*found, strict=True))
+    k, values = (np.concatenate(several) for several in zip(*candidates, strict=True))
     if not np.isfinite(values).all():
         worst = float(k[~np.isfinite(values)][0])
         return Peak(-np.inf, worst), Peak(np.inf, worst)
@@ -94,8 +94,8 @@ def _count(motion: Motion, law: MotionLaw, ends: tuple[float, float]) -> int | N
         longest = len(segment.acceleration) if isinstance(segment, PolynomialSegment) else None
     if longest is None:
         return None
-    found = motion.degree({name: max(longest + 1 - nu, 0) for name, nu in ORDERS.items()})
-    return None if found is None or found > _LARGEST else found + 1
+    degree = motion.degree({name: max(longest + 1 - nu, 0) for name, nu in ORDERS.items()})
+    return None if degree is None or degree > _LARGEST else degree + 1
 
 
 def _candidates(motion: Motion, law: MotionLaw, ends: tuple[float, float]) -> tuple[Array, Array]:

@@ -57,12 +57,14 @@ class Branch:
 
 def split(motion: Motion, sign: float, name: str) -> list[Branch] | None:
     """The smooth formulas of which `sign` times the formula is the greatest; None where it is no such maximum."""
-    found = motion.branches(sign)
-    if found is None:
+    formulas = motion.branches(sign)
+    if formulas is None:
         return None
-    if len(found) == 1:
+    if len(formulas) == 1:
         return [Branch(motion, sign, name)]
-    return [Branch(replace(motion, formula=one), 1.0, names.branch(i, name)) for i, one in enumerate(found, 1)]
+    return [
+        Branch(replace(motion, formula=formula), 1.0, names.branch(i, name)) for i, formula in enumerate(formulas, 1)
+    ]
 
 
 def branch_rows(space: LawSpace, branch: Branch, slack: Array, bound: float) -> Family:
@@ -96,7 +98,7 @@ def integral_rows(
     """The row that the integral of a formula over its part, or its root, is at most slack . x + bound."""
     used = tuple(sorted(motion.formula.names() & ORDERS.keys()))
     k, weights = integral_rule(space, motion)
-    columns = np.stack([space.widened(columns_at(space, one, k), len(slack)) for one in used])
+    columns = np.stack([space.widened(columns_at(space, name_of_branch, k), len(slack)) for name_of_branch in used])
     plain = IntegralFamily(
         name,
         slack,
@@ -118,9 +120,9 @@ def _kinked(space: LawSpace, motion: Motion, plain: IntegralFamily) -> KinkedInt
     def rows(k: Array) -> Array:
         orders = [ORDERS[name] for name in plain.names]
         both = [[columns_of(space, nu + turn, k) for nu in orders] for turn in (0, 1)]
-        return np.array([[space.widened(one, len(plain.slack)) for one in of_order] for of_order in both])
+        return np.array([[space.widened(row, len(plain.slack)) for row in of_order] for of_order in both])
 
-    own = {one.name: getattr(plain, one.name) for one in fields(plain)}
+    own = {field.name: getattr(plain, field.name) for field in fields(plain)}
     length = _SPARE + max(space.degree_of(ORDERS[name]) for name in plain.names)
     edges = tuple(_known_edges(space, motion))
     return KinkedIntegralFamily(**own, rows=rows, units=np.ones(len(plain.slack) + 1), edges=edges, length=length)
@@ -149,11 +151,11 @@ def rule_edges(space: LawSpace, motion: Motion) -> list[float]:
 
     Where it is no polynomial they are as near as the space's own law asks for, and nearer, for others are less smooth.
     """
-    found = _known_edges(space, motion)
+    edges = _known_edges(space, motion)
     if motion.degree(dict.fromkeys(ORDERS, 1)) is not None:
-        return found
-    cells = space.cached(("cells", motion), lambda: np.array(_cells(space, motion, found)))
-    return _cut(found, int(cells))
+        return edges
+    cells = space.cached(("cells", motion), lambda: np.array(_cells(space, motion, edges)))
+    return _cut(edges, int(cells))
 
 
 def _known_edges(space: LawSpace, motion: Motion) -> list[float]:
@@ -171,22 +173,22 @@ def _cells(space: LawSpace, motion: Motion, edges: list[float]) -> int:
         k, weights = _rule(_cut(edges, 1 << power), count)
         names = {name: laws @ columns_at(space, name, k).T for name in ORDERS if name in motion.formula.names()}
         values = np.broadcast_to(motion.values({**names, "k": k}), (_LAWS, len(k)))
-        found = values @ weights
-        if (np.abs(found - before) <= _AGREED * (np.abs(values) @ weights)).all():
+        columns_there = values @ weights
+        if (np.abs(columns_there - before) <= _AGREED * (np.abs(values) @ weights)).all():
             return max(1 << power - 1, 1)
-        before = found
+        before = columns_there
     return 1 << _MOST_POWER
 
 
 def _some_laws(space: LawSpace) -> Array:
     """Coordinates with 1 beside them: of the space's own law, and of others at random whose c is greater."""
-    rule, found = space.quadrature(2), np.zeros((_LAWS, space.terms + 1))
-    found[:, -1] = 1.0
-    found[1:, :-1] = np.random.default_rng(0).normal(size=(_LAWS - 1, space.terms))
-    for law in found[1:]:
+    rule, moments = space.quadrature(2), np.zeros((_LAWS, space.terms + 1))
+    moments[:, -1] = 1.0
+    moments[1:, :-1] = np.random.default_rng(0).normal(size=(_LAWS - 1, space.terms))
+    for law in moments[1:]:
         moved = float(np.sqrt(rule.weights @ (rule.values[:, :-1] @ law[:-1]) ** 2))
         law[:-1] *= _GREATER * float(np.sqrt(rule.weights @ rule.values[:, -1] ** 2)) / moved if moved else 0.0
-    return found
+    return moments
 
 
 def _cut(edges: list[float], cells: int) -> list[float]:
@@ -209,13 +211,13 @@ def columns_of(space: LawSpace, nu: int, k: Array) -> Array:
     """The derivative of order nu at places in [0, 1]: of symmetric laws the second half is the first's mirror image."""
     if not space.symmetric:
         return space.columns(nu, 1.0 - 2.0 * k)
-    found = space.columns(nu, np.abs(1.0 - 2.0 * k))
+    columns_there = space.columns(nu, np.abs(1.0 - 2.0 * k))
     if nu % 2 == 0:
         later = k > 0.5
-        found[later] *= -1.0
+        columns_there[later] *= -1.0
         if nu == 0:
-            found[later, -1] += 1.0
-    return found
+            columns_there[later, -1] += 1.0
+    return columns_there
 
 
 def envelopes(motion: Motion, boxes: Boxes) -> list[Formula]:
@@ -255,12 +257,12 @@ def _bounds(names_of: tuple[str, ...], boxes: Boxes, *, above: bool) -> list[For
     return [
         total(
             [
-                product([_plain(one), Name(second)]),
+                product([_plain(factor), Name(second)]),
                 product([_plain(other), Name(first)]),
-                Negative(product([_plain(one), _plain(other)])),
+                Negative(product([_plain(factor), _plain(other)])),
             ]
         )
-        for one, other in corners
+        for factor, other in corners
     ]
 
 

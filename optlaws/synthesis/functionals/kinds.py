@@ -101,12 +101,12 @@ class OfFormula(Functional):
         if self.convex:
             return self.families(space, slack, bound)
         floor = self.floor(space.boundary)
-        found = self._envelopes(space, slack, bound, boxes_of(problem))
+        families = self._envelopes(space, slack, bound, boxes_of(problem))
         if isfinite(floor) and slack.any():
             row = np.append(-slack, 0.0)[None, :]
             least = LinearFamily(names.at_least(self.name), 0.0 * slack, -floor, (1.0,), (1.0, 1.0), series=row)
-            return (*found, least)
-        return found
+            return (*families, least)
+        return families
 
     def _envelopes(
         self,
@@ -164,24 +164,24 @@ class FormulaPeak(OfFormula):
         """Of a peak of one sign only if some mean of the formula is the same in every law."""
         if not self.affine or self.motion.start == self.motion.stop:
             return None
-        found = reach(space, self.parts(symmetric=space.symmetric))
-        if found is None:
+        size = reach(space, self.parts(symmetric=space.symmetric))
+        if size is None:
             return None
-        return found.by_peak() if len(self.signs) == 2 else found.by_one_sign(self.signs[0])
+        return size.by_peak() if len(self.signs) == 2 else size.by_one_sign(self.signs[0])
 
     def branches(self, *, symmetric: bool) -> list[Branch]:
         """The smooth formulas whose rows hold the peak."""
-        found = []
+        branches_found = []
         for side in sides(self.motion, self.name, self.counted, symmetric=symmetric):
             for sign in side.signs:
-                found += split(side.motion, sign, side.name) or []
-        return found
+                branches_found += split(side.motion, sign, side.name) or []
+        return branches_found
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """One family; two where symmetric laws count on half the interval but the formula is not symmetric."""
         if self.affine:
-            found = sides(self.motion, self.name, self.signs, symmetric=space.symmetric)
-            return tuple(rows(space, side, slack, bound) for side in found)
+            rows_by_side = sides(self.motion, self.name, self.signs, symmetric=space.symmetric)
+            return tuple(rows(space, side, slack, bound) for side in rows_by_side)
         return tuple(branch_rows(space, branch, slack, bound) for branch in self.branches(symmetric=space.symmetric))
 
     def _envelopes(self, space: LawSpace, slack: Array, bound: float, boxes: Boxes) -> tuple[Family, ...]:
@@ -190,20 +190,20 @@ class FormulaPeak(OfFormula):
 
     def beneath(self, boxes: Boxes, *, symmetric: bool) -> list[Branch]:
         """Convex formulas that those of the peak are nowhere below, with the peak's convex ones themselves."""
-        found = []
+        branches_below = []
         for branch in self.branches(symmetric=symmetric):
             if branch.convex:
-                found.append(branch)
+                branches_below.append(branch)
                 continue
             motion = branch.motion
             signed = motion if branch.sign > 0.0 else replace(motion, formula=Negative(motion.formula))
             under = [replace(signed, formula=formula) for formula in envelopes(signed, boxes)]
-            found += [
+            branches_below += [
                 Branch(motion, 1.0, names.envelope(i, branch.name, branch.sign))
                 for i, motion in enumerate(under, 1)
                 if motion.curvature.convex
             ]
-        return found
+        return branches_below
 
 
 @dataclass(frozen=True, repr=False)
@@ -232,11 +232,11 @@ class FormulaRms(OfFormula):
     def _size(self, space: LawSpace) -> tuple[int, float, float] | None:
         """By Cauchy's inequality, or by tangents."""
         if not self.affine:
-            found = _by_tangents(space, squared(self.motion), root=True) if self.convex else None
+            size = _by_tangents(space, squared(self.motion), root=True) if self.convex else None
         else:
             values = reach(space, self.parts(symmetric=space.symmetric))
-            found = None if values is None else values.by_square()
-        return None if found is None else (found[0], found[1] * float(np.sqrt(self.length)), found[2])
+            size = None if values is None else values.by_square()
+        return None if size is None else (size[0], size[1] * float(np.sqrt(self.length)), size[2])
 
     def _roots(self, space: LawSpace, motion: Motion) -> Array:
         u, weights = gauss(space, motion)
@@ -327,17 +327,17 @@ def boxes_of(problem: Asked) -> dict[str, tuple[float, float]]:
     >>> boxes_of(Problem(B=1.8, C=at_most(6.0), order=4, basis=Chebyshev(5), monotone=True))
     {'b': (0.0, 1.8), 'c': (-6.0, 6.0), 'a': (0.0, 1.0)}
     """
-    found = {}
+    boxes = {}
     for name, constant in (("b", "B"), ("c", "C"), ("j", "J")):
         asked = as_range(getattr(problem, constant, None), constant)
         if asked is not None and isfinite(asked.high):
-            found[name] = (-asked.high, asked.high)
+            boxes[name] = (-asked.high, asked.high)
     if problem.monotone:
-        found["b"] = (0.0, found.get("b", (0.0, inf))[1])
+        boxes["b"] = (0.0, boxes.get("b", (0.0, inf))[1])
         if getattr(problem, "boundary", None) is None:
-            found["a"] = (0.0, 1.0)
-    elif "b" in found and getattr(problem, "boundary", None) is None:
+            boxes["a"] = (0.0, 1.0)
+    elif "b" in boxes and getattr(problem, "boundary", None) is None:
         # a is at most B k from its start, and from its end
-        most = (1.0 + found["b"][1]) / 2.0
-        found["a"] = (1.0 - most, most)
-    return {name: box for name, box in found.items() if all(map(isfinite, box))}
+        most = (1.0 + boxes["b"][1]) / 2.0
+        boxes["a"] = (1.0 - most, most)
+    return {name: box for name, box in boxes.items() if all(map(isfinite, box))}

@@ -58,9 +58,9 @@ def peak(formula: Any, *, side: str = "both", start: float = 0.0, stop: float = 
         raise InputError(unknown_key(side, _SIDES, "side"))
     motion = _motion(formula, *_part(start, stop))
     name = _name("peak", motion, [] if side == "both" else [f"side={side}"])
-    found = FormulaPeak(name, nan, convex=True, motion=motion, signs=_SIDES[side])
-    convex = motion.affine is not None or all(branch.convex for branch in found.branches(symmetric=False))
-    return _checked(replace(found, convex=convex), formula)
+    peak = FormulaPeak(name, nan, convex=True, motion=motion, signs=_SIDES[side])
+    convex = motion.affine is not None or all(branch.convex for branch in peak.branches(symmetric=False))
+    return _checked(replace(peak, convex=convex), formula)
 
 
 def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
@@ -88,10 +88,10 @@ def rms(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  
     if motion.start == motion.stop:
         raise InputError(f"rms needs a part of the interval with start < stop, got {start!r} and {stop!r}")
     name = _name("rms", motion)
-    found = FormulaRms(name, nan, convex=True, motion=motion)
+    rms = FormulaRms(name, nan, convex=True, motion=motion)
     kind = motion.curvature
-    convex = motion.affine is not None or (kind.convex and found.sign > 0) or (kind.concave and found.sign < 0)
-    return _checked(replace(found, convex=convex), formula)
+    convex = motion.affine is not None or (kind.convex and rms.sign > 0) or (kind.concave and rms.sign < 0)
+    return _checked(replace(rms, convex=convex), formula)
 
 
 def integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Functional:  # noqa: ANN401
@@ -119,8 +119,8 @@ def integral(formula: Any, *, start: float = 0.0, stop: float = 1.0) -> Function
     motion = _motion(formula, *_part(start, stop))
     if motion.start == motion.stop:
         raise InputError(f"integral needs a part of the interval with start < stop, got {start!r} and {stop!r}")
-    found = FormulaIntegral(_name("integral", motion), nan, convex=motion.curvature.convex, motion=motion)
-    return _checked(found, formula)
+    integral = FormulaIntegral(_name("integral", motion), nan, convex=motion.curvature.convex, motion=motion)
+    return _checked(integral, formula)
 
 
 def value(formula: Any, *, at: float) -> Functional:  # noqa: ANN401

@@ -120,7 +120,10 @@ def kept_directions(space: LawSpace) -> tuple[Array, Array]:
     equations = space.equations()
     if not equations:
         return np.zeros(space.terms), np.eye(space.terms)
-    matrix, right = np.array([one.row for one in equations]), np.array([one.right for one in equations])
+    matrix, right = (
+        np.array([equation.row for equation in equations]),
+        np.array([equation.right for equation in equations]),
+    )
     _, sizes, directions = np.linalg.svd(matrix)
     rank = int((sizes > _RANK * sizes.max()).sum())
     return np.linalg.lstsq(matrix, right, rcond=None)[0], directions[rank:].T
@@ -158,8 +161,8 @@ def _evenly(rows: Array, weights: Array) -> Array | None:
     matrix[:-1] /= np.maximum(np.abs(matrix[:-1]).max(axis=1, keepdims=True), _TINY)
     right, cost = np.zeros(len(matrix)), np.zeros(matrix.shape[1])
     right[-1], cost[-1] = weights.sum(), -1.0
-    found = linprog(cost, A_eq=matrix, b_eq=right, method="highs")
-    return None if found.x is None else weights * (found.x[:-1] + found.x[-1])
+    optimum = linprog(cost, A_eq=matrix, b_eq=right, method="highs")
+    return None if optimum.x is None else weights * (optimum.x[:-1] + optimum.x[-1])
 
 
 def known_values(motion: Motion, conditions: BoundaryConditions) -> list[tuple[float, float]]:
@@ -172,13 +175,13 @@ def known_values(motion: Motion, conditions: BoundaryConditions) -> list[tuple[f
     >>> known_values(of_text("c + 2*b"), BoundaryConditions.rest(3))
     [(0.0, 1.0), (0.0, 1.0), (2.0, 2.0)]
     """
-    found = []
+    values = []
     for k, end in ((0.0, conditions.start), (1.0, conditions.end)):
         if motion.start <= k <= motion.stop and max(motion.orders, default=0) < len(end):
             value = motion.values({"k": k, **{name: end[nu] for name, nu in ORDERS.items() if nu < len(end)}})
-            found.append((float(value), 1.0 + abs(float(value))))
+            values.append((float(value), 1.0 + abs(float(value))))
     mean = mean_value(motion, conditions)
-    return found if mean is None else [*found, (mean, _mean_size(motion, conditions))]
+    return values if mean is None else [*values, (mean, _mean_size(motion, conditions))]
 
 
 def mean_value(motion: Motion, conditions: BoundaryConditions) -> float | None:

@@ -58,7 +58,7 @@ def check_ends(motion: Motion, conditions: BoundaryConditions) -> None:
 def _no_value(formula: Formula, part: Formula, what: str) -> FormulaError:
     """The error that points at a part of a formula as it is printed."""
     text = str(formula)
-    places = (one.place for one in read(text).walk() if one == part)
+    places = (same.place for same in read(text).walk() if same == part)
     return FormulaError(what, text, next(places, 0))
 
 

@@ -85,7 +85,7 @@ def _second_order(family: Family, size: int) -> tuple[Array, Array]:
     if isinstance(family, NormFamily):
         free, base = family.matrix[:, :-1], family.matrix[:, -1]
         return free.T @ free, free.T @ base
-    one, nothing = np.ones(1), np.zeros(size)
-    bent = family.hessian(nothing, one, one)
-    slope = family.jet(nothing, one, one).gradient[0] + family.slack
+    ones, nothing = np.ones(1), np.zeros(size)
+    bent = family.hessian(nothing, ones, ones)
+    slope = family.jet(nothing, ones, ones).gradient[0] + family.slack
     return (np.zeros((size, size)) if bent is None else bent), slope

@@ -228,7 +228,7 @@ class Problem:
     def _titles(self) -> dict[str, str]:
         """Titles of the constants that are not called by their names, by these."""
         named = sorted(self.constants, key=lambda constant: constant.name)
-        return {one.name: one.title for one in named if one.title != one.name}
+        return {titled.name: titled.title for titled in named if titled.title != titled.name}
 
     def titled(self, text: str) -> str:
         """A text in which the problem's constants have their titles, which are short, in place of their names.
@@ -259,7 +259,7 @@ class Problem:
         if "bounds" in texts:
             texts["bounds"] = _as_code(texts["bounds"], short)
         code = f"Problem({', '.join(f'{name}={text}' for name, text in texts.items())})"
-        return "\n".join([code, *(f"where {one} = {name!r}" for name, one in short.items())])
+        return "\n".join([code, *(f"where {name_kept} = {name!r}" for name, name_kept in short.items())])
 
     def _repr_html_(self) -> str:
         from optlaws.shown.showing import facts, page
@@ -274,7 +274,7 @@ class Problem:
     @property
     def _said(self) -> list[str]:
         """The entries that the problem says: some always, others where they are given."""
-        return [one.name for one in fields(self) if one.name in _ALWAYS or _given(self, one)]
+        return [field.name for field in fields(self) if field.name in _ALWAYS or _given(self, field)]
 
 
 #: what a problem always says
@@ -291,8 +291,8 @@ def _fixed_above_mean(wanted: Range | None) -> bool:
 
 def _as_code(code: str, short: Mapping[str, str]) -> str:
     """Python in which variables stand for texts that are long names, and for these within a text."""
-    for name, one in short.items():
-        code = code.replace(repr(name), one).replace(repr(name)[1:-1], f"{{{one}}}")
+    for name, text in short.items():
+        code = code.replace(repr(name), text).replace(repr(name)[1:-1], f"{{{text}}}")
     return f"f{code}" if code.startswith(("'", '"')) and "{" in code else code
 
 

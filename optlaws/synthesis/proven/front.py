@@ -154,8 +154,8 @@ class ProvenFront:
         if not len(self.values) == len(self.laws) == len(self.certificates):
             raise InputError("a proven front needs a law and a certificate for each value")
         made_here = isinstance(self.certificates, Lazily)
-        for value, one in () if made_here else zip(self.values, self.certificates, strict=True):
-            if one.program != OBJECTIVE or one.problem != self.number.at(value):
+        for value, certificate in () if made_here else zip(self.values, self.certificates, strict=True):
+            if certificate.program != OBJECTIVE or certificate.problem != self.number.at(value):
                 raise InputError(f"the certificate at {self.number.name} = {value!r} is not of the problem there")
 
     @classmethod
@@ -191,17 +191,17 @@ class ProvenFront:
     def sides(self) -> Array:
         """At each certified law what is known above and below the least objective, and the slope from there."""
         problems = [proof.problem for proof in self.certificates]
-        tops = np.array([worth(one, law).objective for one, law in zip(problems, self.laws, strict=True)])
+        tops = np.array([worth(problem, law).objective for problem, law in zip(problems, self.laws, strict=True)])
         slopes = np.array([weighted_value(self.number, law) for law in self.laws]) if self.number.concave else None
         claims = np.full(len(tops), -np.inf)
         if slopes is not None:
             reach = np.subtract.outer(np.array(self.between), np.array(self.values))
             claims = np.max(tops + slopes * reach, axis=0)
-        found = [
-            lower_line(one, at, self.number, self.between, claim)
-            for one, at, claim in zip(self.certificates, self.values, claims.tolist(), strict=True)
+        lines_of_sides = [
+            lower_line(certificate, at, self.number, self.between, claim)
+            for certificate, at, claim in zip(self.certificates, self.values, claims.tolist(), strict=True)
         ]
-        lines = np.array(found)
+        lines = np.array(lines_of_sides)
         return np.column_stack([tops, lines[:, 0], lines[:, 1] if slopes is None else slopes])
 
     @kept_property
@@ -247,9 +247,9 @@ class ProvenFront:
         share = away[0] / (t[i + 1] - t[i])
         tops, lows, slopes = self.sides.T
         if self.number.concave:
-            upper = np.minimum(*(tops[j] + slopes[j] * one for j, one in zip((i, i + 1), away, strict=True)))
+            upper = np.minimum(*(tops[j] + slopes[j] * distance for j, distance in zip((i, i + 1), away, strict=True)))
             return (1.0 - share) * lows[i] + share * lows[i + 1], upper
-        lower = np.maximum(*(lows[j] + slopes[j] * one for j, one in zip((i, i + 1), away, strict=True)))
+        lower = np.maximum(*(lows[j] + slopes[j] * distance for j, distance in zip((i, i + 1), away, strict=True)))
         return lower, (1.0 - share) * tops[i] + share * tops[i + 1]
 
     def __call__(self, value: float) -> FrontPoint:
@@ -273,8 +273,10 @@ class ProvenFront:
 
     def _mixed(self, i: int, share: float, value: float, problem: Problem) -> FrontPoint:
         law = self.laws[i + 1] if share == 1.0 else law_between(self.laws[i], self.laws[i + 1], share)
-        proofs = [replace(one, problem=problem) for one in self.certificates[i : i + 2]]
-        return FrontPoint(value, problem, law, worth(problem, law).objective, max(proofs, key=lambda one: one.bound))
+        proofs = [replace(certificate, problem=problem) for certificate in self.certificates[i : i + 2]]
+        return FrontPoint(
+            value, problem, law, worth(problem, law).objective, max(proofs, key=lambda certificate: certificate.bound)
+        )
 
     def _averaged(self, i: int, share: float, value: float, problem: Problem) -> FrontPoint:
         sums = [worth(problem, law).objective for law in self.laws[i : i + 2]]
@@ -282,10 +284,10 @@ class ProvenFront:
         unit = model_of(problem).unit
         contacts: list[Contact] = []
         equations = np.zeros(len(self.certificates[i].equations))
-        for one, weight in zip(self.certificates[i : i + 2], (1.0 - share, share), strict=True):
-            factor = weight * model_of(one.problem).unit / unit
-            contacts += [replace(c, multiplier=c.multiplier * factor) for c in one.contacts if factor > 0.0]
-            equations += factor * np.array(one.equations)
+        for certificate, weight in zip(self.certificates[i : i + 2], (1.0 - share, share), strict=True):
+            factor = weight * model_of(certificate.problem).unit / unit
+            contacts += [replace(c, multiplier=c.multiplier * factor) for c in certificate.contacts if factor > 0.0]
+            equations += factor * np.array(certificate.equations)
         proof = Certificate(problem, tuple(contacts), tuple(equations.tolist()))
         return FrontPoint(value, problem, self.laws[i + best], sums[best], proof)
 
@@ -343,7 +345,7 @@ class ProvenFront:
         return front_of(stated(data, StatedFront, "proven front"))
 
 
-def front_of(found: StatedFront) -> ProvenFront:
+def front_of(stated_front: StatedFront) -> ProvenFront:
     """The front that was stated.
 
     Raises
@@ -351,12 +353,13 @@ def front_of(found: StatedFront) -> ProvenFront:
     InputError
         If it is none.
     """
-    number = RunningNumber(problem_of(found.problem), found.runs)
+    number = RunningNumber(problem_of(stated_front.problem), stated_front.runs)
     proofs = [
-        Certificate(number.at(one.at), tuple(map(contact_of, one.contacts)), one.equations) for one in found.points
+        Certificate(number.at(point.at), tuple(map(contact_of, point.contacts)), point.equations)
+        for point in stated_front.points
     ]
-    laws = tuple(MotionLaw.from_dict(one.law) for one in found.points)
-    return ProvenFront(number, tuple(one.at for one in found.points), laws, tuple(proofs))
+    laws = tuple(MotionLaw.from_dict(point.law) for point in stated_front.points)
+    return ProvenFront(number, tuple(point.at for point in stated_front.points), laws, tuple(proofs))
 
 
 def weighted_value(number: RunningNumber, law: MotionLaw) -> float:
@@ -365,5 +368,5 @@ def weighted_value(number: RunningNumber, law: MotionLaw) -> float:
 
 
 def _plain(contact: Contact) -> dict[str, Any]:
-    found = {"constraint": contact.constraint, "sign": contact.sign, "k": contact.k, "multiplier": contact.multiplier}
-    return found | ({"direction": list(contact.direction)} if contact.direction else {})
+    plain = {"constraint": contact.constraint, "sign": contact.sign, "k": contact.k, "multiplier": contact.multiplier}
+    return plain | ({"direction": list(contact.direction)} if contact.direction else {})

@@ -60,7 +60,7 @@ def _rates(number: RunningNumber, ends: Ends, *rows: list[tuple[float, Array, fl
     first, last = rows
     if number.concave:
         return np.zeros(len(first)), np.zeros(len(first))
-    if any((one != other).any() for (_, one, _), (_, other, _) in zip(first, last, strict=True)):
+    if any((values != other).any() for (_, values, _), (_, other, _) in zip(first, last, strict=True)):
         raise InputError(f"{number.name} changes more than right sides of rows, so that nothing is proven between")
     low, high = (np.array([right for _, _, right in some]) for some in rows)
     rates = (high - low) / (ends[1] - ends[0])

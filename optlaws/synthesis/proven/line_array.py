@@ -33,7 +33,7 @@ def lower_lines(part: Part, values: Array, number: RunningNumber, ends: tuple[fl
         B, and between which values.
     """
     families = part.model.program.families
-    if number.name != "B" or not all(isinstance(one, LinearFamily) for one in families):
+    if number.name != "B" or not all(isinstance(family, LinearFamily) for family in families):
         return None
     model = model_of(number.at(ends[1]))
     both = np.concatenate([np.maximum(part.found.multiplier, 0.0), part.found.equations], axis=1)
@@ -57,13 +57,13 @@ def lower_lines(part: Part, values: Array, number: RunningNumber, ends: tuple[fl
 
 def _rows(part: Part, model: Model, further: Array) -> Array:
     """The rows of the contacts and of the equations, with the opposites of their right sides; of no contact 0."""
-    found, contacts, size = part.found, part.found.u.shape[1], part.model.program.size
+    laws, contacts, size = part.found, part.found.u.shape[1], part.model.program.size
     rows = np.zeros((len(further), contacts + len(model.program.right), size + 1))
     for i, family in enumerate(part.model.program.families):
-        law, place = np.nonzero(found.family == i)
+        law, place = np.nonzero(laws.family == i)
         if len(law) and isinstance(family, LinearFamily):
-            u = np.clip(found.u[law, place], *family.domain)
-            rows[law, place, :-1], right = family.rows(u, found.sign[law, place])
+            u = np.clip(laws.u[law, place], *family.domain)
+            rows[law, place, :-1], right = family.rows(u, laws.sign[law, place])
             rows[law, place, -1] = -right
     rows[:, contacts:, :-1], rows[:, contacts:, -1] = model.program.equalities, -model.program.right
     # of the equations the first alone has B on its right side, and there B itself

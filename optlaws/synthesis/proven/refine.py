@@ -115,7 +115,7 @@ class _Refined:
         self.line = SolvedLine(self._problems, *ends)
         self.values = np.array(ends)
         self.laws: list[_Law] = [_at_end(number, end) for end in ends]
-        self.known = np.array([self._known(value, one) for value, one in zip(ends, self.laws, strict=True)])
+        self.known = np.array([self._known(value, law) for value, law in zip(ends, self.laws, strict=True)])
 
     def until(self, gap: float) -> ProvenFront:
         """Put laws between others until every gap is small enough."""
@@ -137,9 +137,9 @@ class _Refined:
 
     def _solution(self, place: int) -> Solution:
         law = self.laws[place]
-        found = law if isinstance(law, Solution) else law[0].result(law[1])
-        assert isinstance(found, Solution)  # noqa: S101 - others are solved again
-        return found
+        solution = law if isinstance(law, Solution) else law[0].result(law[1])
+        assert isinstance(solution, Solution)  # noqa: S101 - others are solved again
+        return solution
 
     def _insert(self, parts: NDArray[np.int_], gap: float) -> None:
         """Cut each interval into so many parts."""
@@ -163,12 +163,12 @@ class _Refined:
         known = np.full((len(values), 3), np.nan)
         for begin in range(0, len(values), _CHUNK):
             some = values[begin : begin + _CHUNK]
-            found = self.line.at(some)
-            for part in found.parts:
+            solutions = self.line.at(some)
+            for part in solutions.parts:
                 lines = lower_lines(part, some[part.places], self.number, self.ends)
                 if lines is not None:
                     known[begin + part.places] = np.column_stack([part.found.objective, lines])
-            laws += [(found, i) for i in range(len(some))]
+            laws += [(solutions, i) for i in range(len(some))]
         for i in np.flatnonzero(~(known[:, 0] - known[:, 1] <= most * known[:, 0])).tolist():
             laws[i] = self._alone(float(values[i]), laws[i])
             known[i] = self._known(float(values[i]), laws[i])
@@ -182,9 +182,9 @@ class _Refined:
 
     def _alone(self, value: float, law: _Law) -> Solution:
         """The solution at a value, solved again without a neighbour that may have led it astray."""
-        found = law if isinstance(law, Solution) else law[0].result(law[1])
-        if isinstance(found, Solution) and found.status is Status.OPTIMAL:
-            return found
+        solution = law if isinstance(law, Solution) else law[0].result(law[1])
+        if isinstance(solution, Solution) and solution.status is Status.OPTIMAL:
+            return solution
         try:
             return synthesize(self.number.at(value))
         except OptlawsError as error:

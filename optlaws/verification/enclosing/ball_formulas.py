@@ -31,8 +31,8 @@ def _power(base: Any, exponent: Any) -> Any:  # noqa: ANN401 - balls or series
     plain = _plain(exponent)
     if plain.is_integer():
         whole = int(str(plain.unique_fmpz()))
-        found = reduce(lambda one, _: one * base, range(abs(whole)), base * 0 + 1)
-        return found if whole >= 0 else 1 / found
+        power = reduce(lambda product, _: product * base, range(abs(whole)), base * 0 + 1)
+        return power if whole >= 0 else 1 / power
     if plain > 0 and _may_vanish(_plain(base)):
         most = _plain(base).upper()
         return _kinked(base, [arb(0).union((most.log() * plain).exp()) if most > 0 else arb(0)])
@@ -54,16 +54,16 @@ def _abs(x: Any) -> Any:  # noqa: ANN401 - a ball or a series
     plain = _plain(x)
     if plain >= 0 or plain <= 0:
         return x if plain >= 0 else -x
-    return _kinked(x, [abs(plain), *[one.union(-one) for one in _coefficients(x)[1:2]]])
+    return _kinked(x, [abs(plain), *[term.union(-term) for term in _coefficients(x)[1:2]]])
 
 
 def _max(x: Any, y: Any) -> Any:  # noqa: ANN401 - balls or series
-    one, other = _plain(x), _plain(y)
-    if one >= other or one <= other:
+    first, other = _plain(x), _plain(y)
+    if first >= other or first <= other:
         # one of them is a number perhaps, where the other is a series
-        return x + y * 0 if one >= other else y + x * 0
+        return x + y * 0 if first >= other else y + x * 0
     slopes = [p.union(q) for p, q in zip(_coefficients(x + y * 0)[1:2], _coefficients(y + x * 0)[1:2], strict=True)]
-    return _kinked(x + y, [one.max(other), *slopes])
+    return _kinked(x + y, [first.max(other), *slopes])
 
 
 def _min(x: Any, y: Any) -> Any:  # noqa: ANN401 - balls or series
@@ -97,16 +97,16 @@ def _exactly(value: float) -> arb:
 def _on_pieces(table: Table, at: Any) -> Any:  # noqa: ANN401 - a ball or a series
     """The values of all pieces that the ball may be on, and of a series those slopes that they bound together."""
     places, plain = [ball(place) for place in table.places], _plain(at)
-    found = []
+    values = []
     for i, row in enumerate(exact_pieces(table)):
         if (i and plain < places[i]) or (i + 2 < len(places) and plain > places[i + 1]):
             continue
-        found.append(horner([arb(value) for value in row], at - places[i]) + 0 * at)
-    if len(found) == 1:
-        return found[0]
+        values.append(horner([arb(value) for value in row], at - places[i]) + 0 * at)
+    if len(values) == 1:
+        return values[0]
     # a slope that jumps is between those on both sides, one that is an impulse has no bounds
     smooth = max((3 if table.smooth else 1) - table.order, 0) + 1
-    united = (reduce(arb.union, several) for several in zip(*map(_coefficients, found), strict=True))
+    united = (reduce(arb.union, several) for several in zip(*map(_coefficients, values), strict=True))
     return _kinked(at, list(united)[:smooth])
 
 
@@ -157,8 +157,8 @@ def _polynomial_table(table: Table, at: fmpq_poly) -> fmpq_poly:
     here = at(fmpq(0))
     piece = max((i for i, x in enumerate(table.places[:-1]) if rational(x) <= here), default=0)
     s = at - rational(table.places[piece])
-    found: fmpq_poly = horner([fmpq_poly([value]) for value in exact_pieces(table)[piece]], s)
-    return found
+    polynomial: fmpq_poly = horner([fmpq_poly([value]) for value in exact_pieces(table)[piece]], s)
+    return polynomial
 
 
 #: of a variable that runs from -1 to 1 where no table changes its piece
@@ -176,15 +176,15 @@ def series_of(formula: Formula, names: Mapping[str, arb_series]) -> arb_series:
     Examples
     --------
     >>> from optlaws.formulas.tree import Name, Number, Power
-    >>> found = series_of(Power(Name("k"), Number(2.0)), {"k": arb_series([arb(3), arb(1)])})
-    >>> [float(found[i]) for i in range(3)]
+    >>> series = series_of(Power(Name("k"), Number(2.0)), {"k": arb_series([arb(3), arb(1)])})
+    >>> [float(series[i]) for i in range(3)]
     [9.0, 6.0, 1.0]
     """
     try:
-        found: arb_series = evaluate(formula, names, BALLS) + arb_series([arb(0)])
+        series: arb_series = evaluate(formula, names, BALLS) + arb_series([arb(0)])
     except ValueError:
         return arb_series([arb.nan()] * ctx.cap)
-    return found
+    return series
 
 
 def composed(polynomial: fmpq_poly, x: arb_series) -> arb_series:

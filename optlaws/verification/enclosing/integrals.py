@@ -47,19 +47,19 @@ def integrals(
 
     Examples
     --------
-    >>> [found] = integrals(lambda k: [k.exp()], [[fmpq_poly([1])]], (Fraction(0), Fraction(1)), 64)
-    >>> found.contains(arb(1).exp() - 1), float(found.rad()) < 1e-12
+    >>> [integral] = integrals(lambda k: [k.exp()], [[fmpq_poly([1])]], (Fraction(0), Fraction(1)), 64)
+    >>> integral.contains(arb(1).exp() - 1), float(integral.rad()) < 1e-12
     (True, True)
     """
     low, high = ends
-    found = [arb(0)] * len(columns)
+    sums = [arb(0)] * len(columns)
     with ctx.workprec(min(ctx.prec, 2 * bits + _SPARE)):
         half = ball((high - low) / 2)
-        wide = [[arb_poly(one) for one in column] for column in columns]
+        wide = [[arb_poly(term) for term in column] for column in columns]
         for cell, series, left in _cells(functions, ends, bits, rough):
             for i, column in enumerate(wide):
-                found[i] += sum(map(_product, column, series, left, [cell] * len(series)), arb(0))
-        return [value * half for value in found]
+                sums[i] += sum(map(_product, column, series, left, [cell] * len(series)), arb(0))
+        return [value * half for value in sums]
 
 
 def _product(polynomial: arb_poly, series: arb_poly, left: arb, cell: tuple[arb, arb]) -> arb:
@@ -80,7 +80,7 @@ def _cells(
     terms, narrow = max(8, bits // 2), Fraction(1, 2**bits)
     middle, half = (ends[0] + ends[1]) / 2, (ends[1] - ends[0]) / 2
     with _terms(terms + 1):
-        size = 1 + sum((abs(one[0]) for one in _finite(functions(_place(middle, half, arb(0))))), arb(0))
+        size = 1 + sum((abs(value[0]) for value in _finite(functions(_place(middle, half, arb(0))))), arb(0))
         cells = [(Fraction(0), Fraction(1))]
         for _ in range(_MOST_CELLS):
             if not cells:
@@ -88,14 +88,14 @@ def _cells(
             centre, reach = cells.pop()
             k, width = middle + half * centre, half * reach
             around = list(functions(_place(k, width, _BALL)))
-            left = [one[terms] for one in around]
+            left = [value[terms] for value in around]
             worst = sum(map(abs, left), arb(0)) * ball(reach)
             if worst.is_finite() and worst < size * ball(narrow):
-                series = [arb_poly(one.coeffs()[:terms]) for one in functions(_place(k, width, arb(0)))]
+                series = [arb_poly(function.coeffs()[:terms]) for function in functions(_place(k, width, arb(0)))]
                 yield (ball(centre), ball(reach)), series, left
             elif reach < narrow:
                 place = ball(k) + ball(width) * _BALL
-                left = list(rough(place)) if rough is not None else [one[0] for one in around]
+                left = list(rough(place)) if rough is not None else [value[0] for value in around]
                 yield (ball(centre), ball(reach)), [arb_poly()] * len(left), left
             else:
                 cells += [(centre + reach * side / 2, reach / 2) for side in (-1, 1)]
@@ -110,7 +110,7 @@ def _place(centre: Fraction, reach: Fraction, off: arb) -> arb_series:
 
 
 def _finite(series: Sequence[arb_series]) -> list[arb_series]:
-    return [one for one in series if one[0].is_finite()]
+    return [value for value in series if value[0].is_finite()]
 
 
 @contextmanager

@@ -51,17 +51,17 @@ def _vanishing(part: Formula) -> Iterator[Formula]:
         yield from (added([part.of, opposite(number(place))]) for place in part.places)
     elif isinstance(part, Call) and part.function in _KINKED:
         first, *others = part.arguments
-        yield from [added([first, opposite(one)]) for one in others] or [first]
+        yield from [added([first, opposite(term)]) for term in others] or [first]
 
 
 def _line(formula: Formula) -> tuple[Fraction, Fraction] | None:
     """Slope and value at 0 of a formula that is affine in k; None where it is not, or not rational."""
-    found = affine(formula, ("k",))
-    if found is None:
+    straight = affine(formula, ("k",))
+    if straight is None:
         return None
     try:
-        slope = evaluate(dict(found.factors).get("k", Number(0.0)), {}, _RATIONALS)
-        return slope, evaluate(found.rest, {}, _RATIONALS)
+        slope = evaluate(dict(straight.factors).get("k", Number(0.0)), {}, _RATIONALS)
+        return slope, evaluate(straight.rest, {}, _RATIONALS)
     except (ArithmeticError, KeyError, TypeError):
         return None
 
@@ -109,11 +109,13 @@ def _sign(formula: Formula, low: Fraction, high: Fraction) -> float | None:
 def _greatest(call: Call, low: Fraction, high: Fraction) -> Formula:
     """The argument of a maximum or minimum that is one throughout."""
     forth = 1.0 if call.function == "max" else -1.0
-    for one in call.arguments:
-        signs: Iterable[float | None] = (_sign(added([one, opposite(other)]), low, high) for other in call.arguments)
+    for argument in call.arguments:
+        signs: Iterable[float | None] = (
+            _sign(added([argument, opposite(other)]), low, high) for other in call.arguments
+        )
         # equal ones differ by 0, of which the sign is 1
-        if all(other is one or sign == forth for other, sign in zip(call.arguments, signs, strict=True)):
-            return one
+        if all(other is argument or sign == forth for other, sign in zip(call.arguments, signs, strict=True)):
+            return argument
     return call
 
 

@@ -326,10 +326,10 @@ def _changes(vectors: list[Vector], weights: Vector, slopes: Vector) -> Vector |
 
 def never_negative(problem: Problem) -> bool:
     """Whether every constant of the objective is at least 0: a peak of one sign need not be if the velocity changes."""
-    found = [leaf for _, leaf in leaves(problem.objective)]
-    if any(isinstance(leaf, Functional) and floor(leaf, problem.conditions) < 0 for leaf in found):
+    leaves_found = [leaf for _, leaf in leaves(problem.objective)]
+    if any(isinstance(leaf, Functional) and floor(leaf, problem.conditions) < 0 for leaf in leaves_found):
         return False
-    one_sided = any(isinstance(leaf, Peak) and len(leaf.signs) == 1 for leaf in found)
+    one_sided = any(isinstance(leaf, Peak) and len(leaf.signs) == 1 for leaf in leaves_found)
     return not one_sided or (problem.boundary is None and problem.order > 1)
 
 

@@ -37,12 +37,12 @@ def formula_columns(space: ExactSpace, motion: Motion, k: Fraction) -> list[arb]
 
 
 def _columns(space: ExactSpace, motion: Motion, k: arb, piece: int) -> list[arb]:
-    found = [arb(0)] * (space.terms + 1)
+    columns = [arb(0)] * (space.terms + 1)
     for nu, factor in motion.weights.items():
         weight, values = evaluate(factor, {"k": k}, BALLS), space.on_piece(nu, piece, 2 * k - 1)
-        found = [one + weight * value for one, value in zip(found, values, strict=True)]
-    found[-1] += evaluate(motion.rest, {"k": k}, BALLS)
-    return found
+        columns = [total + weight * value for total, value in zip(columns, values, strict=True)]
+    columns[-1] += evaluate(motion.rest, {"k": k}, BALLS)
+    return columns
 
 
 def tangent_columns(space: ExactSpace, branch: Branch, point: Sequence[float], k: Fraction) -> list[arb]:
@@ -55,14 +55,14 @@ def tangent_columns(space: ExactSpace, branch: Branch, point: Sequence[float], k
     if len(point) != len(used):
         raise LookupError
     at = {name: ball(value) for name, value in zip(used, point, strict=True)} | {"k": ball(k)}
-    found = [arb(0)] * (space.terms + 1)
-    found[-1] = evaluate(formula, at, BALLS)
+    columns = [arb(0)] * (space.terms + 1)
+    columns[-1] = evaluate(formula, at, BALLS)
     for name in used:
         slope = evaluate(derivative(formula, name), at, BALLS)
         values = space.values(ORDERS[name], k)
-        found = [total + slope * value for total, value in zip(found, values, strict=True)]
-        found[-1] -= slope * at[name]
-    return [branch.sign * value for value in found]
+        columns = [total + slope * value for total, value in zip(columns, values, strict=True)]
+        columns[-1] -= slope * at[name]
+    return [branch.sign * value for value in columns]
 
 
 def tangent_integral(space: ExactSpace, motion: Motion, point: Sequence[float], *, root: bool) -> list[arb]:
@@ -78,17 +78,17 @@ def tangent_integral(space: ExactSpace, motion: Motion, point: Sequence[float], 
     if len(point) != len(used) * count * (len(edges) - 1):
         raise LookupError
     values = np.array(point).reshape(len(used), -1, count)
-    found = [arb(0)] * (space.terms + 2)
+    columns = [arb(0)] * (space.terms + 2)
     for ends, i in _within(space, motion, [Fraction(k) for k in edges]):
         degrees = [min(space.degree_of(ORDERS[name]), count - 1) for name in used]
         local = [
-            fitted(one[i], degree)(_inner((Fraction(edges[i]), Fraction(edges[i + 1])), ends))
-            for one, degree in zip(values, degrees, strict=True)
+            fitted(value_before[i], degree)(_inner((Fraction(edges[i]), Fraction(edges[i + 1])), ends))
+            for value_before, degree in zip(values, degrees, strict=True)
         ]
         tangent = _Tangent(on_part(motion.formula, *ends), dict(zip(used, local, strict=True)), ends, root=root)
         several = integrals(tangent.series, tangent.columns(space), ends, ctx.prec // 4, tangent.rough)
-        found = [one + other for one, other in zip(found, several, strict=True)]
-    *row, size = found
+        columns = [entry + other for entry, other in zip(columns, several, strict=True)]
+    *row, size = columns
     if root:
         return [value / size.sqrt() for value in row]
     return row
@@ -109,19 +109,19 @@ class _Tangent:
 
     def columns(self, space: ExactSpace) -> list[list[fmpq_poly]]:
         """What the slopes, what is left and the formula are multiplied with, for each function; last for its size."""
-        nothing, one = fmpq_poly([0]), fmpq_poly([1])
+        nothing, unit = fmpq_poly([0]), fmpq_poly([1])
         several = [polynomials_between(space, ORDERS[name], self.ends) for name in self.along]
         columns = [[*column, nothing, nothing] for column in zip(*several, strict=True)]
-        columns[-1][-2] = one
-        return [*columns, [*[nothing] * (len(several) + 1), one]]
+        columns[-1][-2] = unit
+        return [*columns, [*[nothing] * (len(several) + 1), unit]]
 
     def series(self, k: arb_series) -> list[arb_series]:
         """The slopes, what the tangent is beside them, and the formula; half the slopes of a square."""
         low, high = self.ends
         local = (k - ball((low + high) / 2)) / ball((high - low) / 2)
-        at = {name: composed(one, local) for name, one in self.along.items()}
+        at = {name: composed(function, local) for name, function in self.along.items()}
         value = series_of(self.formula, {**at, "k": k})
-        slopes = [series_of(one, {**at, "k": k}) / (2 if self.root else 1) for one in self._slopes]
+        slopes = [series_of(slope, {**at, "k": k}) / (2 if self.root else 1) for slope in self._slopes]
         return [*slopes, value - sum(map(mul, slopes, at.values()), arb_series([0])), value]
 
     def rough(self, k: arb) -> list[arb]:
@@ -131,7 +131,7 @@ class _Tangent:
         at = dict.fromkeys(self.along, arb(1))
         try:
             value = evaluate(self.formula, {**at, "k": k}, BALLS)
-            slopes = [evaluate(one, {**at, "k": k}, BALLS) for one in self._slopes]
+            slopes = [evaluate(slope, {**at, "k": k}, BALLS) for slope in self._slopes]
         except ValueError:
             return [arb.nan()] * (len(self.along) + 2)
         return [*slopes, value - sum(slopes, arb(0)), value]
@@ -148,28 +148,28 @@ def norm_columns(space: ExactSpace, parts: Sequence[Motion], direction: Sequence
     rules = [gauss_parts(laws, motion) for motion in parts]
     if len(direction) != sum(count for rule in rules for _, count in rule):
         raise LookupError
-    found, size, left = [arb(0)] * (space.terms + 1), arb(0), list(direction)
+    columns_there, size, left = [arb(0)] * (space.terms + 1), arb(0), list(direction)
     for motion, rule in zip(parts, rules, strict=True):
         inner = [(1 - Fraction(u)) / 2 for _, u in [ends for ends, _ in rule][:-1]]
         edges = [Fraction(motion.start), *inner, Fraction(motion.stop)]
         taken = [[left.pop(0) for _ in range(count)] for _, count in rule]
-        factors = [_through(one, edges[i + 1] - edges[i]) for i, one in enumerate(taken)]
+        factors = [_through(polynomial, edges[i + 1] - edges[i]) for i, polynomial in enumerate(taken)]
         for ends, i in _within(space, motion, edges):
             factor = factors[i](_inner((edges[i], edges[i + 1]), ends))
             square = (factor * factor).integral()
             size += arb((square(fmpq(1)) - square(fmpq(-1))) * rational((ends[1] - ends[0]) / 2))
             several = _weighted(space, motion, factor, ends)
-            found = [one + other for one, other in zip(found, several, strict=True)]
-    return [value / size.sqrt() for value in found]
+            columns_there = [term + other for term, other in zip(columns_there, several, strict=True)]
+    return [value / size.sqrt() for value in columns_there]
 
 
 def _weighted(space: ExactSpace, motion: Motion, factor: fmpq_poly, ends: tuple[Fraction, Fraction]) -> list[arb]:
     """The integral over a part of an affine formula times a factor, for each function."""
     several = [polynomials_between(space, nu, ends) for nu in motion.weights]
-    columns = [[*(factor * one for one in column), fmpq_poly([0])] for column in zip(*several, strict=True)]
+    columns = [[*(factor * entry for entry in column), fmpq_poly([0])] for column in zip(*several, strict=True)]
     columns[-1][-1] = factor
-    formulas = [on_part(one, *ends) for one in (*motion.weights.values(), motion.rest)]
-    return integrals(lambda k: [series_of(one, {"k": k}) for one in formulas], columns, ends, ctx.prec // 4)
+    formulas = [on_part(weight, *ends) for weight in (*motion.weights.values(), motion.rest)]
+    return integrals(lambda k: [series_of(formula, {"k": k}) for formula in formulas], columns, ends, ctx.prec // 4)
 
 
 def _through(values: Sequence[float], length: Fraction) -> fmpq_poly:
@@ -185,8 +185,8 @@ def fitted(values: Array, degree: int) -> fmpq_poly:
 
     Examples
     --------
-    >>> fitted(np.array([1.0, 1.0, 1.0]), 0)
-    1
+    >>> [float(coefficient) for coefficient in fitted(np.array([1.0, 1.0, 1.0]), 0).coeffs()]
+    [1.0]
     """
     x, weights = legendre.leggauss(len(values))
     factors = (np.arange(degree + 1) + 0.5) * (legendre.legvander(x, degree).T @ (weights * values))
@@ -221,8 +221,8 @@ def polynomials_between(space: ExactSpace, nu: int, ends: tuple[Fraction, Fracti
     x = fmpq_poly([rational(low + high - 1), rational(high - low)])
     functions = space.derivative(nu)[space.piece(1 - (low + high) / 2 if later else (low + high) / 2)]
     if not later:
-        return [one(x) for one in functions]
-    found = [one(-x) if nu % 2 else -one(-x) for one in functions]
+        return [function(x) for function in functions]
+    functions_mirrored = [function(-x) if nu % 2 else -function(-x) for function in functions]
     if nu == 0:
-        found[-1] += 1
-    return found
+        functions_mirrored[-1] += 1
+    return functions_mirrored

@@ -39,36 +39,36 @@ def extremes_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Extremes:
         # where a norm vanishes it has no derivative, but its square has
         least, greatest = extremes_of(squared(motion), pieces)
         return least.max(arb(0)).sqrt(), greatest.max(arb(0)).sqrt()
-    found: list[arb] = []
+    values: list[arb] = []
     for part in _parts(motion, pieces):
         composed = part.polynomial()
         if composed is not None:
-            found += between(composed, fmpq(-1), fmpq(1))
+            values += between(composed, fmpq(-1), fmpq(1))
         else:
-            found += bisected(_Derivatives(part), part.low, part.high)
-    return least_and_greatest(found)
+            values += bisected(_Derivatives(part), part.low, part.high)
+    return least_and_greatest(values)
 
 
 def integral_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
     """A ball that holds the integral of a formula over its part: exact where it is a polynomial of k along the law."""
-    found = arb(0)
+    total = arb(0)
     for part in _parts(motion, pieces):
         composed = part.polynomial()
         if composed is None:
-            found += sum(integrals(part.series, [[fmpq_poly([1])]], (part.low, part.high), _BITS), arb(0))
+            total += sum(integrals(part.series, [[fmpq_poly([1])]], (part.low, part.high), _BITS), arb(0))
         else:
             whole = composed.integral()
-            found += arb((whole(fmpq(1)) - whole(fmpq(-1))) * rational((part.high - part.low) / 2))
-    return found
+            total += arb((whole(fmpq(1)) - whole(fmpq(-1))) * rational((part.high - part.low) / 2))
+    return total
 
 
 def value_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
     """A ball that holds the formula's value where its part begins."""
     k = Fraction(motion.start)
-    piece = [one for one in pieces if one.start <= k][-1]
+    piece = [started for started in pieces if started.start <= k][-1]
     names = {name: arb(piece.exact(nu, k)) for name, nu in ORDERS.items()}
-    found: arb = evaluate(motion.formula, {**names, "k": ball(k)}, BALLS)
-    return found
+    value: arb = evaluate(motion.formula, {**names, "k": ball(k)}, BALLS)
+    return value
 
 
 @dataclass(frozen=True)
@@ -87,8 +87,8 @@ class _Part:
         k = fmpq_poly([rational((self.low + self.high) / 2), rational((self.high - self.low) / 2)])
         y = self.piece.rate * (k - rational(self.piece.start)) - 1
         names = {name: self.piece.derivative(nu)(y) for name, nu in ORDERS.items() if name in self.formula.names()}
-        found: fmpq_poly = evaluate(self.formula, {**names, "k": k}, POLYNOMIALS)
-        return found
+        polynomial: fmpq_poly = evaluate(self.formula, {**names, "k": k}, POLYNOMIALS)
+        return polynomial
 
     def series(self, k: arb_series) -> tuple[arb_series]:
         """Its Taylor series, to as many terms as series have."""
@@ -124,8 +124,8 @@ class _Derivatives:
     def __call__(self, i: int, k: arb) -> arb:
         if self._last is None or self._last[0] is not k:
             self._last = (k, self._series(k))
-        found: arb = self._last[1][i] * factorial(i)
-        return found
+        derivative: arb = self._last[1][i] * factorial(i)
+        return derivative
 
     def _series(self, k: arb) -> arb_series:
         before: Any = ctx.cap

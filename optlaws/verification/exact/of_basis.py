@@ -102,22 +102,22 @@ def _(basis: PeriodicPieces, problem: Problem) -> ExactSpace:
 
 def _kept_by(basis: PeriodicPieces, functions: list[Functions]) -> list[Functions]:
     """The combinations of functions whose acceleration is periodic, and 0 on straight pieces."""
-    bent = [[4 * one.derivative().derivative() for one in part] for part in functions]
-    rows = [[one[i] for one in bent[piece]] for piece in basis.straight for i in range(basis.degree - 1)]
+    bent = [[4 * function.derivative().derivative() for function in part] for part in functions]
+    rows = [[function[i] for function in bent[piece]] for piece in basis.straight for i in range(basis.degree - 1)]
     first, last = bent[0], bent[-1]
     for _ in range(basis.continuity - 1):
         rows.append([after(fmpq(1)) - before(fmpq(-1)) for before, after in zip(first, last, strict=True)])
-        first, last = ([one.derivative() for one in part] for part in (first, last))
+        first, last = ([function.derivative() for function in part] for part in (first, last))
     free = _null_space(rows)
     return [
-        [sum((w * one for w, one in zip(way, part, strict=True) if w != 0), _ZERO) for way in free]
+        [sum((w * function for w, function in zip(way, part, strict=True) if w != 0), _ZERO) for way in free]
         for part in functions
     ]
 
 
 def _null_space(rows: list[list[fmpq]]) -> list[list[fmpq]]:
     """Vectors that every row makes 0, as many as there are independent ones."""
-    reduced, rank = fmpq_mat(len(rows), len(rows[0]), [one for row in rows for one in row]).rref()
+    reduced, rank = fmpq_mat(len(rows), len(rows[0]), [entry for row in rows for entry in row]).rref()
     count = len(rows[0])
     leading = [next(j for j in range(count) if reduced[i, j] != 0) for i in range(rank)]
     ways = []

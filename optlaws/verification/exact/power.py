@@ -145,11 +145,11 @@ class _FormulaProof(BoxSteps):
 
     def greatest_velocity(self) -> arb:
         """B, or what a bound of a mean of |c|, or of |j|, says: b is no further from its mean, and c from its own."""
-        found = [ball(self.greatest["B"])] if "B" in self.greatest else []
-        found += [self.stroke + ball(self.greatest[name]) for name in ("C", "rms_c") if name in self.greatest]
+        bounds = [ball(self.greatest["B"])] if "B" in self.greatest else []
+        bounds += [self.stroke + ball(self.greatest[name]) for name in ("C", "rms_c") if name in self.greatest]
         drop = abs(self.ends[1] - self.ends[0])
-        found += [self.stroke + drop + ball(self.greatest[name]) for name in ("J", "rms_j") if name in self.greatest]
-        return reduce(lambda one, other: one.min(other), found) if found else arb.pos_inf()
+        bounds += [self.stroke + drop + ball(self.greatest[name]) for name in ("J", "rms_j") if name in self.greatest]
+        return reduce(lambda low, other: low.min(other), bounds) if bounds else arb.pos_inf()
 
     def own_sides(self, name: str) -> tuple[arb, arb]:
         """A constant is at least what its formula is where the ends say it."""
@@ -168,10 +168,10 @@ class _FormulaProof(BoxSteps):
 
     def curved(self, contact: Contact, box: Box) -> Vector | None:
         """A plane that the formula is nowhere below."""
-        found = self._branches.get((contact.constraint, contact.sign))
-        if found is None:
+        branch_there = self._branches.get((contact.constraint, contact.sign))
+        if branch_there is None:
             return None
-        branch, way, slack, high = found
+        branch, way, slack, high = branch_there
         k = Fraction(contact.k)
         if not branch.motion.start <= k <= branch.motion.stop:
             return [arb(0)] * (len(box.low) + 1)
@@ -194,15 +194,15 @@ class _FormulaProof(BoxSteps):
         sought = (leaf for _, leaf in leaves(self.problem.objective) if isinstance(leaf, Functional))
         asked: list[tuple[Functional, dict[str, float], float]] = [(leaf, {leaf.name: -1.0}, 0.0) for leaf in sought]
         asked += [(constant, {}, limits.high) for constant, limits in self.problem.bounded if isfinite(limits.high)]
-        found = {}
+        branches = {}
         for constant, slack, high in asked:
             if not isinstance(constant, FormulaPeak | FormulaValue):
                 continue
             for branch in constant.branches(symmetric=self.problem.symmetric):
                 count = len(branch.motion.formula.names() & ORDERS.keys())
                 for i, way in enumerate([None, *product((-1, 1), repeat=count)]):
-                    found[names.plane(i, branch.name), branch.sign] = (branch, way, slack, high)
-        return found
+                    branches[names.plane(i, branch.name), branch.sign] = (branch, way, slack, high)
+        return branches
 
     def _range(self, name: str, row: Vector, box: Box, k: Fraction) -> tuple[arb, arb]:
         low, high = box.least(row), -box.least([-x for x in row])
@@ -255,11 +255,11 @@ def _over(formula: Formula, ranges: dict[str, tuple[arb, arb]], k: Fraction, dep
 
 
 def _least(values: Sequence[arb]) -> arb:
-    return reduce(lambda one, other: one.min(other), values).lower()
+    return reduce(lambda value, other: value.min(other), values).lower()
 
 
-def _dot(one: Sequence[arb], other: Sequence[arb]) -> arb:
-    return sum((x * y for x, y in zip(one, other, strict=True)), arb(0))
+def _dot(row: Sequence[arb], other: Sequence[arb]) -> arb:
+    return sum((x * y for x, y in zip(row, other, strict=True)), arb(0))
 
 
 def _signed_root(square: arb) -> arb:

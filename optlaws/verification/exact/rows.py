@@ -192,8 +192,8 @@ class ExactRows:
         def make(contact: Contact, k: Fraction) -> Row:
             if start < stop and not start - _NEAR <= k <= stop + _NEAR:
                 raise LookupError
-            found = tangent_columns(self.space, branch, contact.direction, min(max(k, start), stop))
-            return Row(found, slack, -ball(high))
+            columns = tangent_columns(self.space, branch, contact.direction, min(max(k, start), stop))
+            return Row(columns, slack, -ball(high))
 
         self.tangents.add(branch.name)
         self._add(branch.name, make, (branch.sign,))
@@ -208,8 +208,8 @@ class ExactRows:
 
         def make(contact: Contact, _: Fraction) -> Row:
             squares = squared(motion) if root else motion
-            found = tangent_integral(self.space, squares, contact.direction, root=root)
-            return Row([value / unit for value in found], slack, -ball(high))
+            columns = tangent_integral(self.space, squares, contact.direction, root=root)
+            return Row([value / unit for value in columns], slack, -ball(high))
 
         self._add(name, make)
 
@@ -220,16 +220,16 @@ class ExactRows:
         def make(contact: Contact, k: Fraction) -> Row:
             if start < stop and not start - _NEAR <= k <= stop + _NEAR:
                 raise LookupError
-            found = formula_columns(self.space, motion, min(max(k, start), stop))
-            return Row([one * contact.sign for one in found], slack, -ball(high))
+            columns = formula_columns(self.space, motion, min(max(k, start), stop))
+            return Row([entry * contact.sign for entry in columns], slack, -ball(high))
 
         self._add(name, make, signs)
 
     def _norm_of(self, constant: FormulaRms, contact: Contact, slack: Names, high: float) -> Row:
         """As `_norm`, with the values of a formula."""
         whole = ball(Fraction(constant.motion.stop) - Fraction(constant.motion.start))
-        found = norm_columns(self.space, constant.parts(symmetric=self.problem.symmetric), contact.direction)
-        return Row([value / whole.sqrt() for value in found], slack, -ball(high))
+        columns = norm_columns(self.space, constant.parts(symmetric=self.problem.symmetric), contact.direction)
+        return Row([value / whole.sqrt() for value in columns], slack, -ball(high))
 
     def _single(self, name: str, constants: Names, high: float | arb) -> None:
         nothing = [arb(0)] * (self.space.terms + 1)

@@ -91,7 +91,7 @@ class ExactSpace:
         row = self.values(asked.nu, asked.k)
         if asked.less is None:
             return row
-        return [one - other for one, other in zip(row, self.values(asked.nu, asked.less), strict=True)]
+        return [entry - other for entry, other in zip(row, self.values(asked.nu, asked.less), strict=True)]
 
     def on_piece(self, nu: int, piece: int, x: arb) -> list[arb]:
         """Values of the derivatives of order nu at x = 2k - 1, by the polynomials of a piece."""
@@ -99,7 +99,7 @@ class ExactSpace:
 
     def degree_of(self, nu: int) -> int:
         """The greatest degree of a derivative of order nu."""
-        return max(0, *(one.degree() for part in self.derivative(nu) for one in part))
+        return max(0, *(polynomial.degree() for part in self.derivative(nu) for polynomial in part))
 
     def combination(self, nu: int, weights: tuple[Fraction, ...], k: Fraction) -> list[arb]:
         """Values of w0 a^(nu) + w1 a^(nu+1) + ... at k."""

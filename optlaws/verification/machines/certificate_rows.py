@@ -109,18 +109,18 @@ def together(contacts: Iterable[Contact], corners: Mapping[Corner, tuple[Corner,
 
     Apart they would be two rows that are the same but for rounding, which could be exchanged for each other at will.
     """
-    found: list[Contact] = []
+    merged: list[Contact] = []
     places: dict[Corner, int] = {}
     for contact in contacts:
         moved = _moved(contact, corners)
         place = (moved.constraint, moved.k)
         if place in places:
-            found[places[place]] = _added(found[places[place]], moved)
+            merged[places[place]] = _added(merged[places[place]], moved)
             continue
         if place in {other for other, _ in corners.values()} and moved.multiplier > 0.0 and len(moved.direction) == 2:
-            places[place] = len(found)
-        found.append(moved)
-    return found
+            places[place] = len(merged)
+        merged.append(moved)
+    return merged
 
 
 def _moved(contact: Contact, corners: Mapping[Corner, tuple[Corner, float]]) -> Contact:
@@ -135,6 +135,6 @@ def _added(contact: Contact, other: Contact) -> Contact:
     if other.multiplier <= 0.0 or len(other.direction) != 2:
         return contact
     pairs = zip(contact.direction, other.direction, strict=True)
-    x, y = (contact.multiplier * one + other.multiplier * two for one, two in pairs)
+    x, y = (contact.multiplier * first + other.multiplier * two for first, two in pairs)
     size = hypot(x, y)
     return replace(contact, multiplier=size, direction=(x / size, y / size)) if size else contact

@@ -60,28 +60,28 @@ class Space(Protocol):
 
 def of_pieces(pieces: Sequence[PolynomialPiece]) -> list[Drive]:
     """A stored law: one column."""
-    found = []
+    drives = []
     for piece in pieces:
         local = fmpq_poly([fmpq(-1), piece.rate])
-        found.append(Drive(piece.start, piece.stop - piece.start, [piece.derivative(0)(local)]))
-    return found
+        drives.append(Drive(piece.start, piece.stop - piece.start, [piece.derivative(0)(local)]))
+    return drives
 
 
 def of_space(space: Space) -> list[Drive]:
     """All laws of a space: free functions, then the base law; of symmetric laws the second half mirrors the first."""
-    found = []
+    drives = []
     for part, (low, high) in zip(space.derivative(0), pairwise(space.breaks), strict=True):
         local = fmpq_poly([rational(2 * low - 1), fmpq(2)])
-        found.append(Drive(low, high - low, [one(local) for one in part]))
+        drives.append(Drive(low, high - low, [function(local) for function in part]))
     if space.breaks[-1] == _HALF:
-        middle = found[-1].last
-        found += [_mirrored(one, middle) for one in reversed(found)]
-    return found
+        middle = drives[-1].last
+        drives += [_mirrored(drive, middle) for drive in reversed(drives)]
+    return drives
 
 
 def _mirrored(drive: Drive, middle: list[fmpq]) -> Drive:
     back = fmpq_poly([rational(drive.length), fmpq(-1)])
-    columns = [2 * height - one(back) for one, height in zip(drive.columns, middle, strict=True)]
+    columns = [2 * height - column(back) for column, height in zip(drive.columns, middle, strict=True)]
     return Drive(1 - drive.stop, drive.length, columns)
 
 
@@ -100,10 +100,14 @@ def cycle(rise: Sequence[Drive], dwell: Fraction, pause: Fraction) -> list[Drive
     """Rise, dwell, the same law back, and a rest."""
     low, high = rise[0].first, rise[-1].last
     back = 1 + dwell
-    both = [one + other for one, other in zip(low, high, strict=True)]
+    both = [low_part + other for low_part, other in zip(low, high, strict=True)]
     fall = [
-        Drive(back + one.start, one.length, [total - column for total, column in zip(both, one.columns, strict=True)])
-        for one in rise
+        Drive(
+            back + drive.start,
+            drive.length,
+            [total - column for total, column in zip(both, drive.columns, strict=True)],
+        )
+        for drive in rise
     ]
     around = [*rise, *([rest(Fraction(1), dwell, high)] if dwell else []), *fall]
     return [*around, *([rest(back + 1, pause, low)] if pause else [])]
@@ -111,10 +115,10 @@ def cycle(rise: Sequence[Drive], dwell: Fraction, pause: Fraction) -> list[Drive
 
 def with_column(rise: Sequence[Drive], other: Sequence[Drive]) -> list[Drive]:
     """One more law, given on stretches of its own, each continued over the stretch whose middle it covers."""
-    found = []
-    for one in rise:
-        middle = one.start + one.length / 2
+    drives = []
+    for drive in rise:
+        middle = drive.start + drive.length / 2
         covering = [part for part in other if part.start <= middle][-1]
-        later = fmpq_poly([rational(one.start - covering.start), fmpq(1)])
-        found.append(Drive(one.start, one.length, [*one.columns, covering.columns[0](later)]))
-    return found
+        later = fmpq_poly([rational(drive.start - covering.start), fmpq(1)])
+        drives.append(Drive(drive.start, drive.length, [*drive.columns, covering.columns[0](later)]))
+    return drives

@@ -29,8 +29,8 @@ def highest(parts: Sequence[tuple[arb_poly, arb]], signs: Sequence[float] = (1.0
     Examples
     --------
     >>> waves = [(arb_poly([0, 1, 0, -1]), arb(0)), (arb_poly([0.25]), arb(0))]
-    >>> found = highest(waves)
-    >>> found.overlaps(2 / arb(27).sqrt()), float(found.rad()) < 1e-20
+    >>> peak = highest(waves)
+    >>> peak.overlaps(2 / arb(27).sqrt()), float(peak.rad()) < 1e-20
     (True, True)
     >>> highest(waves[1:], (-1.0,))
     -0.250000000000000
@@ -58,9 +58,9 @@ class _Climb:
 
     def seen(self, polynomial: arb_poly, off: arb, places: Sequence[Fraction]) -> list[arb]:
         """What there is at places, none of which the greatest is below."""
-        found = [self._counted(polynomial(ball(place))) for place in places]
-        self.least = reduce(arb.max, ((value - off).lower() for value in found), self.least)
-        return found
+        counted = [self._counted(polynomial(ball(place))) for place in places]
+        self.least = reduce(arb.max, ((value - off).lower() for value in counted), self.least)
+        return counted
 
     def over(self, polynomial: arb_poly, off: arb) -> None:
         """Take one more function into account."""

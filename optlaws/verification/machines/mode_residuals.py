@@ -133,7 +133,7 @@ class ExactModeResidual:
         own = (-self.root.real / abs(self.root)).asin()
         spread, dampings = Fraction(self.constant.spread), self.constant.dampings
         low, high = abs(self.root) * ball(1 - spread), abs(self.root) * ball(1 + spread)
-        least, most = (own, own) if dampings is None else (ball(one).asin() for one in dampings)
+        least, most = (own, own) if dampings is None else (ball(damping).asin() for damping in dampings)
         if dampings is None or dampings[0] == dampings[1]:
             return [Edge((low, least), (high, least), single=not spread)]
         if not spread:
@@ -143,8 +143,8 @@ class ExactModeResidual:
 
     def rows(self, space: Space, edge: int, place: Fraction) -> list[acb]:
         """Amplitudes of a space's free functions and of its base law, at a place of an edge from 0 to 1."""
-        found = velocity_transforms(self.edges[edge].root(acb(ball(place))), space.breaks, ends_of(space))
-        return [self.share * one for one in found]
+        transforms = velocity_transforms(self.edges[edge].root(acb(ball(place))), space.breaks, ends_of(space))
+        return [self.share * transform for transform in transforms]
 
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that holds the greatest over the box, at the precision at work."""
@@ -160,7 +160,7 @@ class ExactModeResidual:
         return self.share * greatest_modulus(along, Fraction(0), Fraction(1))
 
 
-def vibrations(found: Sequence[tuple[acb, int]]) -> list[list[tuple[acb, int]]]:
+def vibrations(poles: Sequence[tuple[acb, int]]) -> list[list[tuple[acb, int]]]:
     """Roots of vibrations above the real line, the slowest first, those that are nearly the same together.
 
     Raises
@@ -168,15 +168,15 @@ def vibrations(found: Sequence[tuple[acb, int]]) -> list[list[tuple[acb, int]]]:
     InputError
         If two of them differ, but not in size: their numbers are then none.
     """
-    upper = [one for one in found if one[0].imag > ball(_VIBRATING) * abs(one[0])]
+    upper = [pole for pole in poles if pole[0].imag > ball(_VIBRATING) * abs(pole[0])]
     groups: list[list[tuple[acb, int]]] = []
-    for one in sorted(upper, key=lambda one: float(abs(one[0]).mid())):
-        size = abs(one[0])
-        near = [group for group in groups if abs(group[0][0] - one[0]) <= ball(_SAME) * size.max(arb(1))]
+    for pole in sorted(upper, key=lambda pole: float(abs(pole[0]).mid())):
+        size = abs(pole[0])
+        near = [group for group in groups if abs(group[0][0] - pole[0]) <= ball(_SAME) * size.max(arb(1))]
         if near:
-            near[0].append(one)
+            near[0].append(pole)
             continue
         if groups and not size > abs(groups[-1][0][0]) * ball(1 + _APART):
             raise InputError("two modes of the machine have the same frequency: which is the first cannot be told")
-        groups.append([one])
+        groups.append([pole])
     return groups

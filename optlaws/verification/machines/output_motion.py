@@ -59,24 +59,24 @@ class Motion:
         """The same with a number added to some of the outputs."""
         if by == 0:
             return self
-        found = []
+        stretches = []
         for stretch in self.stretches:
             rows = stretch.polynomials.tolist()
             for column in columns:
                 rows[0][column] += by
-            found.append(replace(stretch, polynomials=arb_mat(rows)))
-        return replace(self, stretches=found)
+            stretches.append(replace(stretch, polynomials=arb_mat(rows)))
+        return replace(self, stretches=stretches)
 
     def row(self, time: Fraction) -> list[arb]:
         """The outputs of all laws at a time; where they jump, those after it."""
-        stretch = [one for one in self.stretches if one.start <= time][-1]
+        stretch = [part for part in self.stretches if part.start <= time][-1]
         s = ball(time - stretch.start)
         powers = arb_mat([[s**i for i in range(stretch.polynomials.nrows())]])
         total = list((powers * stretch.polynomials).entries())
         for pole, free in zip(self.poles, stretch.free, strict=True):
             wave = (pole.root * s).exp() * pole.count
-            found = acb_mat([[wave * acb(s**i / factorial(i)) for i in range(free.nrows())]]) * free
-            total = [one + other.real for one, other in zip(total, found.entries(), strict=True)]
+            free_part = acb_mat([[wave * acb(s**i / factorial(i)) for i in range(free.nrows())]]) * free
+            total = [term + other.real for term, other in zip(total, free_part.entries(), strict=True)]
         return total
 
 
@@ -160,7 +160,7 @@ class _Chains:
 
 def _driving(drive: Drive, order: int) -> Drive:
     """The derivative that drives the machine."""
-    return Drive(drive.start, drive.length, [one.derivative() for one in drive.columns]) if order else drive
+    return Drive(drive.start, drive.length, [column.derivative() for column in drive.columns]) if order else drive
 
 
 def _coefficients(drive: Drive) -> list[list[arb]]:
@@ -199,8 +199,8 @@ def _integrated(pole: Pole, drive: Drive) -> tuple[acb_mat, acb_mat]:
     for _ in pole.shares:
         columns = [column.integral() for column in columns]
         rows.append([acb(arb(column(rational(drive.length)))) for column in columns])
-    found = acb_mat(rows)
-    return 0 * found, found
+    matrix = acb_mat(rows)
+    return 0 * matrix, matrix
 
 
 def _weighted(pole: Pole, away: acb_mat) -> acb_mat:

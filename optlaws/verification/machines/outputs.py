@@ -148,10 +148,10 @@ class OutputRows:
         """The mean of the output times another law's, over the latter's RMS: at most the RMS of the output (Cauchy)."""
         exact = self.exact
         rise = driving.with_column(driving.of_space(self.space), driving.of_pieces(pieces))
-        *found, square = products(exact.response(rise, [-2, -1]), exact.start, exact.stop)
+        *moments, square = products(exact.response(rise, [-2, -1]), exact.start, exact.stop)
         whole = ball(exact.stop - exact.start)
         size = (square * whole).sqrt()
-        return [one / size for one in found]
+        return [moment / size for moment in moments]
 
     def moments(self) -> list[list[arb]]:
         """Means of the output times functions that are at most 1 in magnitude: enough of them for all laws."""
@@ -171,7 +171,7 @@ class OutputRows:
     def share_a_stretch(self, place: Fraction, other: Fraction) -> bool:
         """Whether nothing begins or ends between two places."""
         times = sorted([self.time(place), self.time(other)])
-        return not any(times[0] < one.start <= times[1] for one in self._response.stretches)
+        return not any(times[0] < stretch.start <= times[1] for stretch in self._response.stretches)
 
 
 #: by how much a place may be beyond an end

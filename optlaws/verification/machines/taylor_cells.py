@@ -87,13 +87,13 @@ def _cell(motion: Motion, stretch: Stretch, low: Fraction, high: Fraction) -> Ce
             size += sum(map(abs, row), arb(0))
     size += sum((abs(value) for value in stretch.polynomials.entries()), arb(0))
     # what only rounding is made of needs no smaller cells
-    if any(not one < _NOTHING * size for one in off) and any(bool(one > 0) for one in off):
+    if any(not distance < _NOTHING * size for distance in off) and any(bool(distance > 0) for distance in off):
         return None
     series = _shifted(stretch.polynomials, centre, half, count)
     for pole, free in zip(motion.poles, stretch.free, strict=True):
         waves = acb_mat(_waves(pole, centre, half, count, free.nrows())) * free
         series += arb_mat(waves.nrows(), waves.ncols(), [value.real for value in waves.entries()])
-    return Cell(low, high, series, [one.upper() for one in off])
+    return Cell(low, high, series, [distance.upper() for distance in off])
 
 
 def _waves(pole: Pole, centre: arb, half: arb, count: int, chain: int) -> list[list[acb]]:
@@ -121,11 +121,11 @@ def _rest(pole: Pole, whole: arb, half: arb, count: int, chain: int) -> list[arb
     powers = [size ** (count - i) / factorial(count - i) / factorial(i) for i in range(min(chain, count))]
     wave = (pole.root.real * whole).exp().upper() * pole.count
     heights = [abs(whole).upper() ** i / factorial(i) for i in range(chain)]
-    found = []
+    cells = []
     for j in range(chain):
         total = sum((power * heights[j - i] for i, power in enumerate(powers[: j + 1])), arb(0))
-        found.append((total * wave * half**count).upper())
-    return found
+        cells.append((total * wave * half**count).upper())
+    return cells
 
 
 def _shifted(polynomials: arb_mat, centre: arb, half: arb, count: int) -> arb_mat:
@@ -151,7 +151,7 @@ def products(motion: Motion, start: Fraction, stop: Fraction) -> list[arb]:
     """Balls that hold the integrals between two times of each law's output times that of the last law."""
     total = [arb(0)] * motion.laws
     for cell in cells(motion, start, stop):
-        total = [one + more for one, more in zip(total, _integrals(cell), strict=True)]
+        total = [term + more for term, more in zip(total, _integrals(cell), strict=True)]
     return total
 
 
@@ -161,11 +161,11 @@ def _integrals(cell: Cell) -> list[arb]:
     means = [sum((last[j] * arb(2) / (i + j + 1) for j in range(i % 2, count, 2)), arb(0)) for i in range(count)]
     exact = (arb_mat([means]) * cell.series).entries()
     sizes = [sum((abs(cell.series[i, law]) for i in range(count)), arb(0)) for law in range(len(cell.off))]
-    found = []
+    places = []
     for value, size, off in zip(exact, sizes, cell.off, strict=True):
         room = 2 * (off * sizes[-1] + cell.off[-1] * size + off * cell.off[-1])
-        found.append(cell.half * (value + arb(0, room.upper())))
-    return found
+        places.append(cell.half * (value + arb(0, room.upper())))
+    return places
 
 
 def moments(motion: Motion, start: Fraction, stop: Fraction, count: int) -> list[list[arb]]:
@@ -186,10 +186,10 @@ def _legendre(cell: Cell, start: Fraction, stop: Fraction, count: int) -> arb_ma
     whole = stop - start
     middle = (cell.start + cell.stop - 2 * start) / whole - 1
     place = arb_poly([ball(middle), ball((cell.stop - cell.start) / whole)])
-    found = [arb_poly([1]), place]
+    powers = [arb_poly([1]), place]
     for n in range(1, count - 1):
-        found.append((place * found[n] * (2 * n + 1) - found[n - 1] * n) * (arb(1) / (n + 1)))
-    return arb_mat([[one[i] for i in range(count)] for one in found[:count]])
+        powers.append((place * powers[n] * (2 * n + 1) - powers[n - 1] * n) * (arb(1) / (n + 1)))
+    return arb_mat([[power[i] for i in range(count)] for power in powers[:count]])
 
 
 def root(square: arb) -> arb:

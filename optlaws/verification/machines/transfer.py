@@ -78,8 +78,8 @@ class Rational:
 
     Examples
     --------
-    >>> found = Rational(fmpq_poly([2, 2]), fmpq_poly([2, 3, 1]))
-    >>> found.numerator, found.denominator, found.laurent(3)
+    >>> fraction = Rational(fmpq_poly([2, 2]), fmpq_poly([2, 3, 1]))
+    >>> fraction.numerator, fraction.denominator, fraction.laurent(3)
     (2, x + 2, {0: 1, 1: -1/2, 2: 1/4, 3: -1/8})
     """
 
@@ -105,14 +105,14 @@ class Rational:
     def poles(self) -> list[Pole]:
         """All of them, at the precision at work; of two conjugate ones the upper."""
         rest = self.denominator
-        found = []
+        poles = []
         if self.zeros:
-            found.append(self._pole(acb(0), self.zeros))
+            poles.append(self._pole(acb(0), self.zeros))
             rest = fmpq_poly(rest.coeffs()[self.zeros :])
         for root, multiplicity in roots(rest):
             if not root.imag < 0:
-                found.append(self._pole(root, multiplicity))
-        return found
+                poles.append(self._pole(root, multiplicity))
+        return poles
 
     def _pole(self, root: acb, multiplicity: int) -> Pole:
         """By Taylor series of numerator and denominator about the root."""
@@ -164,7 +164,7 @@ def transforms(machine: StateSpace, output: str) -> tuple[fmpq_poly, list[fmpq_p
         chain.append(row * B)
         row = row * A
     for column, symbol in enumerate(machine.inputs):
-        impulses = [one[0, column] for one in chain]
+        impulses = [link[0, column] for link in chain]
         coefficients = [sum((below[size - j] * impulses[i - j] for j in range(i + 1)), fmpq(0)) for i in range(size)]
         parts[_SYMBOLS.index(symbol)] = fmpq_poly(coefficients[::-1]) + below * rational(machine.D[place][column])
     return below, parts
@@ -187,21 +187,21 @@ def roots(polynomial: fmpq_poly) -> list[tuple[acb, int]]:
 def taylor(polynomial: fmpq_poly, place: acb, count: int) -> list[acb]:
     """The first coefficients of a polynomial about a place."""
     coefficients = polynomial.coeffs()
-    found = []
+    terms = []
     for m in range(count):
         total = acb(0)
         for i in range(len(coefficients) - 1, m - 1, -1):
             total = total * place + acb(arb(coefficients[i] * comb(i, m)))
-        found.append(total)
-    return found
+        terms.append(total)
+    return terms
 
 
 def quotient(above: Sequence[Any], below: Sequence[Any], count: int) -> list[Any]:
     """The first coefficients of a quotient of two power series, the second of which does not vanish at 0."""
-    found: list[Any] = []
+    residues: list[Any] = []
     for i in range(count):
         total = above[i] if i < len(above) else below[0] * 0
         for j in range(1, min(i, len(below) - 1) + 1):
-            total = total - below[j] * found[i - j]
-        found.append(total / below[0])
-    return found
+            total = total - below[j] * residues[i - j]
+        residues.append(total / below[0])
+    return residues

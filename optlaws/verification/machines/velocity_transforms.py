@@ -53,11 +53,11 @@ def ends_of_piece(piece: PolynomialPiece) -> Ends:
 
 def transforms(w: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]) -> list[Number]:
     """Integrals of exp(w (1-k)) b(k); where the breaks end at 1/2, b(1-k) = b(k)."""
-    found = _between_breaks(w, breaks, columns)
+    total = _between_breaks(w, breaks, columns)
     if breaks[-1] == _HALF:
         mirrored = _between_breaks(-w, breaks, columns)
-        found = [transform + w.exp() * other for transform, other in zip(found, mirrored, strict=True)]
-    return found
+        total = [transform + w.exp() * other for transform, other in zip(total, mirrored, strict=True)]
+    return total
 
 
 def _between_breaks(w: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]) -> list[Number]:
@@ -82,7 +82,7 @@ def _sum(powers: Sequence[Number], values: Sequence[fmpq], nothing: Number) -> N
 def greatest_modulus(functions: Sequence[Callable[[acb_series], acb_series]], low: Fraction, high: Fraction) -> arb:
     """A ball that holds the greatest magnitude of complex functions of a real number, given for Taylor series."""
     parts = [part for function in functions for part in _parts(function, low, high)]
-    off = reduce(arb.max, (one for _, one in parts))
+    off = reduce(arb.max, (radius for _, radius in parts))
     size = root(highest([(square, arb(0)) for square, _ in parts]))
     return (size + arb(0, off)).max(arb(0))
 
@@ -107,7 +107,7 @@ def _parts(
 
 def _squared(series: list[acb]) -> arb_poly:
     """The squared magnitude of a polynomial of a real number."""
-    real, imaginary = arb_poly([one.real for one in series]), arb_poly([one.imag for one in series])
+    real, imaginary = arb_poly([term.real for term in series]), arb_poly([term.imag for term in series])
     return real * real + imaginary * imaginary
 
 

@@ -80,23 +80,23 @@ class Cells:
     @kept_property
     def begins(self) -> Flags:
         """Which cells have no neighbour before them."""
-        found = np.zeros(len(self.family), dtype=np.bool_)
-        found[[block.start for block in self.blocks]] = True
-        return found
+        broken = np.zeros(len(self.family), dtype=np.bool_)
+        broken[[block.start for block in self.blocks]] = True
+        return broken
 
     @kept_property
     def reach(self) -> Array:
         """How far from a contact of each family its tangent is relied on."""
-        found = np.empty(len(self.columns))
-        found[self.order] = [(_JOINED + 1) * float(np.diff(edges).max()) for edges in self.edges]
-        return found
+        least = np.empty(len(self.columns))
+        least[self.order] = [(_JOINED + 1) * float(np.diff(edges).max()) for edges in self.edges]
+        return least
 
     @kept_property
     def series(self) -> Array:
         """Coefficients of the columns on each cell, shape (coefficients, cells, variables + 1)."""
         parts = [_upward(self.columns[i].family, edges) for i, edges in zip(self.order, self.edges, strict=True)]
         count = max(map(len, parts))
-        return np.concatenate([np.pad(one, ((0, count - len(one)), (0, 0), (0, 0))) for one in parts], axis=1)
+        return np.concatenate([np.pad(part, ((0, count - len(part)), (0, 0), (0, 0))) for part in parts], axis=1)
 
     @kept_property
     def by_cell(self) -> Array:
@@ -119,9 +119,9 @@ class Cells:
 def _edges(family: LinearFamily) -> Array:
     low, high = np.arccos(np.array(family.domain)[::-1])
     count = max(_LEAST_CELLS, int(np.ceil(_DENSITY * len(family.series) * (high - low) / np.pi)))
-    found = np.cos(np.linspace(low, high, count + 1))[::-1].copy()
-    found[0], found[-1] = family.domain
-    return found
+    edges = np.cos(np.linspace(low, high, count + 1))[::-1].copy()
+    edges[0], edges[-1] = family.domain
+    return edges
 
 
 def _upward(family: LinearFamily, edges: Array) -> Array:
@@ -170,13 +170,13 @@ class _Residuals:
 
     def broken(self) -> Array:
         """By how much each law may break the rows."""
-        found = np.zeros(len(self.point))
+        shortfalls = np.zeros(len(self.point))
         law, cell, sign = self._doubtful()
         if len(law):
             room = self.room[law, self.cells.family[cell]]
             below = _below_zero(self._series(law, cell, sign, room))
-            np.maximum.at(found, law, np.maximum(below, 0.0) / np.maximum(1.0, np.abs(room)))
-        return found
+            np.maximum.at(shortfalls, law, np.maximum(below, 0.0) / np.maximum(1.0, np.abs(room)))
+        return shortfalls
 
     def _doubtful(self) -> tuple[NDArray[np.intp], NDArray[np.intp], Array]:
         """Laws, cells and signs for which neither the first terms nor a contact shows that rows are kept."""
@@ -209,10 +209,10 @@ class _Residuals:
 
     def _reached(self, most: Array) -> Flags:
         """On which cells the room is not known to be kept."""
-        limit, found = self._limit, np.empty(most.shape, dtype=np.bool_)
+        limit, above = self._limit, np.empty(most.shape, dtype=np.bool_)
         for i, block in zip(self.cells.order, self.cells.blocks, strict=True):
-            np.greater_equal(most[:, block], limit[:, i, None], out=found[:, block])
-        return found
+            np.greater_equal(most[:, block], limit[:, i, None], out=above[:, block])
+        return above
 
     def _rest(self) -> tuple[Array, Array]:
         """What the terms that are not weighed can add on each cell in any of the laws: in their mean, and beside it."""
@@ -226,20 +226,20 @@ class _Residuals:
     def _joined(self, law: NDArray[np.intp], cell: NDArray[np.intp], convex: Flags) -> Flags:
         """Which of some laws' cells have a contact and a residual that is convex, or are joined to such by others."""
         shape = (len(self.point), len(self.cells.family))
-        bent, found = np.zeros(shape, dtype=np.bool_), np.zeros(shape, dtype=np.bool_)
+        bent, marked = np.zeros(shape, dtype=np.bool_), np.zeros(shape, dtype=np.bool_)
         bent[law[convex], cell[convex]] = True
         for i, edges, block in zip(self.cells.order, self.cells.edges, self.cells.blocks, strict=True):
             u = self.touching[i]
             own = np.minimum(np.maximum(np.searchsorted(edges, u, side="right") - 1, 0), len(edges) - 2)
-            found[np.arange(len(u))[:, None], block.start + own] = True
-        found &= bent
+            marked[np.arange(len(u))[:, None], block.start + own] = True
+        marked &= bent
         apart = self.cells.begins[1:]
         for _ in range(_JOINED):
-            grown = found.copy()
-            grown[:, 1:] |= found[:, :-1] & ~apart
-            grown[:, :-1] |= found[:, 1:] & ~apart
-            found = grown & bent
-        return np.asarray(found[law, cell])
+            grown = marked.copy()
+            grown[:, 1:] |= marked[:, :-1] & ~apart
+            grown[:, :-1] |= marked[:, 1:] & ~apart
+            marked = grown & bent
+        return np.asarray(marked[law, cell])
 
     def _series(self, law: NDArray[np.intp], cell: NDArray[np.intp], sign: Array, room: Array) -> Array:
         """The residuals on cells of some laws: their first terms, less what the others can be."""
@@ -263,18 +263,18 @@ def _bends(count: int) -> Array:
 
 def _below_zero(rows: Array) -> Array:
     """How far each series may be below 0 on [-1, 1], halved until a bound shows it."""
-    found = np.zeros(len(rows))
+    depths = np.zeros(len(rows))
     owner = np.arange(len(rows))
     for _ in range(_HALVINGS):
         low = _lowest(rows)
         left = np.isnan(low)
-        np.maximum.at(found, owner[~left], -low[~left])
+        np.maximum.at(depths, owner[~left], -low[~left])
         if not left.any():
-            return found
+            return depths
         rows, owner = np.concatenate([rows[left] @ half for half in _halving(rows.shape[1])]), np.tile(owner[left], 2)
     # convex nowhere as yet: what is known is the bound alone
-    np.maximum.at(found, owner, np.abs(rows[:, 1:]).sum(axis=1) - rows[:, 0])
-    return found
+    np.maximum.at(depths, owner, np.abs(rows[:, 1:]).sum(axis=1) - rows[:, 0])
+    return depths
 
 
 def _lowest(rows: Array) -> Array:
@@ -282,15 +282,15 @@ def _lowest(rows: Array) -> Array:
     n = np.arange(rows.shape[1])
     sizes = np.abs(rows)
     spread = sizes[:, 1:].sum(axis=1)
-    found = np.where(rows[:, 0] > spread, 0.0, np.nan)
+    lowest = np.where(rows[:, 0] > spread, 0.0, np.nan)
     # monotone: lowest at an end
     rising = sizes[:, 1] > sizes[:, 2:] @ (n[2:] ** 2.0)
     ends = np.minimum(rows.sum(axis=1), (rows * (-1.0) ** n).sum(axis=1))
-    found = np.where(np.isnan(found) & rising, np.minimum(ends, 0.0), found)
-    convex = np.isnan(found) & (4.0 * rows[:, 2] > sizes[:, 3:] @ _bends(rows.shape[1])[3:])
+    lowest = np.where(np.isnan(lowest) & rising, np.minimum(ends, 0.0), lowest)
+    convex = np.isnan(lowest) & (4.0 * rows[:, 2] > sizes[:, 3:] @ _bends(rows.shape[1])[3:])
     if convex.any():
-        found[convex] = np.minimum(_by_tangent(rows[convex]), 0.0)
-    return found
+        lowest[convex] = np.minimum(_by_tangent(rows[convex]), 0.0)
+    return lowest
 
 
 def _by_tangent(rows: Array) -> Array:
@@ -322,5 +322,5 @@ def _halving(count: int) -> tuple[Array, Array]:
     back[:, 0] /= 2.0
     places = np.cos(angle)
     halves = ((places - 1.0) / 2.0, (places + 1.0) / 2.0)
-    lower, upper = (np.asarray(chebyshev.chebvander(one, count - 1).T @ back) for one in halves)
+    lower, upper = (np.asarray(chebyshev.chebvander(half, count - 1).T @ back) for half in halves)
     return lower, upper

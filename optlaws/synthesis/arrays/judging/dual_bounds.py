@@ -78,15 +78,15 @@ def sharp_bounds(path: Path, structure: Structure, numbers: Numbers, states: Sta
 def _with_right_sides(structure: Structure, numbers: Numbers, states: States) -> Array:
     """The rows of the contacts with the opposites of their right sides."""
     laws, size = states.x.shape
-    found = np.zeros((laws, structure.count, size + 1))
+    rows = np.zeros((laws, structure.count, size + 1))
     for i, (family, own) in enumerate(zip(structure.model.program.families, structure.of_families, strict=True)):
         u = states.u[:, own]
         if u.size and isinstance(family, LinearFamily):
-            found[:, own] = family.columns(u.reshape(-1))[0].reshape(*u.shape, size + 1)
-            found[:, own] *= structure.sign[own, None]
-            found[:, own, :-1] -= family.slack
-            found[:, own, -1] -= numbers.bounds[:, i, None]
-    return found
+            rows[:, own] = family.columns(u.reshape(-1))[0].reshape(*u.shape, size + 1)
+            rows[:, own] *= structure.sign[own, None]
+            rows[:, own, :-1] -= family.slack
+            rows[:, own, -1] -= numbers.bounds[:, i, None]
+    return rows
 
 
 def _charge(path: Path, slope: Array, blur: Array, claim: float) -> Array:
@@ -110,12 +110,12 @@ def _below(path: Path, claim: float) -> _Below:
     """What is known of laws of the path below the claim, or one that is a little above it."""
     step = ceil(log(claim) / log(_CLAIMS)) if claim > 0.0 else None
     if step not in path.kept:
-        found: dict[str, float] = {}
+        greatest: dict[str, float] = {}
         for problem in path.problems:
             model: Model = replace(path.model, problem=problem)
             for name, value in greatest_values(model, 0.0 if step is None else _CLAIMS**step * _ABOVE).items():
-                found[name] = max(found.get(name, 0.0), value)
+                greatest[name] = max(greatest.get(name, 0.0), value)
         least = least_values(path.model.problem, path.model.space)
-        path.kept[step] = (found, dict(least), moments(path.model, found))
+        path.kept[step] = (greatest, dict(least), moments(path.model, greatest))
     below: _Below = path.kept[step]
     return below

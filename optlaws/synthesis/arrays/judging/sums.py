@@ -27,8 +27,8 @@ def sums_of_rows(start: Array, weights: Array, rows: Array) -> Array:
     """
     total = np.broadcast_to(start, (len(weights), rows.shape[-1])).copy()
     rest = np.zeros_like(total)
-    for i, one in enumerate(weights.T):
-        product, beside = _product(one[:, None], rows[..., i, :])
+    for i, weight in enumerate(weights.T):
+        product, beside = _product(weight[:, None], rows[..., i, :])
         further = total + product
         moved = further - total
         rest += beside + ((total - (further - moved)) + (product - moved))

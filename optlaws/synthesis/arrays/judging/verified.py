@@ -108,7 +108,7 @@ def judged(path: Path, structure: Structure, numbers: Numbers, states: States) -
     touching = [states.u[:, own] for own in structure.of_families]
     greatest = np.abs(states.weights).max(axis=1, initial=0.0)
     pull = -(states.weights / np.where(greatest == 0.0, 1.0, greatest)[:, None]).min(axis=1, initial=np.inf)
-    found = Judgement(
+    judgement = Judgement(
         best=np.ones(len(states), dtype=np.bool_) if kept.proving else best_nearby(structure, states),
         objective=path.model.unit * (states.x * numbers.cost).sum(axis=1),
         bound=lower_bounds(path, structure, numbers, states, value),
@@ -117,10 +117,10 @@ def judged(path: Path, structure: Structure, numbers: Numbers, states: States) -
         inward=np.where(held, inward, -np.inf).max(axis=1, initial=-np.inf),
         affine=not program.curved,
     )
-    blurred = found.blurred
+    blurred = judgement.blurred
     if len(blurred):
-        found.bound[blurred] = sharp_bounds(path, structure, numbers.taken(blurred), states.taken(blurred))
-    return found
+        judgement.bound[blurred] = sharp_bounds(path, structure, numbers.taken(blurred), states.taken(blurred))
+    return judgement
 
 
 @dataclass(frozen=True, eq=False)
@@ -138,28 +138,28 @@ class Checks:
     @kept_property
     def proving(self) -> bool:
         """Whether multipliers prove bounds."""
-        return all(one.proving for one in self.columns)
+        return all(column.proving for column in self.columns)
 
     @kept_property
     def _affine(self) -> list[tuple[int, Columns]]:
-        return [(i, one) for i, one in enumerate(self.columns) if isinstance(one, Columns)]
+        return [(i, column) for i, column in enumerate(self.columns) if isinstance(column, Columns)]
 
     @kept_property
     def _wide(self) -> list[int]:
         """The affine families that hold on an interval."""
-        return [i for i, one in self._affine if one.family.domain[0] < one.family.domain[1]]
+        return [i for i, cell in self._affine if cell.family.domain[0] < cell.family.domain[1]]
 
     @kept_property
     def _cells(self) -> Cells:
-        return Cells(tuple(one for i, one in self._affine if i in self._wide))
+        return Cells(tuple(cell for i, cell in self._affine if i in self._wide))
 
     @kept_property
     def reach(self) -> Array:
         """How far from a contact of each family its tangent is relied on: nowhere, but where cells are looked at."""
-        found = np.zeros(len(self.columns))
+        shortfalls = np.zeros(len(self.columns))
         if self._wide:
-            found[self._wide] = self._cells.reach
-        return found
+            shortfalls[self._wide] = self._cells.reach
+        return shortfalls
 
     def excess(self, point: Array, room: Array, touching: Sequence[Array]) -> Array:
         """By how much each law may break the rows of any family, relative to the right side or 1.
@@ -171,16 +171,16 @@ class Checks:
         touching
             For each family the places of contacts whose own residuals are accounted for elsewhere.
         """
-        found = np.zeros(len(point))
+        shortfalls = np.zeros(len(point))
         if self._wide:
-            found = excess(self._cells, point, room[:, self._wide], [touching[i] for i in self._wide])
-        for i, one in enumerate(self.columns):
-            if isinstance(one, CurvedTangents):
-                over = np.maximum(one.greatest(point) - room[:, i], 0.0) / np.maximum(1.0, np.abs(room[:, i]))
-                found = np.maximum(found, over)
+            shortfalls = excess(self._cells, point, room[:, self._wide], [touching[i] for i in self._wide])
+        for i, column in enumerate(self.columns):
+            if isinstance(column, CurvedTangents):
+                over = np.maximum(column.greatest(point) - room[:, i], 0.0) / np.maximum(1.0, np.abs(room[:, i]))
+                shortfalls = np.maximum(shortfalls, over)
             elif i not in self._wide:
-                found = np.maximum(found, excess_at(one.family, point, room[:, i]))
-        return found
+                shortfalls = np.maximum(shortfalls, excess_at(column.family, point, room[:, i]))
+        return shortfalls
 
 
 def checks_of(model: Model) -> Checks:

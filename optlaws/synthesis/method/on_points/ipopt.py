@@ -65,7 +65,7 @@ class _Counts:
     @property
     def rows(self) -> int:
         """The rows of all kinds."""
-        own = sum(one.places for one in self.shared) + sum(one.rows for one in self.formulas)
+        own = sum(shape.places for shape in self.shared) + sum(formula.rows for formula in self.formulas)
         return self.linear + self.products + self.cones + len(self.norms) + own
 
 
@@ -218,10 +218,10 @@ def _shared_rows(family: EnergyFamily, points: Points) -> list[Array]:
     """Rows of the factors, of both parts of the energy, and of these at the nodes of its integral; the slack."""
     energy = family.energy
     first, *others = [factor.columns(points.u)[0] for factor in family.factors]
-    found = [first * (family.scale * points.s)[:, None], *others]
+    columns = [first * (family.scale * points.s)[:, None], *others]
     if family.divided:
-        found += [part.columns(points.u)[0] for part in (energy.below, energy.above)]
-    return [*found, *energy.columns, family.slack[None]]
+        columns += [part.columns(points.u)[0] for part in (energy.below, energy.above)]
+    return [*columns, *energy.columns, family.slack[None]]
 
 
 def _split(pairs: list[tuple[Any, Points]], weights: Array, rows: int, equations: int) -> list[Array]:
@@ -272,7 +272,7 @@ def _build(counts: _Counts, *, careful: bool, fine: bool) -> Any:  # noqa: ANN40
         *(ca.MX.sym("norm", count, size + 1) for count in norms),
         *(ca.MX.sym("room", 1, size) for _ in norms),
     ]
-    shared = [_energy_symbols(size, one) for one in counts.shared]
+    shared = [_energy_symbols(size, sharing) for sharing in counts.shared]
     formulas = [symbols_of(size, shape) for shape in counts.formulas]
     symbols += [symbol for of_family in (*shared, *formulas) for symbol in of_family]
     symbols.append(ca.MX.sym("objective", size))
@@ -285,7 +285,7 @@ def _build(counts: _Counts, *, careful: bool, fine: bool) -> Any:  # noqa: ANN40
         wide = room @ point
         curved.append(((real @ point) ** 2 + (imaginary @ point) ** 2) / wide - wide)
     curved += [ca.sqrt(ca.sumsqr(m @ point) + _SMOOTH) - room @ x for m, room in zip(matrices, rooms, strict=True)]
-    curved += [_energy_rows(x, own, one) for own, one in zip(shared, counts.shared, strict=True)]
+    curved += [_energy_rows(x, own, sharing) for own, sharing in zip(shared, counts.shared, strict=True)]
     curved += [expression_of(x, own, shape) for own, shape in zip(formulas, counts.formulas, strict=True)]
     program: Any = {"x": x, "p": p, "f": ca.dot(symbols[-1], x), "g": ca.vertcat(rows @ x, *curved)}
     options: Any = {**_QUIET, **_LEAN, **_REPEATABLE, **(_FINE if fine else _USUAL)}
@@ -325,9 +325,9 @@ def _energy_rows(x: Any, symbols: list[Any], shape: _Shared) -> Any:  # noqa: AN
         return ca.sqrt(ca.fmax((first @ point) * top, LEAST_ROOT * top**2))
 
     Y = 0.5 / ca.sum1(root(below, above))
-    found = Y**shape.degree
+    product_of_roots = Y**shape.degree
     for factor in parts[: shape.factors]:
-        found = found * (factor @ point)
+        product_of_roots = product_of_roots * (factor @ point)
     if shape.divided:
-        found = found / root(*parts[shape.factors :])
-    return found - room @ x
+        product_of_roots = product_of_roots / root(*parts[shape.factors :])
+    return product_of_roots - room @ x

@@ -52,10 +52,12 @@ def applies(problem: Problem) -> bool:
     """Whether boxes bound the problem's formulas: those of polynomials whose velocities some constant bounds."""
     model = model_of(problem)
     known = isinstance(model.space, PolynomialSpace) and model.space.order > 1
-    open_ones = (_bent(one) or (isinstance(one, IntegralFamily) and not one.convex) for one in model.program.families)
+    open_ones = (
+        _bent(family) or (isinstance(family, IntegralFamily) and not family.convex) for family in model.program.families
+    )
     if not known or not any(open_ones):
         return False
-    sides, integrals = _own_sides(model, 1.0), {one.name for one in model.program.families if _summed(one)}
+    sides, integrals = _own_sides(model, 1.0), {family.name for family in model.program.families if _summed(family)}
     # an integral is no less than its formula is in the first box
     low = [name in integrals or isfinite(end) for name, end in zip(_own_names(model), sides[:, 0], strict=True)]
     return all(low) and bool(np.isfinite(sides[:, 1]).all()) and "B" in _greatest(model, 1.0)
@@ -180,13 +182,17 @@ class FormulaRows(BoxRows):
     @kept_property
     def integrals(self) -> dict[str, Beneath]:
         """What integrals are nowhere below, by the names of their rows."""
-        formulas = {one.name: one for one in self.problem.constants if isinstance(one, FormulaIntegral | FormulaRms)}
-        found = {}
+        formulas = {
+            constant.name: constant
+            for constant in self.problem.constants
+            if isinstance(constant, FormulaIntegral | FormulaRms)
+        }
+        planes = {}
         for family in self.model.program.families:
             if isinstance(family, IntegralFamily):
                 motion = formulas[family.name].motion
-                found[names.plane(0, family.name)] = Beneath(self, family, squared(motion) if family.root else motion)
-        return found
+                planes[names.plane(0, family.name)] = Beneath(self, family, squared(motion) if family.root else motion)
+        return planes
 
     @property
     def alone(self) -> tuple[str, ...]:
@@ -198,11 +204,11 @@ class FormulaRows(BoxRows):
         """Integrals that may be below 0, and roots that are minimised with others."""
         alone = len(list(leaves(self.problem.objective))) == 1
         floors = dict(zip(_own_names(self.model), _own_sides(self.model, self.claim)[:, 0].tolist(), strict=True))
-        families = (one.family for one in self.integrals.values())
+        families = (integral.family for integral in self.integrals.values())
         return [
-            self.model.places[one.name]
-            for one in families
-            if one.name in floors and ((one.root and not alone) or not isfinite(floors[one.name]))
+            self.model.places[family.name]
+            for family in families
+            if family.name in floors and ((family.root and not alone) or not isfinite(floors[family.name]))
         ]
 
     def remember(self, values: Array) -> None:
@@ -214,7 +220,9 @@ class FormulaRows(BoxRows):
         if not self.integrals:
             return []
         middle = ((box.low + box.high) / 2.0)[: self.terms]
-        touched = [np.clip(one, box.low[: self.terms], box.high[: self.terms]) for one in (middle, *self._near)]
+        touched = [
+            np.clip(near_law, box.low[: self.terms], box.high[: self.terms]) for near_law in (middle, *self._near)
+        ]
         contacts = [Contact(name, 1.0, 0.0, 0.0, tuple(at.tolist())) for name, at in product(self.integrals, touched)]
         return [(contact, self.row_beside(box, contact)) for contact in contacts]
 
@@ -245,14 +253,14 @@ class FormulaRows(BoxRows):
     @kept_property
     def _planes(self) -> dict[tuple[str, float], Plane]:
         """By the names and the signs of their rows."""
-        found = {}
+        planes = {}
         for family in self.families:
             ways: list[Way] = [None]
             if _bent(family) and 2 ** len(family.names) <= _MOST_CORNERS:
                 ways += list(product((-1, 1), repeat=len(family.names)))
             for (i, way), sign in product(enumerate(ways), family.signs):
-                found[names.plane(i, family.name), sign] = Plane(family, sign, way)
-        return found
+                planes[names.plane(i, family.name), sign] = Plane(family, sign, way)
+        return planes
 
     @property
     def names(self) -> tuple[str, ...]:
@@ -272,7 +280,7 @@ class FormulaRows(BoxRows):
     def curved(self, box: Box, places: Places, name: str, signs: Array) -> Array:
         """The planes of a name; zeros outside the formula's part and where it has no value."""
         rows = dict(zip(self._orders, places.rows, strict=True))
-        found = np.zeros((len(places.k), self.size + 1))
+        curved = np.zeros((len(places.k), self.size + 1))
         for sign in np.unique(signs).tolist():
             plane = self._planes.get((name, sign))
             if plane is None:
@@ -281,8 +289,8 @@ class FormulaRows(BoxRows):
             mine = (signs == sign) & (u >= plane.family.domain[0]) & (u <= plane.family.domain[1])
             if mine.any():
                 parts = np.stack([rows[ORDERS[part]][mine] for part in plane.family.names])
-                found[mine] = self._rows(box, plane, places.k[mine], parts)
-        return found
+                curved[mine] = self._rows(box, plane, places.k[mine], parts)
+        return curved
 
     def _rows(self, box: Box, plane: Plane, k: Array, parts: Array) -> Array:
         family, sign = plane.family, plane.sign

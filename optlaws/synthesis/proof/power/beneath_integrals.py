@@ -95,7 +95,7 @@ class Beneath:
 
     def __init__(self, rows: BoxRows, family: IntegralFamily, motion: Motion) -> None:
         self.rows, self.family, self.motion = rows, family, motion
-        self.columns = np.stack([rows.mapped(one) for one in family.columns])
+        self.columns = np.stack([rows.mapped(column) for column in family.columns])
         self._blur = _RULE if motion.degree(dict.fromkeys(ORDERS, 1)) is None else _ROUNDED
         edges = rule_cells(rows.space, motion, _CELLS)
         self._last: tuple[Box, Bend | None] | None = None
@@ -107,23 +107,23 @@ class Beneath:
         return [self._taylor(ORDERS[name]) for name in self.family.names]
 
     def _taylor(self, nu: int) -> Array:
-        space, found, factor = self.rows.space, [], np.ones_like(self.reach)
+        space, planes, factor = self.rows.space, [], np.ones_like(self.reach)
         for i in range(space.degree_of(nu) + 1):
             columns = space.widened(columns_of(space, nu + i, self.middle), self.rows.own)
             mapped = self.rows.mapped(columns)
             if i:
                 # what is given has no derivative
                 factor = factor * self.reach / i
-            found.append(factor[:, None] * mapped)
-        return np.array(found)
+            planes.append(factor[:, None] * mapped)
+        return np.array(planes)
 
     @kept_property
     def _nodes(self) -> tuple[Array, list[Array]]:
         """Weights of places in every cell, shape (cells, places), and there the rows of each name."""
-        count = 1 + max(len(one) for one in self._series)
+        count = 1 + max(len(row) for row in self._series)
         x, share = gauss(count)
         powers = x[:, None] ** np.arange(count)
-        several = [np.einsum("xp,pcn->cxn", powers[:, : len(one)], one) for one in self._series]
+        several = [np.einsum("xp,pcn->cxn", powers[:, : len(row)], row) for row in self._series]
         return self.reach[:, None] * share, several
 
     def ranges(self, box: Box, limits: Mapping[str, float]) -> tuple[Array, Array]:
@@ -149,8 +149,8 @@ class Beneath:
         within = {name: Interval(*ends) for name, *ends in zip(self.family.names, low, high, strict=True)}
         within["k"] = Interval(self.middle - self.reach, self.middle + self.reach)
         least = np.broadcast_to(enclosed(self.motion.formula, within).low, self.middle.shape)
-        found = float(least @ (2.0 * self.reach))
-        return found - _BLUR * float(np.abs(least) @ self.reach)
+        least_there = float(least @ (2.0 * self.reach))
+        return least_there - _BLUR * float(np.abs(least) @ self.reach)
 
     def _lawful(self, side: Array) -> Array:
         """A side of a box with nothing for what is no velocity."""
@@ -161,11 +161,11 @@ class Beneath:
         used = self.family.names
         within = {name: Interval(*ends) for name, *ends in zip(used, low, high, strict=True)}
         within["k"] = Interval(self.middle - self.reach, self.middle + self.reach)
-        found = {}
+        planes = {}
         for key, formula in self._third_formulas.items():
             ends = enclosed(formula, within)
-            found[key] = np.broadcast_to(np.maximum(np.abs(ends.low), np.abs(ends.high)), self.middle.shape)
-        return found
+            planes[key] = np.broadcast_to(np.maximum(np.abs(ends.low), np.abs(ends.high)), self.middle.shape)
+        return planes
 
     def _anywhere(self, low: Array, high: Array) -> Array:
         """A form over the velocities that second derivatives of the integral are nowhere below in the ranges."""
@@ -206,7 +206,7 @@ class Beneath:
         """
         weights, columns = self._nodes
         law = self._law(at)
-        moved = [np.asarray(one[:, :, :-1] @ law[:-1] + one[:, :, -1]) for one in columns]
+        moved = [np.asarray(column[:, :, :-1] @ law[:-1] + column[:, :, -1]) for column in columns]
         names = {**dict(zip(self.family.names, moved, strict=True)), "k": self._places}
         bend = np.reshape(self.family.slopes.hessian(names), (len(columns), len(columns), *weights.shape)).copy()
         widths = np.maximum(off, _LEAST)
@@ -219,7 +219,7 @@ class Beneath:
     def _summed(self, bend: Array) -> Array:
         """The form over the velocities of one over the derivatives at every place."""
         terms, (weights, columns) = self.rows.terms, self._nodes
-        left = np.stack([one[:, :, :terms].reshape(-1, terms) for one in columns])
+        left = np.stack([column[:, :, :terms].reshape(-1, terms) for column in columns])
         weighted = (bend * weights).reshape(len(columns), len(columns), -1)
         return np.asarray(np.einsum("ijx,ixn,jxm->nm", weighted, left, left, optimize=True))
 
@@ -301,13 +301,13 @@ class Beneath:
 
     def _off(self, at: Array, bend: Bend) -> Array | None:
         """How far derivatives in the box may be from those of a law on the cells; None if it is not among them."""
-        law, found = self._law(at), []
+        law, rows = self._law(at), []
         for low, high, series in zip(bend.low, bend.high, self._series, strict=True):
             value, bent = series[0] @ law, np.abs(series[1:] @ law).sum(axis=0)
             if (value - bent < low).any() or (value + bent > high).any():
                 return None
-            found.append(np.maximum(high - value, value - low) + bent)
-        return np.array(found)
+            rows.append(np.maximum(high - value, value - low) + bent)
+        return np.array(rows)
 
     def _square(self, box: Box, room: Array) -> Array:
         """The chord of the square of the room for a root."""

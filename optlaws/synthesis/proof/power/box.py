@@ -123,7 +123,7 @@ class BoxRows(ABC):
 
     def row_beside(self, box: Box, contact: Contact) -> Array:
         """The row of such a contact."""
-        return {one.constraint: row for one, row in self.beside(box)}[contact.constraint]
+        return {contact_beside.constraint: row for contact_beside, row in self.beside(box)}[contact.constraint]
 
     def worth(self, box: Box) -> Array | None:
         """How much is gained where a variable's range is cut; None where that is not known."""

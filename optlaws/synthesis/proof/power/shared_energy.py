@@ -236,8 +236,8 @@ class EnergyRows(BoxRows):
         above = -self.mapped(self.energy.majorant(middle)[None])[0]
         above[self.place] += 1.0
         speeds = [family.name for family in self.shared if family.name not in self.peaks]
-        found = [(TANGENT, above), *((name, self._velocity(box, name)) for name in speeds)]
-        return [(Contact(name, 1.0, 0.0, 0.0), row) for name, row in found]
+        steps = [(TANGENT, above), *((name, self._velocity(box, name)) for name in speeds)]
+        return [(Contact(name, 1.0, 0.0, 0.0), row) for name, row in steps]
 
     def _velocity(self, box: Box, name: str) -> Array:
         """B/(2 I) <= M: 1/I is at least its tangent in the middle of the box."""

@@ -46,8 +46,8 @@ def mirrored(pieces: PieceSeries) -> PieceSeries:
 
     Examples
     --------
-    >>> one = PieceSeries(np.array([1.0, 0.5, -1.0]), np.arange(4.0).reshape(2, 2, 1))
-    >>> bool(np.allclose(mirrored(one).values(np.array([0.7, -0.7])), one.values(np.array([-0.7, 0.7]))))
+    >>> series = PieceSeries(np.array([1.0, 0.5, -1.0]), np.arange(4.0).reshape(2, 2, 1))
+    >>> bool(np.allclose(mirrored(series).values(np.array([0.7, -0.7])), series.values(np.array([-0.7, 0.7]))))
     True
     """
     series = pieces.series[::-1].copy()

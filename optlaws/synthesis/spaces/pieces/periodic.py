@@ -61,11 +61,13 @@ class PeriodicPieces(Pieces):
         super().__init__(breaks, degree, continuity)
         last = len(self.breaks) - 2
         # files may hold whole numbers as floats
-        given = (int(one) if one.is_integer() else one for one in numbers(straight, "straight", MOST_PIECES))
-        found = {whole(one, "straight: the number of a piece", least=0, most=last) for one in given}
-        if len(found) > last:
+        given = (
+            int(number) if number.is_integer() else number for number in numbers(straight, "straight", MOST_PIECES)
+        )
+        pieces = {whole(number, "straight: the number of a piece", least=0, most=last) for number in given}
+        if len(pieces) > last:
             raise InputError("straight: a law whose every piece is straight leaves no freedom: leave one out")
-        object.__setattr__(self, "straight", tuple(sorted(found)))
+        object.__setattr__(self, "straight", tuple(sorted(pieces)))
 
     @property
     def mirrored(self) -> bool:

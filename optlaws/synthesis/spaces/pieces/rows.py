@@ -96,7 +96,10 @@ class PieceFamily(LinearFamily):
         piece, local, _ = self.pieces.place(u)
         basis = chebyshev.chebvander(local, self.pieces.series.shape[1] - 1)
         return np.stack(
-            [np.einsum("pm,pmc->pc", basis[:, : one.series.shape[1]], one.series[piece]) for one in self._derivatives]
+            [
+                np.einsum("pm,pmc->pc", basis[:, : derivative.series.shape[1]], derivative.series[piece])
+                for derivative in self._derivatives
+            ]
         )
 
     def value(self, x: Array, u: Array) -> Array:

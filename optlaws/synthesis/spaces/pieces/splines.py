@@ -37,7 +37,7 @@ class SplineSpace(PiecewiseSpace):
     Examples
     --------
     >>> from optlaws.synthesis.spaces.splines import BSplines
-    >>> [spline_space(BoundaryConditions.rest(3), BSplines(4), symmetric=one).terms for one in (False, True)]
+    >>> [spline_space(BoundaryConditions.rest(3), BSplines(4), symmetric=half).terms for half in (False, True)]
     [7, 3]
     """
 
