@@ -195,7 +195,7 @@ FIELDS: tuple[Field, ...] = (
         _entry(
             "minimise",
             Kind.TEXT,
-            "What to minimise: a constant, or a sum or maximum of some.",
+            "What to minimise: a constant, a sum or maximum of some, or a formula such as rms(c + 3*b).",
             "minimised",
             default="C",
         ),
@@ -266,7 +266,11 @@ FIELDS: tuple[Field, ...] = (
         optional=True,
     ),
     _single(
-        _entry("windows", Kind.WINDOWS, 'a, b, c or j in bounds, such as "b <= 1.2 @ 0.2..0.3" or "a = 0.3 @ 0.4".'),
+        _entry(
+            "windows",
+            Kind.WINDOWS,
+            'a, b, c, j or a formula in bounds, such as "b <= 1.2 @ 0.2..0.3", "a = 0.3 @ 0.4" or "c + 0.2*b <= 5".',
+        ),
         checks.windows,
         near=_as_many,
         read=_read_windows,
