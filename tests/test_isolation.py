@@ -54,7 +54,7 @@ def test_a_module_and_the_tests_of_its_laws_run_in_one_call() -> None:
     # pytest must not import a module that its package has imported a second time
     files = ["optlaws/laws/polynomial.py", "tests/contracts/test_laws.py"]
     arguments = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-k", "equal_law", *files]
-    found = subprocess.run(
+    process = subprocess.run(
         arguments, cwd=Path(__file__).parent.parent, capture_output=True, text=True, check=False, timeout=120
     )
-    assert found.returncode == 0, found.stdout[-2000:]
+    assert process.returncode == 0, process.stdout[-2000:]

@@ -171,10 +171,10 @@ def rooms(package: Path) -> list[Import]:
 
 def reachable(package: Path, prefix: str) -> set[str]:
     """All that modules of a prefix import, directly or not."""
-    found = known(package)
-    seen = {one.source for one in found if f"{one.source}.".startswith(f"{prefix}.")}
+    known_value = known(package)
+    seen = {one.source for one in known_value if f"{one.source}.".startswith(f"{prefix}.")}
     assert seen, f"there is no {prefix}"
-    while new := {one.target for one in found if one.source in seen} - seen:
+    while new := {one.target for one in known_value if one.source in seen} - seen:
         seen |= new
     return seen
 

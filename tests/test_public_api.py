@@ -36,7 +36,11 @@ def parameters(function: Callable[..., Any]) -> list[inspect.Parameter]:
         signature = inspect.signature(function)
     except ValueError:
         return []  # exceptions made of a message alone
-    return [one for one in signature.parameters.values() if one.kind not in {one.VAR_POSITIONAL, one.VAR_KEYWORD}]
+    return [
+        parameter
+        for parameter in signature.parameters.values()
+        if parameter.kind not in {parameter.VAR_POSITIONAL, parameter.VAR_KEYWORD}
+    ]
 
 
 def styled(function: Callable[..., Any]) -> bool:
@@ -115,7 +119,7 @@ def test_a_misspelt_style_is_refused_by_what_draws(value: optlaws.MotionLaw | op
 def swallows(function: Callable[..., Any]) -> bool:
     if inspect.isclass(function) and issubclass(function, Exception) and "__init__" not in vars(function):
         return False
-    return any(one.kind is one.VAR_KEYWORD for one in inspect.signature(function).parameters.values())
+    return any(parameter.kind is parameter.VAR_KEYWORD for parameter in inspect.signature(function).parameters.values())
 
 
 def test_no_public_callable_swallows_keywords() -> None:
@@ -125,7 +129,7 @@ def test_no_public_callable_swallows_keywords() -> None:
 
 def annotated(function: Callable[..., Any]) -> bool:
     signature = inspect.signature(function)
-    own = [one for one in signature.parameters.values() if one.name not in {"self", "cls"}]
+    own = [parameter for parameter in signature.parameters.values() if parameter.name not in {"self", "cls"}]
     return signature.return_annotation is not signature.empty and all(one.annotation is not one.empty for one in own)
 
 
@@ -137,10 +141,10 @@ def test_every_public_callable_is_annotated() -> None:
 def test_everything_raised_on_purpose_is_one_tree() -> None:
     found = [one for name in NAMES if inspect.isclass(one := getattr(optlaws, name)) and issubclass(one, Exception)]
     warnings = {one for one in found if issubclass(one, Warning)}
-    assert {one.__name__ for one in warnings} == {"NotNormalised"}
+    assert {warning.__name__ for warning in warnings} == {"NotNormalised"}
     errors = [one for one in found if one not in warnings]
-    assert {one.__name__ for one in errors} == {"InfeasibleProblem", "InputError", "OptlawsError", "SolverFailure"}
-    assert all(issubclass(one, optlaws.OptlawsError) for one in errors)
+    assert {error.__name__ for error in errors} == {"InfeasibleProblem", "InputError", "OptlawsError", "SolverFailure"}
+    assert all(issubclass(error, optlaws.OptlawsError) for error in errors)
 
 
 def test_an_unknown_attribute_is_refused() -> None:

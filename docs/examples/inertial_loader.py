@@ -9,10 +9,10 @@ from matplotlib import pyplot as plt
 
 from optlaws import catalogue, loader
 
-found = loader(catalogue["cycloidal"].law)
+balanced = loader(catalogue["cycloidal"].law)
 k = np.linspace(0.0, 1.0, 801)
-plt.plot(k, found.executive.b(k), label="executive link")
-plt.plot(k, found.law.b(k), "--", label="loader")
+plt.plot(k, balanced.executive.b(k), label="executive link")
+plt.plot(k, balanced.law.b(k), "--", label="loader")
 plt.xlabel("k (dimensionless time)")
 plt.ylabel("velocity b (dimensionless)")
 plt.legend()

@@ -26,15 +26,15 @@ def draw(folder: Path) -> list[Path]:
         figure = drawing.figure(9.2, 5.6)
         axes = figure.subplots(2, 2, sharex=True)
         artists: list[Any] = found.plot(list(axes.flat))
-        for one, (_, label, peak) in zip(axes.flat, PANELS, strict=True):
-            one.set_ylabel(f"{label} (dimensionless)")
+        for axis, (_, label, peak) in zip(axes.flat, PANELS, strict=True):
+            axis.set_ylabel(f"{label} (dimensionless)")
             if peak is not None:
                 values = [getattr(law.constants, peak).value for law in found.laws.values()]
                 same = max(values) - min(values) < 1e-6 * max(values)
                 shown = values[:1] if same else values
-                one.set_title(f"{peak} = {', '.join(f'{value:.4g}' for value in shown)}{' for all' if same else ''}")
-        for one in axes[1]:
-            one.set_xlabel("k (dimensionless time)")
+                axis.set_title(f"{peak} = {', '.join(f'{value:.4g}' for value in shown)}{' for all' if same else ''}")
+        for axis in axes[1]:
+            axis.set_xlabel("k (dimensionless time)")
         lines = [artist for artist in artists if artist in axes[0, 0].lines and len(artist.get_xdata()) > 1]
         figure.legend(lines, list(found.laws), loc="outside lower center", ncols=3)
         return drawing.save_picture(figure, folder / "gain")

@@ -128,8 +128,8 @@ def others(console: Console) -> None:
     """What else is solved in arrays: least power, root mean squares, solutions one by one, fronts."""
     table = Table("degree 9", "laws", "measured", "aim", title="other uses of arrays, one process")
     for minimise, aim in (("D", f"{POWERS:,}/s"), ("rms_c", ""), ("J", "")):
-        found = run(9, 4_000, minimise)
-        table.add_row(f"least {minimise}", "4,000", f"{4_000 / found.seconds:,.0f}/s", aim)
+        outcome = run(9, 4_000, minimise)
+        table.add_row(f"least {minimise}", "4,000", f"{4_000 / outcome.seconds:,.0f}/s", aim)
     problem = Problem(order=4, basis=Chebyshev(9))
     ready = [replace(problem, B=B) for B in np.linspace(*ENDS, 4_000).tolist()]
     many = seconds(lambda: [one.objective for one in synthesize_many(ready)])
@@ -174,12 +174,12 @@ def main(degrees: tuple[int, ...] = DEGREES) -> None:
         cells, alone = [], 0
         synthesize_array(ProblemArray(B=np.linspace(*ENDS, 200), order=4, basis=Chebyshev(degree)))
         for count, aims in AIMS.items():
-            found = run(degree, count)
-            speed = count / found.seconds
-            alone += len(found.laws.others)
+            outcome = run(degree, count)
+            speed = count / outcome.seconds
+            alone += len(outcome.laws.others)
             cells.append(f"{speed:,.0f}{'' if speed >= aims[place] else '*'}")
             if count == min(AIMS):
-                own = found.seconds / count
+                own = outcome.seconds / count
         other = rival(degree)
         share = own / other
         cells += [

@@ -34,7 +34,7 @@ def chain(factor: float = 1.0) -> Machine:
 def asked(machine: Machine, objective: Callable[[Machine], Functional | str]) -> Problem:
     """The least of an objective, a fifth of a smooth law's residual of the first three modes allowed."""
     residuals = [machine.residual(mode, "tip", spread=0.05) for mode in (1, 2, 3)]
-    bounds = {one: at_most(0.2 * one.value(smoothstep(3))) for one in residuals}
+    bounds = {residual: at_most(0.2 * residual.value(smoothstep(3))) for residual in residuals}
     return Problem(order=3, basis=Chebyshev(15), symmetric=False, minimise=objective(machine), bounds=bounds)
 
 

@@ -96,8 +96,8 @@ def opti(rows: Rows, B: float) -> Claim:
     program.subject_to(b[:-1] <= B)
     program.subject_to(b[-1] == B)
     program.solver("ipopt", {"print_time": False}, {"print_level": 0, "sb": "yes"})
-    found = program.solve()
-    return Claim(np.asarray(found.value(x), dtype=float).reshape(-1), float(found.value(C)))
+    optimum = program.solve()
+    return Claim(np.asarray(optimum.value(x), dtype=float).reshape(-1), float(optimum.value(C)))
 
 
 def highs(rows: Rows, B: float) -> Claim:
@@ -107,7 +107,7 @@ def highs(rows: Rows, B: float) -> Claim:
     upper = np.block([[rows.c, -one], [-rows.c, -one], [-b, none], [b, none]])
     right = np.concatenate([-rows.c0, rows.c0, rows.b0[:-1], B - rows.b0[:-1]])
     objective = np.append(np.zeros(rows.b.shape[1]), 1.0)
-    found = linprog(
+    optimum = linprog(
         objective,
         A_ub=upper,
         b_ub=right,
@@ -116,9 +116,9 @@ def highs(rows: Rows, B: float) -> Claim:
         bounds=(None, None),
         method="highs",
     )
-    if found.x is None:
-        raise RuntimeError(f"HiGHS gave no answer: {found.message}")
-    return Claim(np.asarray(found.x[:-1], dtype=float), float(found.x[-1]))
+    if optimum.x is None:
+        raise RuntimeError(f"HiGHS gave no answer: {optimum.message}")
+    return Claim(np.asarray(optimum.x[:-1], dtype=float), float(optimum.x[-1]))
 
 
 def power_by_opti(rows: Rows, B: float) -> Claim:
@@ -133,8 +133,8 @@ def power_by_opti(rows: Rows, B: float) -> Claim:
     program.subject_to(b[-1] == B)
     program.set_initial(D, 10.0)
     program.solver("ipopt", {"print_time": False}, {"print_level": 0, "sb": "yes"})
-    found = program.solve()
-    return Claim(np.asarray(found.value(x), dtype=float).reshape(-1), float(found.value(D)))
+    optimum = program.solve()
+    return Claim(np.asarray(optimum.value(x), dtype=float).reshape(-1), float(optimum.value(D)))
 
 
 def power_by_slsqp(rows: Rows, B: float) -> Claim:
@@ -161,7 +161,7 @@ def power_by_slsqp(rows: Rows, B: float) -> Claim:
     goal = np.append(np.zeros(size), 1.0)
     solve: Any = minimize
     start = np.append(np.zeros(size), 10.0)
-    found = solve(
+    optimum = solve(
         lambda x: float(x[-1]),
         start,
         jac=lambda _: goal,
@@ -169,4 +169,4 @@ def power_by_slsqp(rows: Rows, B: float) -> Claim:
         method="SLSQP",
         options={"maxiter": 500, "ftol": 1e-9},
     )
-    return Claim(np.asarray(found.x[:-1], dtype=float), float(found.x[-1]))
+    return Claim(np.asarray(optimum.x[:-1], dtype=float), float(optimum.x[-1]))

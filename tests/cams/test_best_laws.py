@@ -62,9 +62,9 @@ def test_least_acceleration_under_a_pressure_angle_is_that_of_a_linear_program_o
     most = np.concatenate([np.zeros(2 * len(k)), np.full(2 * len(k), limit * 0.085), np.ones(len(k)), np.zeros(len(k))])
     rows = [[one.deriv(nu)(x) if nu else one(x) for one in cheb] for nu in range(3) for x in (0.0, 1.0)]
     ends = np.hstack([np.array(rows), np.zeros((6, 1))])
-    found = linprog(np.eye(terms + 1)[-1], upper, most, ends, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0], bounds=(None, None))
-    assert found.fun is not None
-    sized = found.fun * stroke / (0.3 * 100.0 / 360.0) ** 2
+    optimum = linprog(np.eye(terms + 1)[-1], upper, most, ends, [0.0, 1.0, 0.0, 0.0, 0.0, 0.0], bounds=(None, None))
+    assert optimum.fun is not None
+    sized = optimum.fun * stroke / (0.3 * 100.0 / 360.0) ** 2
     assert sized <= best.objective * (1 + 1e-7)
     assert best.objective == pytest.approx(sized, rel=2e-2)
 
@@ -211,7 +211,7 @@ def test_lines_lie_where_an_arm_keeps_its_limit_or_breaks_it(share: float, sign:
     allowed = contact.distance / contact.arm * (share * np.sin(psi) + sign * np.cos(psi)) - sign
     for below in (True, False):
         walls = walls_of(piece, contact, {PRESSURE: share}, 1.0, below=below)
-        seen = [one for one in walls if one.factors[1] * sign > 0]
+        seen = [wall for wall in walls if wall.factors[1] * sign > 0]
         # the greatest sign s' that each line allows at a place
         lines = np.array([(one.most - one.factors[0] * a) / abs(one.factors[1]) for one in seen]) * 0.4 / angle
         most = lines.min(axis=0)

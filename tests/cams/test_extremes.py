@@ -76,8 +76,8 @@ def test_enclosed_jets_hold_the_displacement_in_every_cell(law: str) -> None:
         for share in (-1.0, -0.4, 0.0, 0.6, 1.0):
             angles = stretch.start + (middle + share * half) * (stretch.stop - stretch.start)
             held = stretch.jet(angles, 4)
-            for one, value in zip(jet.terms, held.terms, strict=True):
-                assert ((one.low <= value) & (value <= one.high)).all()
+            for term, value in zip(jet.terms, held.terms, strict=True):
+                assert ((term.low <= value) & (value <= term.high)).all()
 
 
 def test_a_circle_about_another_centre_has_the_closed_forms() -> None:
@@ -108,7 +108,7 @@ def test_a_roller_just_too_large_is_proven_to_undercut_and_one_just_smaller_is_n
         DiscCam(cycle, "35 mm", TranslatingRoller(f"{share * largest!r} m")).extremes.undercut
         for share in (1.0 - 1e-7, 1.0 + 1e-7)
     ]
-    assert [one.status for one in verdicts] == [FREE, UNDERCUT]
+    assert [verdict.status for verdict in verdicts] == [FREE, UNDERCUT]
     assert "make the base circle larger or a roller smaller" in str(verdicts[1])
 
 
@@ -134,7 +134,7 @@ def test_the_extremes_of_powers_of_time_are_enclosed_though_their_jerk_has_no_bo
     rise = FractionalSegment(0.5, 0.0, 0.5, (1.0,))
     fall = FractionalSegment(0.5, 0.5, 0.0, (-1.0,))
     law = PiecewiseLaw([0, 0.5, 1], [rise, replace(fall, steady=0.0)])
-    law = PiecewiseLaw([0, 0.5, 1], [one.scaled(0.5, 1.0 / law.a(1.0)) for one in law.segments])
+    law = PiecewiseLaw([0, 0.5, 1], [segment.scaled(0.5, 1.0 / law.a(1.0)) for segment in law.segments])
     motion = CamMotion.of_law(law, "40 mm", "120 deg")
     least, greatest = enclosed_extremes(motion, lambda s: s.slope().slope(), 2)
     top = float(law.c(0.5 - 1e-12)) * 0.04 / (2 * np.pi / 3) ** 2

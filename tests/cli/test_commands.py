@@ -24,7 +24,7 @@ Capture = pytest.CaptureFixture[str]
 
 
 def called(capsys: Capture, *arguments: object) -> tuple[int, str, str]:
-    code = app.exit_code([str(one) for one in arguments])
+    code = app.exit_code([str(argument) for argument in arguments])
     return code, *capsys.readouterr()
 
 
@@ -45,29 +45,27 @@ def test_solve_prints_one_json_object(capsys: Capture, extra: list[str]) -> None
     code, out, err = called(capsys, *SOLVE, *extra, "--json")
     assert (code, err) == (0, "")
     assert out.count("\n") == 1
-    found = json.loads(out)
-    assert list(found) == KEYS
-    assert {name: sorted(peak) for name, peak in found["constants"].items()} == {
-        name: ["k", "value"] for name in "BCDJ"
-    }
-    assert found["status"] == "optimal"
-    assert found["objective"] == pytest.approx(6.872529, abs=1e-6)
-    assert found["objective"] == found["constants"]["C"]["value"]
-    assert found["lower_bound"] <= found["objective"]
-    assert found["gap"] <= 1e-8
-    assert found["limit"] == pytest.approx(1.641**2 / 0.641)
-    assert isinstance(found["iterations"], int)
-    assert found["seconds"] > 0.0
+    data = json.loads(out)
+    assert list(data) == KEYS
+    assert {name: sorted(peak) for name, peak in data["constants"].items()} == {name: ["k", "value"] for name in "BCDJ"}
+    assert data["status"] == "optimal"
+    assert data["objective"] == pytest.approx(6.872529, abs=1e-6)
+    assert data["objective"] == data["constants"]["C"]["value"]
+    assert data["lower_bound"] <= data["objective"]
+    assert data["gap"] <= 1e-8
+    assert data["limit"] == pytest.approx(1.641**2 / 0.641)
+    assert isinstance(data["iterations"], int)
+    assert data["seconds"] > 0.0
 
 
 @pytest.mark.parametrize("basis", ["powers", "chebyshev"])
 def test_z_and_the_law_of_the_json_are_the_same_law(capsys: Capture, basis: str) -> None:
     _, out, _ = called(capsys, *SOLVE, "--basis", basis, "--json")
-    found = json.loads(out)
-    law = MotionLaw.from_dict(found["law"])
-    assert law.peak(2).value == found["objective"]
-    again = construct(BoundaryConditions.rest(4), found["z"])
-    assert again.peak(2).value == pytest.approx(found["objective"], rel=1e-11)
+    data = json.loads(out)
+    law = MotionLaw.from_dict(data["law"])
+    assert law.peak(2).value == data["objective"]
+    again = construct(BoundaryConditions.rest(4), data["z"])
+    assert again.peak(2).value == pytest.approx(data["objective"], rel=1e-11)
 
 
 def test_solve_without_json_says_what_was_found(capsys: Capture) -> None:
@@ -149,11 +147,11 @@ def test_an_unknown_command_is_refused(capsys: Capture, arguments: list[str]) ->
 def test_constants_of_a_printed_row(capsys: Capture) -> None:
     code, out, err = called(capsys, "constants", "--z", ROW_1_53, "--order", 4, "--json")
     assert (code, err) == (0, "")
-    found = json.loads(out)
-    assert list(found) == ["B", "C", "D", "J"]
-    assert [round(found[name]["value"], 4) for name in "BCD"] == [1.53, 7.3618, 6.0604]
-    assert round(found["J"]["value"], 3) == 85.783
-    assert found["C"]["k"] == pytest.approx(0.1398, abs=5e-5)
+    data = json.loads(out)
+    assert list(data) == ["B", "C", "D", "J"]
+    assert [round(data[name]["value"], 4) for name in "BCD"] == [1.53, 7.3618, 6.0604]
+    assert round(data["J"]["value"], 3) == 85.783
+    assert data["C"]["k"] == pytest.approx(0.1398, abs=5e-5)
 
 
 @pytest.mark.parametrize("z", ["-3 6", "-3, 6", "-3,6", " -3   6 ", "-3\n6"])
@@ -365,9 +363,9 @@ def test_solve_takes_splines_bounds_and_an_inflexion(capsys: Capture) -> None:
     shape = ["solve", "--order", "3", "--degree", "3"]
     bounds = ["--inflexion", "0.4", "--most", "C_minus=6", "--most", "rms_c=4.2"]
     code, out, _ = called(capsys, *shape, "--basis", "bsplines", "--breaks", "8", *bounds, "--json")
-    found = json.loads(out)
-    assert (code, found["status"], len(found["z"])) == (0, "optimal", 11)
-    law = MotionLaw.from_dict(found["law"])
+    data = json.loads(out)
+    assert (code, data["status"], len(data["z"])) == (0, "optimal", 11)
+    law = MotionLaw.from_dict(data["law"])
     assert law.c(0.4) == pytest.approx(0.0, abs=1e-9)
     assert -law.extrema(2)[0].value <= 6.0 + 1e-8
     assert law.rms(2) <= 4.2 + 1e-8

@@ -43,12 +43,12 @@ def text_of(value: object) -> str:
 def signature(function: Any) -> dict[str, str]:
     """Parameters with their kinds and defaults."""
     try:
-        found = inspect.signature(function).parameters.values()
+        signature = inspect.signature(function).parameters.values()
     except ValueError:
         return {}  # exceptions made of a message alone
     return {
         one.name: one.kind.description + ("" if one.default is one.empty else f" = {text_of(one.default)}")
-        for one in found
+        for one in signature
     }
 
 
@@ -56,16 +56,18 @@ def public_names() -> Table:
     """Every public callable and every public method of a public class, with its parameters."""
     table: Table = {}
     for name in optlaws.__all__:
-        one = getattr(optlaws, name)
+        value = getattr(optlaws, name)
         table[name] = (
-            signature(one) if callable(one) and not isinstance(one, EnumType) and hasattr(one, "__name__") else {}
+            signature(value)
+            if callable(value) and not isinstance(value, EnumType) and hasattr(value, "__name__")
+            else {}
         )
-        if inspect.isclass(one):
+        if inspect.isclass(value):
             own = {
-                attribute for base in one.__mro__ if base.__module__.startswith("optlaws") for attribute in vars(base)
+                attribute for base in value.__mro__ if base.__module__.startswith("optlaws") for attribute in vars(base)
             }
             for attribute in sorted(attribute for attribute in own if not attribute.startswith("_")):
-                member = getattr(one, attribute)
+                member = getattr(value, attribute)
                 table[f"{name}.{attribute}"] = (
                     signature(member) if inspect.isroutine(member) and callable(member) else {}
                 )

@@ -87,7 +87,7 @@ def entries(basis: Basis) -> dict[str, Any]:
 def spaces(basis: Basis) -> list[LawSpace]:
     """Unsymmetric laws with every end conditions, symmetric ones from rest to rest where there are any."""
     ends = TURNS if isinstance(basis, PeriodicPieces) else ENDS
-    found = [space_of(basis, one, symmetric=False) for one in ends]
+    found = [space_of(basis, end, symmetric=False) for end in ends]
     if basis.mirrored and basis != REFUSED[basis.name]:
         found += [space_of(basis, BoundaryConditions.rest(order), symmetric=True) for order in (2, 3)]
     return found
@@ -181,7 +181,7 @@ def test_the_mirror_image_of_a_law_is_in_the_space_if_it_says_so(basis: Basis) -
     space = space_of(basis, ends, symmetric=False)
     nothing = coordinates(space, np.zeros(space.terms))
     laws = [space.law(nothing).b(K), *(space.law(point(space, seed)).b(K) for seed in range(space.terms + 1))]
-    free = np.array([one - laws[0] for one in laws[1:]]).T
+    free = np.array([law - laws[0] for law in laws[1:]]).T
     image = space.law(point(space, 99)).b(1.0 - K) - laws[0]
     left = image - free @ np.linalg.lstsq(free, image)[0]
     there = np.abs(left).max() < 1e-9 * (1.0 + np.abs(image).max())
@@ -222,5 +222,5 @@ def test_z_of_another_length_is_refused(basis: Basis) -> None:
 @pytest.mark.parametrize("basis", [one for one in EXAMPLES if isinstance(one, PolynomialBasis)], ids=repr)
 def test_z_belongs_to_the_functions_of_its_name(basis: PolynomialBasis) -> None:
     z = np.random.default_rng(3).integers(-50, 50, basis.size).astype(float)
-    found = np.polynomial.Chebyshev(basis.series(z.tolist()), domain=(0.0, 1.0))(K)
-    assert found == pytest.approx(FUNCTIONS[basis.name](z), rel=1e-12, abs=1e-9)
+    series = np.polynomial.Chebyshev(basis.series(z.tolist()), domain=(0.0, 1.0))(K)
+    assert series == pytest.approx(FUNCTIONS[basis.name](z), rel=1e-12, abs=1e-9)

@@ -38,9 +38,9 @@ def space(basis: Basis, *, symmetric: bool = False) -> LawSpace:
 
 def slack(laws: LawSpace) -> Array:
     """A right side of two variables beyond the coordinates."""
-    found = np.zeros(laws.terms + 2)
-    found[-2:] = 1.0, -0.3
-    return found
+    values = np.zeros(laws.terms + 2)
+    values[-2:] = 1.0, -0.3
+    return values
 
 
 def random_cone(seed: int) -> ConeFamily:
@@ -130,19 +130,22 @@ def every_family(test: Callable[[Family], None]) -> Callable[[str], None]:
 
 def point(family: Family, seed: int = 0) -> Array:
     """Random variables, the coordinates such that the law keeps its end conditions."""
-    found = np.random.default_rng(seed).normal(size=len(family.slack))
+    random = np.random.default_rng(seed).normal(size=len(family.slack))
     if family in LAWS:
-        found[: LAWS[family].terms] = coordinates(LAWS[family], found)
+        random[: LAWS[family].terms] = coordinates(LAWS[family], random)
     if isinstance(family, EnergyFamily):
-        found *= QUIET  # those with one peak of velocity have a loader
-    return found
+        random *= QUIET  # those with one peak of velocity have a loader
+    return random
 
 
 def coordinates(laws: LawSpace, x: Array) -> Array:
     """The nearest ones that keep the equations."""
     found: Array = x[: laws.terms]
     if equations := laws.equations():
-        rows, right = np.array([one.row for one in equations]), np.array([one.right for one in equations])
+        rows, right = (
+            np.array([equation.row for equation in equations]),
+            np.array([equation.right for equation in equations]),
+        )
         found = found - np.asarray(np.linalg.lstsq(rows, rows @ found - right)[0])
     return found
 

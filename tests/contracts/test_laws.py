@@ -203,10 +203,10 @@ def test_extrema_bracket_the_samples_and_make_the_peak(law: MotionLaw, nu: int) 
 
 @every_law
 def test_peaks_are_reached_where_they_are_said_to_be(law: MotionLaw) -> None:
-    one = law.constants
-    for nu, peak in ((1, one.B), (2, one.C), (3, one.J)):
+    constants = law.constants
+    for nu, peak in ((1, constants.B), (2, constants.C), (3, constants.J)):
         assert abs(law(peak.k, nu)) == pytest.approx(peak.value, rel=2e-10, abs=1e-300)
-    assert abs(law.d(one.D.k)) == pytest.approx(one.D.value, rel=2e-10, abs=1e-300)
+    assert abs(law.d(constants.D.k)) == pytest.approx(constants.D.value, rel=2e-10, abs=1e-300)
 
 
 @every_law
@@ -571,9 +571,9 @@ def exact(law: PiecewiseLaw, i: int, nu: int) -> Any:  # noqa: ANN401 - a functi
         if isinstance(segment, SineSegment | HarmonicSegment):
             sines = (segment,) if isinstance(segment, SineSegment) else segment.sines
             return mpmath.fsum(
-                one.amplitude * mpmath.sin(one.frequency * s + one.phase)
-                + mpmath.fsum(power * s**n for n, power in enumerate(one.powers))
-                for one in sines
+                sine.amplitude * mpmath.sin(sine.frequency * s + sine.phase)
+                + mpmath.fsum(power * s**n for n, power in enumerate(sine.powers))
+                for sine in sines
             )
         if isinstance(segment, PowerSegment):
             return (

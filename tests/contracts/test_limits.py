@@ -64,8 +64,8 @@ each_way = pytest.mark.parametrize("monotone", [False, True], ids=["any", "forth
 
 
 def own(law: MotionLaw, constant: str) -> float:
-    one = law.constants
-    return {"C": one.C.value, "D": one.D.value, "J": one.J.value, "RMS": one.rms_c}[constant]
+    constants = law.constants
+    return {"C": constants.C.value, "D": constants.D.value, "J": constants.J.value, "RMS": constants.rms_c}[constant]
 
 
 @cache

@@ -216,7 +216,7 @@ def test_an_interpolant_and_waves_are_the_segment(segment: Segment, length: floa
     waves = segment.waves(length)
     if waves is not None:
         c = np.polynomial.chebyshev.chebval(2.0 * U - 1.0, waves.acceleration)
-        c = c + sum(one.amplitude * np.sin(one.frequency * U * length + one.phase) for one in waves.sines)
+        c = c + sum(sine.amplitude * np.sin(sine.frequency * U * length + sine.phase) for sine in waves.sines)
         assert c == pytest.approx(wanted, abs=1e-13 * size(segment, length, 2))
         assert waves.b0 == pytest.approx(segment.velocity(length), abs=1e-14)
 
@@ -324,7 +324,7 @@ def test_a_new_kind_is_transformed(exponential: Any) -> None:  # noqa: ANN401
 
 def test_a_new_kind_drives_a_follower_and_is_driven_by_a_cam(exponential: Any) -> None:  # noqa: ANN401
     law = rise(exponential)
-    same = PiecewiseLaw(law.breaks, [one.interpolated(0.5) for one in law.segments])
+    same = PiecewiseLaw(law.breaks, [segment.interpolated(0.5) for segment in law.segments])
     k = np.linspace(0.0, 1.5, 151)
     for follower in (Follower(15.0), Follower(40.0, 0.05)):
         assert follower.response(law).c(k) == pytest.approx(follower.response(same).c(k), abs=1e-9)

@@ -35,7 +35,7 @@ def test_axes_are_kept_as_data_and_as_a_problem_file(tmp_path: Path) -> None:
     file = tmp_path / "machine.toml"
     file.write_text(MACHINE.to_toml("A machine"), "utf-8")
     _, cycles = read(reading.toml(file), file)
-    assert {name: one(0.45) for name, one in cycles.items()} == MACHINE(0.45)
+    assert {name: cycle(0.45) for name, cycle in cycles.items()} == MACHINE(0.45)
 
 
 def test_axes_are_tabled_drawn_and_exported_together() -> None:
@@ -43,10 +43,13 @@ def test_axes_are_tabled_drawn_and_exported_together() -> None:
     assert frame.loc["weld head", "segment"].tolist() == ["up", "Rise", "Dwell", "Return"]
     artists = MACHINE.plot(nu=2)
     figure = artists[0].figure
-    assert [one.get_ylabel() for one in figure.axes] == ["table\nacceleration, rad/s²", "weld head\nacceleration, m/s²"]
+    assert [axis.get_ylabel() for axis in figure.axes] == [
+        "table\nacceleration, rad/s²",
+        "weld head\nacceleration, m/s²",
+    ]
     axes = Figure().subplots()
     curves = MACHINE.plot(axes)
-    assert [float(np.abs(one.get_ydata()).max()) for one in curves] == pytest.approx([1.0, 1.0])
+    assert [float(np.abs(curve.get_ydata()).max()) for curve in curves] == pytest.approx([1.0, 1.0])
     legend = axes.get_legend()
     assert legend is not None
     assert [text.get_text() for text in legend.get_texts()] == ["table / 45 deg", "weld head / 250 mm"]

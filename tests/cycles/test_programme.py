@@ -96,43 +96,43 @@ def test_errors_say_what_is_wrong_and_the_remedy(segments: list[Any], others: di
 
 
 def test_a_segment_without_a_duration_takes_what_is_left() -> None:
-    one = cycle(Rise("35 mm", "120 deg", law=SINE), Dwell("0.1 s"), Return(duration="100 deg", law=SINE), Dwell())
-    assert one.durations == pytest.approx([0.1, 0.1, 0.3 * 100 / 360, 0.1 - 0.3 * 100 / 360])
+    course = cycle(Rise("35 mm", "120 deg", law=SINE), Dwell("0.1 s"), Return(duration="100 deg", law=SINE), Dwell())
+    assert course.durations == pytest.approx([0.1, 0.1, 0.3 * 100 / 360, 0.1 - 0.3 * 100 / 360])
 
 
 def test_motion_is_the_law_in_machine_units() -> None:
-    one = cycle(Rise("35 mm", "120 deg", law=SINE), Dwell(), Return(duration="100 deg", law=SINE))
+    course = cycle(Rise("35 mm", "120 deg", law=SINE), Dwell(), Return(duration="100 deg", law=SINE))
     law = catalogue[SINE].law
     k = np.linspace(0.0, 0.999, 50)
     for nu in range(4):
-        assert one(0.1 * k, nu) == pytest.approx(0.035 / 0.1**nu * law(k, nu), rel=1e-9, abs=1e-12)
+        assert course(0.1 * k, nu) == pytest.approx(0.035 / 0.1**nu * law(k, nu), rel=1e-9, abs=1e-12)
     C = law.constants.C.value
-    assert one.peak(2) == pytest.approx(C * 0.035 / (0.3 * 100 / 360) ** 2)
-    assert one.peaks[0].peak(1) == pytest.approx(law.constants.B.value * 0.35)
-    assert one(0.05 + 3 * 0.3) == pytest.approx(one(0.05), rel=1e-9)
-    assert one.at_angle(60.0) == pytest.approx(one(0.05))
-    assert one.per_angle(60.0, 1) == pytest.approx(one(0.05, 1) * 0.3 / TURN)
+    assert course.peak(2) == pytest.approx(C * 0.035 / (0.3 * 100 / 360) ** 2)
+    assert course.peaks[0].peak(1) == pytest.approx(law.constants.B.value * 0.35)
+    assert course(0.05 + 3 * 0.3) == pytest.approx(course(0.05), rel=1e-9)
+    assert course.at_angle(60.0) == pytest.approx(course(0.05))
+    assert course.per_angle(60.0, 1) == pytest.approx(course(0.05, 1) * 0.3 / TURN)
 
 
 def test_derivatives_are_those_of_differences() -> None:
-    one = cycle(ConstantVelocity("500 mm/s", "100 deg"), Return())
+    course = cycle(ConstantVelocity("500 mm/s", "100 deg"), Return())
     times, step = np.linspace(0.001, 0.295, 40), 1e-6
     for nu in (1, 2, 3):
-        moved = (one(times + step, nu - 1) - one(times - step, nu - 1)) / (2 * step)
-        assert moved == pytest.approx(one(times, nu), rel=1e-5, abs=1e-5 * one.peak(nu))
+        moved = (course(times + step, nu - 1) - course(times - step, nu - 1)) / (2 * step)
+        assert moved == pytest.approx(course(times, nu), rel=1e-5, abs=1e-5 * course.peak(nu))
 
 
 def test_joints_tell_what_leaps() -> None:
-    one = cycle(Rise("35 mm", "120 deg", law="constant acceleration"), Dwell(), Return(duration="100 deg", law=SINE))
-    rise, dwell = one.joints[0], one.joints[1]
+    course = cycle(Rise("35 mm", "120 deg", law="constant acceleration"), Dwell(), Return(duration="100 deg", law=SINE))
+    rise, dwell = course.joints[0], course.joints[1]
     assert rise["acceleration"] == pytest.approx(4 * 3.5)
     assert dwell["acceleration"] == pytest.approx(4 * 3.5)
     assert rise["velocity"] == dwell["velocity"] == 0.0
 
 
 def test_a_table_that_indexes_goes_on() -> None:
-    one = cycle(Rise("45 deg", "90 deg", law=SINE), Dwell(), advance="45 deg", period="2 s", speed=None)
-    assert [one(2.0 * turn) for turn in range(4)] == pytest.approx([turn * pi / 4 for turn in range(4)])
+    course = cycle(Rise("45 deg", "90 deg", law=SINE), Dwell(), advance="45 deg", period="2 s", speed=None)
+    assert [course(2.0 * turn) for turn in range(4)] == pytest.approx([turn * pi / 4 for turn in range(4)])
 
 
 def test_the_drive_gives_back_what_it_takes_but_for_friction() -> None:

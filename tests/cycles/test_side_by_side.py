@@ -13,8 +13,8 @@ SINE = catalogue["modified sine"].law
 
 
 def test_numbers_are_those_of_the_laws() -> None:
-    found = compare("modified sine", smoothstep(3), stroke="35 mm", time="100 ms", nu=(12, 32), damping=0.05)
-    sine, poly = found.rows
+    comparison = compare("modified sine", smoothstep(3), stroke="35 mm", time="100 ms", nu=(12, 32), damping=0.05)
+    sine, poly = comparison.rows
     assert (sine["law"], poly["law"]) == ("modified sine", "law 2")
     assert [sine[name] for name in "BCDJ"] == [getattr(SINE.constants, name).value for name in "BCDJ"]
     assert poly["velocity, m/s"] == pytest.approx(1.875 * 0.035 / 0.1)

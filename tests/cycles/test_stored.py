@@ -73,7 +73,13 @@ def test_the_same_motion_at_another_speed() -> None:
         for nu in range(1, 4):
             assert fast.peak(nu) == pytest.approx(cycle.peak(nu) / share**nu, rel=1e-9)
         assert fast(0.2 * 0.15) == pytest.approx(cycle(0.2 * cycle.duration))
-    assert [one.label for one in AWAY_AND_BACK.at("400 rpm").segments] == ["Free", "Dwell", "Free", "Free", "Free"]
+    assert [segment.label for segment in AWAY_AND_BACK.at("400 rpm").segments] == [
+        "Free",
+        "Dwell",
+        "Free",
+        "Free",
+        "Free",
+    ]
     with pytest.raises(InputError, match="speed must be an angular velocity"):
         PRESS.at("400 mm")
 

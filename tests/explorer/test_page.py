@@ -213,7 +213,7 @@ def test_what_is_saved_is_what_is_seen(page: Page, served: Server) -> None:
     picture = ET.fromstring(saves(page, "picture"))  # noqa: S314 - our own
     lines = [one for one in picture.iter("{http://www.w3.org/2000/svg}path") if one.get("fill") == "none"]
     assert len(lines) == 10
-    assert all(one.get("stroke", "").startswith("rgb") for one in lines)
+    assert all(line.get("stroke", "").startswith("rgb") for line in lines)
 
 
 def test_a_cycle_is_shown_changed_and_refused(page: Page, served: Server) -> None:
@@ -284,7 +284,7 @@ def test_a_cam_turns_and_is_refused_where_there_is_none(page: Page, served: Serv
     asked["motion"]["drive"] = {"mass": "2 kg", "preload": "300 N"}
     loads = served.ask("cam-loads", {"study": asked})
     assert page.locator(".loads").inner_text() == " · ".join(loads["facts"])
-    titles = [f"{one['name']}, {one['unit']}" for one in loads["panels"]]
+    titles = [f"{load['name']}, {load['unit']}" for load in loads["panels"]]
     assert page.locator("#cam-curves .title").all_text_contents()[3:] == titles
     assert page.locator("#cam-curves .peak text").all_text_contents()[-1] == loads["panels"][-1]["peaks"][0]["text"]
     page.get_by_label("radius", exact=True).fill("59 mm")

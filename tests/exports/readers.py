@@ -87,7 +87,7 @@ def rockwell_cam(text: str) -> tuple[Array, Curve]:
     assert [int(row[0]) for row in rows] == list(range(len(rows)))
     single = ": CAM[" in text
     x, y = ([float(np.float32(row[i])) if single else float(row[i]) for row in rows] for i in (1, 2))
-    slopes = [float(one) for one in re.search(rf"StartSlope = ({NUMBER}), EndSlope = ({NUMBER})", text).groups()]  # type: ignore[union-attr]
+    slopes = [float(group) for group in re.search(rf"StartSlope = ({NUMBER}), EndSlope = ({NUMBER})", text).groups()]  # type: ignore[union-attr]
     if rows[0][3] == "0":
         return np.array(x), broken(np.array(x), np.array(y))
     return np.array(x), spline(np.array(x), np.array(y), ((1, slopes[0]), (1, slopes[1])))

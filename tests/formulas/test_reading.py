@@ -32,8 +32,8 @@ from tests.formulas.trees import text
     ],
 )
 def test_a_formula_is_printed_as_it_is_read(written: str, printed: str) -> None:
-    found = read(written)
-    assert str(found) == printed
+    content = read(written)
+    assert str(content) == printed
     assert str(read(printed)) == printed
 
 
@@ -101,10 +101,10 @@ def test_what_is_too_long_or_too_deep_is_refused(written: str) -> None:
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("sign", ["+", "-", "*", "/"])
 def test_a_long_formula_is_not_deep(sign: str) -> None:
-    found = read(sign.join(["c"] * 2000))
-    assert len(str(found)) >= 2000
-    assert hash(found) == hash(read(str(found)))
-    assert found.names() == {"c"}
+    content = read(sign.join(["c"] * 2000))
+    assert len(str(content)) >= 2000
+    assert hash(content) == hash(read(str(content)))
+    assert content.names() == {"c"}
 
 
 def test_only_texts_are_read() -> None:

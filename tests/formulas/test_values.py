@@ -39,8 +39,8 @@ def test_every_arithmetic_agrees_with_python(batch: int) -> None:
         assert float(evaluate(formula, values, NUMPY)) == close, written
         assert float(evaluate(formula, {n: mpmath.mpf(v) for n, v in values.items()}, mpmath_arithmetic())) == close
         assert float(casadi.DM(evaluate(formula, values, casadi_arithmetic()))) == close
-        found = evaluate(formula, {n: arb(v) for n, v in values.items()}, BALLS)
-        assert float(found.mid()) == close
+        value = evaluate(formula, {n: arb(v) for n, v in values.items()}, BALLS)
+        assert float(value.mid()) == close
         boxes = {n: Interval(np.array(v - 1e-3), np.array(v + 1e-3)) for n, v in values.items()}
         around = enclosed(formula, boxes)
         assert around.low <= wanted <= around.high

@@ -37,10 +37,10 @@ def test_the_atlas_is_complete_and_small() -> None:
 @pytest.mark.parametrize("place", [0, 500, 1200, 2000, 2700])
 def test_rows_of_the_atlas_are_what_synthesize_gives(place: int) -> None:
     point = read(ATLAS)[place]
-    found = synthesize(
+    objective = synthesize(
         Problem(B=point.B, order=point.order, basis=Chebyshev(point.degree), minimise=point.minimise)
     ).objective
-    assert point.constants[point.minimise] == pytest.approx(found, rel=2e-6)
+    assert point.constants[point.minimise] == pytest.approx(objective, rel=2e-6)
 
 
 def test_more_freedom_never_costs() -> None:
@@ -99,7 +99,7 @@ def test_no_law_of_the_atlas_that_keeps_the_limits_is_better(
     # the table has eight digits
     assert best.objective <= min(rivals) * (1.0 + 1e-7)
     constants = {name: getattr(best.constants, name) for name in most}
-    values = {name: one if isinstance(one, float) else one.value for name, one in constants.items()}
+    values = {name: constant if isinstance(constant, float) else constant.value for name, constant in constants.items()}
     assert all(values[name] <= value * (1.0 + 1e-9) for name, value in most.items())
     for degree in (5, 9, 15):
         bounds = {name: at_most(value) for name, value in most.items()}
@@ -140,10 +140,10 @@ def test_what_the_atlas_has_not_is_said(asked: dict[str, object], message: str) 
 def test_the_command_solves_what_was_asked(capsys: pytest.CaptureFixture[str]) -> None:
     arguments = ["--order", "4", "--peak-velocity", "1.71", "--most", "D=6.15", "--file", str(ATLAS), "--json"]
     assert exit_code(["atlas", *arguments]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["nearest"]["constants"]["D"] <= 6.15
-    assert found["constants"]["B"] == pytest.approx(1.71)
-    assert found["constants"]["D"] <= 6.15 * (1.0 + 1e-9)
+    data = json.loads(capsys.readouterr().out)
+    assert data["nearest"]["constants"]["D"] <= 6.15
+    assert data["constants"]["B"] == pytest.approx(1.71)
+    assert data["constants"]["D"] <= 6.15 * (1.0 + 1e-9)
     assert exit_code(["atlas", "--order", "4", "--file", "nowhere.csv"]) == 2
     assert "optlaws run problems/atlas.toml" in capsys.readouterr().err
 

@@ -34,7 +34,7 @@ def test_every_file_is_written(made: Path) -> None:
 
 def test_the_rows_are_the_runs(made: Path) -> None:
     lines = table(made / "off_design.csv")
-    assert [(one["cam"], one["change"], float(one["deviation of nu, %"])) for one in lines] == [
+    assert [(line["cam"], line["change"], float(line["deviation of nu, %"])) for line in lines] == [
         ("first", "speed", -5.0),
         ("first", "speed", 0.0),
         ("second", "stiffness", -5.0),

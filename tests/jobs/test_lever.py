@@ -27,8 +27,8 @@ def done(folder: Path, text: str) -> Path:
 
 
 def test_every_printed_coefficient_has_its_verdict(tmp_path: Path) -> None:
-    found = read(done(tmp_path, LEVER_TABLES) / "verdicts.csv")
-    assert [row["verdict"] for row in found] == [
+    content = read(done(tmp_path, LEVER_TABLES) / "verdicts.csv")
+    assert [row["verdict"] for row in content] == [
         "reproduced to its digits",
         "reproduced to its digits",
         "reproduced to 1.9 %",
@@ -69,10 +69,10 @@ def test_a_study_counts_the_levers_whose_exact_motion_is_within_the_limits(tmp_p
     assert set(found) == {("0.5", "30"), ("0.5", "100"), ("1", "30"), ("1.5", "30")}
     most = found["0.5", "100"]
     assert (most["levers"], most["within the limits in the exact motion"]) == ("4", "2")
-    one = TorsionLever(0.5, 1, 0.15, 0.15, deg(30))
+    lever = TorsionLever(0.5, 1, 0.15, 0.15, deg(30))
     low, high = (float(found["0.5", "30"][f"B3 {end}, exact"]) for end in ("least", "greatest"))
-    assert low <= one.exact.B3 * (1 + 1e-7)
-    assert high >= one.exact.B3 * (1 - 1e-7)
+    assert low <= lever.exact.B3 * (1 + 1e-7)
+    assert high >= lever.exact.B3 * (1 - 1e-7)
     assert {"constants.svg", "constants.png"} < {file.name for file in out.iterdir()}
 
 
@@ -80,11 +80,11 @@ def test_the_nomogram_is_the_sizing(tmp_path: Path) -> None:
     out = done(tmp_path, LEVER_NOMOGRAM)
     found = {(row["beta"], row["swing, deg"]): row for row in read(out / "nomogram.csv")}
     assert set(found) == {("0.5", "20"), ("0.5", "60"), ("1.5", "20")}
-    one = TorsionLever(0.5, 3, 0.15, 0.15, deg(60))
+    lever = TorsionLever(0.5, 3, 0.15, 0.15, deg(60))
     line = found["0.5", "60"]
-    assert deg(float(line["gamma01, deg"])) == pytest.approx(one.gamma01, rel=1e-7)
-    assert float(line["xi"]) == pytest.approx(one.xi, rel=1e-7)
-    assert float(line["exact T"]) == pytest.approx(one.exact.period, rel=1e-7)
+    assert deg(float(line["gamma01, deg"])) == pytest.approx(lever.gamma01, rel=1e-7)
+    assert float(line["xi"]) == pytest.approx(lever.xi, rel=1e-7)
+    assert float(line["exact T"]) == pytest.approx(lever.exact.period, rel=1e-7)
     assert (out / "nomogram.svg").exists()
 
 

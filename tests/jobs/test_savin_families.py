@@ -39,9 +39,9 @@ def test_the_table_has_every_member_of_the_reference(made: Path) -> None:
 def test_every_row_is_the_law_s(made: Path) -> None:
     for row in table(made / "table.csv"):
         low, high = alpha_range(row["family"])
-        one = savin(row["family"], min(max(float(row["alpha"]), low), high)).constants
-        assert one.C.value == pytest.approx(float(row["C"]), rel=1e-7)
-        assert one.D.value == pytest.approx(float(row["D"]), rel=1e-7)
+        constants = savin(row["family"], min(max(float(row["alpha"]), low), high)).constants
+        assert constants.C.value == pytest.approx(float(row["C"]), rel=1e-7)
+        assert constants.D.value == pytest.approx(float(row["D"]), rel=1e-7)
 
 
 def test_the_best_members_are_named(made: Path) -> None:

@@ -35,7 +35,7 @@ def free_function_law(seed: int, order: int, terms: int) -> PolynomialLaw:
             powers[order + i + n] += value * factor
     base = smoothstep(order).exact_powers()
     return PolynomialLaw.from_powers(
-        [one + (base[n] if n < len(base) else 0) for n, one in enumerate(powers)],
+        [power + (base[n] if n < len(base) else 0) for n, power in enumerate(powers)],
     )
 
 

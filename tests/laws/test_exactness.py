@@ -91,11 +91,11 @@ def built(name: str) -> tuple[PolynomialLaw, Exact]:
 @pytest.mark.parametrize("name", LAWS)
 def test_peak_constants_are_right_to_12_digits(name: str) -> None:
     law, exact = built(name)
-    one = law.constants
+    constants = law.constants
     with mp.workdps(DIGITS):
-        for nu, peak in ((1, one.B), (2, one.C), (3, one.J)):
+        for nu, peak in ((1, constants.B), (2, constants.C), (3, constants.J)):
             assert abs(peak.value / exact.peak(nu, law(DENSE, nu)) - 1) < 1e-12
-        assert abs(one.D.value / exact.power_peak(law.d(DENSE)) - 1) < 1e-12
+        assert abs(constants.D.value / exact.power_peak(law.d(DENSE)) - 1) < 1e-12
 
 
 @pytest.mark.parametrize("name", LAWS)
@@ -153,6 +153,11 @@ def test_no_peak_is_missed_in_many_random_laws() -> None:
             np.exp(-(((np.arange(count) - rng.uniform(0, count)) / rng.uniform(0.5, 10)) ** 2)),
         )
         law = PolynomialLaw(rng.normal(size=count) * shapes[rng.integers(4)], b0=rng.normal())
-        one = law.constants
-        for peak, values in ((one.B, law.b(k)), (one.C, law.c(k)), (one.D, law.d(k)), (one.J, law.j(k))):
+        constants = law.constants
+        for peak, values in (
+            (constants.B, law.b(k)),
+            (constants.C, law.c(k)),
+            (constants.D, law.d(k)),
+            (constants.J, law.j(k)),
+        ):
             assert peak.value >= np.abs(values).max() * (1 - 1e-13)

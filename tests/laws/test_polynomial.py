@@ -27,18 +27,18 @@ numbers = st.floats(-1e6, 1e6, allow_subnormal=False)
     ],
 )
 def test_smoothsteps_have_the_known_constants(order: int, B: float, C: float, D: float, J: float) -> None:
-    one = smoothstep(order).constants
-    assert one.B.value == pytest.approx(B, rel=1e-15)
-    assert one.C.value == pytest.approx(C, abs=1e-6)
-    assert one.D.value == pytest.approx(D, abs=1e-6)
-    assert one.J.value == pytest.approx(J, rel=1e-14)
+    constants = smoothstep(order).constants
+    assert constants.B.value == pytest.approx(B, rel=1e-15)
+    assert constants.C.value == pytest.approx(C, abs=1e-6)
+    assert constants.D.value == pytest.approx(D, abs=1e-6)
+    assert constants.J.value == pytest.approx(J, rel=1e-14)
 
 
 def test_places_of_the_peaks_of_s_3() -> None:
-    one = smoothstep(3).constants
-    assert one.B.k == 0.5
-    assert one.C.k == pytest.approx(0.5 - 12**-0.5, abs=1e-15)
-    assert one.J.k == 0.0
+    constants = smoothstep(3).constants
+    assert constants.B.k == 0.5
+    assert constants.C.k == pytest.approx(0.5 - 12**-0.5, abs=1e-15)
+    assert constants.J.k == 0.0
 
 
 @pytest.mark.parametrize("order", range(1, 31))
@@ -128,8 +128,8 @@ def test_degree_of_the_displacement(law: PolynomialLaw, degree: int) -> None:
 
 
 def test_functions_that_are_zero_peak_at_zero() -> None:
-    one = smoothstep(1).constants
-    assert one.C == one.D == one.J == Peak(0.0, 0.0)
+    constants = smoothstep(1).constants
+    assert constants.C == constants.D == constants.J == Peak(0.0, 0.0)
     assert smoothstep(1).extrema(2) == (Peak(0.0, 0.0), Peak(0.0, 0.0))
     assert smoothstep(3).peak(40) == Peak(0.0, 0.0)
 

@@ -28,8 +28,8 @@ def integrated(cam: Callable[[Array], Array], nu: float, damping: float) -> Move
     def slope(k: float, state: Array) -> tuple[float, float]:
         return float(state[1]), float(nu**2 * (cam(np.array(k)) - state[0]) - 2.0 * n * state[1])
 
-    found = solve_ivp(slope, (0.0, 1.0), (0.0, 0.0), "DOP853", PLACES, rtol=1e-12, atol=1e-14)
-    a, b = found.y
+    run = solve_ivp(slope, (0.0, 1.0), (0.0, 0.0), "DOP853", PLACES, rtol=1e-12, atol=1e-14)
+    a, b = run.y
     off, velocity = a[-1] - 1.0, b[-1]
     damped = np.sqrt(nu**2 - n**2)
     residual = nu**2 * float(np.hypot(off, (velocity + n * off) / damped))
@@ -56,7 +56,7 @@ def laws(order: int, degree: int) -> list[Polynomial]:
 
 def values(functions: list[Polynomial], k: Array) -> Array:
     """Columns of values at k."""
-    return np.column_stack([one(k) for one in functions])
+    return np.column_stack([function(k) for function in functions])
 
 
 def least_cam_acceleration(B: float, order: int, degree: int, nu: float, damping: float) -> float:
@@ -100,7 +100,7 @@ def _solved(rows: Array, right: Array, equal: Array | None = None, equal_right: 
     cost = np.zeros(rows.shape[1])
     cost[-1] = 1.0
     equal = None if equal is None else equal / scale
-    found = linprog(cost / scale, rows / scale, right, equal, equal_right, bounds=(None, None), method="highs-ds")
-    assert found.status == 0
-    assert found.x is not None
-    return float(found.x[-1] / scale[-1])
+    optimum = linprog(cost / scale, rows / scale, right, equal, equal_right, bounds=(None, None), method="highs-ds")
+    assert optimum.status == 0
+    assert optimum.x is not None
+    return float(optimum.x[-1] / scale[-1])

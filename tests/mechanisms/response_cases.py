@@ -56,13 +56,13 @@ def _pieces(rng: np.random.Generator) -> tuple[MotionLaw, Callable[[float], floa
         b0 = float(rng.normal())
         if rng.random() < 0.4:
             c = rng.normal(size=5)
-            one: Segment = PolynomialSegment(tuple(c.tolist()), b0)
+            segment: Segment = PolynomialSegment(tuple(c.tolist()), b0)
             part = np.polynomial.Chebyshev(c, domain=[0, high - low]).integ(lbnd=0, k=b0).integ(lbnd=0)
             functions.append(lambda s, part=part, reached=reached: reached + float(part(s)))  # type: ignore[misc]
         else:
             amplitude, frequency, phase = float(rng.normal()), float(rng.uniform(1.0, 40.0)), float(rng.uniform(0, 6))
             p = rng.normal(size=3) * (rng.random() < 0.5)
-            one = SineSegment(amplitude, frequency, phase, b0, tuple(p.tolist()))
+            segment = SineSegment(amplitude, frequency, phase, b0, tuple(p.tolist()))
 
             def wave(
                 s: float,
@@ -76,7 +76,7 @@ def _pieces(rng: np.random.Generator) -> tuple[MotionLaw, Callable[[float], floa
                 return float(start[0] + start[1] * s + steady + swing)
 
             functions.append(wave)
-        segments.append(one)
+        segments.append(segment)
         reached = functions[-1](high - low)
 
     def displacement(k: float) -> float:

@@ -174,6 +174,6 @@ def report(found: Sequence[Tried], equivalent: dict[str, str]) -> bool:
         total, killed = total + len(own), killed + len(own) - len(alive)
     share = killed / max(total, 1)
     lines.append(f"{'all':42}{killed:5} of {total}, {share:.0%}")
-    lines += [f"\nsurvived: {one.mutant.name}\n{one.change}" for one in survivors]
+    lines += [f"\nsurvived: {survivor.mutant.name}\n{survivor.change}" for survivor in survivors]
     sys.stdout.write("\n".join(lines) + "\n")
     return share >= AIM

@@ -32,12 +32,12 @@ def test_bernstein_coefficients_are_those_of_the_definition(degree: int) -> None
 def test_a_top_is_enclosed_and_found_where_it_is() -> None:
     for place in (0.1234567, 0.5, 1 / 3, 0.999):
         powers = np.array([[2.0 - place**2, 2.0 * place, -1.0, 0.0], [0.0, 0.0, 0.0, 1.9]])  # 2 - (u - place)²
-        found = bernstein.top(bernstein.from_powers(powers))
-        assert found.row == 0
-        assert found.value <= 2.0 + 1e-15
-        assert found.above >= 2.0 - 1e-15
-        assert found.above - found.value <= 1e-14
-        assert found.u == pytest.approx(place, abs=1e-7)
+        highest = bernstein.top(bernstein.from_powers(powers))
+        assert highest.row == 0
+        assert highest.value <= 2.0 + 1e-15
+        assert highest.above >= 2.0 - 1e-15
+        assert highest.above - highest.value <= 1e-14
+        assert highest.u == pytest.approx(place, abs=1e-7)
 
 
 def test_the_greatest_difference_is_that_of_many_digits() -> None:

@@ -27,12 +27,12 @@ def test_extremes_of_random_functions_are_enclosed() -> None:
     generator = np.random.default_rng(5)
     for _ in range(40):
         function = waves(*generator.normal(size=(3, 5)) * [[1.0], [4.0], [2.0]])
-        found = enclosed(function, EDGES)
+        enclosure = enclosed(function, EDGES)
         dense = function(np.linspace(0.0, 6.0, 20001))
-        assert found.low <= dense.min() <= found.least + 1e-5
-        assert found.most - 1e-5 <= dense.max() <= found.high
-        assert found.high - found.most <= 1.01e-9 * found.peak
-        assert function(np.array(found.most_at)) == pytest.approx(found.most, abs=1e-12)
+        assert enclosure.low <= dense.min() <= enclosure.least + 1e-5
+        assert enclosure.most - 1e-5 <= dense.max() <= enclosure.high
+        assert enclosure.high - enclosure.most <= 1.01e-9 * enclosure.peak
+        assert function(np.array(enclosure.most_at)) == pytest.approx(enclosure.most, abs=1e-12)
 
 
 def waves(weights: Array, frequencies: Array, phases: Array) -> Callable[[Array], Array]:
@@ -40,9 +40,9 @@ def waves(weights: Array, frequencies: Array, phases: Array) -> Callable[[Array]
 
 
 def test_leaps_at_edges_are_seen_from_both_sides() -> None:
-    found = enclosed(lambda x: np.where(x < 1.0, 1.0 + x, -x), np.array([0.0, 1.0, 2.0]))
-    assert (found.least, found.most) == pytest.approx((-2.0, 2.0))
-    assert found.bound == pytest.approx(2.0)
+    enclosure = enclosed(lambda x: np.where(x < 1.0, 1.0 + x, -x), np.array([0.0, 1.0, 2.0]))
+    assert (enclosure.least, enclosure.most) == pytest.approx((-2.0, 2.0))
+    assert enclosure.bound == pytest.approx(2.0)
 
 
 def test_what_is_not_smooth_or_not_finite_is_refused() -> None:

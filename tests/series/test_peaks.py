@@ -31,8 +31,8 @@ def square(x: Array) -> tuple[Array, Array]:
 
 def test_three_newton_steps_find_a_near_root_to_the_last_digit() -> None:
     # one step leaves 4e-9, two 2e-17
-    found = polished(np.array([0.49994, -0.50006, 0.49999]), square)
-    assert np.abs(np.abs(found) - 0.5).max() <= 2e-16
+    values = polished(np.array([0.49994, -0.50006, 0.49999]), square)
+    assert np.abs(np.abs(values) - 0.5).max() <= 2e-16
     # one step leaves 2.5e-7, two 6e-14, which is near enough
     counted = Counted(square)
     assert polished(np.array([0.4995]), counted) == pytest.approx([0.5], abs=1e-13)
@@ -49,9 +49,9 @@ def test_a_root_is_left_alone() -> None:
 def test_a_step_is_short() -> None:
     line: Residual = lambda x: (x - 0.5, np.ones_like(x))  # noqa: E731
     far = np.array([0.5 + 10.0 * POLISH_REACH, 0.5 - 10.0 * POLISH_REACH, 0.5 + 2.5 * POLISH_REACH])
-    found = polished(far, line)
-    assert found[:2] == pytest.approx([0.5 + 7.0 * POLISH_REACH, 0.5 - 7.0 * POLISH_REACH], abs=1e-15)
-    assert found[2] == pytest.approx(0.5, abs=1e-15)
+    values = polished(far, line)
+    assert values[:2] == pytest.approx([0.5 + 7.0 * POLISH_REACH, 0.5 - 7.0 * POLISH_REACH], abs=1e-15)
+    assert values[2] == pytest.approx(0.5, abs=1e-15)
 
 
 def test_a_candidate_stays_where_a_step_makes_it_worse() -> None:

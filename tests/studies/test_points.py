@@ -22,19 +22,21 @@ def points(**study: object) -> Points:
 @given(st.lists(st.integers(1, 5), min_size=1, max_size=4), st.integers(1, 7))
 def test_every_point_is_solved_once_and_neighbours_differ_by_one_step(shape: list[int], chunk: int) -> None:
     names = ["C", "D", "J", "B"]
-    found = points(vary={name: [2.0 + i for i in range(n)] for name, n in zip(names, shape, strict=False)}, chunk=chunk)
-    order = [index for number in range(found.chunks) for index in found.of_chunk(number)]
-    assert len(found) == prod(shape)
+    places = points(
+        vary={name: [2.0 + i for i in range(n)] for name, n in zip(names, shape, strict=False)}, chunk=chunk
+    )
+    order = [index for number in range(places.chunks) for index in places.of_chunk(number)]
+    assert len(places) == prod(shape)
     assert sorted(order) == list(range(prod(shape)))
     for one, other in pairwise(order):
-        first, second = found.inputs(one), found.inputs(other)
+        first, second = places.inputs(one), places.inputs(other)
         assert sum(abs(first[name] - second[name]) for name in first) == 1.0
-    assert all(found.chunk_of(index) == n for n in range(found.chunks) for index in found.of_chunk(n))
+    assert all(places.chunk_of(index) == n for n in range(places.chunks) for index in places.of_chunk(n))
 
 
 def test_the_index_counts_through_the_product_with_B_fastest() -> None:
-    found = points(vary={"B": [1.5, 1.6], "order": [3, 4, 5]})
-    assert [found.inputs(i) for i in (0, 1, 2)] == [
+    places = points(vary={"B": [1.5, 1.6], "order": [3, 4, 5]})
+    assert [places.inputs(i) for i in (0, 1, 2)] == [
         {"order": 3, "B": 1.5},
         {"order": 3, "B": 1.6},
         {"order": 4, "B": 1.5},
@@ -62,9 +64,9 @@ def test_ranges_have_their_ends_exactly_and_equal_steps_or_ratios() -> None:
 
 def test_ten_million_points_are_no_burden() -> None:
     vary = {"B": {"from": 1.2, "to": 2.5, "steps": 10_000_000}, "order": [3, 4]}
-    found = points(vary=vary)
-    assert len(found) == 20_000_000
-    assert found.inputs(found.index(19_999_999)) == {"order": 4, "B": 1.2}
+    places = points(vary=vary)
+    assert len(places) == 20_000_000
+    assert places.inputs(places.index(19_999_999)) == {"order": 4, "B": 1.2}
 
 
 @pytest.mark.parametrize("kind", ["sobol", "latin hypercube"])
@@ -76,21 +78,21 @@ def test_samples_are_spread_evenly_and_repeat_with_their_seed(kind: str) -> None
     }
 
     def sample(seed: int) -> list[dict[str, Any]]:
-        found = points(sample=[{"kind": kind, "points": 64, "seed": seed, "over": over}])
-        return [found.inputs(index) for index in range(len(found))]
+        places = points(sample=[{"kind": kind, "points": 64, "seed": seed, "over": over}])
+        return [places.inputs(index) for index in range(len(places))]
 
-    found = sample(1)
-    assert found == sample(1)
-    assert found != sample(2)
+    sampled_values = sample(1)
+    assert sampled_values == sample(1)
+    assert sampled_values != sample(2)
     # one point in each 64th of the span, in every dimension: both kinds promise that
-    assert sorted(int(64 * (one["B"] - 1.5)) for one in found) == list(range(64))
-    assert [sum(one["degree"] == n for one in found) for n in (5, 6, 7, 8)] == [16] * 4
-    assert sum(one["J"] < 500.0 for one in found) == 32
+    assert sorted(int(64 * (one["B"] - 1.5)) for one in sampled_values) == list(range(64))
+    assert [sum(one["degree"] == n for one in sampled_values) for n in (5, 6, 7, 8)] == [16] * 4
+    assert sum(one["J"] < 500.0 for one in sampled_values) == 32
 
 
 def test_lists_run_together_and_multiply_with_the_rest() -> None:
-    found = points(together=[{"B": [1.5, 1.8], "degree": [9, 5]}], vary={"minimise": ["C", "rms_c"]})
-    assert [tuple(found.inputs(i).values()) for i in range(4)] == [
+    places = points(together=[{"B": [1.5, 1.8], "degree": [9, 5]}], vary={"minimise": ["C", "rms_c"]})
+    assert [tuple(places.inputs(i).values()) for i in range(4)] == [
         ("C", 1.5, 9),
         ("C", 1.8, 5),
         ("rms_c", 1.5, 9),

@@ -77,11 +77,11 @@ def test_a_changed_byte_costs_its_chunk_alone(tmp_path: Path, share: float, chan
     data[place] ^= change
     file.write_bytes(data)
     hit = max(number for number, (begin, _) in whole.done.items() if begin <= place)
-    found = Journal(file)
-    assert set(found.done) == {0, 1, 2, 3} - {hit}
-    found.open()
-    found.append([(hit, [b'{"index":99,"status":"local"}'])])
-    found.close()
+    journal = Journal(file)
+    assert set(journal.done) == {0, 1, 2, 3} - {hit}
+    journal.open()
+    journal.append([(hit, [b'{"index":99,"status":"local"}'])])
+    journal.close()
     mended = Journal(file)
     assert set(mended.done) == {0, 1, 2, 3}
     assert mended.counts == {"optimal": 9, "local": 1}
@@ -153,11 +153,11 @@ def test_without_pyarrow_the_journal_is_the_store(
     monkeypatch.setitem(sys.modules, "pyarrow.parquet", None)
     study = serially(SMALL, tmp_path)
     assert not (tmp_path / "rows.parquet").exists()
-    found = rows(study)
+    table = rows(study)
     with pytest.raises(ImportError, match=r"pip install 'optlaws\[studies\]'"):
         study.to_pandas()
     monkeypatch.undo()
-    assert found == rows(small)
+    assert table == rows(small)
     assert rows(serially(SMALL, tmp_path)) == rows(small)
     assert (tmp_path / "rows.parquet").exists()
 

@@ -45,8 +45,8 @@ def tasks(asked: dict[str, Any], **changes: Any) -> list[Task]:  # noqa: ANN401
 
 def test_rows_are_those_of_each_alone() -> None:
     asked = ASKED | {"chunk": 10}
-    many = [msgspec.json.decode(row) for one in tasks(asked) for row in rows(one)]
-    alone = [msgspec.json.decode(row) for one in tasks(asked, alone=True) for row in rows(one)]
+    many = [msgspec.json.decode(row) for task in tasks(asked) for row in rows(task)]
+    alone = [msgspec.json.decode(row) for task in tasks(asked, alone=True) for row in rows(task)]
     assert len(many) == len(alone) == 20
     assert {row["status"] for row in many} == {"optimal", "infeasible", "wrong input"}
     for one, other in zip(many, alone, strict=True):
@@ -162,6 +162,6 @@ def test_stored_laws_are_those_of_the_solutions() -> None:
     for asked in (ProblemArray(order=4, B=velocities), ProblemArray(order=3, B=velocities, symmetric=False)):
         found = synthesize_array(asked)
         results = map(found.result, range(found.size))
-        laws = [one.law.to_dict() if isinstance(one, Solution) else None for one in results]
+        laws = [result.law.to_dict() if isinstance(result, Solution) else None for result in results]
         assert found.stored_laws() == laws
         assert laws[0] is None

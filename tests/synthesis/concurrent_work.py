@@ -34,13 +34,13 @@ def solved(name: str, bound: str = "quick") -> str:
 
 def proven(name: str) -> str:
     solution = synthesize(PROBLEMS[name])
-    found = verify(solution.to_dict())
-    return f"{found.proven} {found.bound!r} {enclosures(solution.law)}"
+    verification = verify(solution.to_dict())
+    return f"{verification.proven} {verification.bound!r} {enclosures(solution.law)}"
 
 
 def front() -> str:
-    found = optlaws.pareto_front(Problem(order=3, basis=Chebyshev(5)), over=("C", "J"), points=3)
-    return repr([one.law.to_dict() for one in found])
+    front = optlaws.pareto_front(Problem(order=3, basis=Chebyshev(5)), over=("C", "J"), points=3)
+    return repr([one.law.to_dict() for one in front])
 
 
 def mechanisms() -> str:

@@ -172,16 +172,16 @@ class Program:
                     self.fixed.append((self.widened(row), -row[-1]))
 
     def windows(self) -> None:
-        for one in self.problem.windows:
-            nu = "abcj".index(one.quantity)
-            if one.value:
-                row = self.laws.row(nu, one.start)
-                self.equations.append((self.widened(row), one.low - row[-1]))
+        for window in self.problem.windows:
+            nu = "abcj".index(window.quantity)
+            if window.value:
+                row = self.laws.row(nu, window.start)
+                self.equations.append((self.widened(row), window.low - row[-1]))
                 continue
-            for sign, bound in ((1.0, one.high), (-1.0, -one.low)):
+            for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
                 if bound < inf:
                     functions = self.laws.derivative(nu)
-                    self.families.append(Rows(self.laws, functions, (sign,), None, bound, one.start, one.stop))
+                    self.families.append(Rows(self.laws, functions, (sign,), None, bound, window.start, window.stop))
 
 
 def _names(terms: Terms) -> Iterator[str]:
@@ -262,7 +262,10 @@ def _solved(program: Program) -> Array | None:
     blocks: list[Array] = [equations, rows[kept] / length[kept, None]]
     sides: list[Array] = [wanted, right[kept] / length[kept]]
     cones: list[Any] = [clarabel.ZeroConeT(len(wanted)), clarabel.NonnegativeConeT(int(kept.sum()))]
-    for matrix, place, bound in [*program.means, *(cone for one in program.residuals for cone in one.cones())]:
+    for matrix, place, bound in [
+        *program.means,
+        *(cone for residual in program.residuals for cone in residual.cones()),
+    ]:
         variable = np.zeros(program.size)
         if place is not None:
             variable[place] = 1.0

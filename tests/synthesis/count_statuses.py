@@ -74,17 +74,17 @@ def kinds(problem: Problem) -> Iterator[str]:
         "windows": bool(problem.windows),
         "B asked": problem.B is not None,
         "bounds": bool(problem.bounded),
-        "of a cam or follower": any("(" in one.name for one in problem.constants),
+        "of a cam or follower": any("(" in constant.name for constant in problem.constants),
     }
     yield from (name for name, holds in features.items() if holds)
 
 
 def table(problems: list[Problem], outcomes: list[Outcome]) -> str:
     """Counts, a row for each kind."""
-    counts: dict[str, Counter[str]] = {"all": Counter(one.status for one in outcomes)}
-    for problem, one in zip(problems, outcomes, strict=True):
+    counts: dict[str, Counter[str]] = {"all": Counter(outcome.status for outcome in outcomes)}
+    for problem, outcome in zip(problems, outcomes, strict=True):
         for kind in kinds(problem):
-            counts.setdefault(kind, Counter())[one.status] += 1
+            counts.setdefault(kind, Counter())[outcome.status] += 1
     columns = [status for status, _ in counts["all"].most_common()]
     lines = [f"{'':22}" + "".join(f"{status:>14.13}" for status in columns)]
     rows = ["all", *sorted(set(counts) - {"all"})]

@@ -59,7 +59,7 @@ def grid(order: int, breaks: Sequence[float], functions: Sequence[Function], deg
     """Rest to rest with Z made of the functions, polynomials of a degree between the breaks."""
     edge = Polynomial([0.0, -1.0, 1.0]) ** order
     smooth = (Polynomial([0.0, -1.0, 1.0]) ** (order - 1)).integ()
-    laws: list[Function] = [lambda k, one=one: edge(k) * one(k) for one in functions]  # type: ignore[misc] # bound early
+    laws: list[Function] = [lambda k, function=function: edge(k) * function(k) for function in functions]  # type: ignore[misc] # bound early
     laws.append(lambda k: smooth(k) / smooth(1.0))
     top = degree + 2 * order
     angles = np.pi * (np.arange(top + 1) + 0.5) / (top + 1)
@@ -71,7 +71,7 @@ def grid(order: int, breaks: Sequence[float], functions: Sequence[Function], deg
 
 
 def _values(laws: Sequence[Chebyshev], nu: int, k: Array) -> Array:
-    return np.asarray(np.column_stack([(one.deriv(nu) if nu else one)(k) for one in laws]))
+    return np.asarray(np.column_stack([(law.deriv(nu) if nu else law)(k) for law in laws]))
 
 
 def polynomials(order: int, degree: int, points: int = 1201) -> Grid:

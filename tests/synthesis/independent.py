@@ -157,37 +157,37 @@ def space(order: int, degree: int) -> Space:
 
 def least_acceleration(problem: Problem, rounds: int = 60) -> float | None:
     """C of the optimal law by HiGHS on points that are exchanged until nothing is violated; None if infeasible."""
-    one = space(problem.order, polynomial(problem).degree)
+    law_space = space(problem.order, polynomial(problem).degree)
     size = polynomial(problem).degree + 1
     start = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 4 * size + 12))
     points = {"c": start, "chord": start, "ratio": start}
     middle = np.array([0.5])
-    slope0, slope = one.columns(one.acceleration, middle)
-    equations = np.vstack([np.append(one.middle[1:] @ one.mixture, 0.0), np.append(slope[0], 0.0)])
-    wanted = np.array([velocity_of(problem) - one.middle[0], -slope0[0]])
+    slope0, slope = law_space.columns(law_space.acceleration, middle)
+    equations = np.vstack([np.append(law_space.middle[1:] @ law_space.mixture, 0.0), np.append(slope[0], 0.0)])
+    wanted = np.array([velocity_of(problem) - law_space.middle[0], -slope0[0]])
     for _ in range(rounds):
         rows, right = [], []
-        c0, c = one.columns(one.acceleration, points["c"])
+        c0, c = law_space.columns(law_space.acceleration, points["c"])
         for sign in (1.0, -1.0):
             rows.append(np.column_stack([sign * c, -np.ones(len(c))]))
             right.append(-sign * c0)
-        q0, q = one.columns(one.chord, points["chord"])
+        q0, q = law_space.columns(law_space.chord, points["chord"])
         rows.append(np.column_stack([-q, np.zeros(len(q))]))
         right.append(q0)
         if problem.monotone:
-            r0, r = one.columns(one.ratio, points["ratio"])
+            r0, r = law_space.columns(law_space.ratio, points["ratio"])
             rows.append(np.column_stack([-r, np.zeros(len(r))]))
             right.append(r0)
         found = _highs(np.vstack(rows), np.concatenate(right), equations, wanted)
         if found is None:
             return None
         x, C = found[:-1], float(found[-1])
-        free = np.append(1.0, one.mixture @ x)
+        free = np.append(1.0, law_space.mixture @ x)
         worst = 0.0
         for name, functions, kind in (
-            ("c", one.acceleration, 0),
-            ("chord", one.chord, 1),
-            ("ratio", one.ratio, 1),
+            ("c", law_space.acceleration, 0),
+            ("chord", law_space.chord, 1),
+            ("ratio", law_space.ratio, 1),
         ):
             if name == "ratio" and not problem.monotone:
                 continue

@@ -104,8 +104,8 @@ class Judged:
         segments = stored.get("segments", [stored])
         c = Curve(
             tuple(
-                Chebyshev(np.array([*one["acceleration"], 0.0, 0.0]), domain=ends)
-                for one, ends in zip(segments, pairwise(breaks), strict=True)
+                Chebyshev(np.array([*segment["acceleration"], 0.0, 0.0]), domain=ends)
+                for segment, ends in zip(segments, pairwise(breaks), strict=True)
             )
         )
         b = c.whole(segments[0]["b0"])
@@ -251,25 +251,25 @@ class Judged:
 
 def broken(problem: Problem, law: MotionLaw, allowed: float = 1e-8) -> list[str]:
     """The constraints of the problem that the law breaks by more than `allowed`, relative to what is asked."""
-    one = Judged(law)
-    b = one.derivatives[1]
-    found = [] if problem.boundary is None else ends_broken(problem, one)
+    judged = Judged(law)
+    b = judged.derivatives[1]
+    found = [] if problem.boundary is None else ends_broken(problem, judged)
     if problem.boundary is None:
-        found += rest_broken(problem.order, one)
+        found += rest_broken(problem.order, judged)
     if problem.symmetric:
-        off = float(np.abs(one.derivatives[0](DENSE) + one.derivatives[0](1.0 - DENSE) - 1.0).max())
+        off = float(np.abs(judged.derivatives[0](DENSE) + judged.derivatives[0](1.0 - DENSE) - 1.0).max())
         found += [f"symmetry by {off:.1e}"] * (off > 1e-11)
-    found += continuity_broken(problem, one)
+    found += continuity_broken(problem, judged)
     lowest, _ = b.extremes()
     if problem.monotone and lowest < -allowed:
         found.append(f"b >= 0 by {-lowest:.1e}")
-    found += velocity_broken(problem, one, allowed)
+    found += velocity_broken(problem, judged, allowed)
     for constant, asked in problem.bounded:
-        value = one.value(constant)
+        value = judged.value(constant)
         found += [f"{constant.name} = {value!r} over {asked!r}"] * (value > asked.high * (1.0 + allowed))
         found += [f"{constant.name} = {value!r} under {asked!r}"] * (value < asked.low * (1.0 - allowed))
     for window in problem.windows:
-        found += window_broken(window, one, allowed)
+        found += window_broken(window, judged, allowed)
     return found
 
 

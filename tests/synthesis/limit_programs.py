@@ -95,8 +95,8 @@ def least_by_velocities(constant: str, B: float, cells: int, *, monotone: bool, 
         full[1, i, i] = -b[1:] / h
         full[1, i, i + 1] = c + b[1:] / h
         inner = full.reshape(2 * cells, cells + 1)[:, 1:-1]
-        one = np.ones((2 * cells, 1))
-        return np.vstack([np.hstack([-inner, one]), np.hstack([inner, one])])
+        ones = np.ones((2 * cells, 1))
+        return np.vstack([np.hstack([-inner, ones]), np.hstack([inner, ones])])
 
     bounds: Any = [(0.0 if monotone else -B, B)] * (cells - 1)
     stroke: Any = {
@@ -147,10 +147,10 @@ def least_of_polynomials(constant: str, B: float, terms: int, *, order: int, mon
     for _ in range(order - 1):
         edge *= chebyshev.Chebyshev([0.5, 0.0, -0.5])
     columns = [edge * chebyshev.Chebyshev.basis(2 * n) for n in range(terms)]
-    b = np.array([one(x) for one in columns]).T
-    j = np.array([4 * one.deriv(2)(x) for one in columns]).T
-    stroke = [one.integ(lbnd=0)(1) for one in columns]
-    middle = [one(0.0) for one in columns]
+    b = np.array([column(x) for column in columns]).T
+    j = np.array([4 * column.deriv(2)(x) for column in columns]).T
+    stroke = [column.integ(lbnd=0)(1) for column in columns]
+    middle = [column(0.0) for column in columns]
     side = np.zeros((len(x), 1))
     room, right = [np.hstack([b, side])], [np.full(len(x), B)]
     if monotone:
@@ -166,7 +166,7 @@ def least_of_polynomials(constant: str, B: float, terms: int, *, order: int, mon
         assert answer.status == 0, answer.message
         return float(answer.fun)
     nodes, weights = np.polynomial.legendre.leggauss(2 * terms + 2 * order)
-    c = np.array([2 * one.deriv(1)(nodes) for one in columns]).T
+    c = np.array([2 * column.deriv(1)(nodes) for column in columns]).T
     gram = c.T @ (c * weights[:, None] / 2)
     # b <= B does not bind where this is used, so the optimum solves a linear system
     matrix = np.block([[gram, ends[:, :-1].T], [ends[:, :-1], np.zeros((2, 2))]])

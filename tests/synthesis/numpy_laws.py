@@ -35,10 +35,12 @@ class Laws:
 
     def derivative(self, nu: int) -> list[Array]:
         found: list[Array] = []
-        for (low, high), one in zip(pairwise(self.breaks), self.columns, strict=True):
+        for (low, high), column in zip(pairwise(self.breaks), self.columns, strict=True):
             # at least two rows, so that a slope can be taken
-            slope = np.asarray(chebyshev.chebder(one, nu, scl=2.0 / (high - low)) if nu else one, dtype=float)
-            found.append(np.asarray(np.vstack([slope, np.zeros((max(0, 2 - len(slope)), one.shape[1]))]), dtype=float))
+            slope = np.asarray(chebyshev.chebder(column, nu, scl=2.0 / (high - low)) if nu else column, dtype=float)
+            found.append(
+                np.asarray(np.vstack([slope, np.zeros((max(0, 2 - len(slope)), column.shape[1]))]), dtype=float)
+            )
         return found
 
     def combined(self, nu: int, weights: Sequence[float]) -> list[Array]:
@@ -90,7 +92,7 @@ def laws_of(problem: Problem) -> Laws:
         [raw.rows(raw.derivative(2), i, grid(a, b, 60)) for i, (a, b) in enumerate(pairwise(raw.breaks))]
     )
     mixing = np.linalg.inv(np.linalg.qr(values[:, :-1])[1]) * sqrt(len(values))
-    return Laws(raw.breaks, [np.column_stack([one[:, :-1] @ mixing, one[:, -1]]) for one in raw.columns])
+    return Laws(raw.breaks, [np.column_stack([column[:, :-1] @ mixing, column[:, -1]]) for column in raw.columns])
 
 
 def grid(low: float, high: float, count: int) -> Array:
@@ -115,12 +117,12 @@ def _with_z(problem: Problem) -> Laws:
         breaks, degree = (0.0, 1.0), basis.degree
         shapes = [Chebyshev.basis(i, domain=(0.0, 1.0)) for i in range(degree + 1)]
     if problem.symmetric:
-        shapes = [lambda k, one=one: one(k) - one(1.0 - k) for one in shapes]
+        shapes = [lambda k, shape=shape: shape(k) - shape(1.0 - k) for shape in shapes]
     hermite: Any = BPoly.from_derivatives([0.0, 1.0], _ends(problem))
     columns = []
     for low, high in pairwise(breaks):
         nodes = _nodes(low, high, degree + 2 * order)
-        functions = [(nodes * (nodes - 1.0)) ** order * one(nodes) for one in shapes]
+        functions = [(nodes * (nodes - 1.0)) ** order * shape(nodes) for shape in shapes]
         columns.append(_series(np.column_stack([*functions, hermite(nodes)])))
     return _independent(Laws(breaks, columns))
 
@@ -141,10 +143,10 @@ def _series(values: Array) -> Array:
 
 def _independent(laws: Laws) -> Laws:
     """Without functions that are sums of others."""
-    stacked = np.vstack([one[:, :-1] for one in laws.columns])
+    stacked = np.vstack([column[:, :-1] for column in laws.columns])
     _, sizes, right = np.linalg.svd(stacked / np.linalg.norm(stacked, axis=0).max(), full_matrices=False)
     mixing = right[sizes > 1e-12 * sizes[0]].T
-    return Laws(laws.breaks, [np.column_stack([one[:, :-1] @ mixing, one[:, -1]]) for one in laws.columns])
+    return Laws(laws.breaks, [np.column_stack([column[:, :-1] @ mixing, column[:, -1]]) for column in laws.columns])
 
 
 def _pieces(problem: Problem, basis: Pieces) -> Laws:

@@ -185,10 +185,10 @@ def integral(one: Polynomial) -> Polynomial:
 
 def value(one: Polynomial, k: Fraction) -> Fraction:
     """By Horner's rule."""
-    found = Fraction(0)
+    fraction = Fraction(0)
     for x in reversed(one):
-        found = found * k + x
-    return found
+        fraction = fraction * k + x
+    return fraction
 
 
 def chebyshev(degree: int) -> Polynomial:

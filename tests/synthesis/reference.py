@@ -59,7 +59,7 @@ class Laws:
 
     def derivative(self, nu: int) -> list[Chebyshev]:
         """Each function's derivative of order nu; the base law's last."""
-        return [one.deriv(nu - 1) if nu > 1 else one for one in self.velocities]
+        return [velocity.deriv(nu - 1) if nu > 1 else velocity for velocity in self.velocities]
 
     def row(self, nu: int, k: float) -> Array:
         """Values at one k."""
@@ -68,13 +68,13 @@ class Laws:
     def chord(self) -> list[Chebyshev]:
         """(b(1/2) - b) / (1-2k)², right where c(1/2) = 0."""
         k = Chebyshev([0.5, 0.5], domain=UNIT)
-        return [(one(0.5) - one) // (2 * k - 1) ** 2 for one in self.velocities]
+        return [(velocity(0.5) - velocity) // (2 * k - 1) ** 2 for velocity in self.velocities]
 
     def ratio(self) -> list[Chebyshev]:
         """B / (k(1-k))^(l-1) of laws at rest at both ends."""
         k = Chebyshev([0.5, 0.5], domain=UNIT)
         scale = 4.0 ** (self.order - 1)
-        return [one // (scale * (k * (1 - k)) ** (self.order - 1)) for one in self.velocities]
+        return [velocity // (scale * (k * (1 - k)) ** (self.order - 1)) for velocity in self.velocities]
 
     def norm(self, nu: int) -> Array:
         """Matrix M such that |M (x, 1)| is the RMS."""
@@ -110,7 +110,7 @@ class Rows:
         rows, right = [], []
         for sign in self.signs:
             k = self.points[sign]
-            values = sign * np.column_stack([one(k) for one in self.functions])
+            values = sign * np.column_stack([function(k) for function in self.functions])
             block = np.zeros((len(k), size))
             block[:, : values.shape[1] - 1] = values[:, :-1]
             if self.variable is not None:
@@ -303,18 +303,18 @@ def _clarabel(program: _Program, rows: Array, right: Array) -> Array | None:
 
 def rms_by_a_linear_system(problem: Problem, nu: int) -> tuple[float, Chebyshev]:
     """Least RMS of a derivative with b(1/2) = B, or at any B, where no inequality binds; and the velocity found."""
-    one = laws_of(problem)
-    matrix = one.norm(nu)
+    laws = laws_of(problem)
+    matrix = laws.norm(nu)
     gram, pull = matrix[:, :-1].T @ matrix[:, :-1], matrix[:, :-1].T @ matrix[:, -1]
-    rows = np.empty((0, one.free))
+    rows = np.empty((0, laws.free))
     right = np.empty(0)
     if isinstance(problem.B, float):
-        middle = one.row(1, 0.5)
+        middle = laws.row(1, 0.5)
         rows, right = middle[None, :-1], np.array([problem.B - middle[-1]])
     system = np.block([[gram, rows.T], [rows, np.zeros((len(rows),) * 2)]])
     # where a whole family of laws is best, the shortest x
-    x = np.linalg.lstsq(system, np.concatenate([-pull, right]), rcond=1e-13)[0][: one.free]
-    series = sum((w * f for w, f in zip(np.append(x, 1.0), one.velocities, strict=True)), 0.0 * one.velocities[0])
+    x = np.linalg.lstsq(system, np.concatenate([-pull, right]), rcond=1e-13)[0][: laws.free]
+    series = sum((w * f for w, f in zip(np.append(x, 1.0), laws.velocities, strict=True)), 0.0 * laws.velocities[0])
     return float(np.linalg.norm(matrix @ np.append(x, 1.0))), series
 
 
@@ -336,17 +336,17 @@ class LocalLaw:
 
 def power_by_slsqp(problem: Problem, start: Array, rounds: int = 6) -> LocalLaw:
     """D over symmetric laws with b(1/2) = B by SLSQP on points that are exchanged."""
-    one = laws_of(problem, odd=True)
+    laws = laws_of(problem, odd=True)
     assert isinstance(problem.B, float)
-    b0, c0 = one.derivative(1), one.derivative(2)
-    middle = one.row(1, 0.5)
+    b0, c0 = laws.derivative(1), laws.derivative(2)
+    middle = laws.row(1, 0.5)
     # a particular x, and the directions that leave b(1/2) alone
     x0 = middle[:-1] * ((problem.B - middle[-1]) / (middle[:-1] @ middle[:-1]))
     null = np.linalg.svd(middle[None, :-1])[2][1:].T
-    chords, ratios = one.chord(), one.ratio()
+    chords, ratios = laws.chord(), laws.ratio()
     points = {name: np.linspace(0.0, 0.5, 60) for name in ("d", "chord", "ratio")}
     y = np.append(start[: null.shape[1]], 0.0)
-    found = LocalLaw(np.inf, np.inf)
+    law = LocalLaw(np.inf, np.inf)
     for _ in range(rounds):
 
         def table(functions: list[Chebyshev], k: Array) -> tuple[Array, Array]:
@@ -363,8 +363,8 @@ def power_by_slsqp(problem: Problem, start: Array, rounds: int = 6) -> LocalLaw:
 
         def slope(y: Array, vb: Array = vb, mb: Array = mb, vc: Array = vc, mc: Array = mc) -> Array:
             d = (vb + mb @ y[:-1])[:, None] * mc + (vc + mc @ y[:-1])[:, None] * mb
-            one = np.ones((len(d), 1))
-            return np.vstack([np.hstack([-d, one]), np.hstack([d, one])])
+            ones = np.ones((len(d), 1))
+            return np.vstack([np.hstack([-d, ones]), np.hstack([d, ones])])
 
         linear, offset = mq, vq
         if problem.monotone:
@@ -374,11 +374,11 @@ def power_by_slsqp(problem: Problem, start: Array, rounds: int = 6) -> LocalLaw:
         answer = _slsqp(y, room, slope, wide, offset)
         y = answer
         weights = np.append(x0 + null @ y[:-1], 1.0)
-        b = sum((w * f for w, f in zip(weights, one.velocities, strict=True)), 0.0 * one.velocities[0])
+        b = sum((w * f for w, f in zip(weights, laws.velocities, strict=True)), 0.0 * laws.velocities[0])
         low, high = extremes(b)
         excess = max(high / problem.B - 1.0, -low if problem.monotone else 0.0)
         power = power_of(b)
-        found = LocalLaw(power, excess)
+        law = LocalLaw(power, excess)
         if excess < 1e-10 and power <= y[-1] * (1.0 + 1e-10):
             break
         for name, series in (
@@ -388,7 +388,7 @@ def power_by_slsqp(problem: Problem, start: Array, rounds: int = 6) -> LocalLaw:
         ):
             roots = np.real(series.deriv().roots())
             points[name] = np.concatenate([points[name], roots[(roots > 0.0) & (roots < 0.5)]])
-    return found
+    return law
 
 
 def _slsqp(

@@ -16,7 +16,7 @@ pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 
 def convex_problems(seed: int, count: int) -> list[Problem]:
     problems = [one.problem for one in every_option(seed, count)]
-    return [one for one in problems if one.convex and not lower_bounded(one)]
+    return [problem for problem in problems if problem.convex and not lower_bounded(problem)]
 
 
 def verdict(problem: Problem) -> str:
@@ -37,15 +37,15 @@ def verdict(problem: Problem) -> str:
 
 @pytest.mark.long
 def test_clarabel_finds_the_same_optima_of_a_few_problems_of_every_kind() -> None:
-    found = Counter(verdict(problem) for problem in convex_problems(4, 36))
-    assert found["undecided"] <= 3
+    counter = Counter(verdict(problem) for problem in convex_problems(4, 36))
+    assert counter["undecided"] <= 3
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(40, 50))
 def test_clarabel_finds_the_same_optima(seed: int) -> None:
-    found = Counter(verdict(problem) for problem in convex_problems(seed, 100))
-    assert found["undecided"] <= 0.1 * found.total()
+    counter = Counter(verdict(problem) for problem in convex_problems(seed, 100))
+    assert counter["undecided"] <= 0.1 * counter.total()
 
 
 @pytest.mark.sample(2)

@@ -62,24 +62,24 @@ def outcome(problem: Problem) -> str:
 
 @pytest.mark.parametrize("first", sampled(range(20, 60, 10)))
 def test_random_problems_are_solved_and_judged(first: int) -> None:
-    found = Counter(outcome(problem) for problem in PROBLEMS[first : first + 10])
-    assert found["failed"] == 0
-    assert found["optimal"] + found["local"] >= 9
+    counter = Counter(outcome(problem) for problem in PROBLEMS[first : first + 10])
+    assert counter["failed"] == 0
+    assert counter["optimal"] + counter["local"] >= 9
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("first", range(0, 300, 20))
 def test_300_random_problems_are_solved_and_judged(first: int) -> None:
-    found = Counter(outcome(problem) for problem in PROBLEMS[first : first + 20])
-    assert found["failed"] == 0
-    assert found["optimal"] + found["local"] >= 19
+    counter = Counter(outcome(problem) for problem in PROBLEMS[first : first + 20])
+    assert counter["failed"] == 0
+    assert counter["optimal"] + counter["local"] >= 19
 
 
 @pytest.mark.long
 @pytest.mark.parametrize("seed", range(100, 110))
 def test_2000_more_random_problems(seed: int) -> None:
-    found = Counter(outcome(problem) for problem in random_problems(seed, 200))
-    assert found["failed"] <= 3
+    counter = Counter(outcome(problem) for problem in random_problems(seed, 200))
+    assert counter["failed"] <= 3
 
 
 CONVEX = [one for one in PROBLEMS if one.convex and not lower_bounded(one) and isinstance(one.basis, PolynomialBasis)]
@@ -131,12 +131,12 @@ def test_no_random_problem_takes_long() -> None:
 @pytest.mark.parametrize("minimise", ["C", "J"])
 def test_unsymmetric_laws_with_a_flat_top_are_solved(B: float, order: int, degree: int, minimise: str) -> None:
     # b stays at B about the middle: undivided, b <= B is ill posed there
-    one = Problem(B=B, order=order, basis=Chebyshev(degree), minimise=minimise)
-    wanted = synthesize(one)
-    found = synthesize(replace(one, symmetric=False))
-    judge(found)
-    assert found.status.value == "optimal"
-    assert found.objective == pytest.approx(wanted.objective, rel=1e-10)
+    problem = Problem(B=B, order=order, basis=Chebyshev(degree), minimise=minimise)
+    wanted = synthesize(problem)
+    solution = synthesize(replace(problem, symmetric=False))
+    judge(solution)
+    assert solution.status.value == "optimal"
+    assert solution.objective == pytest.approx(wanted.objective, rel=1e-10)
 
 
 @pytest.mark.parametrize(
@@ -159,11 +159,11 @@ def test_the_peak_velocity_of_a_range_stands_in_the_middle_where_that_is_asked(g
 @pytest.mark.parametrize("minimise", ["C_plus", "C_minus"])
 @pytest.mark.parametrize("B", [None, 1.7, 2.1, 2.5], ids=str)
 def test_one_sided_peaks_of_unsymmetric_laws(B: float | None, minimise: str) -> None:
-    one = Problem(B=B, order=3, minimise=minimise, symmetric=False)
-    solution = synthesize(one)
+    problem = Problem(B=B, order=3, minimise=minimise, symmetric=False)
+    solution = synthesize(problem)
     judge(solution)
-    assert solution.objective == pytest.approx(least(one), rel=1e-8)
-    mirror = synthesize(replace(one, minimise="C_minus" if minimise == "C_plus" else "C_plus"))
+    assert solution.objective == pytest.approx(least(problem), rel=1e-8)
+    mirror = synthesize(replace(problem, minimise="C_minus" if minimise == "C_plus" else "C_plus"))
     assert mirror.objective == pytest.approx(solution.objective, rel=1e-10)
 
 
@@ -180,8 +180,8 @@ def test_one_sided_peaks_of_symmetric_laws_are_the_peak(B: float | None, minimis
 @pytest.mark.parametrize("order", [2, 3, 4, 5])
 @pytest.mark.parametrize("symmetric", [True, False], ids=["symmetric", "unsymmetric"])
 def test_with_a_free_b_every_objective_has_an_optimum(minimise: str, order: int, symmetric: bool) -> None:  # noqa: FBT001
-    one = Problem(order=order, minimise=minimise, symmetric=symmetric)
-    solution = synthesize(one)
+    problem = Problem(order=order, minimise=minimise, symmetric=symmetric)
+    solution = synthesize(problem)
     judge(solution)
     assert solution.status.value == "optimal"
 
@@ -266,10 +266,10 @@ def test_an_unsymmetric_solution_is_a_start_too(given: dict[str, Any]) -> None:
 )
 def test_the_certificate_of_a_solution_speaks_of_its_own_problem(given: dict[str, Any]) -> None:
     for symmetric in (True, False):
-        one = Problem(**given, symmetric=symmetric)
-        solution = synthesize(one)
-        assert solution.problem == one
-        assert solution.certificate.problem == one
+        problem = Problem(**given, symmetric=symmetric)
+        solution = synthesize(problem)
+        assert solution.problem == problem
+        assert solution.certificate.problem == problem
 
 
 @pytest.mark.parametrize("B", [None, 1.5, at_most(1.8)], ids=repr)
@@ -287,22 +287,22 @@ def test_an_optimum_whose_jerk_is_constant_is_proven(B: Any, symmetric: bool) ->
 def test_a_sweep_gives_what_each_problem_gives_alone(minimise: str) -> None:
     first = Problem(B=1.5, order=4, basis=Chebyshev(9), minimise=minimise)
     problems = [replace(first, B=1.5 + 0.08 * i) for i in range(10)]
-    for warm, one in zip(sweep(problems), problems, strict=True):
-        assert warm.objective == pytest.approx(synthesize(one).objective, rel=1e-10)
+    for warm, problem in zip(sweep(problems), problems, strict=True):
+        assert warm.objective == pytest.approx(synthesize(problem).objective, rel=1e-10)
 
 
 def test_a_start_of_another_kind_is_left_aside() -> None:
-    one = Problem(B=1.7, order=4, minimise="J")
-    alone = synthesize(one)
+    problem = Problem(B=1.7, order=4, minimise="J")
+    alone = synthesize(problem)
     for other in (
-        replace(one, minimise="C"),
-        replace(one, B=None),
-        replace(one, symmetric=False, B=2.4),
-        replace(one, C=at_most(9.0)),
-        replace(one, B=between(1.6, 1.8)),
+        replace(problem, minimise="C"),
+        replace(problem, B=None),
+        replace(problem, symmetric=False, B=2.4),
+        replace(problem, C=at_most(9.0)),
+        replace(problem, B=between(1.6, 1.8)),
     ):
-        found = synthesize(one, start=synthesize(other))
-        assert (found.objective, found.z) == (alone.objective, alone.z)
+        solution = synthesize(problem, start=synthesize(other))
+        assert (solution.objective, solution.z) == (alone.objective, alone.z)
 
 
 def test_a_start_for_power_is_no_worse_than_none() -> None:

@@ -63,10 +63,10 @@ def test_the_printed_z_gives_the_printed_peak_velocity(printed: dict[str, str], 
 
 @every_row
 def test_the_printed_z_gives_the_exact_constants(printed: dict[str, str], exact: dict[str, str]) -> None:
-    found = law_of(printed).constants
-    assert rounded(found.C.value, 4) == exact["C"]
-    assert rounded(found.D.value, 4) == exact["D"]
-    assert rounded(found.J.value, 3) == exact["J"]
+    constants = law_of(printed).constants
+    assert rounded(constants.C.value, 4) == exact["C"]
+    assert rounded(constants.D.value, 4) == exact["D"]
+    assert rounded(constants.J.value, 3) == exact["J"]
 
 
 @every_row

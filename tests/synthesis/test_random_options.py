@@ -67,7 +67,9 @@ def test_every_entry_of_a_problem_is_drawn(problems: list[Problem]) -> None:
 
 def test_every_constant_is_minimised_and_bounded(problems: list[Problem]) -> None:
     assert set(CONSTANTS) == EVERY_CONSTANT, "a new constant needs an entry in random_options.CONSTANTS"
-    assert {called(one) for problem in problems for one in functionals(problem.objective)} == EVERY_CONSTANT
+    assert {
+        called(functional) for problem in problems for functional in functionals(problem.objective)
+    } == EVERY_CONSTANT
     bounded = {called(one) for problem in problems for one, _ in problem.bounded}
     assert bounded == EVERY_CONSTANT - {"B"}
 
@@ -94,10 +96,10 @@ def test_every_basis_is_drawn(problems: list[Problem]) -> None:
 def test_every_kind_of_end_window_and_objective_is_drawn(problems: list[Problem]) -> None:
     assert {problem.order for problem in problems} == set(range(1, 7))
     ends = [problem.boundary for problem in problems if problem.boundary is not None]
-    strokes = {float(one.end[0]) - float(one.start[0]) for one in ends}
+    strokes = {float(end.end[0]) - float(end.start[0]) for end in ends}
     assert 0.0 in strokes
     assert min(strokes) < 0.0
-    assert any(one.order > 1 and min(one.start[1], one.end[1]) < 0.0 for one in ends)
+    assert any(end.order > 1 and min(end.start[1], end.end[1]) < 0.0 for end in ends)
     windows = [window for problem in problems for window in problem.windows]
     for quantity in QUANTITIES:
         own = [window for window in windows if window.quantity == quantity]

@@ -44,11 +44,11 @@ def same(found: object, alone: Solution) -> None:
 
 
 def test_each_is_what_its_problem_gives_alone() -> None:
-    found = list(synthesize_many(iter(KINDS), errors="return"))
-    assert len(found) == len(KINDS)
-    assert isinstance(found[1], InfeasibleProblem)
-    assert found[1].problem == KINDS[1]
-    for one, problem in zip(found, KINDS, strict=True):
+    items = list(synthesize_many(iter(KINDS), errors="return"))
+    assert len(items) == len(KINDS)
+    assert isinstance(items[1], InfeasibleProblem)
+    assert items[1].problem == KINDS[1]
+    for one, problem in zip(items, KINDS, strict=True):
         if problem is not KINDS[1]:
             same(one, synthesize(problem))
 
@@ -64,20 +64,20 @@ def test_results_depend_neither_on_the_order_nor_on_the_batch() -> None:
 
 
 def test_an_error_is_raised_in_its_turn() -> None:
-    found = synthesize_many(KINDS)
-    assert next(found).problem == KINDS[0]
+    solutions = synthesize_many(KINDS)
+    assert next(solutions).problem == KINDS[0]
     with pytest.raises(InfeasibleProblem):
-        next(found)
+        next(solutions)
 
 
 def test_what_is_no_problem_spoils_its_own_place_only() -> None:
     wrong: list[Any] = [FIRST, 1.6, None, FIRST]
-    found = list(synthesize_many(wrong, errors="return"))
-    assert [type(one) for one in found] == [Solution, InputError, InputError, Solution]
-    assert "takes a Problem, got float" in str(found[1])
+    items = list(synthesize_many(wrong, errors="return"))
+    assert [type(one) for one in items] == [Solution, InputError, InputError, Solution]
+    assert "takes a Problem, got float" in str(items[1])
     array = ProblemArray(B=np.array([1.6, np.nan, 1.7]), order=4)
-    found = list(synthesize_many(array, errors="return"))
-    assert [type(one) for one in found] == [Solution, InputError, Solution]
+    items = list(synthesize_many(array, errors="return"))
+    assert [type(one) for one in items] == [Solution, InputError, Solution]
 
 
 def test_wrong_options_are_refused_at_once() -> None:
@@ -97,9 +97,9 @@ def test_problems_are_taken_as_they_are_needed() -> None:
             taken += 1
             yield FIRST
 
-    found = synthesize_many(problems())
+    solutions = synthesize_many(problems())
     for _ in range(3):
-        next(found)
+        next(solutions)
     assert taken == 64
 
 

@@ -14,17 +14,17 @@ FIRST = Problem(B=1.6, order=4, basis=Chebyshev(5))
 
 
 def test_errors_are_raised_unless_asked_for() -> None:
-    found = sweep(replace(FIRST, B=B) for B in (1.6, 1.1, 1.7))
-    assert next(found).problem.B == 1.6
+    solutions = sweep(replace(FIRST, B=B) for B in (1.6, 1.1, 1.7))
+    assert next(solutions).problem.B == 1.6
     with pytest.raises(InfeasibleProblem):
-        next(found)
+        next(solutions)
 
 
 def test_errors_are_results_where_that_is_asked() -> None:
     problems = [replace(FIRST, B=B) for B in (1.1, 1.6, 1.2, 1.7)]
-    found = list(sweep(problems, errors="return"))
-    assert [type(one) for one in found] == [InfeasibleProblem, Solution, InfeasibleProblem, Solution]
-    for one, problem in zip(found, problems, strict=True):
+    items = list(sweep(problems, errors="return"))
+    assert [type(one) for one in items] == [InfeasibleProblem, Solution, InfeasibleProblem, Solution]
+    for one, problem in zip(items, problems, strict=True):
         if isinstance(one, Solution):
             assert one.problem == problem
             assert one.objective == pytest.approx(synthesize(problem).objective, rel=1e-11)
@@ -37,9 +37,9 @@ def test_errors_are_results_where_that_is_asked() -> None:
 
 def test_what_is_no_problem_spoils_its_own_place_only() -> None:
     wrong: list[Any] = [FIRST, None, FIRST]
-    found = list(sweep(wrong, errors="return"))
-    assert [type(one) for one in found] == [Solution, InputError, Solution]
-    assert "takes a Problem, got NoneType" in str(found[1])
+    items = list(sweep(wrong, errors="return"))
+    assert [type(one) for one in items] == [Solution, InputError, Solution]
+    assert "takes a Problem, got NoneType" in str(items[1])
 
 
 def test_the_option_is_checked_at_once() -> None:
@@ -55,8 +55,8 @@ def test_problems_are_taken_one_by_one() -> None:
             taken.append(B)
             yield replace(FIRST, B=B)
 
-    found = sweep(problems())
-    next(found)
+    solutions = sweep(problems())
+    next(solutions)
     assert taken == [1.6]
 
 
@@ -65,10 +65,10 @@ def test_laws_of_least_power_on_a_line_are_found_together() -> None:
     assert _together(problems)
     assert not _together(problems[:9])
     assert not _together([*problems, replace(FIRST, B=1.6, minimise="0.5*C/4 + 0.5*D/2.25")])
-    found = list(sweep(problems))
-    assert [one.problem for one in found] == problems
+    items = list(sweep(problems))
+    assert [one.problem for one in items] == problems
     for place in (0, 17):
         alone = synthesize(problems[place])
-        assert found[place].objective == pytest.approx(alone.objective, rel=1e-9)
-        assert found[place].status is alone.status
-        assert found[place].lower_bound == pytest.approx(alone.lower_bound, rel=1e-9)
+        assert items[place].objective == pytest.approx(alone.objective, rel=1e-9)
+        assert items[place].status is alone.status
+        assert items[place].lower_bound == pytest.approx(alone.lower_bound, rel=1e-9)

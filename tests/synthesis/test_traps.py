@@ -131,9 +131,9 @@ def test_powers_of_high_degree_do_not_spoil_the_constants() -> None:
 
 
 def test_a_solution_survives_other_processes() -> None:
-    one = synthesize(SHAPES[1])
-    again = pickle.loads(pickle.dumps(one))  # noqa: S301
-    assert fingerprint(again) == fingerprint(one)
+    solution = synthesize(SHAPES[1])
+    again = pickle.loads(pickle.dumps(solution))  # noqa: S301
+    assert fingerprint(again) == fingerprint(solution)
     assert synthesize(replace(SHAPES[1], B=1.86), start=again).iterations == 0
 
 

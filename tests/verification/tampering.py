@@ -25,8 +25,8 @@ def text_of(problem: Problem, bound: str = "quick") -> str:
 
 
 def data_of(problem: Problem, bound: str = "quick") -> Data:
-    found: Data = json.loads(text_of(problem, bound))
-    return found
+    data: Data = json.loads(text_of(problem, bound))
+    return data
 
 
 def places(data: Any, path: Path = ()) -> Iterator[Path]:  # noqa: ANN401 - JSON
@@ -50,9 +50,9 @@ def value_at(data: Any, path: Sequence[str | int]) -> Any:  # noqa: ANN401 - JSO
 
 def changed(data: Data, path: Path, value: object) -> Data:
     """A copy with another value at a place."""
-    found = copy.deepcopy(data)
-    value_at(found, path[:-1])[path[-1]] = value
-    return found
+    copied = copy.deepcopy(data)
+    value_at(copied, path[:-1])[path[-1]] = value
+    return copied
 
 
 def numbers(data: Data) -> list[Path]:
@@ -66,15 +66,19 @@ def numbers(data: Data) -> list[Path]:
 
 def overstated(tampered: Data, true: Verification) -> list[str]:
     """What is wrong with calling a file proven, if `true` is what holds of the untampered one."""
-    found = verify(tampered)
+    verification = verify(tampered)
     assert true.objective is not None
     low, high = true.objective
     wrong = []
-    if found.problem == true.problem and found.bound is not None and found.bound > high * (1.0 + 1e-11):
-        wrong.append(f"bound {found.bound!r} above the optimum {high!r}")
-    if not found.proven:
+    if (
+        verification.problem == true.problem
+        and verification.bound is not None
+        and verification.bound > high * (1.0 + 1e-11)
+    ):
+        wrong.append(f"bound {verification.bound!r} above the optimum {high!r}")
+    if not verification.proven:
         return wrong
-    if found.problem != true.problem:
+    if verification.problem != true.problem:
         wrong.append("another problem")
     best = max(true.bound or 0.0, 0.0) + ROOM * max(1.0, high)
     stated = {

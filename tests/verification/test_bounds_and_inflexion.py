@@ -18,10 +18,10 @@ CASES: list[dict[str, Any]] = [
 
 @pytest.mark.parametrize("given", CASES, ids=str)
 def test_optima_are_proven(given: dict[str, Any]) -> None:
-    found = verify(synthesize(Problem(order=4, basis=Chebyshev(9), **given)).to_dict())
-    assert found.proven
-    assert found.gap is not None
-    assert abs(found.gap) < 1e-11
+    verification = verify(synthesize(Problem(order=4, basis=Chebyshev(9), **given)).to_dict())
+    assert verification.proven
+    assert verification.gap is not None
+    assert abs(verification.gap) < 1e-11
 
 
 def test_a_tighter_bound_than_the_law_keeps_is_found_out() -> None:

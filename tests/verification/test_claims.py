@@ -82,8 +82,8 @@ def row_text() -> str:
 
 @cache
 def front_text() -> str:
-    found = pareto_front(Problem(B=1.641, order=3, basis=Chebyshev(5)), over=("C", "J"), points=2)
-    return json.dumps(found.to_dict(), allow_nan=False)
+    front = pareto_front(Problem(B=1.641, order=3, basis=Chebyshev(5)), over=("C", "J"), points=2)
+    return json.dumps(front.to_dict(), allow_nan=False)
 
 
 @cache
@@ -98,8 +98,8 @@ CONTAINERS = [row_text, front_text, table_text]
 
 @pytest.mark.parametrize("text", CONTAINERS, ids=lambda one: one.__name__)
 def test_rows_fronts_and_tables_are_proven(text: Any) -> None:  # noqa: ANN401
-    found = verify_all(json.loads(text()))
-    assert [str(claim) for one in found.values() for claim in one.claims if not claim.proven] == []
+    verifications = verify_all(json.loads(text()))
+    assert [str(claim) for one in verifications.values() for claim in one.claims if not claim.proven] == []
 
 
 def test_a_row_without_a_law_needs_a_proof(tmp_path: File, capsys: pytest.CaptureFixture[str]) -> None:
@@ -167,10 +167,10 @@ def test_no_altered_claim_passes(drawn: st.DataObject) -> None:
     assume(not weaker(path, old, new))
     tampered = changed(data, path, new)
     try:
-        found = verify_all(tampered)
+        verifications = verify_all(tampered)
     except InputError:
         return
-    assert not all(one.proven for one in found.values()), (path, old, new)
+    assert not all(one.proven for one in verifications.values()), (path, old, new)
 
 
 @pytest.mark.parametrize("problem", [CONVEX, LOCAL, OF_PIECES], ids=repr)

@@ -53,11 +53,11 @@ KINDS = [
 @pytest.mark.parametrize("problem", KINDS, ids=repr)
 def test_every_kind_is_proven(problem: Problem) -> None:
     data = data_of(problem)
-    found = verify(data)
-    assert found.proven, str(found)
-    assert found.gap is not None
+    verification = verify(data)
+    assert verification.proven, str(verification)
+    assert verification.gap is not None
     if data["status"] == "optimal":
-        assert found.gap < 1e-8
+        assert verification.gap < 1e-8
 
 
 def test_a_law_of_degree_9_is_checked_in_less_than_a_second() -> None:

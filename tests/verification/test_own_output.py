@@ -88,8 +88,8 @@ def unproven(problem: Problem, status: str = "optimal") -> list[str] | None:
         return None
     if solution.status.value not in {"optimal", status}:
         return None
-    found = verify(json.loads(json.dumps(solution.to_dict(), allow_nan=False)))
-    return [str(claim) for claim in found.claims if not claim.proven]
+    verification = verify(json.loads(json.dumps(solution.to_dict(), allow_nan=False)))
+    return [str(claim) for claim in verification.claims if not claim.proven]
 
 
 @pytest.mark.sample(3)
@@ -136,7 +136,8 @@ def test_no_bound_of_constants_that_may_be_negative_exceeds_the_optimum(name: st
     solution = solved(name)
     factors = st.floats(0.0, 3.0) | st.sampled_from([1.0, 1.0 + 1e-6, 1.0 - 1e-9])
     contacts = tuple(
-        replace(one, multiplier=one.multiplier * drawn.draw(factors)) for one in solution.certificate.contacts
+        replace(contact, multiplier=contact.multiplier * drawn.draw(factors))
+        for contact in solution.certificate.contacts
     )
     bound = exact_bound(replace(solution.certificate, contacts=contacts))
     assert bound is None or bound <= solution.objective + 1e-12 * max(1.0, abs(solution.objective))

@@ -44,22 +44,22 @@ FIRST = PROBLEMS[0]
 @pytest.mark.parametrize("problem", PROBLEMS, ids=repr)
 def test_an_optimum_is_proven(problem: Problem) -> None:
     data = data_of(problem)
-    found = verify(data)
-    assert found.proven, str(found)
-    assert found.bound is not None
-    assert found.objective is not None
-    assert found.gap is not None
-    assert found.bound <= found.objective[1] * (1.0 + 1e-11)
-    assert found.bound >= data["certificate"]["bound"] * (1.0 - 1e-9)
+    verification = verify(data)
+    assert verification.proven, str(verification)
+    assert verification.bound is not None
+    assert verification.objective is not None
+    assert verification.gap is not None
+    assert verification.bound <= verification.objective[1] * (1.0 + 1e-11)
+    assert verification.bound >= data["certificate"]["bound"] * (1.0 - 1e-9)
     if problem.convex:
-        assert abs(found.gap) < 1e-10
+        assert abs(verification.gap) < 1e-10
 
 
 def test_with_d_the_relaxed_program_bounds_more_than_the_limit() -> None:
     data = data_of(PROBLEMS[11])
-    found = verify(data)
-    assert found.bound is not None
-    assert found.bound > data["limit"] * (1.0 + 1e-3)
+    verification = verify(data)
+    assert verification.bound is not None
+    assert verification.bound > data["limit"] * (1.0 + 1e-3)
 
 
 @pytest.mark.sample(2)
@@ -90,14 +90,14 @@ def test_whatever_a_certificate_says_no_bound_exceeds_the_optimum(problem: Probl
     size = st.sampled_from([0.0, 1e-9, 1e-6, 1e-3, 0.1])
     contacts = tuple(
         replace(
-            one,
-            k=min(max(one.k + data.draw(size) * data.draw(st.floats(-1.0, 1.0)), 0.0), 1.0),
-            multiplier=one.multiplier * (1.0 + data.draw(size) * data.draw(st.floats(-2.0, 2.0))),
+            contact,
+            k=min(max(contact.k + data.draw(size) * data.draw(st.floats(-1.0, 1.0)), 0.0), 1.0),
+            multiplier=contact.multiplier * (1.0 + data.draw(size) * data.draw(st.floats(-2.0, 2.0))),
         )
-        for one in certificate.contacts
+        for contact in certificate.contacts
     )
-    found = exact_bound(replace(certificate, contacts=contacts))
-    assert found is None or found <= solution["objective"] * (1.0 + 1e-11)
+    bound = exact_bound(replace(certificate, contacts=contacts))
+    assert bound is None or bound <= solution["objective"] * (1.0 + 1e-11)
 
 
 def _break(data: Data) -> None:
@@ -148,5 +148,5 @@ TAMPER: dict[Callable[[Data], None], str] = {
 def test_a_law_of_another_shape_fails(change: Callable[[Data], None]) -> None:
     data = copy.deepcopy(data_of(FIRST))
     change(data)
-    found = verify(data)
-    assert TAMPER[change] in {claim.name for claim in found.claims if not claim.proven}
+    verification = verify(data)
+    assert TAMPER[change] in {claim.name for claim in verification.claims if not claim.proven}

@@ -33,11 +33,11 @@ def written(problem: Problem, over: Any, between: tuple[float, float], gap: floa
 )
 def test_a_front_is_proven_between_its_laws(problem: Problem, over: Any, between: tuple[float, float]) -> None:  # noqa: ANN401
     data = written(problem, over, between)
-    found = verify(data)
-    assert found.proven
-    assert found.gap is not None
-    assert found.gap <= data["gap"] * (1.0 + 1e-6)
-    assert f"from {between[0]!r} to {between[1]!r}" in str(found)
+    verification = verify(data)
+    assert verification.proven
+    assert verification.gap is not None
+    assert verification.gap <= data["gap"] * (1.0 + 1e-6)
+    assert f"from {between[0]!r} to {between[1]!r}" in str(verification)
     assert list(verify_all({"fronts": [data]})) == ["fronts[0]"]
 
 

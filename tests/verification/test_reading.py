@@ -77,9 +77,9 @@ def test_every_solution_of_a_file_is_checked(tmp_path: Path, capsys: pytest.Capt
         "rows": [{"solution": data}, {"printed": {"law": law.to_dict(), "constants": law.constants.to_dict()}}]
     }
     file = written(tmp_path, json.dumps(rows))
-    found = verify_all(file)
-    assert list(found) == ["rows[0].solution", "rows[1].printed"]
-    assert all(one.proven for one in found.values())
+    verifications = verify_all(file)
+    assert list(verifications) == ["rows[0].solution", "rows[1].printed"]
+    assert all(one.proven for one in verifications.values())
     assert exit_code(["verify", file]) == 0
     assert "rows[0].solution: proven" in capsys.readouterr().out
     rows["rows"][1]["printed"]["constants"]["C"]["value"] = 5.0
@@ -103,15 +103,15 @@ def test_claims_without_a_certificate_are_refused(data: dict[str, Any]) -> None:
 @pytest.mark.long
 @pytest.mark.parametrize("file", sorted((ROOT / "results").glob("*/laws.json")), ids=lambda file: file.parent.name)
 def test_every_shipped_law_is_proven(file: Path) -> None:
-    found = verify_all(file)
-    assert len(found) > 10
-    assert [place for place, one in found.items() if not one.proven] == []
+    verifications = verify_all(file)
+    assert len(verifications) > 10
+    assert [place for place, one in verifications.items() if not one.proven] == []
 
 
 def test_shipped_laws_are_proven() -> None:
-    found = verify_all(ROOT / "results" / "d_minimal" / "laws.json")
-    assert len(found) > 10
-    assert all(one.proven for one in found.values())
+    verifications = verify_all(ROOT / "results" / "d_minimal" / "laws.json")
+    assert len(verifications) > 10
+    assert all(one.proven for one in verifications.values())
 
 
 class Mystery(Basis):

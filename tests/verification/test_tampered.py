@@ -87,10 +87,14 @@ def test_whatever_is_missing_ends_in_an_answer_or_an_error(file: tuple[Problem, 
     parent: Any = value_at(less, path[:-1])
     del parent[path[-1]]
     try:
-        found = verify(less)
+        verification = verify(less)
     except InputError:
         return
     true = verify(data)
-    assert not found.proven or found.problem == true.problem
+    assert not verification.proven or verification.problem == true.problem
     assert true.objective is not None
-    assert found.bound is None or found.problem != true.problem or found.bound <= true.objective[1] * (1.0 + 1e-11)
+    assert (
+        verification.bound is None
+        or verification.problem != true.problem
+        or verification.bound <= true.objective[1] * (1.0 + 1e-11)
+    )

@@ -79,44 +79,44 @@ def proof_text(problem: Problem) -> str:
 
 
 def data_of(problem: Problem) -> Data:
-    found: Data = json.loads(text_of(problem))
-    return found
+    data: Data = json.loads(text_of(problem))
+    return data
 
 
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("problem", CONVEX, ids=repr)
 def test_an_optimum_is_proven(problem: Problem) -> None:
     data = data_of(problem)
-    found = verify(data)
-    assert found.proven, str(found)
-    assert found.bound is not None
-    assert found.gap is not None
-    assert found.objective is not None
-    assert found.bound == pytest.approx(data["certificate"]["bound"], rel=1e-9)
-    assert found.bound <= found.objective[1] * (1.0 + 1e-12)
-    assert abs(found.gap) < 1e-11
+    verification = verify(data)
+    assert verification.proven, str(verification)
+    assert verification.bound is not None
+    assert verification.gap is not None
+    assert verification.objective is not None
+    assert verification.bound == pytest.approx(data["certificate"]["bound"], rel=1e-9)
+    assert verification.bound <= verification.objective[1] * (1.0 + 1e-12)
+    assert abs(verification.gap) < 1e-11
     certificate = Certificate.from_dict(data["certificate"])
     exact = exact_bound(certificate)
     assert exact is not None
-    assert 0.0 <= exact - found.bound < 1e-14 * found.bound
+    assert 0.0 <= exact - verification.bound < 1e-14 * verification.bound
 
 
 @pytest.mark.parametrize("problem", LOCAL, ids=repr)
 def test_where_d_is_relaxed_the_gap_is_proven(problem: Problem) -> None:
-    found = verify(data_of(problem))
-    assert found.proven, str(found)
-    assert found.gap is not None
-    assert 0.0 < found.gap < 0.3
+    verification = verify(data_of(problem))
+    assert verification.proven, str(verification)
+    assert verification.gap is not None
+    assert 0.0 < verification.gap < 0.3
 
 
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("problem", INFEASIBLE, ids=repr)
 def test_that_no_law_exists_is_proven(problem: Problem) -> None:
     data = json.loads(proof_text(problem))
-    found = verify(data)
-    assert found.proven
-    assert found.infeasible
-    assert "no law of the problem exists" in str(found)
+    verification = verify(data)
+    assert verification.proven
+    assert verification.infeasible
+    assert "no law of the problem exists" in str(verification)
     for contact in data["contacts"]:
         contact["multiplier"] = 0.0
     assert not verify(data).infeasible
@@ -202,9 +202,9 @@ TAMPER: dict[Callable[[Data], None], str] = {
 def test_a_tampered_file_fails(change: Callable[[Data], None]) -> None:
     data = copy.deepcopy(data_of(FIRST))
     change(data)
-    found = verify(data)
-    assert not found.proven
-    failed = [claim.name for claim in found.claims if not claim.proven]
+    verification = verify(data)
+    assert not verification.proven
+    failed = [claim.name for claim in verification.claims if not claim.proven]
     assert any(name.startswith(TAMPER[change]) for name in failed), failed
 
 
@@ -216,14 +216,14 @@ def test_whatever_a_certificate_says_no_bound_exceeds_the_optimum(problem: Probl
     size = st.sampled_from([0.0, 1e-9, 1e-6, 1e-3, 0.1])
     contacts = tuple(
         replace(
-            one,
-            k=min(max(one.k + data.draw(size) * data.draw(st.floats(-1.0, 1.0)), 0.0), 1.0),
-            multiplier=one.multiplier * (1.0 + data.draw(size) * data.draw(st.floats(-2.0, 2.0))),
+            contact,
+            k=min(max(contact.k + data.draw(size) * data.draw(st.floats(-1.0, 1.0)), 0.0), 1.0),
+            multiplier=contact.multiplier * (1.0 + data.draw(size) * data.draw(st.floats(-2.0, 2.0))),
         )
-        for one in certificate.contacts
+        for contact in certificate.contacts
     )
-    found = exact_bound(replace(certificate, contacts=contacts))
-    assert found is None or found <= solution["objective"] * (1.0 + 1e-12)
+    bound = exact_bound(replace(certificate, contacts=contacts))
+    assert bound is None or bound <= solution["objective"] * (1.0 + 1e-12)
 
 
 @pytest.mark.parametrize(
@@ -270,10 +270,10 @@ def test_no_solver_takes_part(tmp_path: Path) -> None:
 
 
 def test_a_verification_is_plain_data() -> None:
-    found = verify(data_of(FIRST))
-    assert isinstance(found, Verification)
-    assert json.loads(json.dumps(found.to_dict()))["proven"] is True
-    assert "lower bound" in str(found)
+    verification = verify(data_of(FIRST))
+    assert isinstance(verification, Verification)
+    assert json.loads(json.dumps(verification.to_dict()))["proven"] is True
+    assert "lower bound" in str(verification)
 
 
 @pytest.mark.parametrize("B", [1.2, 1.5])
@@ -284,5 +284,5 @@ def test_a_row_that_needs_rest_at_the_ends_counts_for_nothing_without(B: float) 
         problem, (Contact("b / sqrt(2k)", 1.0, 0.5, 2.0), Contact("tangent", 1.0, 1.0, 1.0)), (-2.0,), "relaxed", 1.0
     )
     for certificate in (solution.certificate, claim):
-        found = exact_bound(certificate)
-        assert found is None or found <= solution.objective
+        bound = exact_bound(certificate)
+        assert bound is None or bound <= solution.objective

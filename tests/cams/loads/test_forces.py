@@ -42,61 +42,63 @@ def moment(one: CamForces, drag: float = 0.0) -> Array:
 @pytest.mark.parametrize("turning", sorted(TURNINGS))
 @pytest.mark.parametrize("kind", sorted(FOLLOWERS))
 def test_the_torque_is_that_of_the_contact_force_around_the_centre(kind: str, turning: str) -> None:
-    one = forces(kind, turning)
-    assert one.shaft_torque(ANGLES) == pytest.approx(moment(one), abs=1e-9)
+    forces_of_cam = forces(kind, turning)
+    assert forces_of_cam.shaft_torque(ANGLES) == pytest.approx(moment(forces_of_cam), abs=1e-9)
 
 
 @pytest.mark.parametrize("kind", ["translating flat", "oscillating flat"])
 def test_a_face_that_is_dragged_along_takes_its_torque_from_the_cam(kind: str) -> None:
-    one = forces(kind, friction={"contact": 0.1})
-    assert one.shaft_torque(ANGLES) == pytest.approx(moment(one, 0.1), abs=1e-9)
+    forces_of_cam = forces(kind, friction={"contact": 0.1})
+    assert forces_of_cam.shaft_torque(ANGLES) == pytest.approx(moment(forces_of_cam, 0.1), abs=1e-9)
 
 
 @pytest.mark.parametrize("kind", sorted(FOLLOWERS))
 def test_without_friction_a_turn_takes_no_energy(kind: str) -> None:
     own = SLIDES if cam_of(kind).displacement.axis == "length" else TABLES
-    one = forces(kind, drive={key: value for key, value in own.items() if key != "viscous"})
-    low, high = one.mean_torque
+    forces_of_cam = forces(kind, drive={key: value for key, value in own.items() if key != "viscous"})
+    low, high = forces_of_cam.mean_torque
     assert low <= 0.0 <= high
-    assert high - low < 1e-7 * one.torque.most
-    assert forces(kind, friction={"contact": 0.02}).mean_torque[0] > 1e-3 * one.torque.most
+    assert high - low < 1e-7 * forces_of_cam.torque.most
+    assert forces(kind, friction={"contact": 0.02}).mean_torque[0] > 1e-3 * forces_of_cam.torque.most
 
 
 def test_what_friction_takes_is_the_energy_of_a_turn() -> None:
-    one = forces("translating roller", drive=SLIDES | {"dry": "6 N"})
-    stroke, rate = 0.03, one.rate
+    forces_of_cam = forces("translating roller", drive=SLIDES | {"dry": "6 N"})
+    stroke, rate = 0.03, forces_of_cam.rate
     angles = np.linspace(0.0, 2 * pi, 200_001)
-    viscous = np.trapezoid(5.0 * rate * np.asarray(one.cam.displacement(angles, 1)) ** 2, angles)
+    viscous = np.trapezoid(5.0 * rate * np.asarray(forces_of_cam.cam.displacement(angles, 1)) ** 2, angles)
     taken = 2.0 * 6.0 * stroke + float(viscous)
-    low, high = one.mean_torque
+    low, high = forces_of_cam.mean_torque
     assert low * 2 * pi <= taken <= high * 2 * pi + 1e-9
     assert high - low < 1e-6
 
 
 @pytest.mark.parametrize("kind", sorted(FOLLOWERS))
 def test_extremes_are_enclosed_over_the_turn(kind: str) -> None:
-    one = forces(kind, width="20 mm")
+    forces_of_cam = forces(kind, width="20 mm")
     for found, values in (
-        (one.contact, one.contact_force(ANGLES)),
-        (one.torque, one.shaft_torque(ANGLES)),
-        (one.pressure, one.contact_pressure(ANGLES)),
+        (forces_of_cam.contact, forces_of_cam.contact_force(ANGLES)),
+        (forces_of_cam.torque, forces_of_cam.shaft_torque(ANGLES)),
+        (forces_of_cam.pressure, forces_of_cam.contact_pressure(ANGLES)),
     ):
         assert found.low <= np.min(values)
         assert np.max(values) <= found.high
         assert found.most - np.max(values) < 1e-2 * found.peak
         assert found.high - found.most < 1e-6 * found.peak
-    squares = np.trapezoid(np.asarray(one.shaft_torque(ANGLES)) ** 2, ANGLES) / (2 * pi)
-    assert one.rms_torque[0] == pytest.approx(np.sqrt(squares), rel=1e-3)
+    squares = np.trapezoid(np.asarray(forces_of_cam.shaft_torque(ANGLES)) ** 2, ANGLES) / (2 * pi)
+    assert forces_of_cam.rms_torque[0] == pytest.approx(np.sqrt(squares), rel=1e-3)
 
 
 def test_a_guide_with_friction_needs_more_and_jams_in_the_end() -> None:
     friction = {"guide": 0.15, "overhang": "60 mm", "length": "50 mm"}
-    one = forces("translating roller", friction=friction)
-    angle, tangent = 1.0, np.tan(one.cam.pressure_angle(1.0))
+    forces_of_cam = forces("translating roller", friction=friction)
+    angle, tangent = 1.0, np.tan(forces_of_cam.cam.pressure_angle(1.0))
     cosine = 1.0 / np.hypot(1.0, tangent)
     # the guide bears sin(alpha) (a + b)/b at its near end and sin(alpha) a/b at its far one
     held = 0.15 * (2 * 0.06 + 0.05) / 0.05 * abs(tangent) * cosine
-    assert one.contact_force(angle) == pytest.approx(one.follower_force(angle) / (cosine - held), rel=1e-12)
+    assert forces_of_cam.contact_force(angle) == pytest.approx(
+        forces_of_cam.follower_force(angle) / (cosine - held), rel=1e-12
+    )
     jammed = forces("translating roller", friction={"guide": 0.5, "overhang": "100 mm", "length": "20 mm"})
     with pytest.raises(InputError, match=r"jams in its guide at .* deg of the cam: lessen the pressure angle"):
         jammed.contact  # noqa: B018

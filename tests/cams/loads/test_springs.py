@@ -53,8 +53,8 @@ def test_a_damper_is_worst_at_a_speed_between() -> None:
     drive = {"mass": "0.05 kg", "viscous": "60 N s/m"}
     spring = least_spring(cam, drive=drive, speeds=("1 rpm", "4000 rpm"), stiffness="0 N/m")
     for rpm in np.geomspace(1.0, 4000.0, 25).tolist():
-        one = CamForces(cam, speed=f"{rpm!r} rpm", drive=drive | {"preload": f"{spring.preload!r} N"})
-        assert one.follower_force(np.linspace(0.0, 2 * pi, 721)).min() > -1e-6
+        forces = CamForces(cam, speed=f"{rpm!r} rpm", drive=drive | {"preload": f"{spring.preload!r} N"})
+        assert forces.follower_force(np.linspace(0.0, 2 * pi, 721)).min() > -1e-6
 
 
 def test_wrong_springs_say_why() -> None:

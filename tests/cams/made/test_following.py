@@ -29,11 +29,11 @@ def cam(follower: Follower, stroke: str, **others: Any) -> DiscCam:  # noqa: ANN
 @pytest.mark.parametrize("turning", ["counterclockwise", "clockwise"])
 @pytest.mark.parametrize(("follower", "stroke"), FOLLOWERS)
 def test_a_follower_does_on_its_profile_what_was_meant(follower: Follower, stroke: str, turning: str) -> None:
-    one = cam(follower, stroke, turning=turning, phase="30 deg")
-    curves = [(one.profile, 0.0), (one.pitch_curve, one.contact.roller), (one.cutter_path("25 mm"), 0.025)]
+    disc = cam(follower, stroke, turning=turning, phase="30 deg")
+    curves = [(disc.profile, 0.0), (disc.pitch_curve, disc.contact.roller), (disc.cutter_path("25 mm"), 0.025)]
     for curve, outside in curves:
-        found = Following(one.contact, curve, np.radians(30.0), outside)
+        following = Following(disc.contact, curve, np.radians(30.0), outside)
         for nu in range(4):
-            angle, values = found.at(PLACES, nu)
+            angle, values = following.at(PLACES, nu)
             assert np.abs(np.angle(np.exp(1j * (angle - PLACES)))).max() < 1e-12
-            assert values == pytest.approx(one.displacement(PLACES, nu), abs=1e-11)
+            assert values == pytest.approx(disc.displacement(PLACES, nu), abs=1e-11)

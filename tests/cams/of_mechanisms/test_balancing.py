@@ -20,21 +20,21 @@ def cycle(law: str, back: str = "90 deg", **drive: str) -> Cycle:
 
 @pytest.mark.parametrize("law", ["K", "3-4-5", "modified sine"])
 def test_a_loader_takes_all_of_the_inertia_s_torque(law: str) -> None:
-    one = Balancing(cycle(law))
+    balancing = Balancing(cycle(law))
     # m h² D/T³ over the shaft's speed
-    peak = 3.0 * 0.04**2 * one.cycle.pieces[0].law.power_peak().value / 0.125**3 / (4.0 * pi)
-    assert one.before.peak == pytest.approx(peak, rel=1e-6)
-    assert one.after.peak < 1e-9 * peak
-    assert one.after.rms < 1e-9 * peak
+    peak = 3.0 * 0.04**2 * balancing.cycle.pieces[0].law.power_peak().value / 0.125**3 / (4.0 * pi)
+    assert balancing.before.peak == pytest.approx(peak, rel=1e-6)
+    assert balancing.after.peak < 1e-9 * peak
+    assert balancing.after.rms < 1e-9 * peak
 
 
 def test_what_no_loader_balances_is_left() -> None:
-    one = Balancing(cycle("3-4-5", stiffness="1 N/mm", dry="5 N"))
+    balancing = Balancing(cycle("3-4-5", stiffness="1 N/mm", dry="5 N"))
     rest = Balancing(cycle("3-4-5", stiffness="1 N/mm", dry="5 N", mass="0 kg"))
     degrees = np.linspace(0.0, 359.0, 200)
-    assert one.torque(degrees) == pytest.approx(rest.torque(degrees, balanced=False), abs=1e-9)
-    assert one.before.peak == pytest.approx(
-        effort(one.load, one.cycle.pieces, one.cycle.duration).peak_power / one.rate
+    assert balancing.torque(degrees) == pytest.approx(rest.torque(degrees, balanced=False), abs=1e-9)
+    assert balancing.before.peak == pytest.approx(
+        effort(balancing.load, balancing.cycle.pieces, balancing.cycle.duration).peak_power / balancing.rate
     )
 
 
@@ -56,11 +56,11 @@ def test_what_cannot_be_balanced_says_why() -> None:
 @pytest.mark.parametrize("law", ["K", "3-4-5"])
 def test_the_loader_s_own_cam_gives_the_torque_that_the_executive_takes(law: str) -> None:
     moves = [Rise("40 mm", "180 deg", law=law), Return(law=law)]
-    one = Balancing(Cycle(moves, speed="120 rpm", drive={"mass": "3 kg"}))
+    balancing = Balancing(Cycle(moves, speed="120 rpm", drive={"mass": "3 kg"}))
     roller = TranslatingRoller("12 mm")
-    cams = DiscCam(one.cycle, "60 mm", roller), DiscCam(one.loader_motion("30 mm"), "60 mm", roller)
+    cams = DiscCam(balancing.cycle, "60 mm", roller), DiscCam(balancing.loader_motion("30 mm"), "60 mm", roller)
     assert cams[1].displacement.range == pytest.approx((-0.015, 0.015))
-    mass = Loader(one.cycle.pieces[0].law).mass(executive_mass=3.0, executive_stroke=0.04, stroke=0.03)
+    mass = Loader(balancing.cycle.pieces[0].law).mass(executive_mass=3.0, executive_stroke=0.04, stroke=0.03)
     angles = np.linspace(0.01, 6.27, 101)
     torques = [
         CamForces(cam, speed="120 rpm", drive={"mass": f"{kilograms!r} kg"}).shaft_torque(angles)
@@ -71,4 +71,4 @@ def test_the_loader_s_own_cam_gives_the_torque_that_the_executive_takes(law: str
     with pytest.raises(InputError, match="take dwell_machine"):
         Balancing(cycle("K")).loader_motion("30 mm")
     with pytest.raises(InputError, match="stroke must be above 0"):
-        one.loader_motion("0 mm")
+        balancing.loader_motion("0 mm")

@@ -33,39 +33,39 @@ def test_the_clutch_s_time_is_an_angle_that_grows_with_the_speed() -> None:
 
 @pytest.mark.parametrize("kind", ["I", "II", "III"])
 def test_torques_by_the_paper_s_formulas(kind: str) -> None:
-    one = machine(kind)
+    model = machine(kind)
     law, time, gS = DATA["law"], 0.15, radians(20.0)
     D, C = law.power_peak().value, law.peak(2).value
-    assert one.balanced_torque == pytest.approx(D * 0.05 * gS**2 / (0.5 * pi * time**2))
+    assert model.balanced_torque == pytest.approx(D * 0.05 * gS**2 / (0.5 * pi * time**2))
     # (22): the same through what the rocker itself takes
-    assert one.balanced_torque == pytest.approx(D * gS * one.driven_torque / (C * 0.5 * pi))
-    assert one.reduction == pytest.approx(one.mechanism.b, rel=1e-9)
+    assert model.balanced_torque == pytest.approx(D * gS * model.driven_torque / (C * 0.5 * pi))
+    assert model.reduction == pytest.approx(model.mechanism.b, rel=1e-9)
     if kind == "II":
-        g2, ph2 = one.mechanism.S2 * gS, one.mechanism.phi2
-        assert one.residual_torque == pytest.approx(D * 0.005 * g2**2 / (ph2 * (ph2 / one.rate) ** 2))
-        assert one.loader_driven_torque == pytest.approx(C * g2 * 0.005 / (ph2 / one.rate) ** 2)
+        g2, ph2 = model.mechanism.S2 * gS, model.mechanism.phi2
+        assert model.residual_torque == pytest.approx(D * 0.005 * g2**2 / (ph2 * (ph2 / model.rate) ** 2))
+        assert model.loader_driven_torque == pytest.approx(C * g2 * 0.005 / (ph2 / model.rate) ** 2)
         # (21)
-        assert one.residual_torque == pytest.approx(D * g2 * one.loader_driven_torque / (C * ph2))
+        assert model.residual_torque == pytest.approx(D * g2 * model.loader_driven_torque / (C * ph2))
 
 
 @pytest.mark.parametrize("kind", ["I", "III"])
 def test_both_cams_on_one_shaft_take_no_torque_but_in_the_dwells(kind: str) -> None:
-    one = machine(kind)
-    cams = one.cams("8 mm", "115 mm")
+    model = machine(kind)
+    cams = model.cams("8 mm", "115 mm")
     moved = {
         # the loader's inertia while it is coupled: eq. (2) with the same swing
         "executive": 0.05,
-        "loader": 0.05 / one.mechanism.loader.Y**2,
+        "loader": 0.05 / model.mechanism.loader.Y**2,
     }
     angles = np.linspace(0.01, 1.55, 60)
-    speed = f"{one.rate!r} rad/s"
+    speed = f"{model.rate!r} rad/s"
     torques = [
         CamForces(cam, speed=speed, drive={"inertia": f"{moved[name]!r} kg m^2"}).shaft_torque(angles)
         for name, cam in cams.items()
     ]
-    assert np.abs(torques[0]).max() == pytest.approx(one.balanced_torque, rel=1e-2)
+    assert np.abs(torques[0]).max() == pytest.approx(model.balanced_torque, rel=1e-2)
     # S is the swing of the executive rocker; the loader's way in the rise is that of its law
-    assert np.abs(torques[0] + torques[1]).max() < 1e-9 * one.balanced_torque
+    assert np.abs(torques[0] + torques[1]).max() < 1e-9 * model.balanced_torque
 
 
 def test_what_makes_no_turn_or_leaves_no_room_says_so() -> None:

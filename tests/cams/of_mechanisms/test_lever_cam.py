@@ -24,15 +24,15 @@ def test_the_rocker_s_law_is_the_linkage_s() -> None:
 
 
 def test_at_its_own_speed_nothing_is_left_on_the_cam() -> None:
-    one = LeverCam(LEVER, inertia="0.05 kg m^2", stroke="120 deg", speed="150 rpm")
-    seconds = 2.0 * radians(120.0) / one.rate
-    assert LEVER.exact.seconds(one.stiffness, 0.05) == pytest.approx(seconds)
-    without = one.unbalanced().peak
-    assert one.torque().bound < 1e-7 * without
+    cam = LeverCam(LEVER, inertia="0.05 kg m^2", stroke="120 deg", speed="150 rpm")
+    seconds = 2.0 * radians(120.0) / cam.rate
+    assert LEVER.exact.seconds(cam.stiffness, 0.05) == pytest.approx(seconds)
+    without = cam.unbalanced().peak
+    assert cam.torque().bound < 1e-7 * without
     # at another speed the difference of the squares of the speeds is left
     for ratio in (0.5, 1.1):
-        assert one.torque(ratio).peak == pytest.approx(abs(ratio**2 - 1.0) * without, rel=1e-6)
-    assert one.unbalanced(1.1).peak == pytest.approx(1.21 * without)
+        assert cam.torque(ratio).peak == pytest.approx(abs(ratio**2 - 1.0) * without, rel=1e-6)
+    assert cam.unbalanced(1.1).peak == pytest.approx(1.21 * without)
 
 
 def test_the_cam_of_the_rocker_is_cut_from_its_cycle() -> None:

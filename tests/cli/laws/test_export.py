@@ -46,7 +46,7 @@ def test_an_axis_of_a_problem_file(capsys: Capture) -> None:
 
 def test_the_formats_are_listed(capsys: Capture) -> None:
     assert exit_code(["export", "--list", "--json"]) == 0
-    assert [one["name"] for one in json.loads(capsys.readouterr().out)] == sorted(FORMATS)
+    assert [load["name"] for load in json.loads(capsys.readouterr().out)] == sorted(FORMATS)
     assert exit_code(["export", "--list"]) == 0
     assert all(name in capsys.readouterr().out for name in ("codesys-xyva",))
 

@@ -47,9 +47,9 @@ def test_members_of_families(capsys: pytest.CaptureFixture[str]) -> None:
 def test_the_catalogue_is_listed_and_searched(capsys: pytest.CaptureFixture[str]) -> None:
     text = output(capsys, "catalogue")
     assert all(name in text for name in catalogue)
-    found = json.loads(output(capsys, "catalogue", "BESTEHORN", "--json"))
-    assert [one["name"] for one in found] == ["cycloidal"]
-    assert found[0]["aliases"]["CODESYS"] == ["InclinedSine"]
+    data = json.loads(output(capsys, "catalogue", "BESTEHORN", "--json"))
+    assert [one["name"] for one in data] == ["cycloidal"]
+    assert data[0]["aliases"]["CODESYS"] == ["InclinedSine"]
 
 
 def test_a_member_is_named_in_one_text(capsys: pytest.CaptureFixture[str]) -> None:

@@ -25,49 +25,49 @@ KEYS = [
 
 
 def called(capsys: Capture, *arguments: object) -> tuple[int, str, str]:
-    code = app.exit_code(["follower", *(str(one) for one in arguments)])
+    code = app.exit_code(["follower", *(str(argument) for argument in arguments)])
     return code, *capsys.readouterr()
 
 
 def printed(capsys: Capture, *arguments: object) -> dict[str, Any]:
     code, out, err = called(capsys, *arguments, "--json")
     assert (code, err, out.count("\n")) == (0, "", 1)
-    found: dict[str, Any] = json.loads(out)
-    assert list(found) == KEYS
-    return found
+    data: dict[str, Any] = json.loads(out)
+    assert list(data) == KEYS
+    return data
 
 
 def test_a_polydyne_cam_off_its_design(capsys: Capture) -> None:
-    found = printed(capsys, "III", "--alpha", 7.2, "--nu", 19, "--damping", 0.05, "--design-nu", 20)
+    numbers = printed(capsys, "III", "--alpha", 7.2, "--nu", 19, "--damping", 0.05, "--design-nu", 20)
     law = savin("III", 7.2)
     cam = polydyne(law, 20, 0.05)
     response = Follower(19, 0.05).response(cam)
-    assert MotionLaw.from_dict(found["cam"]["law"]) == cam
-    assert found["dynamic_factor"] == response.dynamic_factor(law)
-    assert found["residual_acceleration"] == response.residual_acceleration
-    assert [one["percent"] for one in found["off_design"]] == [-10, -5, 0, 5, 10]
-    assert found["off_design"][2]["dynamic_factor"] == found["dynamic_factor"]
+    assert MotionLaw.from_dict(numbers["cam"]["law"]) == cam
+    assert numbers["dynamic_factor"] == response.dynamic_factor(law)
+    assert numbers["residual_acceleration"] == response.residual_acceleration
+    assert [one["percent"] for one in numbers["off_design"]] == [-10, -5, 0, 5, 10]
+    assert numbers["off_design"][2]["dynamic_factor"] == numbers["dynamic_factor"]
 
 
 def test_a_design_without_damping_on_a_damped_follower(capsys: Capture) -> None:
     options = ("--nu", 20, "--damping", 0.05, "--design-nu", 20, "--design-damping", 0)
-    found = printed(capsys, "IV", "--alpha", 11, *options)
-    assert found["dynamic_factor"] == pytest.approx(0.983268, abs=1e-6)
+    numbers = printed(capsys, "IV", "--alpha", 11, *options)
+    assert numbers["dynamic_factor"] == pytest.approx(0.983268, abs=1e-6)
 
 
 def test_a_law_of_the_catalogue_at_a_speed(capsys: Capture) -> None:
-    found = printed(capsys, "BESTEHORN", "--speed-rpm", 105, "--rise-angle", 120, "--natural-period", 0.06)
-    response = Follower(found["nu"]).response(catalogue["cycloidal"].law)
-    assert found["nu"] == pytest.approx(60 * 2.0943951 / (105 * 0.06))
-    assert found["residual_displacement"] == response.residual_displacement
+    numbers = printed(capsys, "BESTEHORN", "--speed-rpm", 105, "--rise-angle", 120, "--natural-period", 0.06)
+    response = Follower(numbers["nu"]).response(catalogue["cycloidal"].law)
+    assert numbers["nu"] == pytest.approx(60 * 2.0943951 / (105 * 0.06))
+    assert numbers["residual_displacement"] == response.residual_displacement
 
 
 def test_a_law_from_a_file(capsys: Capture, tmp_path: Path) -> None:
     for content in (smoothstep(4).to_json(), json.dumps({"status": "optimal", "law": smoothstep(4).to_dict()})):
         file = tmp_path / "law.json"
         file.write_text(content, "utf-8")
-        found = printed(capsys, file, "--nu", 20)
-        assert MotionLaw.from_dict(found["cam"]["law"]) == smoothstep(4)
+        numbers = printed(capsys, file, "--nu", 20)
+        assert MotionLaw.from_dict(numbers["cam"]["law"]) == smoothstep(4)
 
 
 def test_an_unbounded_jerk_is_null(capsys: Capture) -> None:
@@ -133,17 +133,17 @@ MACHINE = ("--frequency", "16.7 Hz", "--speed", "105 rpm", "--rise", "120 deg")
 def test_a_stroke_with_its_unit_gives_machine_units(capsys: Capture) -> None:
     code, out, _ = called(capsys, "modified sine", *MACHINE, "--stroke", "35mm", "--json")
     assert code == 0
-    found = json.loads(out)
+    data = json.loads(out)
     answer = machine_follower(frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm").response(
         catalogue["modified sine"].law
     )
-    assert found["machine"] == answer.to_dict()
+    assert data["machine"] == answer.to_dict()
     code, out, _ = called(
         capsys, "modified sine", "--speed-rpm", 105, "--rise-angle", 120, "--natural-period", 0.06, "--stroke", "35mm"
     )
     assert code == 0
     assert "residual displacement, m" in out
-    assert printed(capsys, "modified sine", *MACHINE)["nu"] == found["nu"]
+    assert printed(capsys, "modified sine", *MACHINE)["nu"] == data["nu"]
 
 
 @pytest.mark.parametrize(

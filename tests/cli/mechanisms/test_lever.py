@@ -15,12 +15,12 @@ EXAMPLE = ["lever", "--beta", "0.75", "--lam", "1", "--swing", "60"]
 
 def test_json_holds_the_worked_example(capsys: Capture) -> None:
     assert app.exit_code([*EXAMPLE, "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["swing"] == pytest.approx(radians(60))
-    assert found["xi"] == pytest.approx(0.53768926, rel=1e-7)
-    assert found["exact"]["T"] == pytest.approx(6.1007472, rel=1e-7)
-    assert found["asymptotic"]["C3"] == pytest.approx(-4.8528032, rel=1e-7)
-    assert MotionLaw.from_dict(found["law"]).a(1.0) == pytest.approx(1.0)
+    data = json.loads(capsys.readouterr().out)
+    assert data["swing"] == pytest.approx(radians(60))
+    assert data["xi"] == pytest.approx(0.53768926, rel=1e-7)
+    assert data["exact"]["T"] == pytest.approx(6.1007472, rel=1e-7)
+    assert data["asymptotic"]["C3"] == pytest.approx(-4.8528032, rel=1e-7)
+    assert MotionLaw.from_dict(data["law"]).a(1.0) == pytest.approx(1.0)
 
 
 def test_the_table_compares_both_motions(capsys: Capture) -> None:
@@ -32,9 +32,9 @@ def test_the_table_compares_both_motions(capsys: Capture) -> None:
 
 def test_stiffness_for_a_period(capsys: Capture) -> None:
     assert app.exit_code([*EXAMPLE, "--inertia", "0.02", "--period", "0.1", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["stiffness_1"] == pytest.approx(0.02 * (found["exact"]["T"] / 0.1) ** 2)
-    assert found["stiffness_2"] == pytest.approx(found["xi"] * found["stiffness_1"])
+    data = json.loads(capsys.readouterr().out)
+    assert data["stiffness_1"] == pytest.approx(0.02 * (data["exact"]["T"] / 0.1) ** 2)
+    assert data["stiffness_2"] == pytest.approx(data["xi"] * data["stiffness_1"])
 
 
 def test_wanted_constants(capsys: Capture, tmp_path: Path) -> None:

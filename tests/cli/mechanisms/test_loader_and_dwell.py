@@ -16,10 +16,10 @@ DWELL = (
 
 def test_a_loader_as_json(capsys: pytest.CaptureFixture[str]) -> None:
     assert exit_code(["loader", "0050", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["Y"] == pytest.approx(0.6366197724)
-    assert found["constants"]["C"]["value"] is None
-    assert MotionLaw.from_dict(found["law"]).b(0.5) == 0.0
+    data = json.loads(capsys.readouterr().out)
+    assert data["Y"] == pytest.approx(0.6366197724)
+    assert data["constants"]["C"]["value"] is None
+    assert MotionLaw.from_dict(data["law"]).b(0.5) == 0.0
 
 
 def test_a_loader_of_a_file_and_its_mass(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:
@@ -66,10 +66,10 @@ def test_dwell_compares_and_chooses(capsys: pytest.CaptureFixture[str]) -> None:
     for part in ("take type III", "1.78435", "1.9827", "1.59434", "0.021140605"):
         assert part in shown
     assert exit_code(["dwell", "K", *DWELL.split(), "--law-2", "3-4-5 polynomial", "--json"]) == 0
-    found = json.loads(capsys.readouterr().out)
-    assert found["chosen"] == "III"
-    assert found["types"]["II"]["dwell"] == pytest.approx(radians(90))
-    assert all(one["p"] >= 1 for one in found["clutches"]["III"]["teeth"])
+    data = json.loads(capsys.readouterr().out)
+    assert data["chosen"] == "III"
+    assert data["types"]["II"]["dwell"] == pytest.approx(radians(90))
+    assert all(one["p"] >= 1 for one in data["clutches"]["III"]["teeth"])
 
 
 def test_dwell_says_why_a_type_cannot_be_built(capsys: pytest.CaptureFixture[str]) -> None:

@@ -40,12 +40,12 @@ def test_no_law_on_a_fine_grid_has_a_smaller_peak_acceleration() -> None:
     equations = [np.concatenate([position[end], [TIMES[i + 1], 0.0]]) for i, end in enumerate(ends)]
     equations.append(np.concatenate([np.full(count, step), [0.0, 0.0]]))
     above = np.hstack([np.vstack([np.eye(count), -np.eye(count)]), np.zeros((2 * count, 1)), -np.ones((2 * count, 1))])
-    found: Any = linprog(
+    optimum: Any = linprog(
         [0.0] * (count + 1) + [1.0], above, np.zeros(2 * count), np.array(equations), [*PLACES[1:], 0.0],
         bounds=[(None, None)] * (count + 2),
     )  # fmt: skip
     assert cycle.status == "optimal"
-    assert 0.999 * found.fun < cycle.objective < 1.03 * found.fun
+    assert 0.999 * optimum.fun < cycle.objective < 1.03 * optimum.fun
 
 
 @pytest.mark.sample(2)

@@ -72,10 +72,10 @@ def test_dry_friction_adds_its_square_where_motions_turn() -> None:
 
 
 def test_viscous_and_dry_friction_are_bounded_by_the_way_that_must_be_gone() -> None:
-    found = cycle(WAYS, minimise="rms torque")
-    assert found.status == "local"
-    assert found.lower_bound is not None
-    assert 0.99 * found.objective < found.lower_bound < found.objective
+    course = cycle(WAYS, minimise="rms torque")
+    assert course.status == "local"
+    assert course.lower_bound is not None
+    assert 0.99 * course.objective < course.lower_bound < course.objective
     kept = cycle(WAYS, limits={"rms torque": "0.8 N m"})
     assert kept.effort.rms_force <= 0.8 * (1 + 1e-9)
     assert kept.lower_bound is not None

@@ -35,7 +35,9 @@ def test_between_dwells_a_cycle_decouples_into_single_optima(minimise: str, obje
     cycle = Cycle(segments, speed="200 rpm", minimise=minimise, limits={"velocity": "616 mm/s"})
     limits = [0.616 * duration / 0.035 for duration in (0.1, 0.3 * 100 / 360)]
     single = [synthesize(Problem(order=3, B=at_most(b), minimise=objective)) for b in limits]
-    assert [one.objective for one in cycle.solutions] == pytest.approx([one.objective for one in single], rel=1e-9)
+    assert [solution.objective for solution in cycle.solutions] == pytest.approx(
+        [one.objective for one in single], rel=1e-9
+    )
     sized = [0.035 / t**nu * one.objective for one, t in zip(single, (0.1, 0.3 * 100 / 360), strict=True)]
     if minimise == "rms acceleration":
         whole = np.sqrt((sized[0] ** 2 * 0.1 + sized[1] ** 2 * 0.3 * 100 / 360) / 0.3)
@@ -62,9 +64,9 @@ def test_no_law_of_the_whole_cycle_is_better_than_the_decoupled_ones() -> None:
         squares = [np.trapezoid(one**2, k) for one in both]
         return float((0.035 / 0.1**2) ** 2 * 0.1 * squares[0] + (0.035 / 0.2**2) ** 2 * 0.2 * squares[1]) / 0.3
 
-    found = minimize(cost, np.zeros(8), method="BFGS", options={"maxiter": 300})
-    assert np.sqrt(found.fun) > cycle.objective * (1 - 1e-6)
-    assert np.sqrt(found.fun) < 1.05 * cycle.objective
+    optimum = minimize(cost, np.zeros(8), method="BFGS", options={"maxiter": 300})
+    assert np.sqrt(optimum.fun) > cycle.objective * (1 - 1e-6)
+    assert np.sqrt(optimum.fun) < 1.05 * cycle.objective
 
 
 @pytest.mark.parametrize(

@@ -101,8 +101,8 @@ def test_outside_the_motion_its_ends_are_held_and_the_header_may_be_included_twi
     source += 'printf("%g %g %g", press_position(-5.0), all[0], (double)press_velocity_f(1.5F)); return 0; }\n'
     (tmp_path / "main.c").write_text(source, "utf-8")
     subprocess.run([str(COMPILER), *STRICT, "main.c", "-o", "main"], cwd=tmp_path, check=True)
-    found = subprocess.run([str(tmp_path / "main")], capture_output=True, text=True, check=True).stdout
-    assert found == "0 2 1"
+    stdout = subprocess.run([str(tmp_path / "main")], capture_output=True, text=True, check=True).stdout
+    assert stdout == "0 2 1"
 
 
 @seed(99)
@@ -121,8 +121,8 @@ def test_the_bound_holds_for_horner_in_floating_point(number: int, degree: int, 
         for c in run.powers()[piece][-2::-1]:
             values = [kind(a * s + b) for a, b in zip(values, [kind(c), *values], strict=False)]
         for nu, value in enumerate(values):
-            found = Fraction(float(kind(factorial(nu)) * value))
-            assert abs(found - exact_value(motion, piece, Fraction(float(x)), nu)) <= Fraction(bounds[nu])
+            fraction = Fraction(float(kind(factorial(nu)) * value))
+            assert abs(fraction - exact_value(motion, piece, Fraction(float(x)), nu)) <= Fraction(bounds[nu])
 
 
 def test_the_bound_is_near_what_numbers_hold_however_long_a_piece_is() -> None:

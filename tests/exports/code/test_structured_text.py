@@ -25,7 +25,7 @@ def test_the_grammar_of_the_standard_takes_it() -> None:
     tree = parsed(source)
     [block] = tree.items
     assert block.name == "FB_Press"
-    kinds = [type(one).__name__ for one in block.declarations]
+    kinds = [type(declaration).__name__ for declaration in block.declarations]
     assert kinds == ["InputDeclarations", "OutputDeclarations", "VariableDeclarations", "VariableDeclarations"]
     with pytest.raises(Exception, match="_END_WHILE"):
         parsed(source.replace("END_WHILE", "END_FOR", 1))

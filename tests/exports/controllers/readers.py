@@ -16,8 +16,8 @@ Row = dict[str, Any]
 
 def rows(text: str, first: str) -> list[Row]:
     """Structures `(first := ..., second := ...)` of a text as dicts; numbers as floats, names as texts."""
-    found = re.findall(rf"\(({first} := [^()]*)\)", without_comments(text))
-    return [dict(map(_pair, one.split(", "))) for one in found]
+    matches = re.findall(rf"\(({first} := [^()]*)\)", without_comments(text))
+    return [dict(map(_pair, one.split(", "))) for one in matches]
 
 
 def _pair(text: str) -> tuple[str, Any]:
@@ -29,50 +29,50 @@ def _pair(text: str) -> tuple[str, Any]:
 
 
 def cam_builder(text: str) -> PPoly:
-    found = rows(text, "x0")
-    breaks = [*(row["x0"] for row in found), found[-1]["x1"]]
-    assert [row["x1"] for row in found] == breaks[1:]
-    return PPoly(np.array([[row[f"a{n}"] for row in found] for n in range(7, -1, -1)]), breaks)
+    table = rows(text, "x0")
+    breaks = [*(row["x0"] for row in table), table[-1]["x1"]]
+    assert [row["x1"] for row in table] == breaks[1:]
+    return PPoly(np.array([[row[f"a{n}"] for row in table] for n in range(7, -1, -1)]), breaks)
 
 
 def motion_function(text: str) -> PPoly:
-    found = rows(text, "PointIndex")
-    assert [row["PointIndex"] for row in found] == list(range(1, len(found) + 1))
-    assert [row["RelIndexNextPoint"] for row in found] == [1.0] * (len(found) - 1) + [0.0]
-    kinds = [row["FunctionType"] for row in found]
-    values = [[row[name] for name in ("MasterPos", "SlavePos", "SlaveVelo", "SlaveAcc", "SlaveJerk")] for row in found]
+    table = rows(text, "PointIndex")
+    assert [row["PointIndex"] for row in table] == list(range(1, len(table) + 1))
+    assert [row["RelIndexNextPoint"] for row in table] == [1.0] * (len(table) - 1) + [0.0]
+    kinds = [row["FunctionType"] for row in table]
+    values = [[row[name] for name in ("MasterPos", "SlavePos", "SlaveVelo", "SlaveAcc", "SlaveJerk")] for row in table]
     orders = {"MOTIONFUNCTYPE_POLYNOM5_MM": 3, "MOTIONFUNCTYPE_POLYNOM7_MM": 4}
     assert kinds[-1] == "MOTIONFUNCTYPE_NOTDEF"
     return hermite(values, [orders[kind] for kind in kinds[:-1]])
 
 
 def third_motion_function(text: str) -> PPoly:
-    found = rows(text, "FunctionType")
+    table = rows(text, "FunctionType")
     names = ("MasterPosition", "SlavePosition", "SlaveVelocity", "SlaveAcceleration", "SlaveJerk")
     orders = {"EMotionFunctionType.Polynomial5": 3, "EMotionFunctionType.Polynomial7": 4}
-    kinds = [row["FunctionType"] for row in found]
+    kinds = [row["FunctionType"] for row in table]
     assert kinds[-1] == "EMotionFunctionType.Undefined"
-    return hermite([[row[name] for name in names] for row in found], [orders[kind] for kind in kinds[:-1]])
+    return hermite([[row[name] for name in names] for row in table], [orders[kind] for kind in kinds[:-1]])
 
 
 def basic_points(text: str) -> PPoly:
-    found = rows(text, "leadingValue")
-    assert 2 <= len(found) <= 51
+    table = rows(text, "leadingValue")
+    assert 2 <= len(table) <= 51
     names = ("leadingValue", "followingValue", "velocityRatio", "accelerationRatio")
-    return hermite([[row[name] for name in names] for row in found], [3] * (len(found) - 1))
+    return hermite([[row[name] for name in names] for row in table], [3] * (len(table) - 1))
 
 
 def advanced_elements(text: str) -> PPoly:
-    found = rows(text, "leadingValueStart")
-    assert {row["camProfileType"] for row in found} <= {2.0, 3.0, 5.0}
-    assert all(row["followingValueStart"] == row["followingValueEnd"] for row in found if row["camProfileType"] == 2.0)
-    return joined([_of_element(row, []) for row in found], found)
+    table = rows(text, "leadingValueStart")
+    assert {row["camProfileType"] for row in table} <= {2.0, 3.0, 5.0}
+    assert all(row["followingValueStart"] == row["followingValueEnd"] for row in table if row["camProfileType"] == 2.0)
+    return joined([_of_element(row, []) for row in table], table)
 
 
 def polynomial_elements(text: str) -> PPoly:
-    found = rows(text, "leadingValueStart")
-    assert {(row["camProfileType"], row["polynomialMode"]) for row in found} == {(44.0, 1.0)}
-    return joined([_of_element(row, [(3, 0.0, row["geoJerkStart"])]) for row in found], found)
+    table = rows(text, "leadingValueStart")
+    assert {(row["camProfileType"], row["polynomialMode"]) for row in table} == {(44.0, 1.0)}
+    return joined([_of_element(row, [(3, 0.0, row["geoJerkStart"])]) for row in table], table)
 
 
 def _of_element(row: Row, more: list[tuple[int, float, float]]) -> Array:
@@ -104,8 +104,8 @@ def hermite(points: list[list[float]], orders: list[int]) -> PPoly:
         bernstein = BPoly.from_derivatives(ends, [first[1 : count + 1], last[1 : count + 1]])
         pieces.append(PPoly.from_bernstein_basis(bernstein).c[:, 0])
     table = np.zeros((max(map(len, pieces)), len(pieces)))
-    for i, one in enumerate(pieces):
-        table[len(table) - len(one) :, i] = one
+    for i, piece in enumerate(pieces):
+        table[len(table) - len(piece) :, i] = piece
     return PPoly(table, [point[0] for point in points])
 
 

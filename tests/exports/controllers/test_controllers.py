@@ -128,7 +128,7 @@ def test_a_cycle_with_laws_that_were_looked_for_says_what_is_proven_of_them() ->
     for name in ("codesys-cambuilder", "codesys-xyva"):
         made = cycle.export(name)
         assert f"laws looked for: 2, status optimal; least acceleration {cycle.objective:.9g}" in made.text
-    assert [one for one in cycle.export("codesys-cambuilder").run.breaks if one in {120.0, 210.0, 310.0}] == [
+    assert [place for place in cycle.export("codesys-cambuilder").run.breaks if place in {120.0, 210.0, 310.0}] == [
         120,
         210,
         310,
@@ -144,9 +144,9 @@ def test_function_blocks_and_headers_run_what_their_report_says(tmp_path: Path) 
     block = Block(exact.text)
     single = Block(export_motion(motion, "iec-st-real", name="Press").text)
     places = np.linspace(0.0, 120.0, 57)
-    found = np.array([[block(x)[q] for q in ("position", "velocity", "acceleration", "jerk")] for x in places])
+    values = np.array([[block(x)[q] for q in ("position", "velocity", "acceleration", "jerk")] for x in places])
     coarse = np.array([single(x)["acceleration"] for x in places], dtype=np.float64)
-    for nu, column in enumerate(found.T):
+    for nu, column in enumerate(values.T):
         assert column == pytest.approx(motion(places, nu), rel=0, abs=1e-12 * motion.peak(nu))
     assert coarse == pytest.approx(motion(places, 2), rel=0, abs=1e-4 * motion.peak(2))
     header = export_motion(motion, "c99", name="press")

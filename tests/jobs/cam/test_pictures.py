@@ -46,16 +46,16 @@ def test_in_an_animation_the_roller_touches_the_cam_in_every_frame(kind: str, tu
     cam = cam_of(kind, turning)
     text = animated(cam)
     x, y, radius = centre(text)
-    found = re.search(r'type="(translate|rotate)" values="([^"]*)"', text)
+    match = re.search(r'type="(translate|rotate)" values="([^"]*)"', text)
     turn = re.search(r'to="(-?[.0-9]+)"', text)
-    assert found is not None
+    assert match is not None
     assert turn is not None
-    frames = [[float(one) for one in frame.split()] for frame in found[2].split(";")]
+    frames = [[float(one) for one in frame.split()] for frame in match[2].split(";")]
     profile = 1e3 * cam.profile(np.linspace(0.0, 2 * np.pi, 4001)) @ np.array([1.0, -1j])
     for i in range(0, len(frames), 24):
         turned = profile * np.exp(1j * np.radians(float(turn[1]) * i / (len(frames) - 1)))
         at = complex(x, y)
-        if found[1] == "translate":
+        if match[1] == "translate":
             at += complex(*frames[i])
         else:
             at = frames[i][1] + (at - frames[i][1]) * np.exp(1j * np.radians(frames[i][0]))
@@ -63,6 +63,6 @@ def test_in_an_animation_the_roller_touches_the_cam_in_every_frame(kind: str, tu
 
 
 def centre(text: str) -> list[float]:
-    found = re.search(r'cx="(-?[.0-9]+)" cy="(-?[.0-9]+)" r="([.0-9]+)"', text)
-    assert found is not None
-    return [float(one) for one in found.groups()]
+    match = re.search(r'cx="(-?[.0-9]+)" cy="(-?[.0-9]+)" r="([.0-9]+)"', text)
+    assert match is not None
+    return [float(group) for group in match.groups()]

@@ -27,16 +27,16 @@ every_entry = pytest.mark.parametrize("name", list(catalogue))
 @pytest.mark.parametrize("row", ROWS, ids=lambda row: row["key"])
 def test_constants_are_the_reference_s(row: dict[str, str]) -> None:
     entry = catalogue[NAMES.get(row["key"], row["key"])]
-    one = entry.constants
+    constants = entry.constants
     for name in "BCD":
-        assert getattr(one, name).value == pytest.approx(float(row[name]), rel=1e-9)
+        assert getattr(constants, name).value == pytest.approx(float(row[name]), rel=1e-9)
     if row["k_of_D"]:
-        assert one.D.k == pytest.approx(float(row["k_of_D"]), abs=1e-9)
+        assert constants.D.k == pytest.approx(float(row["k_of_D"]), abs=1e-9)
     J = row["J"].split()[0]
     if J == "inf":  # where c jumps, which for the law alone it does inside only
-        assert one.J.value == inf or abs(entry.law.c(0.0)) > 0.1
+        assert constants.J.value == inf or abs(entry.law.c(0.0)) > 0.1
     else:
-        assert one.J.value == pytest.approx(float(J), rel=1e-9)
+        assert constants.J.value == pytest.approx(float(J), rel=1e-9)
     # the triple harmonic's jerk is continuous too, as its row says in words
     expected = 4 if row["key"] == "triple_harmonic_zjx" else CONTINUITY[row["continuity"].partition(",")[0]]
     assert entry.continuity == expected

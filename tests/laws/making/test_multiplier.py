@@ -60,12 +60,12 @@ def stroke(law: MotionLaw, y: Any) -> float:  # noqa: ANN401
 @pytest.mark.parametrize("law", LAWS.values(), ids=LAWS.keys())
 @pytest.mark.parametrize(("y", "values"), MULTIPLIERS.values(), ids=MULTIPLIERS.keys())
 def test_acceleration_is_the_product_and_the_stroke_stays(law: MotionLaw, y: Any, values: Any) -> None:  # noqa: ANN401
-    found = multiplied(law, y)
+    product = multiplied(law, y)
     scale = (1.0 - law.b(0.0)) / stroke(law, values)
-    assert found.c(K) == pytest.approx(scale * law.c(K) * values(K), abs=5e-13 * found.peak(2).value)
-    assert found.a([0.0, 1.0]) == pytest.approx([0.0, 1.0], abs=1e-13)
-    assert found.b([0.0, 1.0]) == pytest.approx(law.b([0.0, 1.0]), abs=1e-13)
-    assert isinstance(found, PiecewiseLaw) == isinstance(law, PiecewiseLaw)
+    assert product.c(K) == pytest.approx(scale * law.c(K) * values(K), abs=5e-13 * product.peak(2).value)
+    assert product.a([0.0, 1.0]) == pytest.approx([0.0, 1.0], abs=1e-13)
+    assert product.b([0.0, 1.0]) == pytest.approx(law.b([0.0, 1.0]), abs=1e-13)
+    assert isinstance(product, PiecewiseLaw) == isinstance(law, PiecewiseLaw)
 
 
 @examples(30)
@@ -93,19 +93,19 @@ def test_pieces_keep_their_kind() -> None:
         (PiecewiseLaw([0, 0.5, 1], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)]), {"fractional"}),
         (scca(0.25, 0.5, 0.25), {"polynomial"}),  # a sine times a polynomial is none
     ):
-        found = multiplied(law, y)
-        assert isinstance(found, PiecewiseLaw)
-        assert {one.kind for one in found.segments} == kinds
-        assert MotionLaw.from_json(found.to_json()) == found
+        product = multiplied(law, y)
+        assert isinstance(product, PiecewiseLaw)
+        assert {segment.kind for segment in product.segments} == kinds
+        assert MotionLaw.from_json(product.to_json()) == product
 
 
 def test_constant_power_times_y_keeps_a_finite_power() -> None:
     law = PiecewiseLaw([0, 0.5, 1], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)])
-    found = multiplied(law, [1, -1, 1])
-    assert found.constants.C.value == np.inf
+    product = multiplied(law, [1, -1, 1])
+    assert product.constants.C.value == np.inf
     k = np.linspace(0.0, 0.499, 1000)
-    assert found.constants.D.value == pytest.approx(found.d(k).max(), rel=1e-6)
-    assert found.d(0.0) == pytest.approx(found.d(1e-9), rel=1e-6)
+    assert product.constants.D.value == pytest.approx(product.d(k).max(), rel=1e-6)
+    assert product.d(0.0) == pytest.approx(product.d(1e-9), rel=1e-6)
 
 
 def test_area_wanders_to_where_y_is_large() -> None:
@@ -149,9 +149,9 @@ def test_uniform_motion_has_no_acceleration_to_multiply(law: MotionLaw) -> None:
 
 def test_high_degrees_stay_exact() -> None:
     law = smoothstep(25)
-    found = multiplied(law, [2, -1, 1])
-    assert isinstance(found, PolynomialLaw)
-    assert found.a([0.5, 1.0]) == pytest.approx([0.5, 1.0], abs=1e-14)
+    product = multiplied(law, [2, -1, 1])
+    assert isinstance(product, PolynomialLaw)
+    assert product.a([0.5, 1.0]) == pytest.approx([0.5, 1.0], abs=1e-14)
 
 
 @pytest.mark.parametrize(

@@ -125,7 +125,7 @@ def test_a_segment_of_another_kind_becomes_a_polynomial() -> None:
         (mirrored_law(law), law.a(1.0 - K)),
     ):
         assert isinstance(changed, PiecewiseLaw)
-        assert {one.kind for one in changed.segments} == {"polynomial"}
+        assert {segment.kind for segment in changed.segments} == {"polynomial"}
         assert changed.a(K) == pytest.approx(exact, abs=1e-14)
 
 

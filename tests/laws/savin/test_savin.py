@@ -83,7 +83,7 @@ def test_start_values_are_the_reference_s(row: dict[str, str]) -> None:
 def test_members_are_the_printed_polynomials(family: str, alpha: Fraction) -> None:
     divisor, powers = PRINTED[family]
     delta = SavinFamily.of(family).M + 1 / alpha
-    printed = PolynomialLaw.from_powers([alpha * one / divisor for one in powers(delta)])
+    printed = PolynomialLaw.from_powers([alpha * power / divisor for power in powers(delta)])
     assert savin(family, alpha) == printed  # type: ignore[arg-type] # a Fraction is as good as a float
 
 
@@ -92,9 +92,9 @@ def test_closed_forms_are_the_constants_of_the_law_to_rounding(u: int) -> None:
     family = SavinFamily(u)
     low, high = map(float, family.range)
     for alpha in [*np.linspace(low, high, 13).tolist(), 1e-12, -1e-7, low + 1e-9, high - 1e-9]:
-        one = family.law(alpha).constants
+        constants = family.law(alpha).constants
         for name in "BCD":
-            found, exact = getattr(one, name), getattr(family, name)(alpha)
+            found, exact = getattr(constants, name), getattr(family, name)(alpha)
             assert found.value == pytest.approx(exact.value, rel=1e-14)
             assert found.k == pytest.approx(exact.k, abs=1e-7 if name == "B" else 1e-10)
 
@@ -148,11 +148,11 @@ def test_members_are_found_by_their_peaks(u: int, share: float, name: str) -> No
     low, high = map(float, family.range)
     alpha = min(max(low + share * (high - low), low), high)
     value = getattr(family, name)(alpha).value
-    found = family.alphas(**{name: value})
-    assert len(found) in ((1,) if name == "B" else (1, 2))
-    assert [getattr(family, name)(one).value for one in found] == pytest.approx([value] * len(found), rel=1e-14)
+    alphas = family.alphas(**{name: value})
+    assert len(alphas) in ((1,) if name == "B" else (1, 2))
+    assert [getattr(family, name)(one).value for one in alphas] == pytest.approx([value] * len(alphas), rel=1e-14)
     # near the least of C or D its peak hardly depends on alpha
-    assert min(abs(one - alpha) for one in found) <= 1e-6 * (high - low)
+    assert min(abs(one - alpha) for one in alphas) <= 1e-6 * (high - low)
 
 
 def test_two_members_are_told_apart() -> None:

@@ -43,14 +43,14 @@ def test_a_law_in_pieces_is_the_law(order: int, breaks: tuple[float, ...]) -> No
 
 def test_the_cycloid_has_its_known_constants() -> None:
     for law in (cut_sine(), cut_sine(0.1, 0.7)):
-        one = law.constants
+        constants = law.constants
         assert law.a(1.0) == pytest.approx(1.0, abs=1e-14)
-        assert one.B.value == pytest.approx(2.0, rel=1e-14)
-        assert one.C.value == pytest.approx(2 * pi, rel=1e-14)
-        assert one.J.value == pytest.approx(4 * pi**2, rel=1e-14)
-        assert one.D.value == pytest.approx(2 * pi * 1.5 * sqrt(3) / 2, rel=1e-14)
-        assert one.D.k == pytest.approx(1 / 3, abs=1e-12)
-        assert one.rms_c == pytest.approx(2 * pi / sqrt(2), rel=1e-14)
+        assert constants.B.value == pytest.approx(2.0, rel=1e-14)
+        assert constants.C.value == pytest.approx(2 * pi, rel=1e-14)
+        assert constants.J.value == pytest.approx(4 * pi**2, rel=1e-14)
+        assert constants.D.value == pytest.approx(2 * pi * 1.5 * sqrt(3) / 2, rel=1e-14)
+        assert constants.D.k == pytest.approx(1 / 3, abs=1e-12)
+        assert constants.rms_c == pytest.approx(2 * pi / sqrt(2), rel=1e-14)
 
 
 def test_a_fast_sine_is_resolved() -> None:
@@ -118,18 +118,23 @@ def test_a_jump_of_velocity_makes_c_d_and_rms_infinite() -> None:
     assert law.a(1.0) == 1.0
     assert law.jumps(1) == ((0.25, 1.0), (0.75, -1.0))
     assert law.continuity == 0
-    one = law.constants
-    assert (Peak(1.5, 0.25), Peak(inf, 0.25), Peak(inf, 0.25), Peak(inf, 0.25)) == (one.B, one.C, one.D, one.J)
-    assert one.rms_c == inf
+    constants = law.constants
+    assert (Peak(1.5, 0.25), Peak(inf, 0.25), Peak(inf, 0.25), Peak(inf, 0.25)) == (
+        constants.B,
+        constants.C,
+        constants.D,
+        constants.J,
+    )
+    assert constants.rms_c == inf
     assert law.extrema(2) == (Peak(-inf, 0.75), Peak(inf, 0.25))
 
 
 def test_constant_power_from_rest() -> None:
-    one = TWO_POWERS.constants
-    assert Peak(2.25, 0.0) == one.D
-    assert one.C == one.J == Peak(inf, 0.0)
-    assert Peak(1.5, 0.5) == one.B
-    assert one.rms_c == inf
+    constants = TWO_POWERS.constants
+    assert Peak(2.25, 0.0) == constants.D
+    assert constants.C == constants.J == Peak(inf, 0.0)
+    assert Peak(1.5, 0.5) == constants.B
+    assert constants.rms_c == inf
     assert TWO_POWERS.d(K) == pytest.approx([2.25] * 250 + [-2.25] * 251, rel=1e-14)
     assert TWO_POWERS.b(K[:251]) == pytest.approx(1.5 * np.sqrt(2 * K[:251]), abs=1e-15)
     assert TWO_POWERS([0.0, 1.0], 2).tolist() == [inf, -inf]

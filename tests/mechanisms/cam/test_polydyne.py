@@ -69,11 +69,11 @@ LAWS: dict[str, MotionLaw] = {
 def test_the_mass_does_what_it_was_meant_to(name: str, nu: float, damping: float) -> None:
     law = LAWS[name]
     cam = polydyne(law, nu, damping)
-    found = Follower(nu, damping).response(cam)
+    follower = Follower(nu, damping).response(cam)
     size = cam.constants.C.value / nu  # what the cam asks of the integrals
-    assert found.a(K) == pytest.approx(law.a(K), abs=1e-13 * max(1.0, size))
-    assert found.c(K) == pytest.approx(law.c(K), abs=1e-12 * max(1.0, size) * max(nu, 8.0) ** 2)
-    assert found.residual_acceleration < 1e-11 * max(1.0, size) * max(nu, 8.0) ** 2
+    assert follower.a(K) == pytest.approx(law.a(K), abs=1e-13 * max(1.0, size))
+    assert follower.c(K) == pytest.approx(law.c(K), abs=1e-12 * max(1.0, size) * max(nu, 8.0) ** 2)
+    assert follower.residual_acceleration < 1e-11 * max(1.0, size) * max(nu, 8.0) ** 2
     assert [cam.a(0.0), cam.a(1.0), cam.b(0.0), cam.b(1.0)] == pytest.approx([0, 1, 0, 0], abs=1e-9)
 
 
@@ -139,8 +139,8 @@ def test_the_mass_of_any_polynomial_cam_swings_about_its_mass_law() -> None:
 def test_a_cam_of_an_optimal_law() -> None:
     law = synthesize(Problem(B=1.859, order=4, basis=Chebyshev(9))).law
     cam = polydyne(law, 20.0, 0.05)
-    found = Follower(20.0, 0.05).response(cam)
-    assert found.dynamic_factor(law) == pytest.approx(1.0, abs=1e-9)
+    follower = Follower(20.0, 0.05).response(cam)
+    assert follower.dynamic_factor(law) == pytest.approx(1.0, abs=1e-9)
     assert isinstance(cam, PolynomialLaw)
     assert cam.constants.B.value < 2.2
 

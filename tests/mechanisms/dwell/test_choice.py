@@ -23,15 +23,15 @@ def test_least_dwells(row: dict[str, str]) -> None:
     half_turn = row["scenario"] == "A"
     for kind in ("II", "III"):
         clutch = deg(float(row["phi_sp"]))
-        one = dwell_mechanism(kind, law=K, dwell=deg(60), rise=deg(90), clutch_angle=clutch, **GIVEN)
+        mechanism = dwell_mechanism(kind, law=K, dwell=deg(60), rise=deg(90), clutch_angle=clutch, **GIVEN)
         limit = float(row["b_limit"])
         if not row[f"dwell_from_{kind}"]:
             with pytest.raises(InfeasibleProblem, match="no dwell"):
-                least_dwell(one, limit, half_turn=half_turn)
+                least_dwell(mechanism, limit, half_turn=half_turn)
             continue
         # the table gives the first quarter of a degree at which b is within the limit
-        found = degrees(least_dwell(one, limit, half_turn=half_turn))
-        assert -1e-6 <= float(row[f"dwell_from_{kind}"]) - found <= 0.25 + 1e-6
+        angle = degrees(least_dwell(mechanism, limit, half_turn=half_turn))
+        assert -1e-6 <= float(row[f"dwell_from_{kind}"]) - angle <= 0.25 + 1e-6
 
 
 def test_the_choice_goes_from_I_over_III_to_II_as_the_dwell_grows() -> None:
@@ -46,10 +46,10 @@ def test_the_choice_depends_on_more_than_the_dwell() -> None:
 
 def test_reasons_are_given() -> None:
     data: dict[str, Any] = {"rise": deg(120), "clutch_angle": deg(10), **GIVEN}
-    found = compare_dwell_mechanisms(law=K, dwell=deg(60), most_torque=0.25, most_size=1.35, **data)
-    assert found.reasons["I"].startswith("no: a = 1.39 exceeds 1.35")
-    assert found.reasons["III"].startswith("no: b = 0.3 exceeds 0.25")
-    assert found.chosen is None
+    comparison = compare_dwell_mechanisms(law=K, dwell=deg(60), most_torque=0.25, most_size=1.35, **data)
+    assert comparison.reasons["I"].startswith("no: a = 1.39 exceeds 1.35")
+    assert comparison.reasons["III"].startswith("no: b = 0.3 exceeds 0.25")
+    assert comparison.chosen is None
     unequal = compare_dwell_mechanisms(law=K, dwell=deg(60), lower_dwell=0.0, most_torque=5.0, **data)
     assert unequal.reasons["I"].startswith("cannot be built: lower_dwell of type I")
     assert (unequal.chosen, unequal.by_rule) == ("II", "II")

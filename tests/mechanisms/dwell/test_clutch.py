@@ -22,10 +22,10 @@ def test_the_table(kind: str) -> None:
 
 
 def check_clutch(row: dict[str, str]) -> None:
-    one = Clutch(mechanism(row["type"], row))
-    assert one.ratio == pytest.approx(float(row["p_over_N"]), rel=1e-7)
-    assert 1.0 / one.ratio == pytest.approx(float(row["N_for_p1"]), rel=5.1e-6)
-    best = one.nearest(120)
+    clutch = Clutch(mechanism(row["type"], row))
+    assert clutch.ratio == pytest.approx(float(row["p_over_N"]), rel=1e-7)
+    assert 1.0 / clutch.ratio == pytest.approx(float(row["N_for_p1"]), rel=5.1e-6)
+    best = clutch.nearest(120)
     assert f"{best.p}/{best.N}" == row["nearest_p/N (N<=120)"] or (best.p == 0 and row["nearest_p/N (N<=120)"] == "0")
     assert degrees(best.error) == pytest.approx(float(row["angle_error_deg"]), abs=5.1e-5)
 
@@ -72,12 +72,12 @@ def test_the_changes_that_make_a_clutch_exact_do_so(kind: str) -> None:
 
 
 def test_the_peak_velocity_that_makes_a_clutch_exact() -> None:
-    one = example("III")
-    wanted = Clutch(one).teeth(1, 50)
+    instance = example("III")
+    wanted = Clutch(instance).teeth(1, 50)
     assert wanted.B2 is not None
-    slack = one.swing * one.speed * one.phi2 / tau
+    slack = instance.swing * instance.speed * instance.phi2 / tau
     assert slack * (1.0 - 1.0 / wanted.B2) == pytest.approx(1 / 50, rel=1e-12)
-    assert Clutch(one).teeth(1, 3).B2 is None
+    assert Clutch(instance).teeth(1, 3).B2 is None
     assert Clutch(example("II")).teeth(1, 11).B2 is None
 
 
@@ -93,16 +93,21 @@ def test_wrong_data_are_refused() -> None:
         Clutch(example("I"))
     with pytest.raises(InputError, match="no lower dwell"):
         Clutch(example("II", lower_dwell=0.0, rise=deg(135)), lower=True)
-    one = Clutch(example("III"))
-    for wrong in (lambda: one.nearest(0), lambda: one.choices(0, 5), lambda: one.teeth(1, 0), lambda: one.teeth(-1, 9)):
+    clutch = Clutch(example("III"))
+    for wrong in (
+        lambda: clutch.nearest(0),
+        lambda: clutch.choices(0, 5),
+        lambda: clutch.teeth(1, 0),
+        lambda: clutch.teeth(-1, 9),
+    ):
         with pytest.raises(InputError, match="whole number"):
             wrong()
     with pytest.raises(InputError, match="no swing makes"):
-        exact_swing(example("III"), one.teeth(0, 5))
+        exact_swing(example("III"), clutch.teeth(0, 5))
 
 
 def test_the_lower_dwell_has_a_clutch_of_its_own() -> None:
-    one = dwell_mechanism(
+    mechanism = dwell_mechanism(
         "III",
         law=smoothstep(3),
         dwell=deg(80),
@@ -113,6 +118,6 @@ def test_the_lower_dwell_has_a_clutch_of_its_own() -> None:
         radius_ratio=1.0,
         inertia_ratio=0.1,
     )
-    upper, lower = Clutch(one), Clutch(one, lower=True)
+    upper, lower = Clutch(mechanism), Clutch(mechanism, lower=True)
     assert lower.rocker_turn == upper.rocker_turn
-    assert lower.ratio - upper.ratio == pytest.approx(one.swing * one.speed * deg(20) / tau)
+    assert lower.ratio - upper.ratio == pytest.approx(mechanism.swing * mechanism.speed * deg(20) / tau)

@@ -59,9 +59,13 @@ def test_the_grid(row: dict[str, str]) -> None:
             with pytest.raises(InputError, match="must exceed twice clutch_angle"):
                 mechanism(kind, row)
             continue
-        one = mechanism(kind, row)
-        found |= {f"a_{kind}": one.a, f"b_{kind}": one.b, f"b_{kind}_per_I1I": one.b / 0.1}
-        found |= {f"S2_over_S_{kind}": one.S2, f"phi2_{kind}": degrees(one.phi2)}
+        dwell_machine = mechanism(kind, row)
+        found |= {
+            f"a_{kind}": dwell_machine.a,
+            f"b_{kind}": dwell_machine.b,
+            f"b_{kind}_per_I1I": dwell_machine.b / 0.1,
+        }
+        found |= {f"S2_over_S_{kind}": dwell_machine.S2, f"phi2_{kind}": degrees(dwell_machine.phi2)}
     for name, value in found.items():
         assert value == pytest.approx(float(row[name]), rel=SIX_DIGITS), name
 
@@ -81,8 +85,8 @@ def test_other_radii(row: dict[str, str]) -> None:
     swing, dwell = deg(float(row["gamma_sum"])), deg(float(row["phi_dwell"]))
     ratio = float(row["r0min/b"]) / swing
     for kind in ("I", "II", "III"):
-        one = example(kind, dwell=dwell, rise=pi - dwell, clutch_angle=deg(10), swing=swing, radius_ratio=ratio)
-        assert one.a == pytest.approx(float(row[f"a_{kind}"]), abs=5.1e-5)
+        instance = example(kind, dwell=dwell, rise=pi - dwell, clutch_angle=deg(10), swing=swing, radius_ratio=ratio)
+        assert instance.a == pytest.approx(float(row[f"a_{kind}"]), abs=5.1e-5)
 
 
 def test_the_formulas_of_size_in_the_text() -> None:
@@ -108,13 +112,15 @@ LAWS: dict[str, dict[str, object]] = {
 @pytest.mark.parametrize("changed", LAWS.values(), ids=LAWS.keys())
 @pytest.mark.parametrize("kind", ["I", "II", "III"])
 def test_the_composed_motion_is_continuous_and_closes(kind: str, changed: dict[str, object]) -> None:
-    one = example(kind, **changed)
-    motion = one.motion
+    instance = example(kind, **changed)
+    motion = instance.motion
     assert motion.jumps(1) == ()
     assert motion.a(1.0) == pytest.approx(0.0, abs=1e-12)
     assert motion.b(1.0) == pytest.approx(motion.b(0.0), rel=1e-12)
     low, high = motion.extrema(0)
-    assert one.a == pytest.approx((one.radius_ratio + high.value - low.value) / (one.radius_ratio + 1.0), rel=1e-12)
+    assert instance.a == pytest.approx(
+        (instance.radius_ratio + high.value - low.value) / (instance.radius_ratio + 1.0), rel=1e-12
+    )
     # the same displacement by integrating the acceleration twice
     edges = np.concatenate([np.linspace(s, e, 5)[:-1] for s, e in zip(motion.breaks, motion.breaks[1:], strict=False)])
     nodes, weights = np.polynomial.legendre.leggauss(24)
@@ -130,9 +136,9 @@ def test_the_composed_motion_is_continuous_and_closes(kind: str, changed: dict[s
 
 @pytest.mark.parametrize("changed", LAWS.values(), ids=LAWS.keys())
 def test_type_II_has_no_net_travel_in_a_dwell(changed: dict[str, object]) -> None:
-    one = example("II", **changed)
-    start, end = one.rise / one.cycle, (one.rise + one.dwell) / one.cycle
-    motion = one.motion
+    instance = example("II", **changed)
+    start, end = instance.rise / instance.cycle, (instance.rise + instance.dwell) / instance.cycle
+    motion = instance.motion
     assert motion.a(end) == pytest.approx(motion.a(start), abs=1e-12)
     inside = [k for k in motion.breaks if start < k < end]
     travel = quad(motion.b, start, end, points=inside, limit=200)[0]
@@ -142,27 +148,29 @@ def test_type_II_has_no_net_travel_in_a_dwell(changed: dict[str, object]) -> Non
 @pytest.mark.parametrize("kind", ["II", "III"])
 @pytest.mark.parametrize("changed", LAWS.values(), ids=LAWS.keys())
 def test_criterion_b_is_the_ratio_of_peak_torques(kind: str, changed: dict[str, object]) -> None:
-    one = example(kind, **changed)
+    instance = example(kind, **changed)
     k = np.linspace(0.0, 1.0, 40001)
-    place = k * one.cycle
-    dwells = ((place > one.rise) & (place < one.rise + one.dwell)) | (place > one.rise + one.dwell + one.return_angle)
-    torque = np.abs(one.motion.d(k[dwells])).max() / one.cycle**3
-    executive = np.abs(one.law.d(k)).max() / one.rise**3
-    assert one.b == pytest.approx(one.inertia_ratio * torque / executive, rel=1e-5)
+    place = k * instance.cycle
+    dwells = ((place > instance.rise) & (place < instance.rise + instance.dwell)) | (
+        place > instance.rise + instance.dwell + instance.return_angle
+    )
+    torque = np.abs(instance.motion.d(k[dwells])).max() / instance.cycle**3
+    executive = np.abs(instance.law.d(k)).max() / instance.rise**3
+    assert instance.b == pytest.approx(instance.inertia_ratio * torque / executive, rel=1e-5)
 
 
 def test_power_is_balanced_while_the_executive_link_moves() -> None:
-    one = example("III", law=smoothstep(4))
+    instance = example("III", law=smoothstep(4))
     k = np.linspace(0.0, 1.0, 201)
-    executive = one.law.d(k) / one.rise**3
-    loader = one.motion.d(k * one.rise / one.cycle) / one.cycle**3
-    assert loader == pytest.approx(-(one.loader.Y**2) * executive, abs=1e-12 * np.abs(executive).max())
+    executive = instance.law.d(k) / instance.rise**3
+    loader = instance.motion.d(k * instance.rise / instance.cycle) / instance.cycle**3
+    assert loader == pytest.approx(-(instance.loader.Y**2) * executive, abs=1e-12 * np.abs(executive).max())
 
 
 def test_unequal_dwells() -> None:
     longer = {"lower_dwell": deg(120), "rise": deg(75)}
     third, second = example("III", **longer), example("II", **longer)
-    assert [round(degrees(one.angle)) for one in third.sections if one.name == "standstill"] == [30]
+    assert [round(degrees(section.angle)) for section in third.sections if section.name == "standstill"] == [30]
     assert third.remarks == second.remarks == ()
     for one in (third, second):
         assert one.motion.a(1.0) == pytest.approx(0.0, abs=1e-12)
@@ -184,9 +192,11 @@ def test_the_return_must_take_over_the_speed_of_the_loader() -> None:
     other = smoothstep(3)
     K_speed = example("II").speed
     angle = example("II", law=other, return_law=other).loader.B / K_speed
-    one = example("II", return_law=other, return_angle=angle)
-    assert one.motion.jumps(1) == ()
-    assert one.remarks == (f"rise, return and dwells add up to {degrees(one.cycle):.6g} degrees, not to one turn",)
+    instance = example("II", return_law=other, return_angle=angle)
+    assert instance.motion.jumps(1) == ()
+    assert instance.remarks == (
+        f"rise, return and dwells add up to {degrees(instance.cycle):.6g} degrees, not to one turn",
+    )
 
 
 @pytest.mark.parametrize(

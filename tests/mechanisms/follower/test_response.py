@@ -19,9 +19,9 @@ NUS, DAMPINGS = (2.0, 7.3, 41.0, 200.0), (0.0, 0.05, 0.9, 1.0, 1.0 + 1e-9, 1.5)
 def misses(case: Case) -> tuple[float, float]:
     """Greatest differences of displacement and velocity from DOP853, relative to their size, rise and dwell."""
     k = np.linspace(0.0, 1.3, 27)[1:]
-    found = Follower(case.nu, case.damping).response(case.law, initial=case.initial)
+    follower = Follower(case.nu, case.damping).response(case.law, initial=case.initial)
     wanted = integrated(case, k.tolist())
-    a, b = (np.abs(found(k, order) - wanted[:, order]).max() for order in (0, 1))
+    a, b = (np.abs(follower(k, order) - wanted[:, order]).max() for order in (0, 1))
     size = max(1.0, float(np.abs(wanted[:, 0]).max()))
     return a / size, b / (size * case.nu)
 
@@ -43,23 +43,23 @@ def test_two_hundred_random_laws_against_an_integrator(seed: int) -> None:
 @pytest.mark.parametrize("nu", NUS)
 @pytest.mark.parametrize("law", [smoothstep(2), savin("IV", 11.0), random_law(2, 30, 0.95)], ids=["S2", "IV", "30"])
 def test_every_order_to_a_dozen_digits(law: PolynomialLaw, nu: float, damping: float) -> None:
-    found = Follower(nu, damping).response(law)
+    follower = Follower(nu, damping).response(law)
     for k in (0.013, 0.37, 1.0):
         wanted = exact(law, nu, damping, k)
         for order in range(4):
             size = law.constants.C.value * max(nu, 8.0) ** (order - 2)
             rounding = 1e-15 * max(1.0, abs(wanted[order]))
-            assert found(k, order) == pytest.approx(wanted[order], abs=2e-13 * size + rounding), (k, order)
+            assert follower(k, order) == pytest.approx(wanted[order], abs=2e-13 * size + rounding), (k, order)
 
 
 @pytest.mark.parametrize("nu", [3.0, 30.0, 300.0, 2 * np.pi, 2 * np.pi * (1 + 1e-9), 6 * np.pi])
 @pytest.mark.parametrize("damping", [0.0, 1e-3, 1.0])
 def test_a_cycloid_in_closed_form_also_in_resonance(nu: float, damping: float) -> None:
-    found = Follower(nu, damping).response(cut_sine())
+    follower = Follower(nu, damping).response(cut_sine())
     series = np.polynomial.Chebyshev.interpolate(lambda k: cut_sine().c(k), 40, [0, 1]).coef
     same = Follower(nu, damping).response(PolynomialLaw(series))
     for order in range(4):
-        assert found(K, order) == pytest.approx(same(K, order), abs=1e-12 * max(nu, 8.0) ** order)
+        assert follower(K, order) == pytest.approx(same(K, order), abs=1e-12 * max(nu, 8.0) ** order)
 
 
 @pytest.mark.sample(2)
@@ -67,14 +67,14 @@ def test_a_cycloid_in_closed_form_also_in_resonance(nu: float, damping: float) -
 @pytest.mark.parametrize(("nu", "damping"), [(4.0, 0.1), (33.0, 0.0), (20.0, 1.0)])
 def test_the_equation_of_motion_holds(name: str, nu: float, damping: float) -> None:
     law = EXAMPLES[name]
-    found = Follower(nu, damping).response(law)
-    a, b, c, j = (found(K, order) for order in range(4))
+    follower = Follower(nu, damping).response(law)
+    a, b, c, j = (follower(K, order) for order in range(4))
     size = max(1.0, float(np.abs(law.a(K)).max()))
     assert c + 2 * damping * nu * b + nu**2 * a == pytest.approx(nu**2 * law.a(K), abs=1e-12 * nu**2 * size)
     step = 1e-5
     inside = K[1:-1] + 1e-4
-    middle = (found.c(inside + step) - found.c(inside - step)) / (2 * step)
-    assert middle == pytest.approx(found.j(inside), abs=1e-5 * max(1.0, float(np.abs(j).max())) * max(1.0, nu / 10))
+    middle = (follower.c(inside + step) - follower.c(inside - step)) / (2 * step)
+    assert middle == pytest.approx(follower.j(inside), abs=1e-5 * max(1.0, float(np.abs(j).max())) * max(1.0, nu / 10))
 
 
 @pytest.mark.parametrize("name", ["cycloidal", "modified trapezoid", "0317(1,5)", "double harmonic"])
@@ -121,17 +121,17 @@ def test_cutting_a_law_changes_nothing() -> None:
     st.integers(0, 3),
 )
 def test_no_value_exceeds_the_extrema(seed: int, nu: float, damping: float, order: int) -> None:
-    found = Follower(nu, damping).response(random_case(seed).law)
-    low, high = found.extrema(order)
-    values = found(np.linspace(0.0, 1.0, 1501), order)
+    follower = Follower(nu, damping).response(random_case(seed).law)
+    low, high = follower.extrema(order)
+    values = follower(np.linspace(0.0, 1.0, 1501), order)
     size = float(np.abs(values).max())
     assert low.value <= values.min() + 1e-10 * size
     assert high.value >= values.max() - 1e-10 * size
     # where the motion leaps, the law has its right-hand value, and the extreme may be the left-hand one
     for extreme in (low, high):
-        sides = found(np.array([max(extreme.k - 1e-13, 0.0), extreme.k]), order)
+        sides = follower(np.array([max(extreme.k - 1e-13, 0.0), extreme.k]), order)
         assert np.abs(sides - extreme.value).min() <= 1e-9 * size + 1e-12
-    assert found.peak(order).value == pytest.approx(max(-low.value, high.value), rel=1e-12)
+    assert follower.peak(order).value == pytest.approx(max(-low.value, high.value), rel=1e-12)
 
 
 @examples(30)
@@ -147,58 +147,58 @@ def test_responses_add(seed: int, nu: float, damping: float, displacement: float
 
 def test_the_dwell_begins_where_the_rise_ends_and_dies_out() -> None:
     for damping in (0.02, 1.0, 1.4):
-        found = Follower(30.0, damping).response(smoothstep(3))
+        follower = Follower(30.0, damping).response(smoothstep(3))
         for order in range(3):
-            assert found(1.0 + 1e-13, order) == pytest.approx(found(1.0, order), abs=1e-9)
-        assert found(40.0) == pytest.approx(1.0, abs=1e-9)
-        assert found.final == (found.a(1.0), found.b(1.0))
+            assert follower(1.0 + 1e-13, order) == pytest.approx(follower(1.0, order), abs=1e-9)
+        assert follower(40.0) == pytest.approx(1.0, abs=1e-9)
+        assert follower.final == (follower.a(1.0), follower.b(1.0))
 
 
 def test_a_law_that_still_moves_at_its_end_strikes() -> None:
     """The cam stops at once; the mass goes on."""
-    found = Follower(10.0).response(smoothstep(1))
-    assert found.b(1.0 + 1e-12) == pytest.approx(found.b(1.0), abs=1e-9)
+    follower = Follower(10.0).response(smoothstep(1))
+    assert follower.b(1.0 + 1e-12) == pytest.approx(follower.b(1.0), abs=1e-9)
     # a ramp started from rest and stopped: two free vibrations of amplitude 1/nu, a phase nu apart
-    assert found.residual_displacement == pytest.approx(2 / 10.0 * abs(np.sin(10.0 / 2)), rel=1e-12)
+    assert follower.residual_displacement == pytest.approx(2 / 10.0 * abs(np.sin(10.0 / 2)), rel=1e-12)
 
 
 def test_the_residual_is_the_amplitude_of_the_dwell() -> None:
-    found = Follower(17.0).response(smoothstep(3))
+    follower = Follower(17.0).response(smoothstep(3))
     k = np.linspace(1.0, 2.0, 20001)
-    assert found.residual_displacement == pytest.approx(np.abs(found.a(k) - 1.0).max(), rel=1e-6)
-    assert found.residual_acceleration == pytest.approx(found.dwell_peak(2).value, rel=1e-12)
-    assert found.residual_acceleration == pytest.approx(np.abs(found.c(k)).max(), rel=1e-6)
+    assert follower.residual_displacement == pytest.approx(np.abs(follower.a(k) - 1.0).max(), rel=1e-6)
+    assert follower.residual_acceleration == pytest.approx(follower.dwell_peak(2).value, rel=1e-12)
+    assert follower.residual_acceleration == pytest.approx(np.abs(follower.c(k)).max(), rel=1e-6)
     past = Follower(17.0, 1.2).response(smoothstep(3))
     assert past.residual_displacement == pytest.approx(np.abs(past.a(k) - 1.0).max(), rel=1e-12)
 
 
 def test_a_stiff_follower_does_what_the_cam_does() -> None:
-    found = Follower(1e5, 0.3).response(smoothstep(5))
-    assert found.c(K) == pytest.approx(smoothstep(5).c(K), abs=1e-2)
-    assert found.dynamic_factor() == pytest.approx(1.0, abs=1e-6)
+    follower = Follower(1e5, 0.3).response(smoothstep(5))
+    assert follower.c(K) == pytest.approx(smoothstep(5).c(K), abs=1e-2)
+    assert follower.dynamic_factor() == pytest.approx(1.0, abs=1e-6)
 
 
 def test_a_soft_follower_hardly_moves() -> None:
-    found = Follower(1e-3).response(smoothstep(4))
+    follower = Follower(1e-3).response(smoothstep(4))
     mean = 1e-6 * 0.5  # nu² times the mean of a
-    assert found.b(1.0) == pytest.approx(mean, rel=1e-5)
+    assert follower.b(1.0) == pytest.approx(mean, rel=1e-5)
 
 
 def test_constant_power_has_a_response_although_its_acceleration_is_infinite() -> None:
     law = cut_power(0.0, 1.5)
-    found = Follower(12.0, 0.1).response(law)
+    follower = Follower(12.0, 0.1).response(law)
     case = Case(law, lambda k: float(law.a(k)), 12.0, 0.1, (law.a(0.0), 0.0))
     k = [0.2, 0.6, 1.0]
-    assert found.a(k) == pytest.approx(integrated(case, k)[:, 0], abs=1e-9)
-    assert np.isfinite(found.c(K)).all()
+    assert follower.a(k) == pytest.approx(integrated(case, k)[:, 0], abs=1e-9)
+    assert np.isfinite(follower.c(K)).all()
 
 
 def test_a_jump_of_velocity_is_an_impulse() -> None:
     law = PiecewiseLaw([0, 0.5, 1], [PolynomialSegment((), 0.5), PolynomialSegment((), 1.5)])
-    found = Follower(9.0).response(law)
-    before, after = found.b([0.5 - 1e-12, 0.5])
+    follower = Follower(9.0).response(law)
+    before, after = follower.b([0.5 - 1e-12, 0.5])
     assert after == pytest.approx(before, abs=1e-9)
-    assert found.j(0.5) - found.j(0.5 - 1e-12) == pytest.approx(81.0, abs=1e-6)
+    assert follower.j(0.5) - follower.j(0.5 - 1e-12) == pytest.approx(81.0, abs=1e-6)
 
 
 def test_a_machine_is_a_dimensionless_follower() -> None:

@@ -23,9 +23,9 @@ def test_the_tables_are_whole() -> None:
 def test_coefficients_of_mass_and_cam(row: dict[str, str]) -> None:
     i = int(row["i"])
     mass = savin(row["family"], float(row["alpha"])).to_powers()
-    found = cam(row["family"], row["n"]).to_powers()  # type: ignore[attr-defined]
+    disc = cam(row["family"], row["n"]).to_powers()  # type: ignore[attr-defined]
     assert mass[i] == pytest.approx(float(Fraction(row["Q_exact"])), rel=1e-12, abs=1e-12)
-    assert found[i] == pytest.approx(float(Fraction(row["q_exact"])), rel=1e-12, abs=1e-12)
+    assert disc[i] == pytest.approx(float(Fraction(row["q_exact"])), rel=1e-12, abs=1e-12)
 
 
 @pytest.mark.parametrize("n", ["0", "1"])
@@ -61,16 +61,16 @@ def test_peaks_of_the_cams(row: dict[str, str]) -> None:
 @pytest.mark.parametrize("row", OFF_DESIGN, ids=name)
 def test_off_design(row: dict[str, str]) -> None:
     law, nu = reference(row["law"]), float(row["nu_actual"])
-    found = Follower(nu, float(row["n_actual"]) / nu).response(cam(row["law"], row["n_design"]))
-    peak = found.peak(2)
+    follower = Follower(nu, float(row["n_actual"]) / nu).response(cam(row["law"], row["n_design"]))
+    peak = follower.peak(2)
     for key, value in {
         "C_designed": law.constants.C.value,
         "C_actual_rise": peak.value,
-        "kd_rise": found.dynamic_factor(law),
-        "C_actual_dwell": found.dwell_peak(2).value,
-        "kd_all": found.dynamic_factor(law, dwell=True),
-        "res_disp_amp": found.residual_displacement,
-        "res_acc_amp": found.residual_acceleration,
+        "kd_rise": follower.dynamic_factor(law),
+        "C_actual_dwell": follower.dwell_peak(2).value,
+        "kd_all": follower.dynamic_factor(law, dwell=True),
+        "res_disp_amp": follower.residual_displacement,
+        "res_acc_amp": follower.residual_acceleration,
     }.items():
         assert value == pytest.approx(float(row[key]), rel=1e-9, abs=1e-11), key
     assert peak.k == pytest.approx(float(row["k_peak"]), abs=6e-7)

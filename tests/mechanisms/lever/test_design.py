@@ -14,9 +14,9 @@ def test_a_known_lever_is_found_again(name: str) -> None:
     known = TorsionLever(beta=0.8, lam=1.7, **GIVEN)
     value = QUANTITIES[name](known)
     levers = find_torsion_levers({name: value}, lam=1.7, **GIVEN)
-    assert min(abs(one.beta - 0.8) for one in levers) < 1e-6
-    for one in levers:
-        assert QUANTITIES[name](one) == pytest.approx(value, rel=1e-10)
+    assert min(abs(lever.beta - 0.8) for lever in levers) < 1e-6
+    for lever in levers:
+        assert QUANTITIES[name](lever) == pytest.approx(value, rel=1e-10)
 
 
 def test_the_coupler_is_found_for_a_period() -> None:
@@ -28,16 +28,16 @@ def test_the_coupler_is_found_for_a_period() -> None:
 def test_all_levers_are_found_where_there_are_several() -> None:
     # B3 rises from beta = 0.02 to 0.13 or so and falls again
     levers = find_torsion_levers({"B3": 1.585}, lam=1.0, beta=(0.02, 1.0), rho=0.15, nu=0.15, swing=deg(40))
-    assert [one.exact.B3 for one in levers] == pytest.approx([1.585, 1.585], rel=1e-11)
+    assert [lever.exact.B3 for lever in levers] == pytest.approx([1.585, 1.585], rel=1e-11)
     assert levers[0].beta < 0.13 < levers[1].beta
 
 
 def test_both_lengths_are_found_for_two_constants() -> None:
     known = TorsionLever(beta=0.7, lam=2.5, **GIVEN).exact
     levers = find_torsion_levers({"T": known.period, "B1/B3": known.B1 / known.B3}, **GIVEN)
-    assert any((one.beta, one.lam) == pytest.approx((0.7, 2.5), rel=1e-5) for one in levers)
-    for one in levers:
-        assert (one.exact.period, one.exact.B1 / one.exact.B3) == pytest.approx(
+    assert any((lever.beta, lever.lam) == pytest.approx((0.7, 2.5), rel=1e-5) for lever in levers)
+    for lever in levers:
+        assert (lever.exact.period, lever.exact.B1 / lever.exact.B3) == pytest.approx(
             (known.period, known.B1 / known.B3), rel=1e-8
         )
 

@@ -160,16 +160,16 @@ def test_closed_forms_of_the_paper() -> None:
 
 def test_a_parallelogram_swings_harmonically() -> None:
     for lam, rho, nu, swing in ((0.5, 0.0, 0.3, 20.0), (3.0, 0.15, 0.15, 60.0), (10.0, 0.3, 0.0, 45.0)):
-        one = TorsionLever(1.0, lam, rho, nu, deg(swing))
-        for motion in (one.exact, one.asymptotic):
+        lever = TorsionLever(1.0, lam, rho, nu, deg(swing))
+        for motion in (lever.exact, lever.asymptotic):
             assert motion.chi01 == pytest.approx(-motion.chi02, rel=1e-13)
             assert motion.zeta == pytest.approx(0.25, abs=1e-14)
-            assert motion.period == pytest.approx(one.T0, rel=1e-13)
+            assert motion.period == pytest.approx(lever.T0, rel=1e-13)
             assert pytest.approx((pi / 2, pi / 2), rel=1e-13) == (motion.B1, motion.B3)
             assert pytest.approx((pi**2 / 2, -(pi**2) / 2), rel=1e-12) == (motion.C1, motion.C3)
             k = np.linspace(0.0, 1.0, 33)
             assert motion.law.a(k) == pytest.approx(0.5 - 0.5 * np.cos(pi * k), abs=1e-14)
-        assert apart(one.exact, one.asymptotic) < 1e-13
+        assert apart(lever.exact, lever.asymptotic) < 1e-13
 
 
 @example(beta=2.0, lam=0.1, rho=0.0, nu=0.0, swing=12.0)
@@ -185,19 +185,19 @@ def test_any_geometry_gives_the_exact_motion_or_names_the_limit(
     beta: float, lam: float, rho: float, nu: float, swing: float
 ) -> None:
     try:
-        one = TorsionLever(beta, lam, rho, nu, deg(swing))
-        motion = one.exact
+        lever = TorsionLever(beta, lam, rho, nu, deg(swing))
+        motion = lever.exact
     except InputError as error:
         assert any(limit in str(error) for limit in LIMITS), str(error)  # noqa: PT017 - either an answer or a limit
         return
     half = motion.period / 2
     k = (1.0 - np.cos(pi * np.arange(65) / 64)) / 2
-    chi = motion.chi01 - one.swing * motion.law.a(k)
+    chi = motion.chi01 - lever.swing * motion.law.a(k)
     with mpmath.workdps(25):
-        moment = np.array([float(printed_moment(one, mpmath.mpf(x))) for x in chi[::16].tolist()])
-    residual = motion.law.c(k[::16]) * one.swing / half**2 - moment
+        moment = np.array([float(printed_moment(lever, mpmath.mpf(x))) for x in chi[::16].tolist()])
+    residual = motion.law.c(k[::16]) * lever.swing / half**2 - moment
     assert np.abs(residual).max() < 1e-12 * np.abs(moment).max()
     # differences of the displacements alone, on Chebyshev points, know nothing of the law's own derivatives
     fitted = np.polynomial.Chebyshev.fit(k, chi, 64, domain=[0, 1]).deriv(2)
     inner = slice(8, -8)
-    assert fitted(k[inner]) == pytest.approx(-one.moment(chi[inner]) * half**2, abs=1e-8 * one.swing)
+    assert fitted(k[inner]) == pytest.approx(-lever.moment(chi[inner]) * half**2, abs=1e-8 * lever.swing)

@@ -64,9 +64,9 @@ def test_transmission_angles_are_those_on_the_way(beta: float, lam: float) -> No
     linkage = FourBar(beta, lam)
     low, high = -radians(20), radians(20)
     way = linkage.at(np.linspace(low, high, 20001))
-    found = linkage.transmission(low, high)
+    transmission = linkage.transmission(low, high)
     wanted = [(angles.min(), angles.max()) for angles in (way.at_rocker, way.at_link)]
-    assert np.array(found) == pytest.approx(np.array(wanted), abs=1e-7)
+    assert np.array(transmission) == pytest.approx(np.array(wanted), abs=1e-7)
 
 
 def test_ratio_and_slope_are_derivatives() -> None:
@@ -78,9 +78,9 @@ def test_ratio_and_slope_are_derivatives() -> None:
 
 
 def test_what_is_left_of_the_twists() -> None:
-    one = TorsionLever(**GIVEN)
-    planned = 0.15 * one.gamma01, 0.15 * (one.swing - one.chi01)
-    assert one.twists_left == pytest.approx(planned, abs=2e-3)
+    lever = TorsionLever(**GIVEN)
+    planned = 0.15 * lever.gamma01, 0.15 * (lever.swing - lever.chi01)
+    assert lever.twists_left == pytest.approx(planned, abs=2e-3)
     slack = TorsionLever(**{**GIVEN, "nu": 0.0})
     assert slack.twists_left[1] < 0.0 < slack.twists_left[0]
 

@@ -49,8 +49,8 @@ def test_energy_parameters_in_closed_form(name: str, Y: float) -> None:
 
 @pytest.mark.parametrize(("name", "D"), [("Co", 1.5 * sqrt(3) * pi), ("0000", 2 * sqrt(3))])
 def test_powers_in_closed_form(name: str, D: float) -> None:
-    one = loader(coded(name))
-    assert pytest.approx(one.Y**2 * D, rel=1e-12) == one.D
+    balanced = loader(coded(name))
+    assert pytest.approx(balanced.Y**2 * D, rel=1e-12) == balanced.D
 
 
 def test_the_loader_of_a_harmonic_law_is_harmonic() -> None:
@@ -64,23 +64,23 @@ def test_the_loader_of_a_harmonic_law_is_harmonic() -> None:
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("row", TABLE, ids=[row["code"] for row in TABLE])
 def test_the_table_of_twelve_laws(row: dict[str, str]) -> None:
-    one = loader(coded(row["code"]))
-    peaks = one.executive.constants
+    balanced = loader(coded(row["code"]))
+    peaks = balanced.executive.constants
     found = {
         "B": peaks.B.value,
         "C": peaks.C.value,
         "D": peaks.D.value,
-        "Y_exact": one.Y,
-        "Bbcm_exact": one.B,
-        "Cbcm_exact_max": one.C,
-        "Dbcm_exact": one.D,
-        "Cbcm_formula_j05": one.C_at_turn,
+        "Y_exact": balanced.Y,
+        "Bbcm_exact": balanced.B,
+        "Cbcm_exact_max": balanced.C,
+        "Dbcm_exact": balanced.D,
+        "Cbcm_formula_j05": balanced.C_at_turn,
     }
     for name, value in found.items():
         assert value == pytest.approx(float(row[name]), rel=1e-8, abs=1e-12), name
-    if isfinite(one.C):
-        assert one.law.peak(2).k == pytest.approx(float(row["k_of_Cbcm"]), abs=1e-7)
-    assert one.peaks_at_turn == (row["k_of_Cbcm"] == "0.5")
+    if isfinite(balanced.C):
+        assert balanced.law.peak(2).k == pytest.approx(float(row["k_of_Cbcm"]), abs=1e-7)
+    assert balanced.peaks_at_turn == (row["k_of_Cbcm"] == "0.5")
 
 
 @pytest.mark.sample(2)
@@ -112,34 +112,34 @@ def test_the_turn_is_smooth_and_signed() -> None:
 
 
 def test_acceleration_without_bound_is_said_to_be_so() -> None:
-    one = loader(coded("0050"))
-    assert (one.C, one.C_at_turn, one.law.c(0.5), one.law.constants.rms_c) == (inf, inf, -inf, inf)
-    assert one.law.d(0.5) == pytest.approx(-(one.Y**2) * one.executive.d(0.5), rel=1e-14)
-    assert json.loads(json.dumps(one.to_dict()))["constants"]["C"] == {"value": None, "k": 0.5}
+    balanced = loader(coded("0050"))
+    assert (balanced.C, balanced.C_at_turn, balanced.law.c(0.5), balanced.law.constants.rms_c) == (inf, inf, -inf, inf)
+    assert balanced.law.d(0.5) == pytest.approx(-(balanced.Y**2) * balanced.executive.d(0.5), rel=1e-14)
+    assert json.loads(json.dumps(balanced.to_dict()))["constants"]["C"] == {"value": None, "k": 0.5}
 
 
 def test_a_stretch_of_uniform_velocity_is_a_standstill() -> None:
-    one = loader(catalogue["trapezoidal velocity in thirds"].law)
-    assert (one.turn, one.law.a(0.6)) == pytest.approx((1 / 3, 0.5), rel=1e-13)
-    assert one.law.b([0.34, 0.5, 0.66]).tolist() == one.law.c([0.34, 0.5, 0.66]).tolist() == [0.0, 0.0, 0.0]
-    assert energy_error(one) < 1e-14
+    balanced = loader(catalogue["trapezoidal velocity in thirds"].law)
+    assert (balanced.turn, balanced.law.a(0.6)) == pytest.approx((1 / 3, 0.5), rel=1e-13)
+    assert balanced.law.b([0.34, 0.5, 0.66]).tolist() == balanced.law.c([0.34, 0.5, 0.66]).tolist() == [0.0, 0.0, 0.0]
+    assert energy_error(balanced) < 1e-14
 
 
 def test_constant_power_is_exchanged_for_constant_power() -> None:
-    one = loader(PiecewiseLaw([0, 0.5, 1], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)]))
-    assert one.law.d(K[1:250]) == pytest.approx(np.full(249, -one.D), rel=1e-13)
-    assert pytest.approx(1.0, rel=1e-14) == one.Y
+    balanced = loader(PiecewiseLaw([0, 0.5, 1], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)]))
+    assert balanced.law.d(K[1:250]) == pytest.approx(np.full(249, -balanced.D), rel=1e-13)
+    assert pytest.approx(1.0, rel=1e-14) == balanced.Y
 
 
 def test_several_tops_reverse_the_loader_at_each() -> None:
     # b = 1 - (k - 1/5)² (k - 1/2)² (k - 4/5)² touches its peak three times
     touching = np.polynomial.Polynomial.fromroots([0.2, 0.5, 0.8]) ** 2
     law = PolynomialLaw.from_powers((1.0 - 100.0 * touching).integ().coef)
-    one = loader(law)
-    assert np.sign(one.law.b([0.1, 0.3, 0.6, 0.9])).tolist() == [1.0, -1.0, 1.0, -1.0]
-    assert one.law.jumps(2) == ()
-    assert energy_error(one) < 1e-13
-    assert one.law.a(0.5) == pytest.approx(0.5, abs=1e-13)
+    balanced = loader(law)
+    assert np.sign(balanced.law.b([0.1, 0.3, 0.6, 0.9])).tolist() == [1.0, -1.0, 1.0, -1.0]
+    assert balanced.law.jumps(2) == ()
+    assert energy_error(balanced) < 1e-13
+    assert balanced.law.a(0.5) == pytest.approx(0.5, abs=1e-13)
     two = np.polynomial.Polynomial.fromroots([0.3, 0.7]) ** 2
     with pytest.raises(InputError, match=r"odd number of times.*0\.3, 0\.7"):
         loader(PolynomialLaw.from_powers((1.0 - 10.0 * two).integ().coef))
@@ -177,9 +177,9 @@ def random_executive(seed: int) -> MotionLaw:
     segments, b = [], 0.0
     for length in lengths.tolist():
         c = numbers.normal(size=3) * 5
-        one = PolynomialSegment(tuple(c.tolist()), b)
-        segments.append(one)
-        b = float(one.derivative(np.ones(1), length, 1)[0])
+        segment = PolynomialSegment(tuple(c.tolist()), b)
+        segments.append(segment)
+        b = float(segment.derivative(np.ones(1), length, 1)[0])
     return PiecewiseLaw(breaks, segments)
 
 
@@ -202,18 +202,18 @@ def test_two_hundred_random_laws(first: int, last: int) -> None:
                 loader(law)
             refused += 1
             continue
-        one = loader(law)
-        assert energy_error(one) < 1e-10
-        swing = one.law.extrema(0)[1].value - min(0.0, one.law.a(1.0))
+        balanced = loader(law)
+        assert energy_error(balanced) < 1e-10
+        swing = balanced.law.extrema(0)[1].value - min(0.0, balanced.law.a(1.0))
         assert isfinite(swing)
         if seed % 10 == 1:
-            B, turn = law.peak(1).value, one.turn
+            B, turn = law.peak(1).value, balanced.turn
 
             def root(k: float, law: MotionLaw = law, B: float = B) -> float:
                 return sqrt(max(B * B - law.b(k) ** 2, 0.0))
 
             whole = quad(root, 0.0, turn, epsabs=1e-11)[0] + quad(root, turn, 1.0, epsabs=1e-11)[0]
-            assert pytest.approx(1.0 / whole, rel=1e-8) == one.Y
+            assert pytest.approx(1.0 / whole, rel=1e-8) == balanced.Y
     assert 0.1 < refused / (last - first) < 0.6
 
 
@@ -227,13 +227,13 @@ symmetric_laws = st.lists(st.floats(-1.0, 1.0), min_size=1, max_size=4).map(
 def test_scaling_the_executive_stroke_leaves_the_loader_as_it_is(law: PolynomialLaw, scale: float) -> None:
     law = PolynomialLaw(law.acceleration, b0=-float(np.asarray(law.b(1.0))) / 2 + 3.0)
     try:
-        one = loader(law)
+        balanced = loader(law)
     except InputError:
         return
     larger = loader(PolynomialLaw([scale * c for c in law.acceleration], b0=scale * law.b0))
-    assert pytest.approx(one.Y / scale, rel=1e-9) == larger.Y
-    assert larger.law(K) == pytest.approx(one.law(K), abs=1e-9)
-    assert larger.law.d(K) == pytest.approx(one.law.d(K), abs=1e-7 * one.D)
+    assert pytest.approx(balanced.Y / scale, rel=1e-9) == larger.Y
+    assert larger.law(K) == pytest.approx(balanced.law(K), abs=1e-9)
+    assert larger.law.d(K) == pytest.approx(balanced.law.d(K), abs=1e-7 * balanced.D)
 
 
 @settings(max_examples=15)
@@ -241,39 +241,39 @@ def test_scaling_the_executive_stroke_leaves_the_loader_as_it_is(law: Polynomial
 def test_powers_cancel_and_reversal_reverses(seed: int) -> None:
     law = free_function_law(seed, 4, 3)
     try:
-        one = loader(law)
+        balanced = loader(law)
     except InputError:
         return
-    assert one.law.d(K) == pytest.approx(-(one.Y**2) * law.d(K), abs=1e-9 * one.D)
+    assert balanced.law.d(K) == pytest.approx(-(balanced.Y**2) * law.d(K), abs=1e-9 * balanced.D)
     # backwards in time: b(1 - k); the loader runs backwards too, b_l(k) -> -b_l(1 - k)
     back = loader(reversed_law(law))
-    assert pytest.approx(one.Y, rel=1e-10) == back.Y
-    assert back.law.b(K) == pytest.approx(-one.law.b(1.0 - K), abs=1e-8 * one.B)
-    assert pytest.approx(one.Y, rel=1e-10) == loader(mirrored_law(law)).Y
+    assert pytest.approx(balanced.Y, rel=1e-10) == back.Y
+    assert back.law.b(K) == pytest.approx(-balanced.law.b(1.0 - K), abs=1e-8 * balanced.B)
+    assert pytest.approx(balanced.Y, rel=1e-10) == loader(mirrored_law(law)).Y
 
 
 def test_unsymmetric_laws_swing_by_1_over_rise_and_return() -> None:
-    one = loader(free_function_law(3, 4, 6))
-    assert not one.symmetric
-    reached = one.law.a(one.turn)
+    balanced = loader(free_function_law(3, 4, 6))
+    assert not balanced.symmetric
+    reached = balanced.law.a(balanced.turn)
     assert reached != pytest.approx(0.5, abs=1e-4)
     # up during the rise, down to the turn of a return that runs the same law: the swing is 1
-    assert reached - (one.law.a(1.0) - reached) == pytest.approx(1.0, abs=1e-13)
+    assert reached - (balanced.law.a(1.0) - reached) == pytest.approx(1.0, abs=1e-13)
 
 
 def test_masses_and_strokes() -> None:
-    one = loader(smoothstep(3))
-    mass = one.mass(executive_mass=2.0, executive_stroke=0.05, stroke=0.03)
-    assert pytest.approx(one.Y**2 * mass * 0.03**2) == 2.0 * 0.05**2
-    assert one.stroke(executive_mass=2.0, executive_stroke=0.05, mass=mass) == pytest.approx(0.03)
+    balanced = loader(smoothstep(3))
+    mass = balanced.mass(executive_mass=2.0, executive_stroke=0.05, stroke=0.03)
+    assert pytest.approx(balanced.Y**2 * mass * 0.03**2) == 2.0 * 0.05**2
+    assert balanced.stroke(executive_mass=2.0, executive_stroke=0.05, mass=mass) == pytest.approx(0.03)
     # kinetic energies add up to one number
-    energy = 2.0 * (0.05 * one.executive.b(K)) ** 2 + mass * (0.03 * one.law.b(K)) ** 2
+    energy = 2.0 * (0.05 * balanced.executive.b(K)) ** 2 + mass * (0.03 * balanced.law.b(K)) ** 2
     assert np.ptp(energy) < 1e-15 * energy[0] * 100
     for wrong in (0.0, -1.0, inf, float("nan")):
         with pytest.raises(InputError, match="stroke must be positive"):
-            one.mass(executive_mass=1.0, executive_stroke=1.0, stroke=wrong)
+            balanced.mass(executive_mass=1.0, executive_stroke=1.0, stroke=wrong)
         with pytest.raises(InputError, match=r"^mass must be positive"):
-            one.stroke(executive_mass=1.0, executive_stroke=1.0, mass=wrong)
+            balanced.stroke(executive_mass=1.0, executive_stroke=1.0, mass=wrong)
 
 
 @pytest.mark.parametrize("name", ["K", "0317(1,5)", "KC05", "trapezoidal velocity in thirds"])

@@ -101,11 +101,11 @@ def test_least_velocity_by_another_method() -> None:
         b, _ = on_grid(base + free @ y, k, order)
         return 0.5 * B / float(weights @ np.sqrt(np.maximum(B * B - b * b, 0.0)))
 
-    found = minimize(size, np.zeros(free.shape[1]), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-14})
-    one = balanced_law(B, order=order, basis=Chebyshev(5), minimise="B_loader")
-    assert one.objective == pytest.approx(found.fun, rel=1e-9)
-    assert one.status.value == "optimal"
-    assert 0.0 <= one.gap <= 1e-8
+    optimum = minimize(size, np.zeros(free.shape[1]), method="Nelder-Mead", options={"xatol": 1e-9, "fatol": 1e-14})
+    law = balanced_law(B, order=order, basis=Chebyshev(5), minimise="B_loader")
+    assert law.objective == pytest.approx(optimum.fun, rel=1e-9)
+    assert law.status.value == "optimal"
+    assert 0.0 <= law.gap <= 1e-8
 
 
 def test_what_is_returned_holds_on_the_whole_interval() -> None:
@@ -285,22 +285,22 @@ def mixed(shares: list[float]) -> np.ndarray:
 @given(SHARES, SHARES)
 def test_no_law_is_below_a_limit_or_a_tangent(first: list[float], second: list[float]) -> None:
     x = mixed(first)
-    one = loader(MODEL.space.law(x))
-    assert loader_acceleration_limit(1.7) < one.C
-    assert loader_velocity_limit(1.7) < one.B
-    assert loader_power_limit(1.7) < one.D
+    balanced = loader(MODEL.space.law(x))
+    assert loader_acceleration_limit(1.7) < balanced.C
+    assert loader_velocity_limit(1.7) < balanced.B
+    assert loader_power_limit(1.7) < balanced.D
     program = relaxed(MODEL.problem, 0.0).program
     row, right = row_of(program, Contact("B_loader", 1.0, 0.0, 1.0, tuple(mixed(second).tolist())))
-    assert row @ np.append(x, one.B) <= right
+    assert row @ np.append(x, balanced.B) <= right
 
 
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("name", CODES)
 def test_printed_laws_are_above_the_limits(name: str) -> None:
-    one = loader(catalogue[name].law)
-    B = one.executive.constants.B.value
-    assert loader_acceleration_limit(B) < one.C
-    assert loader_velocity_limit(B) < one.B
+    balanced = loader(catalogue[name].law)
+    B = balanced.executive.constants.B.value
+    assert loader_acceleration_limit(B) < balanced.C
+    assert loader_velocity_limit(B) < balanced.B
 
 
 def test_the_law_of_constant_acceleration_of_the_loader_attains_its_limit() -> None:

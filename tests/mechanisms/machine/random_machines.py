@@ -94,10 +94,10 @@ def integrated(case: Case, k: Array) -> Array:
         longest = 1.0 / (
             1.0 + float(np.abs(machine.dynamics.roots).max())
         )  # for what it interpolates between its steps
-        found = solve_ivp(slope, (start, stop), state, "DOP853", times, rtol=1e-12, atol=1e-14, max_step=longest).y
-        values = [C @ x + D @ drive(max(time, last)) for time, x in zip(inside, found.T, strict=False)]
+        run = solve_ivp(slope, (start, stop), state, "DOP853", times, rtol=1e-12, atol=1e-14, max_step=longest).y
+        values = [C @ x + D @ drive(max(time, last)) for time, x in zip(inside, run.T, strict=False)]
         outputs.extend(values)
-        return np.asarray(found[:, -1])
+        return np.asarray(run[:, -1])
 
     outputs: list[Array] = []
     state = course(0.0, 1.0, jump * float(b(0.0)), dwell=False)

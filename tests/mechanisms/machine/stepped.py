@@ -37,7 +37,7 @@ class Stretch:
 
 def stretches(constant: OutputConstant, pieces: Sequence[Chebyshev]) -> list[Stretch]:
     """The law with what comes after it."""
-    rise = [Stretch(float(one.domain[0]), float(one.domain[1]), one) for one in pieces]
+    rise = [Stretch(float(piece.domain[0]), float(piece.domain[1]), piece) for piece in pieces]
     if constant.cycle is None:
         return [*rise, *_rest(1.0, constant.within[1], float(pieces[-1](1.0)))]
     dwell, rest = constant.cycle
@@ -114,7 +114,7 @@ def output_value(constant: OutputConstant, pieces: Sequence[Chebyshev]) -> float
             moved = A @ moved + B @ padded[i : i + 3]
         jets[0] = jets[0] + constant.offset
         length = times[1] - times[0]
-        taylor = np.array([one / factorial(i) for i, one in enumerate(jets)])
+        taylor = np.array([jet / factorial(i) for i, jet in enumerate(jets)])
         inside = (times >= constant.within[0] - 1e-12) & (times <= constant.duration + 1e-12)
         if isinstance(constant, OutputPeak):
             greatest = max([greatest, *(_highest(sign * taylor[:, inside], length) for sign in signs)])
@@ -151,9 +151,11 @@ def residual_value(constant: ModeResidual, pieces: Sequence[Chebyshev]) -> float
     row = np.array(machine.C[machine.outputs.index(constant.output)])
     B = machine.load
     share = abs(2.0 * (row @ right[:, i]) * (left[i] @ (B[:, 0] / root + B[:, 1] + root * B[:, 2])))
-    k = np.concatenate([low + (high - low) * (X + 1.0) / 2.0 for low, high in (one.domain for one in pieces)])
-    measure = np.concatenate([(one.domain[1] - one.domain[0]) / 2.0 * WEIGHTS for one in pieces])
-    velocity = measure * np.concatenate([one.deriv()(k[j * len(X) : (j + 1) * len(X)]) for j, one in enumerate(pieces)])
+    k = np.concatenate([low + (high - low) * (X + 1.0) / 2.0 for low, high in (piece.domain for piece in pieces)])
+    measure = np.concatenate([(piece.domain[1] - piece.domain[0]) / 2.0 * WEIGHTS for piece in pieces])
+    velocity = measure * np.concatenate(
+        [piece.deriv()(k[j * len(X) : (j + 1) * len(X)]) for j, piece in enumerate(pieces)]
+    )
 
     def size(nu: float, angle: float) -> float:
         return float(share * abs(np.exp(1j * nu * np.exp(1j * angle) * (1.0 - k)) @ velocity))

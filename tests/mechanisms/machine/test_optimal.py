@@ -86,9 +86,9 @@ def on_grid(problem: Problem, machine: Machine, allowed: float) -> float:
             right.append(allowed - turned[0])
     assert mode.number == 1
     cost = np.append(np.zeros(size), 1.0)
-    found = linprog(cost, np.array(rows), np.array(right), bounds=(None, None), method="highs")
-    assert found.fun is not None
-    return float(found.fun)
+    optimum = linprog(cost, np.array(rows), np.array(right), bounds=(None, None), method="highs")
+    assert optimum.fun is not None
+    return float(optimum.fun)
 
 
 def _amplitudes(machine: Machine, law: MotionLaw) -> NDArray[np.complex128]:
@@ -327,14 +327,14 @@ def test_decays_and_defective_modes_have_no_residual() -> None:
     assert decaying.modes == ()
     with pytest.raises(InputError, match="no mode that vibrates"):
         decaying.residual()
-    one = np.array([[-0.1, 9.0], [-9.0, -0.1]])
-    driving = Machine(np.block([[one, np.eye(2)], [np.zeros((2, 2)), one]]), np.ones((4, 1)), np.eye(4))
+    values = np.array([[-0.1, 9.0], [-9.0, -0.1]])
+    driving = Machine(np.block([[values, np.eye(2)], [np.zeros((2, 2)), values]]), np.ones((4, 1)), np.eye(4))
     (only,) = driving.modes
     assert only.frequency == pytest.approx(np.hypot(9.0, 0.1), rel=1e-7)
     with pytest.raises(InputError, match="defective"):
         driving.residual()
     # side by side they are one vibration, with an amplitude
-    beside = Machine(np.kron(np.eye(2), one), np.ones((4, 1)), np.array([[1.0, 0.0, 1.0, 0.0]]))
-    alone = Machine(one, np.ones((2, 1)), np.array([[2.0, 0.0]]))
+    beside = Machine(np.kron(np.eye(2), values), np.ones((4, 1)), np.array([[1.0, 0.0, 1.0, 0.0]]))
+    alone = Machine(values, np.ones((2, 1)), np.array([[2.0, 0.0]]))
     law = synthesize(Problem(order=3, basis=Chebyshev(5))).law
     assert beside.residual().value(law) == pytest.approx(alone.residual().value(law), rel=1e-10)

@@ -31,9 +31,9 @@ def misses(seed: int) -> float:
     """The greatest difference from DOP853, relative to the greatest output of a kind."""
     case = random_case(seed)
     response = case.machine.response(case.law, dwell=0.4)
-    found = np.array([response[name](K) for name in case.machine.outputs])
+    values = np.array([response[name](K) for name in case.machine.outputs])
     wanted = integrated(case, K)
-    return float(np.abs(found - wanted).max() / max(1.0, np.abs(wanted).max()))
+    return float(np.abs(values - wanted).max() / max(1.0, np.abs(wanted).max()))
 
 
 @pytest.mark.sample(5)
@@ -77,8 +77,8 @@ def test_random_machines_against_python_control(seed: int) -> None:
     times = np.linspace(0.0, 1.0, 21)
     wanted = control.initial_response(free, times, np.concatenate([jump, start])).outputs.reshape(len(outputs), -1)
     response = made.response(case.law)
-    found = np.array([response[name](times) for name in made.outputs])
-    assert np.abs(found - wanted).max() < 1e-9 * max(1.0, np.abs(wanted).max())
+    values = np.array([response[name](times) for name in made.outputs])
+    assert np.abs(values - wanted).max() < 1e-9 * max(1.0, np.abs(wanted).max())
 
 
 @pytest.mark.sample(2)

@@ -20,10 +20,10 @@ def test_a_followers_spectrum_is_its_own() -> None:
 
 
 def test_machines_with_fewer_modes_have_no_number_there() -> None:
-    found = machine_spectrum(
+    spectrum = machine_spectrum(
         lambda c: Machine([[0, 1], [-25, -c]], [[0], [25]], [[1, 0]]), [1.0, 20.0], savin("III", 0)
     )
-    assert np.isnan(found.residuals).ravel().tolist() == [False, True]
+    assert np.isnan(spectrum.residuals).ravel().tolist() == [False, True]
 
 
 def belt(stiffness: float) -> Machine:
@@ -31,19 +31,19 @@ def belt(stiffness: float) -> Machine:
 
 
 def test_a_spectrum_is_drawn_and_tabled() -> None:
-    found = machine_spectrum(
+    spectrum = machine_spectrum(
         belt, [100.0, 400.0, 900.0], savin("III", 0), dwell=0.5, output="force motor-load", parameter="stiffness, N/m"
     )
-    left = [belt(one).residual(1, "force motor-load").value(savin("III", 0)) for one in found.values]
-    assert found.residuals[:, 0] == pytest.approx(left, rel=1e-12)
-    peak, mode = found.plot()
+    left = [belt(value).residual(1, "force motor-load").value(savin("III", 0)) for value in spectrum.values]
+    assert spectrum.residuals[:, 0] == pytest.approx(left, rel=1e-12)
+    peak, mode = spectrum.plot()
     assert (peak.axes.get_xlabel(), peak.axes.get_ylabel()) == ("stiffness, N/m", "force motor-load")
-    assert peak.get_ydata() == pytest.approx(found.peaks["force motor-load"])
+    assert peak.get_ydata() == pytest.approx(spectrum.peaks["force motor-load"])
     assert mode.get_ydata() == pytest.approx(left)
-    table = found.to_pandas()
+    table = spectrum.to_pandas()
     assert table.index.name == "stiffness, N/m"
     assert table["mode 1 left in force motor-load"].tolist() == pytest.approx(left)
-    assert table["frequency of mode 1"].tolist() == pytest.approx(np.sqrt(found.values / 3.0).tolist())
+    assert table["frequency of mode 1"].tolist() == pytest.approx(np.sqrt(spectrum.values / 3.0).tolist())
 
 
 def test_what_is_no_machine_is_refused() -> None:

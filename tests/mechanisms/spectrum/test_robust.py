@@ -36,29 +36,29 @@ LAWS = [savin("III", 7.2), savin("IV", 11.0), catalogue["modified sine"].law, ca
 @pytest.mark.parametrize("damping", [0.0, 0.05, 0.7])
 def test_the_greatest_residual_is_that_of_a_fine_grid_and_of_the_response(law: MotionLaw, damping: float) -> None:
     constant = residual(nu=(18, 22), damping=damping)
-    found = constant.peak(law)
+    peak = constant.peak(law)
     grid = residuals(law.b, NU, damping)
-    assert grid.max() <= found.value * (1 + 1e-10)
-    assert grid.max() == pytest.approx(found.value, rel=1e-6)
-    assert Follower(found.k, damping).response(law).residual_acceleration == pytest.approx(found.value, rel=1e-9)
+    assert grid.max() <= peak.value * (1 + 1e-10)
+    assert grid.max() == pytest.approx(peak.value, rel=1e-6)
+    assert Follower(peak.k, damping).response(law).residual_acceleration == pytest.approx(peak.value, rel=1e-9)
 
 
 @given(st.floats(2.0, 60.0), st.floats(0.0, 40.0), st.floats(0.0, 0.9))
 @examples(25)
 def test_the_greatest_residual_of_any_interval(low: float, length: float, damping: float) -> None:
     law = savin("III", 7.2)
-    found = residual(nu=(low, low + length), damping=damping).value(law)
+    vibration = residual(nu=(low, low + length), damping=damping).value(law)
     grid = residuals(law.b, np.linspace(low, low + length, 1001), damping)
-    assert grid.max() <= found * (1 + 1e-9) + 1e-12
-    assert grid.max() >= found * (1 - 1e-2 - length * 1e-3)
+    assert grid.max() <= vibration * (1 + 1e-9) + 1e-12
+    assert grid.max() >= vibration * (1 - 1e-2 - length * 1e-3)
 
 
 @pytest.mark.parametrize("dampings", [(0.0, 0.0), (0.05, 0.05), (0.05, 0.0), (0.02, 0.08)])
 def test_of_a_mass_law_it_is_the_residual_of_its_cam(dampings: tuple[float, float]) -> None:
     damping, made = dampings
     law = savin("IV", 11.0)
-    found = residual(nu=(18, 22), damping=damping, design=20, design_damping=made).value(law)
-    assert found == pytest.approx(residual(nu=(18, 22), damping=damping).value(polydyne(law, 20, made)), rel=1e-9)
+    vibration = residual(nu=(18, 22), damping=damping, design=20, design_damping=made).value(law)
+    assert vibration == pytest.approx(residual(nu=(18, 22), damping=damping).value(polydyne(law, 20, made)), rel=1e-9)
 
 
 CASES = [
@@ -111,13 +111,13 @@ def test_a_linear_program_over_all_laws_brackets_the_optimum() -> None:
     asked = Problem(
         order=3, basis=Chebyshev(9), bounds={residual(nu=(18, 22), damping=0.05): at_most(0.05)}, symmetric=False
     )
-    found = synthesize(asked)
-    assert found.status.value == "optimal"
+    solution = synthesize(asked)
+    assert solution.status.value == "optimal"
     frequencies = np.linspace(18.0, 22.0, 41)
     # a polygon outside the circle, and one inside
     low = least_acceleration(3, 9, frequencies, 0.05, 0.05)
     high = least_acceleration(3, 9, frequencies, 0.05, 0.05 * np.cos(np.pi / 64))
-    assert low * (1 - 1e-5) <= found.objective <= high * (1 + 1e-4)
+    assert low * (1 - 1e-5) <= solution.objective <= high * (1 + 1e-4)
     assert high - low < 0.01
 
 

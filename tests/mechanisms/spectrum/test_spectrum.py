@@ -33,7 +33,7 @@ NUS = [2.0, 2 * np.pi, 20.0, 63.0, 200.0]
 @pytest.mark.parametrize("sigma", [-1e-9 + 1e-3j, 1j * np.pi, 5j, 4.493409457909064j, 100j, -3 + 100j, -60.0, -1e4])
 def test_moments_of_legendre_polynomials(sigma: complex) -> None:
     """Against Gauss-Legendre quadrature on short panels."""
-    found = moments(np.array([complex(sigma)]), 41)[0]
+    moment_values = moments(np.array([complex(sigma)]), 41)[0]
     nodes, weights = np.polynomial.legendre.leggauss(40)
     panels = np.linspace(1.0, -1.0, 61)
     if sigma == -1e4:
@@ -43,7 +43,7 @@ def test_moments_of_legendre_polynomials(sigma: complex) -> None:
         x = 0.5 * (low + high) + 0.5 * (high - low) * nodes
         values = np.exp(complex(sigma) * (1 - x)) * weights * 0.25 * (high - low)
         total += values @ np.polynomial.legendre.legvander(x, 40)
-    assert found == pytest.approx(total, abs=3e-14)
+    assert moment_values == pytest.approx(total, abs=3e-14)
 
 
 def test_chebyshev_to_legendre() -> None:
@@ -72,8 +72,8 @@ def test_the_residual_is_the_fourier_integral_of_the_acceleration(nu: float) -> 
     law = savin("IV", 11.0)
     real = quad(lambda k: law.c(k) * np.cos(nu * k), 0, 1, epsabs=1e-13, limit=400)[0]
     imaginary = quad(lambda k: law.c(k) * np.sin(nu * k), 0, 1, epsabs=1e-13, limit=400)[0]
-    found = response_spectrum(law, [nu])
-    assert found.residual_acceleration[0] == pytest.approx(nu * np.hypot(real, imaginary), abs=1e-11)
+    spectrum = response_spectrum(law, [nu])
+    assert spectrum.residual_acceleration[0] == pytest.approx(nu * np.hypot(real, imaginary), abs=1e-11)
 
 
 @examples(40)
@@ -110,16 +110,16 @@ def test_a_polydyne_cam_divides_the_residual(family: str, alpha: float, design: 
 @example(182, 0.3125, [42.0])  # the highest lobe has its last sample just before the end of a segment
 def test_peaks_are_those_of_single_responses(seed: int, damping: float, nus: list[float]) -> None:
     law = random_case(seed).law
-    found = response_spectrum(law, nus, damping).peak_acceleration
+    peak_acceleration = response_spectrum(law, nus, damping).peak_acceleration
     wanted = [Follower(nu, damping).response(law).peak(2).value for nu in nus]
-    assert found == pytest.approx(wanted, rel=3e-5)
+    assert peak_acceleration == pytest.approx(wanted, rel=3e-5)
 
 
 @pytest.mark.parametrize("law", [savin("III", 7.2), catalogue["modified sine"].law, random_law(2, 30, 0.9)])
 def test_peaks_of_smooth_laws(law: PolynomialLaw) -> None:
-    found = response_spectrum(law, NUS, 0.02).peak_acceleration
+    peak_acceleration = response_spectrum(law, NUS, 0.02).peak_acceleration
     wanted = [Follower(nu, 0.02).response(law).peak(2).value for nu in NUS]
-    assert found == pytest.approx(wanted, rel=2e-6)
+    assert peak_acceleration == pytest.approx(wanted, rel=2e-6)
 
 
 def test_constant_power_has_a_spectrum() -> None:

@@ -101,10 +101,10 @@ def test_laws_between_segments_that_are_known_less_far_are_tried_with_both() -> 
     beside = np.sort(np.append(t, event + 1e-4 * np.arange(-2.0, 3.0)))
     known = laws_on(path, [first, second, *others], beside)
     less = [shortened(path, first, 0.0, event - 1e-3), shortened(path, second, event + 1e-3, second.end), *others]
-    found = laws_on(path, less, beside)
+    laws = laws_on(path, less, beside)
     assert known.solved.all()
-    assert found.solved.all()
-    np.testing.assert_allclose(found.objective, known.objective, rtol=1e-12)
+    assert laws.solved.all()
+    np.testing.assert_allclose(laws.objective, known.objective, rtol=1e-12)
 
 
 def test_where_an_event_is_follows_from_what_is_broken_beyond_it() -> None:
@@ -191,12 +191,12 @@ def test_laws_depend_neither_on_their_order_nor_on_their_company() -> None:
 def test_no_law_breaks_a_row_anywhere(degree: int) -> None:
     path = path_of(degree)
     t = np.linspace(0.0, 1.0, COUNT)
-    found = laws_along(path, t)
-    assert found.excess.max() <= 1e-11
+    laws = laws_along(path, t)
+    assert laws.excess.max() <= 1e-11
     rng = np.random.default_rng(3)
     for place in rng.choice(COUNT, 20, replace=False).tolist():
         for family in path.program(float(t[place])).families:
-            _, _, residual = family.extremes(found.x[place])
+            _, _, residual = family.extremes(laws.x[place])
             assert residual.max() <= 1e-10
 
 
@@ -255,11 +255,11 @@ def test_many_laws_of_any_structure_are_those_solved_alone(seed: int) -> None:
     minimise = str(rng.choice(["C", "C", "C", "J", "0.6*C/4 + 0.4*J/32", "max(C/4, J/32)"]))
     entries = {"order": order, "basis": Chebyshev(degree), "monotone": monotone, "minimise": minimise}
     laws = synthesize_array(ProblemArray(B=B, **entries))
-    found = np.flatnonzero(laws.status == "optimal")
+    places = np.flatnonzero(laws.status == "optimal")
     assert np.isin(laws.status, ["optimal", "infeasible"]).all()
-    assert laws.gap[found].max() <= 1e-8
-    together = np.setdiff1d(found, np.array(list(laws.others), dtype=np.intp))
-    assert len(together) >= 0.9 * len(found)
+    assert laws.gap[places].max() <= 1e-8
+    together = np.setdiff1d(places, np.array(list(laws.others), dtype=np.intp))
+    assert len(together) >= 0.9 * len(places)
     check(laws, rng.choice(together, 8, replace=False))
     if minimise == "C" and monotone:
         judged_by_another_solver(laws, int(rng.choice(together)))
@@ -269,6 +269,6 @@ def test_certificates_are_verified_with_every_rounding_enclosed() -> None:
     laws = synthesize_array(ProblemArray(B=np.linspace(1.5, 2.4, COUNT), order=4))
     assert not laws.others
     for place in (10, 200, 390):
-        one = laws.result(place)
-        assert isinstance(one, Solution)
-        assert verify(one.to_dict()).proven
+        solution = laws.result(place)
+        assert isinstance(solution, Solution)
+        assert verify(solution.to_dict()).proven

@@ -23,12 +23,12 @@ KINDS = (
 @pytest.mark.parametrize("text", sampled(KINDS, 3))
 def test_many_laws_of_a_formula_are_those_of_each_alone(text: str) -> None:
     asked = ProblemArray(B=np.linspace(1.65, 1.85, 140), order=4, basis=Chebyshev(5), minimise=text)
-    found = synthesize_array(asked)
-    assert [len(part.places) for part in found.parts] == [140]  # all by the walk, none alone
-    assert float(found.gap.max()) < 1e-10
+    laws = synthesize_array(asked)
+    assert [len(part.places) for part in laws.parts] == [140]  # all by the walk, none alone
+    assert float(laws.gap.max()) < 1e-10
     for place in (0, 77, 139):
         alone = synthesize(asked.problem(place))
-        assert found.objective[place] == pytest.approx(alone.objective, rel=1e-10)
+        assert laws.objective[place] == pytest.approx(alone.objective, rel=1e-10)
 
 
 @pytest.mark.parametrize("text", KINDS)

@@ -92,11 +92,11 @@ def test_laws_of_least_power_where_their_structure_changes() -> None:
     assert len(edges) == 4
     beside = np.concatenate([edges + away for away in (-1e-6, 0.0, 1e-6)])
     t = np.sort(np.concatenate([np.linspace(0.0, 1.0, 40), beside]))
-    found = laws_along(path, t)
-    assert found.solved.all()
+    laws = laws_along(path, t)
+    assert laws.solved.all()
     for row in np.flatnonzero(np.isin(t, edges)):
         alone = synthesize(Problem(order=4, basis=Chebyshev(9), B=float(1.42 + 1.18 * t[row]), minimise="D"))
-        assert found.objective[row] == pytest.approx(alone.objective, rel=1e-9)
+        assert laws.objective[row] == pytest.approx(alone.objective, rel=1e-9)
 
 
 def test_where_another_branch_is_better_laws_are_sought_alone(monkeypatch: pytest.MonkeyPatch) -> None:
@@ -112,14 +112,14 @@ def test_where_another_branch_is_better_laws_are_sought_alone(monkeypatch: pytes
 
 
 def test_laws_between_two_that_agree_are_kept_and_no_others() -> None:
-    found = replace(Found.none(25, 0, 0, 0), objective=np.ones(25))
+    changed = replace(Found.none(25, 0, 0, 0), objective=np.ones(25))
     for answers, kept in (
         ({}, range(25)),
         ({12: 0.9}, [*range(7), *range(18, 25)]),
         ({0: None}, range(6, 25)),
         ({0: 0.9, 24: 1.1}, range(6, 19)),
     ):
-        sought = unrivalled(found, np.arange(25), lambda place, answers=answers: answers.get(place, 1.0))  # type: ignore[misc]
+        sought = unrivalled(changed, np.arange(25), lambda place, answers=answers: answers.get(place, 1.0))  # type: ignore[misc]
         assert np.flatnonzero(sought).tolist() == list(kept)
 
 

@@ -58,7 +58,7 @@ def test_slices_are_arrays_and_indices_are_solutions() -> None:
     assert laws[1:4].shape == (3,)
     assert laws[1:4].C.tolist() == laws.C[1:4].tolist()
     assert isinstance(laws[-1], Solution)
-    assert [one.objective for one in laws] == laws.objective.tolist()
+    assert [law.objective for law in laws] == laws.objective.tolist()
     with pytest.raises(IndexError):
         laws[5]
 
@@ -169,8 +169,8 @@ def test_an_array_is_stored_and_read_as_it_was(problems: ProblemArray) -> None:
     assert json.dumps(again.to_dict()) == stored
     for name in ("objective", "lower_bound", "gap", "B", "C", "D", "J", "rms_c", "z", "z_series", "limit", "status"):
         np.testing.assert_array_equal(getattr(again, name), getattr(laws, name))
-    assert {at: (type(one), str(one)) for at, one in again.errors.items()} == {
-        at: (type(one), str(one)) for at, one in laws.errors.items()
+    assert {at: (type(error), str(error)) for at, error in again.errors.items()} == {
+        at: (type(error), str(error)) for at, error in laws.errors.items()
     }
     for at in set(range(laws.size)) - set(laws.errors):
         assert again.result(at) == laws.result(at)

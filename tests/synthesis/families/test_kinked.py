@@ -35,10 +35,10 @@ def test_derivatives_are_differences(text: str, symmetric: bool) -> None:  # noq
 @pytest.mark.parametrize("text", [KINDS[0], *KINDS[2:]])
 def test_tangents_are_nowhere_above(text: str) -> None:
     family, numbers = family_of(text, symmetric=True), np.random.default_rng(3)
-    one = np.ones(1)
+    ones = np.ones(1)
     for _ in range(4):
         x, other = numbers.normal(size=(2, len(family.slack))) * 0.3
         row = family.tangent_row(1.0, 1.0, family.touching(x, 1.0))
         assert row is not None
-        assert row @ np.append(x, 1.0) == pytest.approx(family.value(x, one)[0], rel=1e-10)
-        assert row @ np.append(other, 1.0) <= family.value(other, one)[0] * (1.0 + 1e-10)
+        assert row @ np.append(x, 1.0) == pytest.approx(family.value(x, ones)[0], rel=1e-10)
+        assert row @ np.append(other, 1.0) <= family.value(other, ones)[0] * (1.0 + 1e-10)

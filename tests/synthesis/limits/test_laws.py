@@ -24,18 +24,18 @@ velocities = st.one_of(
 
 
 def own(law: PiecewiseLaw, constant: str) -> float:
-    one = law.constants
-    return {"C": one.C.value, "D": one.D.value, "J": one.J.value, "RMS": one.rms_c}[constant]
+    constants = law.constants
+    return {"C": constants.C.value, "D": constants.D.value, "J": constants.J.value, "RMS": constants.rms_c}[constant]
 
 
 def check_motion(law: PiecewiseLaw, B: float, *, monotone: bool, rest: bool = True) -> None:
     """Stroke 1, peak velocity B at the middle, symmetry, rest at both ends."""
-    one = law.constants
+    constants = law.constants
     # rounded breaks move b by C and a by B times an ulp of 1
-    room = 1e-14 * (1.0 + B + max((p.value for p in (one.C, one.J) if np.isfinite(p.value)), default=0.0))
+    room = 1e-14 * (1.0 + B + max((p.value for p in (constants.C, constants.J) if np.isfinite(p.value)), default=0.0))
     assert law(1.0) == pytest.approx(1.0, abs=room)
     assert law.b(0.5) == pytest.approx(B, rel=1e-12)
-    assert one.B.value == pytest.approx(B, rel=1e-12)
+    assert constants.B.value == pytest.approx(B, rel=1e-12)
     assert np.abs(law.a(K) + law.a(1.0 - K) - 1.0).max() <= room
     if rest:
         assert np.abs(law.b([0.0, 1.0])).max() <= room
@@ -107,7 +107,7 @@ def test_known_laws() -> None:
     assert power.b(K[:201]) == pytest.approx(1.5 * np.sqrt(2 * K[:201]), abs=1e-15)
     assert limit_law("C", 2.0).a(K[:201]) == pytest.approx(2 * K[:201] ** 2, abs=1e-15)
     back = limit_law("D", 2.5)
-    assert [type(one) for one in back.segments] == [PowerSegment] * 6
+    assert [type(segment) for segment in back.segments] == [PowerSegment] * 6
     assert [round(one.C.value, 9) for one in (limit_law("J").constants,)] == [8.0]
 
 

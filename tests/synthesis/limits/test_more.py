@@ -144,16 +144,16 @@ LAWS = [
 
 @pytest.mark.parametrize("law", LAWS, ids=repr)
 def test_no_known_law_beats_a_limit(law: Any) -> None:  # noqa: ANN401
-    one = law.constants
-    B = one.B.value
+    constants = law.constants
+    B = constants.B.value
     assert law.b(0.5) == pytest.approx(B, rel=1e-9)
     order = 2 if law.c(0.0) else 3
     monotone = law.extrema(1)[0].value > -1e-9
-    values = {"C": one.C.value, "D": one.D.value, "J": one.J.value, "RMS": one.rms_c}
+    values = {"C": constants.C.value, "D": constants.D.value, "J": constants.J.value, "RMS": constants.rms_c}
     for constant, value in values.items():
         assert value >= limit(constant, B, order=order, monotone=monotone) * (1 - 1e-9)
     if order == 3:
-        assert one.C.value >= limit("C", B, monotone=monotone, J=one.J.value) * (1 - 1e-9)
+        assert constants.C.value >= limit("C", B, monotone=monotone, J=constants.J.value) * (1 - 1e-9)
 
 
 def test_the_least_of_all() -> None:

@@ -87,7 +87,7 @@ def test_where_an_interior_point_hides_the_optimum_a_vertex_shows_it() -> None:
 def test_a_program_without_vertices_has_no_answer() -> None:
     # the objective has no bound
     program = model_of(Problem(order=2, minimise="J")).program
-    families = tuple(replace(one, bound=1e9) for one in program.families)
+    families = tuple(replace(family, bound=1e9) for family in program.families)
     upward = replace(program, families=families, objective=-program.objective)
     assert vertex_on_points(upward, first_points(upward)) is None
 

@@ -56,22 +56,22 @@ def test_the_least_c_of_at_least_6_is_6(order: int, B: Any) -> None:  # noqa: AN
     ids=str,
 )
 def test_a_constant_minimised_alone_meets_its_lower_bound(given: dict[str, Any], name: str) -> None:
-    one = Problem(**{"order": 4, "basis": Chebyshev(9), **given})
-    solution = synthesize(one)
+    problem = Problem(**{"order": 4, "basis": Chebyshev(9), **given})
+    solution = synthesize(problem)
     judge(solution)
-    asked = one.range(name)
+    asked = problem.range(name)
     assert asked is not None
     assert Judged(solution.law).constant(name) == pytest.approx(asked.low, rel=1e-8)
 
 
 def test_two_peaks_are_held_up_together() -> None:
-    one = Problem(B=1.7, order=4, minimise="rms_c", C=at_least(6.5), J=at_least(120.0))
-    solution = synthesize(one)
+    problem = Problem(B=1.7, order=4, minimise="rms_c", C=at_least(6.5), J=at_least(120.0))
+    solution = synthesize(problem)
     judge(solution)
     judged = Judged(solution.law)
     assert judged.constant("C") >= 6.5 * (1 - 1e-8)
     assert judged.constant("J") >= 120.0 * (1 - 1e-8)
-    for single in (replace(one, C=None), replace(one, J=None)):
+    for single in (replace(problem, C=None), replace(problem, J=None)):
         assert solution.objective >= synthesize(single).objective * (1 - 1e-9)
 
 
@@ -79,8 +79,8 @@ def test_two_peaks_are_held_up_together() -> None:
 @pytest.mark.parametrize("minimise", ["C", "rms_c", "J"])
 @pytest.mark.parametrize("value", [5.0, 7.0])
 def test_a_power_given_exactly_is_reached_by_unsymmetric_laws(minimise: str, value: float) -> None:
-    one = Problem(B=1.7, order=4, minimise=minimise, D=value, symmetric=False)
-    solution = synthesize(one)
+    problem = Problem(B=1.7, order=4, minimise=minimise, D=value, symmetric=False)
+    solution = synthesize(problem)
     judge(solution)
     assert Judged(solution.law).constant("D") == pytest.approx(value, rel=1e-8)
 

@@ -66,8 +66,8 @@ def test_highs_agrees_on_one_sided_bounds(low: float, degree: int) -> None:
     solution = synthesize(
         Problem(order=3, basis=Chebyshev(degree), symmetric=False, minimise="C_plus", bounds={"C_minus": at_most(low)})
     )
-    one = polynomials(3, degree)
-    wanted = one.least([(one.rows(2), None), (-one.rows(2), low)])
+    motion = polynomials(3, degree)
+    wanted = motion.least([(motion.rows(2), None), (-motion.rows(2), low)])
     assert wanted is not None
     assert solution.objective == pytest.approx(wanted, rel=2e-5)
     assert solution.objective >= wanted * (1 - 1e-9)
@@ -76,9 +76,9 @@ def test_highs_agrees_on_one_sided_bounds(low: float, degree: int) -> None:
 @pytest.mark.parametrize("high", [900.0, 2000.0])
 def test_highs_agrees_on_a_bounded_jounce(high: float) -> None:
     solution = synthesize(problem(order=3, minimise="C", bounds={jounce: at_most(high)}))
-    one = polynomials(3, 9)
-    c, fourth = one.rows(2), one.rows(4)
-    wanted = one.least([(c, None), (-c, None), (fourth, high), (-fourth, high)])
+    motion = polynomials(3, 9)
+    c, fourth = motion.rows(2), motion.rows(4)
+    wanted = motion.least([(c, None), (-c, None), (fourth, high), (-fourth, high)])
     assert wanted is not None
     assert solution.objective == pytest.approx(wanted, rel=2e-5)
     assert solution.objective >= wanted * (1 - 1e-9)
@@ -122,10 +122,10 @@ def test_a_given_ratio_of_decelerations_is_met_by_the_best_law(ratio: float) -> 
     assert solution.status == "optimal"
     assert C_minus.value(solution.law) / C_plus.value(solution.law) == pytest.approx(ratio, rel=1e-9)
     # the same law bounds one side by the other
-    one = polynomials(3, 9)
-    wanted = one.least([(one.rows(2), None), (-one.rows(2), ratio * solution.objective)])
+    motion = polynomials(3, 9)
+    wanted = motion.least([(motion.rows(2), None), (-motion.rows(2), ratio * solution.objective)])
     assert wanted == pytest.approx(solution.objective, rel=2e-5)
-    below = one.least([(one.rows(2), None), (-one.rows(2), ratio * solution.objective * (1 - 1e-3))])
+    below = motion.least([(motion.rows(2), None), (-motion.rows(2), ratio * solution.objective * (1 - 1e-3))])
     assert below is not None
     assert below > solution.objective
 
@@ -164,11 +164,11 @@ def test_bounds_that_make_no_sense_are_refused(bounds: Any, text: str) -> None: 
 
 
 def test_bounds_are_values() -> None:
-    one = Bounds({"rms_c": at_most(4), "jounce": at_least(3), "J": None})
-    assert dict(one) == {rms_c: at_most(4), FUNCTIONALS["jounce"]: at_least(3)}
-    assert one["rms_c"] == one[rms_c] == at_most(4)
-    assert one == Bounds({jounce: at_least(3), rms_c: at_most(4)})
-    assert Bounds(eval(repr(one), {"at_most": at_most, "at_least": at_least})) == one  # noqa: S307 - a repr of our own
+    bounds = Bounds({"rms_c": at_most(4), "jounce": at_least(3), "J": None})
+    assert dict(bounds) == {rms_c: at_most(4), FUNCTIONALS["jounce"]: at_least(3)}
+    assert bounds["rms_c"] == bounds[rms_c] == at_most(4)
+    assert bounds == Bounds({jounce: at_least(3), rms_c: at_most(4)})
+    assert Bounds(eval(repr(bounds), {"at_most": at_most, "at_least": at_least})) == bounds  # noqa: S307 - a repr of our own
 
 
 def test_bounds_are_read_from_text() -> None:

@@ -83,21 +83,21 @@ CURVED: list[dict[str, Any]] = [
 
 @pytest.mark.parametrize("given", sampled(LINEAR, 4), ids=shape)
 def test_highs_finds_the_same_least_peak_among_all_laws_of_eq_8(given: dict[str, Any]) -> None:
-    one = problem(**given)
-    solution = synthesize(one)
+    asked = problem(**given)
+    solution = synthesize(asked)
     judge(solution)
     assert solution.status.value == "optimal"
-    assert solution.objective == pytest.approx(least(one), rel=5e-9)
+    assert solution.objective == pytest.approx(least(asked), rel=5e-9)
 
 
 @pytest.mark.sample(5)
 @pytest.mark.parametrize("given", CURVED, ids=shape)
 def test_clarabel_finds_the_same_optimum_with_an_rms(given: dict[str, Any]) -> None:
-    one = problem(**given)
-    solution = synthesize(one)
+    asked = problem(**given)
+    solution = synthesize(asked)
     judge(solution)
     assert solution.status.value == "optimal"
-    assert solution.objective == pytest.approx(least(one), rel=3e-8)
+    assert solution.objective == pytest.approx(least(asked), rel=3e-8)
 
 
 @pytest.mark.sample(2)
@@ -112,14 +112,14 @@ def test_where_nothing_else_binds_the_least_rms_solves_a_linear_system(
     nu: int,
     symmetric: bool,  # noqa: FBT001
 ) -> None:
-    one = problem(B=B, order=order, minimise=name, symmetric=symmetric)
-    wanted, velocity = rms_by_a_linear_system(one, nu)
+    asked = problem(B=B, order=order, minimise=name, symmetric=symmetric)
+    wanted, velocity = rms_by_a_linear_system(asked, nu)
     if B is not None:
         off = (velocity(0.5) - velocity(DENSE)) / np.maximum((1 - 2 * DENSE) ** 2, 1e-9)
         if off.min() < 1e-6:
-            assert synthesize(one).objective >= wanted * (1 - 1e-12)
+            assert synthesize(asked).objective >= wanted * (1 - 1e-12)
             return  # b <= B binds: Clarabel answers for it
-    solution = synthesize(one)
+    solution = synthesize(asked)
     judge(solution)
     assert solution.status.value == "optimal"
     assert solution.objective == pytest.approx(wanted, rel=1e-11)
@@ -241,12 +241,12 @@ def test_random_laws_have_no_less_power() -> None:
         step[::2] = 0.0
         step[1] -= np.polynomial.Chebyshev(step).deriv()(0.0)
         law = construct(solution.problem.conditions, z + step, Chebyshev(9))
-        one = Judged(law)
-        low, high = one.derivatives[1].extremes()
+        judged = Judged(law)
+        low, high = judged.derivatives[1].extremes()
         if high <= 1.859 * (1 + 1e-9) and low > -np.inf:
             seen += 1
-            assert one.constant("D") >= solution.objective * (1 - 1e-7)
-            assert one.constant("D") >= solution.lower_bound
+            assert judged.constant("D") >= solution.objective * (1 - 1e-7)
+            assert judged.constant("D") >= solution.lower_bound
     assert seen > 10
 
 

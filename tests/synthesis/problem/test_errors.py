@@ -246,9 +246,9 @@ def test_numpy_numbers_are_numbers() -> None:
 
 
 def test_one_coefficient_cannot_give_b_1_53_at_order_4_but_more_can() -> None:
-    one = problem(B=1.53, basis=Powers(1))
+    asked = problem(B=1.53, basis=Powers(1))
     with pytest.raises(InfeasibleProblem) as caught:
-        synthesize(one)
+        synthesize(asked)
     error = caught.value
     assert isinstance(error, OptlawsError)
     assert isinstance(error.proof, Certificate)
@@ -257,13 +257,13 @@ def test_one_coefficient_cannot_give_b_1_53_at_order_4_but_more_can() -> None:
     message = str(error)
     for part in ("order 4", "degree 1", "1.53", "b <= B", "higher degree", "lower order"):
         assert part in message
-    assert eval(message.rpartition("problem: ")[2], vars(optlaws)) == one  # noqa: S307
+    assert eval(message.rpartition("problem: ")[2], vars(optlaws)) == asked  # noqa: S307
     again = pickle.loads(pickle.dumps(error))  # noqa: S301
     assert str(again) == message
     assert again.proof == error.proof
     for degree in (3, 9):
-        assert synthesize(replace(one, basis=Powers(degree))).gap <= 1e-8
-    assert synthesize(replace(one, order=2)).gap <= 1e-8
+        assert synthesize(replace(asked, basis=Powers(degree))).gap <= 1e-8
+    assert synthesize(replace(asked, order=2)).gap <= 1e-8
 
 
 def test_the_law_that_one_coefficient_gives_does_break_b() -> None:
@@ -280,21 +280,21 @@ def test_a_solver_that_fails_is_never_silent(monkeypatch: pytest.MonkeyPatch) ->
         )
 
     monkeypatch.setattr(interior_points, "solve_on_points", failed)
-    one = problem(B=1.7001)
+    asked = problem(B=1.7001)
     # where IPOPT fails the simplex method ends a linear program
-    assert synthesize(one).status == "optimal"
+    assert synthesize(asked).status == "optimal"
     monkeypatch.setattr(vertices, "vertex_on_points", lambda *_: None)
     with pytest.raises(SolverFailure, match="no law was found") as caught:
-        synthesize(one)
-    assert caught.value.problem == one
+        synthesize(asked)
+    assert caught.value.problem == asked
     assert "Restoration_Failed" in str(caught.value)
-    assert eval(str(caught.value).rpartition("problem: ")[2], vars(optlaws)) == one  # noqa: S307
+    assert eval(str(caught.value).rpartition("problem: ")[2], vars(optlaws)) == asked  # noqa: S307
 
 
 @pytest.mark.parametrize("shift", [1e-6, -1e-3, 1.0])
 def test_multipliers_that_are_wrong_give_no_false_claim(monkeypatch: pytest.MonkeyPatch, shift: float) -> None:
-    one = problem(B=1.7002)
-    true = synthesize(one).objective
+    asked = problem(B=1.7002)
+    true = synthesize(asked).objective
     honest = ipopt.solve_on_points
 
     def lying(*args: Any, **kwargs: Any) -> ipopt.Answer:  # noqa: ANN401
@@ -304,7 +304,7 @@ def test_multipliers_that_are_wrong_give_no_false_claim(monkeypatch: pytest.Monk
 
     monkeypatch.setattr(interior_points, "solve_on_points", lying)
     try:
-        solution = synthesize(one)
+        solution = synthesize(asked)
     except SolverFailure:
         return
     assert solution.objective == pytest.approx(true, rel=1e-10)

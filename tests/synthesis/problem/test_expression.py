@@ -56,9 +56,9 @@ NAMES: dict[str, Any] = {**FUNCTIONALS, "max": maximum}
     ],
 )
 def test_text_and_python_say_the_same(text: str, python: Expression) -> None:
-    found = parse(text, {**FUNCTIONALS, "rms": rms_c})
-    assert found == python
-    assert found.weights() == pytest.approx(python.weights())
+    expression = parse(text, {**FUNCTIONALS, "rms": rms_c})
+    assert expression == python
+    assert expression.weights() == pytest.approx(python.weights())
     assert Problem(B=1.6, order=3, minimise=text) == Problem(B=1.6, order=3, minimise=python)
 
 
@@ -200,10 +200,10 @@ def test_hostile_text_is_refused_or_read_and_never_crashes(text: str) -> None:
 @given(text=st.text(alphabet="CDJBmax_rs()+-*/,. 0123456789e\n'\"[]{}@", max_size=30))
 def test_any_text_is_read_or_refused(text: str) -> None:
     try:
-        found = parse(text, FUNCTIONALS)
+        expression = parse(text, FUNCTIONALS)
     except InputError:
         return
-    assert parse(repr(found), FUNCTIONALS) == found
+    assert parse(repr(expression), FUNCTIONALS) == expression
 
 
 @pytest.mark.parametrize(
@@ -283,9 +283,9 @@ def test_an_expression_of_nonsense_is_refused(terms: tuple[Any, ...]) -> None:
 @pytest.mark.parametrize("factor", [1e-6, 0.1, 3.0, 1e6])
 @pytest.mark.parametrize("minimise", ["C", "J", "rms_c", "C/8 + J/64", "max(C/4, J/32)", "D"])
 def test_a_factor_changes_the_objective_and_not_the_law(minimise: str, factor: float) -> None:
-    one = Problem(B=1.7, order=4, basis=Chebyshev(7), minimise=minimise)
-    plain = synthesize(one)
-    scaled = synthesize(Problem(B=1.7, order=4, basis=Chebyshev(7), minimise=factor * one.objective))
+    problem = Problem(B=1.7, order=4, basis=Chebyshev(7), minimise=minimise)
+    plain = synthesize(problem)
+    scaled = synthesize(Problem(B=1.7, order=4, basis=Chebyshev(7), minimise=factor * problem.objective))
     assert scaled.objective == pytest.approx(factor * plain.objective, rel=1e-10)
     assert scaled.lower_bound == pytest.approx(factor * plain.lower_bound, rel=1e-8)
     assert scaled.status == plain.status

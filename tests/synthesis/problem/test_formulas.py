@@ -107,9 +107,9 @@ def gridded(text: str, degree: int, count: int) -> float:
     for seed in range(6):
         start = np.append(np.random.default_rng(seed).normal(size=space.terms) * 0.3 * seed, 20.0)
         options: Any = {"maxiter": 300, "ftol": 1e-12}
-        found: Any = minimize(_last, start, method="SLSQP", constraints=constraints, options=options)
-        if found.success:
-            best = min(best, float(found.fun))
+        optimum: Any = minimize(_last, start, method="SLSQP", constraints=constraints, options=options)
+        if optimum.success:
+            best = min(best, float(optimum.fun))
     return best
 
 

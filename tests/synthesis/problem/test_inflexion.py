@@ -42,21 +42,21 @@ def problem(**given: Any) -> Problem:  # noqa: ANN401
 @pytest.mark.sample(3)
 @pytest.mark.parametrize("given", CASES, ids=str)
 def test_the_peak_velocity_stands_at_the_inflexion(given: dict[str, Any]) -> None:
-    one = problem(**given)
-    solution = synthesize(one)
+    asked = problem(**given)
+    solution = synthesize(asked)
     law = solution.law
     assert solution.status == "optimal"
     assert law.c(0.4) == pytest.approx(0.0, abs=1e-9)
     highest = law.extrema(1)[1]
     assert highest.k == pytest.approx(0.4, abs=1e-6)
     assert law.b(0.4) >= highest.value * (1 - 1e-12)
-    if isinstance(one.B, float):
-        assert law.b(0.4) == pytest.approx(one.B, rel=1e-11)
-    if one.boundary is None:
+    if isinstance(asked.B, float):
+        assert law.b(0.4) == pytest.approx(asked.B, rel=1e-11)
+    if asked.boundary is None:
         mirror = synthesize(problem(**{**given, "inflexion": 0.6, **_mirrored(given)}))
         assert mirror.objective == pytest.approx(solution.objective, rel=1e-9)
     assert solution.limit is None or solution.limit <= solution.objective
-    assert Problem.from_dict(one.to_dict()) == one
+    assert Problem.from_dict(asked.to_dict()) == asked
 
 
 def _mirrored(given: dict[str, Any]) -> dict[str, Any]:
@@ -72,9 +72,9 @@ def _mirrored(given: dict[str, Any]) -> dict[str, Any]:
 @pytest.mark.parametrize("k", [0.25, 0.4, 0.5, 0.7])
 @pytest.mark.parametrize("B", [1.6, 2.1])
 def test_highs_agrees(B: float, k: float) -> None:
-    one = polynomials(3, 9)
-    c, b = one.rows(2), one.rows(1)
-    wanted = one.least([(c, None), (-c, None), (b, B), (-b, B)], [(one.row(1, k), B), (one.row(2, k), 0.0)])
+    motion = polynomials(3, 9)
+    c, b = motion.rows(2), motion.rows(1)
+    wanted = motion.least([(c, None), (-c, None), (b, B), (-b, B)], [(motion.row(1, k), B), (motion.row(2, k), 0.0)])
     solution = synthesize(problem(B=B, basis=Chebyshev(9), inflexion=k))
     assert wanted is not None
     assert solution.objective == pytest.approx(wanted, rel=1e-4)

@@ -156,8 +156,8 @@ def test_a_constant_that_is_given_has_its_value(
     value: float,
     symmetric: bool,  # noqa: FBT001
 ) -> None:
-    one = problem(**given, symmetric=symmetric)
-    solution = synthesize(one)
+    asked = problem(**given, symmetric=symmetric)
+    solution = synthesize(asked)
     judge(solution)
     found = Judged(solution.law).constant(name)
     free = synthesize(problem(**{**given, name: None}, symmetric=symmetric))
@@ -165,7 +165,7 @@ def test_a_constant_that_is_given_has_its_value(
     if own < value:
         assert found == pytest.approx(value, rel=1e-9)
     else:
-        assert found == pytest.approx(min(max(own, value), one.range(name).high), rel=1e-9)  # type: ignore[union-attr]
+        assert found == pytest.approx(min(max(own, value), asked.range(name).high), rel=1e-9)  # type: ignore[union-attr]
     assert solution.objective >= free.lower_bound * (1 - 1e-11)
     assert solution.lower_bound <= solution.objective * (1 + 1e-12)
 
@@ -190,6 +190,6 @@ def test_b_at_least_binds_where_the_free_b_is_less(minimise: str, low: float) ->
 
 def test_a_value_that_no_law_can_have_is_said_so() -> None:
     # with one coefficient nothing is left to give C a value
-    one = problem(B=1.9, C=30.0, basis=Chebyshev(1), minimise="C")
+    asked = problem(B=1.9, C=30.0, basis=Chebyshev(1), minimise="C")
     with pytest.raises((InfeasibleProblem, SolverFailure)):
-        synthesize(one)
+        synthesize(asked)

@@ -116,11 +116,11 @@ def test_highs_agrees_on_forbidden_zones(high: float) -> None:
     windows = (Window("a", high=high, start=0.0, stop=0.4), Window("a", low=0.75, start=0.6))
     solution = synthesize(Problem(order=3, symmetric=False, windows=windows, basis=Chebyshev(9)))
     assert solution.status == "optimal"
-    one = polynomials(3, 9)
-    c = one.rows(2)
-    zone = np.vstack([one.rows(0, 0.0, 0.4), one.row(0, 0.4)])
-    other = -np.vstack([one.rows(0, 0.6, 1.0), one.row(0, 0.6)])
-    wanted = one.least([(c, None), (-c, None), (zone, high), (other, -0.75)])
+    motion = polynomials(3, 9)
+    c = motion.rows(2)
+    zone = np.vstack([motion.rows(0, 0.0, 0.4), motion.row(0, 0.4)])
+    other = -np.vstack([motion.rows(0, 0.6, 1.0), motion.row(0, 0.6)])
+    wanted = motion.least([(c, None), (-c, None), (zone, high), (other, -0.75)])
     assert wanted is not None
     assert wanted * (1 - 1e-9) <= solution.objective <= wanted * (1 + 2e-5)
 

@@ -50,9 +50,9 @@ def cubic(**asked: Any) -> Problem:  # noqa: ANN401
     ],
 )
 def test_the_objective_is_the_sum_of_its_terms(minimise: str, value: float) -> None:
-    found = worth(cubic(minimise=minimise), CUBIC)
-    assert found.objective == pytest.approx(value, rel=1e-14)
-    assert found.excess == 0.0
+    values = worth(cubic(minimise=minimise), CUBIC)
+    assert values.objective == pytest.approx(value, rel=1e-14)
+    assert values.excess == 0.0
 
 
 @pytest.mark.parametrize(

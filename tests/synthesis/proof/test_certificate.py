@@ -107,14 +107,14 @@ def test_the_bound_is_the_weak_duality_sum_of_eq_8(problem: Problem) -> None:
     certificate = solution.certificate
     assert certificate.problem == problem
     assert certificate.program == ("objective" if problem.convex else "relaxed")
-    found = weak_duality(certificate)
-    for left, size in found.laws:
+    bound = weak_duality(certificate)
+    for left, size in bound.laws:
         assert abs(left) <= Fraction(1, 10**10) * size
-    size = sum((abs(m) for _, m in found.used), Fraction(1))
-    for name, left in found.variables.items():
+    size = sum((abs(m) for _, m in bound.used), Fraction(1))
+    for name, left in bound.variables.items():
         assert abs(left) <= Fraction(1, 10**10) * size, name
-    assert certificate.bound == pytest.approx(float(found.constant), rel=1e-9)
-    assert certificate.bound <= float(found.constant) * (1 + 1e-12)
+    assert certificate.bound == pytest.approx(float(bound.constant), rel=1e-9)
+    assert certificate.bound <= float(bound.constant) * (1 + 1e-12)
     assert solution.lower_bound == max(certificate.bound, -np.inf if solution.limit is None else solution.limit)
     if problem.convex:
         assert solution.lower_bound == pytest.approx(solution.objective, rel=1e-8)
@@ -125,11 +125,11 @@ def test_the_bound_is_the_weak_duality_sum_of_eq_8(problem: Problem) -> None:
 @pytest.mark.parametrize("problem", [p for p in PROBLEMS if p.symmetric and "rms" not in str(p.minimise)], ids=shape)
 def test_with_its_mirror_image_the_sum_speaks_of_unsymmetric_laws_too(problem: Problem) -> None:
     certificate = solution_of(problem).certificate
-    found = weak_duality(certificate, mirrored=True)
-    assert len(found.laws) == polynomial(problem).degree + 1
-    for left, size in found.laws:
+    bound = weak_duality(certificate, mirrored=True)
+    assert len(bound.laws) == polynomial(problem).degree + 1
+    for left, size in bound.laws:
         assert abs(left) <= Fraction(1, 10**10) * size
-    assert certificate.bound == pytest.approx(float(found.constant), rel=1e-9)
+    assert certificate.bound == pytest.approx(float(bound.constant), rel=1e-9)
 
 
 @pytest.mark.sample(2)
@@ -138,12 +138,12 @@ def test_a_proof_of_infeasibility_is_a_contradiction_in_eq_8(problem: Problem) -
     proof = proof_of(problem)
     assert proof.proves_infeasible
     assert proof.bound == -np.inf
-    found = weak_duality(proof)
-    assert found.constant > 0
-    for left, size in found.laws:
+    bound = weak_duality(proof)
+    assert bound.constant > 0
+    for left, size in bound.laws:
         assert abs(left) <= Fraction(1, 10**10) * size
-    size = sum((abs(m) for _, m in found.used), Fraction(1))
-    assert all(abs(left) <= Fraction(1, 10**10) * size for left in found.variables.values())
+    size = sum((abs(m) for _, m in bound.used), Fraction(1))
+    assert all(abs(left) <= Fraction(1, 10**10) * size for left in bound.variables.values())
 
 
 @every_problem
@@ -183,9 +183,11 @@ for line in sys.stdin:
 def test_it_is_recomputed_from_json_by_numpy_alone() -> None:
     certificates = [solution_of(problem).certificate for problem in PROBLEMS]
     proofs = [proof_of(problem) for problem in INFEASIBLE]
-    text = "".join(json.dumps(one.to_dict(), allow_nan=False) + "\n" for one in [*certificates, *proofs])
+    text = "".join(
+        json.dumps(certificate.to_dict(), allow_nan=False) + "\n" for certificate in [*certificates, *proofs]
+    )
     done = subprocess.run([sys.executable, "-c", READER], input=text, capture_output=True, text=True, check=True)
-    wanted = [f"{float(one.bound)!r} False" for one in certificates] + ["-inf True"] * len(proofs)
+    wanted = [f"{float(certificate.bound)!r} False" for certificate in certificates] + ["-inf True"] * len(proofs)
     assert done.stdout.splitlines() == wanted
     assert done.stderr == ""
 
@@ -429,10 +431,10 @@ def inner(problem: Problem) -> np.ndarray:
     parts = []
     for degree in range(polynomial(problem).degree, 0, -2):
         try:
-            found = solution_of(replace(problem, basis=Chebyshev(degree)))
+            solution = solution_of(replace(problem, basis=Chebyshev(degree)))
         except InfeasibleProblem:
             break
-        parts.append(np.pad(np.asarray(z_of(found)), (0, polynomial(problem).degree - degree)))
+        parts.append(np.pad(np.asarray(z_of(solution)), (0, polynomial(problem).degree - degree)))
     return np.asarray(np.mean(parts, axis=0))
 
 
@@ -504,7 +506,7 @@ def test_junk_anywhere_in_a_certificate_is_an_input_error_or_proves_no_more(kind
     steps = true.get("steps")
     if steps:
         # the first ones have all that the others have
-        true["steps"] = [*{tuple(sorted(one)): one for one in steps}.values()]
+        true["steps"] = [*{tuple(sorted(step)): step for step in steps}.values()]
     for path in _places(true):
         if path[0] in {"problem", "bound"}:
             continue

@@ -60,8 +60,8 @@ def test_one_contact_proves_what_its_base_law_has_there() -> None:
 def test_elsewhere_the_claim_bounds_what_the_free_function_can_do(x: float, weight: float) -> None:
     claim = -6.0 * x  # what C is below, in a law that contradicts the claim; c of the base law has no moment along P3
     charge = claim * abs(2.0 * p3(x)) * 3.5
-    found = bound(small(minimise=f"{weight}*C"), c_at(x, weight))
-    assert found == pytest.approx(weight * (claim - charge), rel=1e-9)
+    least = bound(small(minimise=f"{weight}*C"), c_at(x, weight))
+    assert least == pytest.approx(weight * (claim - charge), rel=1e-9)
 
 
 def test_a_multiplier_above_the_weight_is_charged_by_what_the_constant_can_be() -> None:
@@ -109,7 +109,9 @@ def test_contacts_that_do_not_count() -> None:
 def test_an_rms_in_a_direction() -> None:
     # c of the base law lies along P1: no direction proves more than its length, and P1 proves it whole
     problem = small(minimise="rms_c")
-    matrix = next(one for one in _model(Certificate(problem, (), ())).program.families if one.name == "rms_c").matrix  # type: ignore[attr-defined]
+    matrix = next(
+        family for family in _model(Certificate(problem, (), ())).program.families if family.name == "rms_c"
+    ).matrix  # type: ignore[attr-defined]
     along = matrix[:, -1] / sqrt(float(matrix[:, -1] @ matrix[:, -1]))
     for length, share in ((1.0, 1.0), (0.5, 0.5), (2.0, 1.0)):
         contact = Contact("rms_c", 1.0, 0.5, 1.0, tuple(float(length * one) for one in along))
@@ -175,8 +177,8 @@ def test_the_greatest_constants_of_laws_that_contradict_a_claim(
     problem: Problem, claim: float, wanted: dict[str, float]
 ) -> None:
     certificate = Certificate(problem, (), ())
-    found = greatest_values(_model(certificate), max(claim, 0.0))
-    assert {name: size for name, size in found.items() if size < inf} == pytest.approx(wanted, rel=1e-15)
+    greatest = greatest_values(_model(certificate), max(claim, 0.0))
+    assert {name: size for name, size in greatest.items() if size < inf} == pytest.approx(wanted, rel=1e-15)
 
 
 def test_the_greatest_constants_of_other_programs() -> None:

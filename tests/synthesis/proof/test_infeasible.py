@@ -119,9 +119,9 @@ def synthesize_fails(problem: Problem) -> Certificate:
 def test_conditions_said_twice_change_nothing(windows: tuple[Window, ...]) -> None:
     once = Problem(B=1.9, order=3, windows=windows[-1:])
     twice = Problem(B=1.9, order=3, windows=windows)
-    found = synthesize(twice)
-    assert found.status == "optimal"
-    assert found.objective == pytest.approx(synthesize(once).objective, rel=1e-10)
+    solution = synthesize(twice)
+    assert solution.status == "optimal"
+    assert solution.objective == pytest.approx(synthesize(once).objective, rel=1e-10)
 
 
 def test_multipliers_of_equations_that_contradict_each_other() -> None:
@@ -132,10 +132,10 @@ def test_multipliers_of_equations_that_contradict_each_other() -> None:
         assert contradiction(rows, rows @ x) is None
         if count > 3:
             wrong = rows @ x + np.eye(count)[1]
-            found = contradiction(rows, wrong)
-            assert found is not None
-            assert np.abs(found @ rows).max() < 1e-12 * np.abs(rows).max()
-            assert found @ wrong < 0.0
+            proof = contradiction(rows, wrong)
+            assert proof is not None
+            assert np.abs(proof @ rows).max() < 1e-12 * np.abs(rows).max()
+            assert proof @ wrong < 0.0
     assert independent(np.vstack([rows, rows])).sum() == 3
     assert independent(np.zeros((2, 3))).sum() == 0
 

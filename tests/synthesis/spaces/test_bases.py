@@ -142,10 +142,10 @@ def test_a_start_in_the_other_basis_serves_as_well() -> None:
 
 def test_a_sweep_says_which_problem_is_infeasible() -> None:
     first = Problem(B=1.9, order=4, basis=Chebyshev(3))
-    found = sweep([first, replace(first, B=1.1)])
-    next(found)
+    solutions = sweep([first, replace(first, B=1.1)])
+    next(solutions)
     with pytest.raises(InfeasibleProblem) as caught:
-        next(found)
+        next(solutions)
     assert caught.value.problem == replace(first, B=1.1)
 
 

@@ -80,8 +80,8 @@ def _by_highs(B: float, nu: int, count: int = 1201) -> float:
     rows = np.vstack([rows, np.hstack([ends[:, :-1], np.zeros((2, 1))])])
     right = np.concatenate([right, -ends[:, -1]])
     middle = space.row(1, 0.5)
-    equations = [(middle[:-1], B - middle[-1]), *((one.row, one.right) for one in space.equations())]
-    found = linprog(
+    equations = [(middle[:-1], B - middle[-1]), *((equation.row, equation.right) for equation in space.equations())]
+    optimum = linprog(
         np.append(np.zeros(space.terms), 1.0),
         A_ub=rows,
         b_ub=right,
@@ -90,8 +90,8 @@ def _by_highs(B: float, nu: int, count: int = 1201) -> float:
         bounds=(None, None),
         options={"primal_feasibility_tolerance": 1e-10, "dual_feasibility_tolerance": 1e-10},
     )
-    assert found.fun is not None
-    return float(found.fun)
+    assert optimum.fun is not None
+    return float(optimum.fun)
 
 
 def test_the_proof_of_a_one_sided_peak_holds_in_exact_arithmetic() -> None:

@@ -43,15 +43,15 @@ def problem(ends: BoundaryConditions, **given: Any) -> Problem:  # noqa: ANN401
 @every_end
 @pytest.mark.parametrize("minimise", ["C", "J", "rms_c", "rms_j", "C_plus + C_minus", "max(C/4, J/32)"])
 def test_the_optimum_is_that_of_highs_or_clarabel(ends: BoundaryConditions, minimise: str) -> None:
-    one = problem(ends, minimise=minimise)
-    solution = synthesize(one)
-    assert broken(one, solution.law) == []
+    asked = problem(ends, minimise=minimise)
+    solution = synthesize(asked)
+    assert broken(asked, solution.law) == []
     if solution.objective < 1e-9:
         return  # uniform motion has no acceleration at all
     judge(solution)
     assert solution.status.value == "optimal"
     assert solution.limit is None
-    assert solution.objective == pytest.approx(least(one), rel=3e-8, abs=1e-9)
+    assert solution.objective == pytest.approx(least(asked), rel=3e-8, abs=1e-9)
 
 
 @pytest.mark.sample(5)
@@ -67,12 +67,12 @@ def test_the_optimum_is_that_of_highs_or_clarabel(ends: BoundaryConditions, mini
     ids=str,
 )
 def test_bounded_constants_between_other_ends(ends: BoundaryConditions, given: dict[str, Any]) -> None:
-    one = problem(ends, **given)
-    solution = synthesize(one)
+    asked = problem(ends, **given)
+    solution = synthesize(asked)
     if solution.objective < 1e-9:
         return
     judge(solution)
-    assert solution.objective == pytest.approx(least(one), rel=3e-8, abs=1e-9)
+    assert solution.objective == pytest.approx(least(asked), rel=3e-8, abs=1e-9)
 
 
 @every_end

@@ -75,7 +75,7 @@ def test_end_velocities_are_kept() -> None:
 @pytest.mark.parametrize("B", [1.4, 1.7, 2.0])
 def test_piecewise_linear_accelerations_agree_with_a_linear_program(B: float) -> None:
     count = 20
-    found = synthesize(Problem(B=B, order=3, basis=Pieces(count, degree=3, continuity=2))).objective
+    objective = synthesize(Problem(B=B, order=3, basis=Pieces(count, degree=3, continuity=2))).objective
     half = count // 2
     h = 0.5 / half
     # c linear between its values at the breaks of the first half; b and a by the trapezoidal rule, exact here
@@ -111,8 +111,8 @@ def test_piecewise_linear_accelerations_agree_with_a_linear_program(B: float) ->
     )
     assert answer.success
     least = float(np.asarray(answer.fun))
-    assert found == pytest.approx(least, rel=1e-6)
-    assert found >= least * (1 - 1e-9)
+    assert objective == pytest.approx(least, rel=1e-6)
+    assert objective >= least * (1 - 1e-9)
 
 
 def test_power_comes_near_its_limit() -> None:

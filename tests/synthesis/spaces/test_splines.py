@@ -132,10 +132,10 @@ def test_laws_are_proven_and_their_z_makes_them(problem: Problem) -> None:
 @pytest.mark.parametrize("peak", [0.5, 0.4])
 @pytest.mark.parametrize("B", [1.6, 2.2])
 def test_highs_finds_the_same_least_acceleration(B: float, peak: float) -> None:
-    one = splines(3, tuple(i / 6 for i in range(7)), 3, 2)
-    c, b = one.rows(2), one.rows(1)
-    at_peak = [(one.row(1, peak), B), (one.row(2, peak), 0.0)]
-    wanted = one.least([(c, None), (-c, None), (b, B), (-b, B)], at_peak)
+    basis = splines(3, tuple(i / 6 for i in range(7)), 3, 2)
+    c, b = basis.rows(2), basis.rows(1)
+    at_peak = [(basis.row(1, peak), B), (basis.row(2, peak), 0.0)]
+    wanted = basis.least([(c, None), (-c, None), (b, B), (-b, B)], at_peak)
     problem = Problem(B=B, order=3, basis=BSplines(6, 3), symmetric=False, inflexion=None if peak == 0.5 else peak)
     solution = synthesize(problem)
     assert wanted is not None
@@ -147,8 +147,8 @@ def test_peaks_are_seen_from_both_sides_of_a_break() -> None:
     # the jerk of these laws jumps, and its peaks stand beside the breaks
     solution = synthesize(Problem(order=3, minimise="J", basis=BSplines(8, 3)))
     assert solution.status == "optimal"
-    one = splines(3, tuple(i / 8 for i in range(9)), 3, 2)
-    wanted = one.least([(one.rows(3), None), (-one.rows(3), None)])
+    basis = splines(3, tuple(i / 8 for i in range(9)), 3, 2)
+    wanted = basis.least([(basis.rows(3), None), (-basis.rows(3), None)])
     assert wanted is not None
     assert wanted <= solution.objective <= wanted * (1 + 1e-6)
     assert len(solution.law.jumps(3)) > 0

@@ -51,11 +51,11 @@ def proven(problem: Problem, *contacts: Contact, equations: tuple[float, ...] = 
 
 
 def test_the_bound_of_one_contact_is_exact() -> None:
-    found = prove(Certificate(small(), (c_at(-GAUSS, 1.0),), ()))
-    assert float(found.value or 0) == pytest.approx(C_BASE, rel=1e-14)
-    assert (found.charge, found.negative, found.unknown) == (0.0, 0, 0)
+    proof = prove(Certificate(small(), (c_at(-GAUSS, 1.0),), ()))
+    assert float(proof.value or 0) == pytest.approx(C_BASE, rel=1e-14)
+    assert (proof.charge, proof.negative, proof.unknown) == (0.0, 0, 0)
     # the place is moved in effect by a rounding of the root, and no multiplier by more
-    assert found.correction < 1e-6
+    assert proof.correction < 1e-6
     assert proven(small(minimise="0.5*C"), c_at(-GAUSS, 0.5)) == pytest.approx(C_BASE / 2.0, rel=1e-14)
     assert proven(small(minimise="0.25*C + 2*J"), c_at(-GAUSS, 0.25), j_at(-FLAT, 2.0)) == pytest.approx(
         0.25 * C_BASE + 2.0 * J_BASE, rel=1e-14
@@ -72,22 +72,22 @@ def test_multipliers_are_corrected_to_the_weights() -> None:
 def test_the_parts_of_a_maximum_share_its_weight() -> None:
     name = "max(0.5*C, 0.041666666666666664*J)"
     parts = (Contact(f"part 1 of {name}", 1.0, 0.5, 0.25), Contact(f"part 2 of {name}", 1.0, 0.5, 0.75))
-    found = proven(small(minimise="C + max(C/2, J/24)"), c_at(-GAUSS, 1.125), j_at(-FLAT, 0.75 / 24.0), *parts)
-    assert found == pytest.approx(1.125 * C_BASE + 0.75 / 24.0 * J_BASE, rel=1e-12)
+    proof = proven(small(minimise="C + max(C/2, J/24)"), c_at(-GAUSS, 1.125), j_at(-FLAT, 0.75 / 24.0), *parts)
+    assert proof == pytest.approx(1.125 * C_BASE + 0.75 / 24.0 * J_BASE, rel=1e-12)
 
 
 def test_a_fixed_b_makes_every_place_a_contact() -> None:
     for x in (-0.9, -0.2):
         free = 5.0 * x**3 - 3.0 * x
-        found = proven(small(B=1.6), c_at(x, 1.0), equations=(-8.0 * free,))
-        assert found == pytest.approx(-6.0 * x + 0.8 * free, rel=1e-9)
+        proof = proven(small(B=1.6), c_at(x, 1.0), equations=(-8.0 * free,))
+        assert proof == pytest.approx(-6.0 * x + 0.8 * free, rel=1e-9)
 
 
 def test_contacts_that_do_not_count_are_counted() -> None:
     others = (c_at(-0.3, -2.0), c_at(-0.2, -1.0), Contact("J", 1.0, 0.2, 1.0), Contact("nothing", 1.0, 0.2, 1.0))
-    found = prove(Certificate(small(), (c_at(-GAUSS, 1.0), *others), ()))
-    assert (found.negative, found.unknown) == (2, 2)
-    assert float(found.value or 0) == pytest.approx(C_BASE, rel=1e-14)
+    proof = prove(Certificate(small(), (c_at(-GAUSS, 1.0), *others), ()))
+    assert (proof.negative, proof.unknown) == (2, 2)
+    assert float(proof.value or 0) == pytest.approx(C_BASE, rel=1e-14)
 
 
 def test_without_contacts_a_constant_is_at_least_0() -> None:
@@ -162,8 +162,8 @@ def test_a_term_beside_one_that_may_be_anything_is_unknown() -> None:
 )
 def test_the_greatest_constants_of_laws_that_contradict_a_claim(problem: Problem, wanted: dict[str, float]) -> None:
     certificate = Certificate(problem, (), (), RELAXED if "D" in wanted else "objective")
-    found = greatest_values(certificate, ExactRows(certificate), 5.0)
-    finite = {name: value for name, value in found.items() if value < inf}
+    greatest = greatest_values(certificate, ExactRows(certificate), 5.0)
+    finite = {name: value for name, value in greatest.items() if value < inf}
     assert finite == pytest.approx(wanted, rel=1e-14)
     assert all(value >= wanted[name] for name, value in finite.items())
 
@@ -196,8 +196,8 @@ def test_a_contradiction_has_no_claim() -> None:
 def test_the_mean_size_of_derivatives(problem: Problem, greatest: dict[str, float], wanted: dict[int, float]) -> None:
     # the root of D is a variable of relaxed programs alone
     program = "relaxed" if "root of D" in greatest else "objective"
-    found = means(problem, ExactRows(Certificate(problem, (), (), program, 1.0)), greatest)
-    assert {nu: float(one) for nu, one in found.items()} == pytest.approx(wanted, rel=1e-14)
+    mean_values = means(problem, ExactRows(Certificate(problem, (), (), program, 1.0)), greatest)
+    assert {nu: float(one) for nu, one in mean_values.items()} == pytest.approx(wanted, rel=1e-14)
 
 
 def test_peaks_of_one_sign_may_be_negative_where_the_velocity_changes() -> None:

@@ -63,9 +63,9 @@ def peak(p: list[mpf], places: list[mpf]) -> mpf:
 def test_they_hold_what_mpmath_finds_and_hardly_more(order: int, degree: int, B: float) -> None:
     law = synthesize(Problem(B=B, order=order, basis=Chebyshev(degree))).law
     assert isinstance(law, PolynomialLaw)
-    found = enclosures(law)
+    enclosed_values = enclosures(law)
     for name, value in peaks(law).items():
-        low, high = found[name]
+        low, high = enclosed_values[name]
         assert mpf(low) <= value <= mpf(high)
         assert high - low <= 1e-15 * high
 
@@ -73,17 +73,17 @@ def test_they_hold_what_mpmath_finds_and_hardly_more(order: int, degree: int, B:
 @pytest.mark.parametrize(("order", "degree"), [(4, 25), (6, 59)])
 def test_they_are_narrow_at_high_degrees(order: int, degree: int) -> None:
     law = synthesize(Problem(B=1.7, order=order, basis=Chebyshev(degree))).law
-    one = law.constants
+    constants = law.constants
     for name, (low, high) in enclosures(law).items():
-        stated = one.rms_c if name == "rms_c" else getattr(one, name).value
+        stated = constants.rms_c if name == "rms_c" else getattr(constants, name).value
         assert high - low <= 1e-14 * high
         assert stated == pytest.approx(low, rel=1e-12)
 
 
 def test_exact_values_are_exact() -> None:
-    found = enclosures(smoothstep(2))
-    assert {name: found[name] for name in "BCJ"} == {"B": (1.5, 1.5), "C": (6.0, 6.0), "J": (12.0, 12.0)}
-    assert found["rms_c"][0] ** 2 == pytest.approx(12.0)
+    enclosed_values = enclosures(smoothstep(2))
+    assert {name: enclosed_values[name] for name in "BCJ"} == {"B": (1.5, 1.5), "C": (6.0, 6.0), "J": (12.0, 12.0)}
+    assert enclosed_values["rms_c"][0] ** 2 == pytest.approx(12.0)
     assert enclosures(PolynomialLaw([], b0=1.0))["D"] == (0.0, 0.0)
 
 

@@ -105,10 +105,10 @@ def test_every_convex_kind_is_proven(minimise: str, symmetric: bool) -> None:  #
     problem = Problem(B=1.9, order=3, basis=Chebyshev(7), minimise=minimise, symmetric=symmetric)
     solution = synthesize(problem)
     assert solution.status.value == "optimal"
-    found = verify(solution.to_dict())
-    assert found.proven, str(found)
-    assert found.gap is not None
-    assert found.gap < 1e-9
+    verification = verify(solution.to_dict())
+    assert verification.proven, str(verification)
+    assert verification.gap is not None
+    assert verification.gap < 1e-9
 
 
 @pytest.mark.parametrize("minimise", sampled(["rms(sin(3*k)*b + c)", "integral(exp(c/5))", f"rms({TABLE}*exp(k)*c)"]))

@@ -117,21 +117,21 @@ def stretches(law: PiecewiseLaw) -> list[tuple[Segment, mpf]]:
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("law", [CYCLOID, MIXED, CONSTANT_POWER, *OPTIMAL], ids=["cycloid", "mixed", "power", "B", "Z"])
 def test_they_hold_what_mpmath_finds_and_hardly_more(law: PiecewiseLaw) -> None:
-    found = enclosures(law)
+    enclosed_values = enclosures(law)
     with mp.workdps(50):
         orders = {"C": 2} if law is not CYCLOID else {"C": 2, "J": 3}
         for name, nu in orders.items():
             value = max(highest(function(segment, length, nu), length) for segment, length in stretches(law))
-            low, high = found[name]
+            low, high = enclosed_values[name]
             assert mpf(low) - mpf(10) ** -28 <= value <= mpf(high) + mpf(10) ** -28
             assert high - low <= 1e-14 * high
         square = mp.fsum(squared(function(segment, length, 2), length) for segment, length in stretches(law))
-        low, high = found["rms_c"]
+        low, high = enclosed_values["rms_c"]
         assert mpf(low) - mpf(10) ** -25 <= mp.sqrt(square) <= mpf(high) + mpf(10) ** -25
         assert high - low <= 1e-14 * high
-    one = law.constants
-    for name, peak in (("B", one.B), ("C", one.C), ("D", one.D)):
-        assert found[name] == pytest.approx((peak.value, peak.value), rel=1e-12)
+    constants = law.constants
+    for name, peak in (("B", constants.B), ("C", constants.C), ("D", constants.D)):
+        assert enclosed_values[name] == pytest.approx((peak.value, peak.value), rel=1e-12)
 
 
 def test_known_constants_of_the_cycloid_and_of_constant_power() -> None:
@@ -149,15 +149,15 @@ def test_known_constants_of_the_cycloid_and_of_constant_power() -> None:
 
 
 def test_where_the_velocity_is_zero_constant_power_has_no_peak_of_c() -> None:
-    found = enclosures(PiecewiseLaw([0.0, 0.5, 1.0], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)]))
-    assert found["C"] == found["rms_c"] == (inf, inf)
-    assert found["D"] == (2.25, 2.25)
+    enclosed_values = enclosures(PiecewiseLaw([0.0, 0.5, 1.0], [PowerSegment(0.0, 1.5), PowerSegment(1.5, 0.0)]))
+    assert enclosed_values["C"] == enclosed_values["rms_c"] == (inf, inf)
+    assert enclosed_values["D"] == (2.25, 2.25)
 
 
 def test_a_jump_makes_what_is_above_it_infinite() -> None:
     halves = [PolynomialSegment((4.0,)), PolynomialSegment((-4.0,), b0=2.0)]
-    found = enclosures(PiecewiseLaw([0.0, 0.5, 1.0], halves))
-    assert (found["B"], found["C"], found["J"]) == ((2.0, 2.0), (4.0, 4.0), (inf, inf))
+    enclosed_values = enclosures(PiecewiseLaw([0.0, 0.5, 1.0], halves))
+    assert (enclosed_values["B"], enclosed_values["C"], enclosed_values["J"]) == ((2.0, 2.0), (4.0, 4.0), (inf, inf))
     kinked = enclosures(PiecewiseLaw([0.0, 0.5, 1.0], [PolynomialSegment((), b0=0.5), PolynomialSegment((), b0=1.5)]))
     assert kinked["C"] == kinked["D"] == (inf, inf)
 

@@ -23,9 +23,9 @@ PROBLEMS = [
 
 
 def proof(problem: Problem) -> PowerCertificate:
-    found = synthesize(problem, bound="tight").power_certificate
-    assert found is not None
-    return found
+    power_certificate = synthesize(problem, bound="tight").power_certificate
+    assert power_certificate is not None
+    return power_certificate
 
 
 @pytest.mark.sample(3)

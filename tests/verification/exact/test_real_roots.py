@@ -7,10 +7,10 @@ from optlaws.verification.enclosing.pieces import between, real_roots
 
 
 def product(*roots: fmpq | int) -> fmpq_poly:
-    found = fmpq_poly([3])
+    polynomial = fmpq_poly([3])
     for root in roots:
-        found *= fmpq_poly([-root, 1])
-    return found
+        polynomial *= fmpq_poly([-root, 1])
+    return polynomial
 
 
 @pytest.mark.parametrize(
@@ -20,9 +20,9 @@ def product(*roots: fmpq | int) -> fmpq_poly:
 @pytest.mark.parametrize("factor", [[1], [1, 0, 1], [2, 0, 0, 0, 1], [1, 1, 1]])
 def test_every_real_root_is_in_a_ball(roots: tuple[int, ...], factor: list[int]) -> None:
     half = fmpq(1, 2)
-    found = real_roots(product(*(half * one for one in roots)) * fmpq_poly(factor))
-    assert all(any(ball.contains(half * one) for ball in found) for one in roots)
-    assert all(any(abs(float(ball.mid()) - one / 2) < 1e-9 for one in roots) for ball in found)
+    found = real_roots(product(*(half * root for root in roots)) * fmpq_poly(factor))
+    assert all(any(ball.contains(half * root) for ball in found) for root in roots)
+    assert all(any(abs(float(ball.mid()) - root / 2) < 1e-9 for root in roots) for ball in found)
 
 
 def test_a_polynomial_without_slope_is_its_own_extremes() -> None:

@@ -74,7 +74,9 @@ def test_rows_of_all_bases_give_the_amplitude_of_their_base_law() -> None:
         assert second is not None
         # k^4, k^5, k^6 and k^7 with the weights of the smoothstep, then nothing from the middle on
         weights = [35, -84, 70, -20]
-        of_pieces = sum((w * one for w, one in zip(weights, second.functions, strict=False)), second.functions[-1])
+        of_pieces = sum(
+            (w * function for w, function in zip(weights, second.functions, strict=False)), second.functions[-1]
+        )
         if not symmetric:
             assert first.functions[-1].overlaps(of_pieces)
         assert float(first.functions[-1].rad()) < 1e-10
@@ -94,8 +96,8 @@ def test_tampered_claims_are_refused() -> None:
 def test_no_longer_direction_proves_more(stretch: float) -> None:
     solution = robust()
     longer = tuple(
-        replace(one, direction=tuple(stretch * value for value in one.direction))
-        for one in solution.certificate.contacts
+        replace(contact, direction=tuple(stretch * value for value in contact.direction))
+        for contact in solution.certificate.contacts
     )
     bound = exact_bound(replace(solution.certificate, contacts=longer))
     assert bound is None or bound <= Fraction(solution.objective) * (1 + Fraction(1, 10**10))

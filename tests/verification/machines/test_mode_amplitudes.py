@@ -63,10 +63,10 @@ def test_the_greatest_over_a_box_is_that_of_doubles(box: dict[str, float | tuple
 
 
 def test_equal_vibrations_beside_each_other_are_one_mode() -> None:
-    found = ExactModeResidual(TWIN.residual())
+    residual = ExactModeResidual(TWIN.residual())
     with ctx.workprec(300):
-        assert [count for _, count in found.mode] == [2]
-        assert float(found.share.mid()) == pytest.approx(TWIN.residual().share, rel=1e-12)
+        assert [count for _, count in residual.mode] == [2]
+        assert float(residual.share.mid()) == pytest.approx(TWIN.residual().share, rel=1e-12)
 
 
 def test_modes_that_no_number_tells_apart_are_refused() -> None:

@@ -56,17 +56,17 @@ def solved(kind: str) -> Solution:
 
 
 def stored(kind: str) -> dict[str, Any]:
-    found: dict[str, Any] = json.loads(json.dumps(solved(kind).to_dict()))
-    return found
+    data: dict[str, Any] = json.loads(json.dumps(solved(kind).to_dict()))
+    return data
 
 
 @pytest.mark.parametrize("kind", sampled(ASKED, each=5))
 def test_each_kind_is_proven_and_nothing_more(kind: str) -> None:
     data = stored(kind)
-    found = verify(data)
-    assert [str(claim) for claim in found.claims if not claim.proven] == []
-    assert found.gap is not None
-    assert abs(found.gap) < 1e-8
+    verification = verify(data)
+    assert [str(claim) for claim in verification.claims if not claim.proven] == []
+    assert verification.gap is not None
+    assert abs(verification.gap) < 1e-8
     more = {**data}
     for key, sign in (("objective", -1.0), ("lower_bound", 1.0)):
         more[key] += sign * 1e-6 * abs(data[key])
@@ -104,6 +104,6 @@ def test_no_multiplier_and_no_place_proves_more_than_is_true() -> None:
 
 @pytest.mark.parametrize("file", sampled(sorted((ROOT / "results").glob("machine_*/laws.json")), each=4))
 def test_the_laws_of_problem_files_are_proven(file: Path) -> None:
-    found = verify_all(file)
-    assert len(found) > 2
-    assert [str(claim) for one in found.values() for claim in one.claims if not claim.proven] == []
+    verifications = verify_all(file)
+    assert len(verifications) > 2
+    assert [str(claim) for one in verifications.values() for claim in one.claims if not claim.proven] == []

@@ -53,9 +53,9 @@ def test_a_tight_bound_meets_the_objective(problem: Problem) -> None:
 
 
 def judge_tight(solution: Solution) -> None:
-    found = solution.peak_certificate
-    assert found is not None
-    assert found.bound == solution.lower_bound
+    peak_certificate = solution.peak_certificate
+    assert peak_certificate is not None
+    assert peak_certificate.bound == solution.lower_bound
     # what a solution without that certificate claims
     plain = max(solution.certificate.bound, -np.inf if solution.limit is None else solution.limit)
     judge(replace(solution, lower_bound=plain, status=type(solution.status).LOCAL))
@@ -92,7 +92,7 @@ def test_every_cell_is_needed(certificate: PeakCertificate) -> None:
         lambda cell: replace(cell, reach=3.0 * cell.reach),
         lambda cell: replace(cell, contacts=()),
         lambda cell: replace(
-            cell, equations=tuple(2.0 * one + 1.0 for one in cell.equations), contacts=cell.contacts[1:]
+            cell, equations=tuple(2.0 * equation + 1.0 for equation in cell.equations), contacts=cell.contacts[1:]
         ),
     ],
 )
@@ -119,9 +119,9 @@ def test_values_and_peaks_of_laws_below_the_claim_are_within_the_bounds(nu_and_k
     rows = PeakRows(problem, peak, 1.3 * best.objective)
     others = [synthesize(replace(best.problem, minimise=one)) for one in ("C", "J", "rms_j")]
     for law in (best.law, *(one.law for one in others)):
-        one = Judged(law)
-        assert one.rms(2) < rows.claim
-        curve = one.derivatives[peak.nu]
+        judged = Judged(law)
+        assert judged.rms(2) < rows.claim
+        curve = judged.derivatives[peak.nu]
         second = curve.slope().slope()
         for reach in (0.01, 0.1):
             places = np.linspace(max(k - reach, 0.0), k + reach, 101)
@@ -152,9 +152,9 @@ def test_what_is_no_certificate_is_refused(certificate: PeakCertificate, wrong: 
 
 
 def test_verify_says_that_it_does_not_check_places_exactly_yet(fast: Solution) -> None:
-    found = verify(json.loads(json.dumps(fast.to_dict())))
-    assert not found.proven
-    (claim,) = [one for one in found.claims if one.name == "the peak certificate"]
+    verification = verify(json.loads(json.dumps(fast.to_dict())))
+    assert not verification.proven
+    (claim,) = [one for one in verification.claims if one.name == "the peak certificate"]
     assert not claim.proven
     assert "holds in double precision" in claim.detail
     assert verify(synthesize(FAST).to_dict()).proven

@@ -42,9 +42,9 @@ def first() -> Solution:
 
 
 def certificate(solution: Solution) -> PowerCertificate:
-    found = solution.power_certificate
-    assert found is not None
-    return found
+    power_certificate = solution.power_certificate
+    assert power_certificate is not None
+    return power_certificate
 
 
 @pytest.mark.sample(2)

@@ -134,8 +134,8 @@ def test_what_is_not_proven_is_not_claimed() -> None:
     assert replace(proof, steps=proof.steps[:-1]).bound == -np.inf
     assert replace(proof, problem=replace(PROBLEM, monotone=False)).bound == -np.inf
     assert replace(proof, problem=replace(PROBLEM, basis=Chebyshev(9))).bound == -np.inf
-    contacts = [one for step in proof.steps if isinstance(step, Step) for one in step.contacts]
-    assert {one.constraint for one in contacts} & {"C_loader, ++", "C_loader, -+"}
+    contacts = [contact for step in proof.steps if isinstance(step, Step) for contact in step.contacts]
+    assert {contact.constraint for contact in contacts} & {"C_loader, ++", "C_loader, -+"}
 
 
 def test_exact_verification_says_that_it_knows_no_loaders() -> None:
