@@ -1,5 +1,5 @@
 """A table by the rating of its motor
-===================================
+==================================
 
 The least acceleration with which twelve stations are indexed, and the least within 30 N m RMS.
 """

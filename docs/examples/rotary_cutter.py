@@ -1,5 +1,5 @@
 """A rotary cross cutter
-======================
+=====================
 
 The knife turns with the strip while it cuts, and waits as gently as can be for the next length.
 """

@@ -208,7 +208,7 @@ def test_laws_that_no_cam_can_make_are_refused(given_: dict[str, object], says: 
         ("C_cam", "needs its arguments"),
         ("C_cam()", "an argument of C_cam"),
         ("C_cam(nu=20", r"expected , or \)"),
-        ("C_cam(nu=-20)", "expected a number"),
+        ("C_cam(nu=-20)", "nu must be above 0, got -20"),
         ("C_cam(nu=0)", "nu must be above 0"),
         ("C_cam(nu=20, nu=21)", "nu is given twice"),
         ("C_cam(speed=20)", "does not take the arguments speed"),
