@@ -163,8 +163,9 @@ class Program:
                 self.fixed.append((top, wanted.high))
 
     def near(self, place: float) -> None:
-        """Rows b(k) <= b(place) on points that crowd about the place."""
-        height = self.laws.row(1, place)
+        """Rows b(k) <= b(place) on points that crowd about the place, and j <= 0 at it."""
+        height, bend = self.laws.row(1, place), self.laws.row(3, place)
+        self.fixed.append((self.widened(bend), -bend[-1]))
         for distance in np.geomspace(1e-3, 0.3, 80):
             for k in (place - distance, place + distance):
                 if 0.0 < k < 1.0:

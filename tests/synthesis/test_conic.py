@@ -7,7 +7,7 @@ import pytest
 from optlaws import Chebyshev, InfeasibleProblem, Problem, synthesize
 from tests.synthesis import reference
 from tests.synthesis.conic import least
-from tests.synthesis.judge import lower_bounded
+from tests.synthesis.judge import broken, lower_bounded
 from tests.synthesis.numpy_laws import Undecided
 from tests.synthesis.random_options import every_option
 
@@ -29,9 +29,15 @@ def verdict(problem: Problem) -> str:
     except InfeasibleProblem:
         assert wanted is None, problem
         return "infeasible"
-    assert wanted is not None, problem
-    assert solution.objective == pytest.approx(wanted, rel=5e-6, abs=1e-8), problem
-    assert solution.lower_bound <= wanted + 5e-6 * wanted + 1e-8, problem
+    if wanted is None:
+        # Clarabel calls a problem infeasible whose rows are of very different sizes; a law that keeps them all refutes it
+        assert broken(problem, solution.law) == [], problem
+        return "undecided"
+    allowed = 5e-6 * abs(wanted) + 1e-8
+    assert solution.objective <= wanted + allowed, problem
+    # what is 0 at best Clarabel finds to 1e-7 from above
+    assert solution.objective >= wanted - allowed - 1e-7, problem
+    assert solution.lower_bound <= wanted + allowed, problem
     return "same"
 
 
