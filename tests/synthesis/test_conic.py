@@ -30,7 +30,7 @@ def verdict(problem: Problem) -> str:
         assert wanted is None, problem
         return "infeasible"
     if wanted is None:
-        # Clarabel calls a problem infeasible whose rows are of very different sizes; a law that keeps them all refutes it
+        # Clarabel calls problems with rows of very different sizes infeasible; a law that keeps all of them refutes it
         assert broken(problem, solution.law) == [], problem
         return "undecided"
     allowed = 5e-6 * abs(wanted) + 1e-8

@@ -40,6 +40,10 @@ _TRIES = 3
 _ROUNDED = 1.0 + 2.0**-40
 #: how readily moments take part, beside the squares of the multipliers
 _READINESS = (2.0**-60, 1.0)
+#: bounds that differ by less are one bound
+_SAME = Fraction(1, 10**13)
+#: a correction of multipliers, in shares of the greatest, that needs no other explanation than rounding
+_LITTLE = 1e-7
 #: how far from a contact its neighbours are, and how much of its multiplier each takes
 _NEAR, _SHARE = Fraction(1, 2**20), Fraction(1, 2**22)
 
@@ -233,8 +237,7 @@ class _System:
         for readiness in _READINESS:
             for helpers in joining:
                 corrected = self._corrected(helpers, readiness, claim)
-                value = corrected[0].value if corrected else None
-                if value is not None and (best is None or best[0].value is None or value > best[0].value):
+                if corrected is not None and (best is None or _better(corrected[0], best[0])):
                     best = corrected
         return best if best is not None else (Proof(None, 0.0, 0.0, self.negative, self.unknown), False)
 
@@ -305,6 +308,18 @@ class _System:
     def _moment(self, moment: Vector, size: arb) -> _Helper:
         *free, base = moment
         return _Helper([*free, *[arb(0)] * len(self.rows.names), base], -size, size)
+
+
+def _better(proof: Proof, than: Proof) -> bool:
+    """Whether a proof bounds more, or as much but for a rounding with multipliers that are corrected much less."""
+    if proof.value is None or than.value is None:
+        return proof.value is not None
+    rounding = _SAME * max(Fraction(1), abs(than.value))
+    if proof.correction <= _LITTLE < than.correction:
+        return proof.value > than.value - rounding
+    if than.correction <= _LITTLE < proof.correction:
+        return proof.value > than.value + rounding
+    return proof.value > than.value
 
 
 def _changes(vectors: list[Vector], weights: Vector, slopes: Vector) -> Vector | None:
