@@ -36,6 +36,9 @@ class Curve(ABC):
     (True, (0.0, 1.0))
     """
 
+    #: what draws the curve, and what its samples run over; an output of a machine has its own
+    _picture, _over = "curve", "k"
+
     @property
     def interval(self) -> tuple[float, float]:
         """The first and the last k of what peaks, root mean squares and samples look at."""
@@ -270,7 +273,9 @@ class Curve(ABC):
         return k[ordered], values[ordered]
 
     def to_pandas(self, count: int = 201) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
-        """The samples of a, b, c, d and j as a data frame over k; needs the extra `optlaws[studies]`.
+        """The samples of a, b, c, d and j as a data frame over k, of an output of a machine its own over time.
+
+        Needs the extra `optlaws[studies]`.
 
         Parameters
         ----------
@@ -291,13 +296,13 @@ class Curve(ABC):
         needed("pandas", "to_pandas")
         import pandas as pd
 
-        (k, a), (_, b), (_, c), (_, j) = (self.samples(count, nu) for nu in range(4))
-        with np.errstate(invalid="ignore"):
-            d = np.where(np.isfinite(c), b * c, self.d(k))
-        return pd.DataFrame({"a": a, "b": b, "c": c, "d": d, "j": j}, index=pd.Index(k, name="k"))
+        places, columns = self._sampled(count)
+        return pd.DataFrame(columns, index=pd.Index(places, name=self._over))
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
         """Draw a, b, c and j with their peaks, dimensionless over k, by matplotlib; jumps break the line.
+
+        An output of a machine is one line over time, in one pair of axes.
 
         Parameters
         ----------
@@ -321,7 +326,14 @@ class Curve(ABC):
         >>> [panel.get_title(loc="left") for panel in smoothstep(3).plot()[0].figure.axes][1:3]
         ['B = 1.875 at k = 0.5', 'C = 5.773503 at k = 0.211325']
         """
-        return plotted("curve", self, ax, **style)
+        return plotted(self._picture, self, ax, **style)
+
+    def _sampled(self, count: int) -> tuple[Array, dict[str, Array]]:
+        """Places, and what a table has there."""
+        (k, a), (_, b), (_, c), (_, j) = (self.samples(count, nu) for nu in range(4))
+        with np.errstate(invalid="ignore"):
+            d = np.where(np.isfinite(c), b * c, self.d(k))
+        return k, {"a": a, "b": b, "c": c, "d": d, "j": j}
 
     def _whole(self, nu: int) -> Sides:
         """Places with values among which the extremes of the derivative of order nu are, infinite ones included."""

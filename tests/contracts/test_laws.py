@@ -36,7 +36,6 @@ from optlaws.laws.segments import FractionalSegment, HarmonicSegment, Polynomial
 from optlaws.mechanisms.dwell.parts import PartSegment
 from optlaws.mechanisms.follower.mass_motion import MassMotion
 from optlaws.mechanisms.loader.law import LoaderLaw
-from optlaws.mechanisms.machine.output_curve import OutputCurve
 from tests.contracts.kinds import kinds
 from tests.laws.examples import EXAMPLES, cut_sine, free_function_law
 
@@ -331,8 +330,8 @@ def test_a_representation_supplies_hooks_and_overrides_nothing_that_users_call(k
     }
     public = {name for name in given if not name.startswith("_") or name in {"__call__", "_repr_html_", "_whole"}}
     own = {name for base in kind.__mro__ if base not in faces and issubclass(base, Curve) for name in vars(base)}
-    # contents of a law and the interval are data, not what is computed; an output is one quantity, not a motion
-    assert own & public <= {"breaks", "interval"} | ({"plot", "to_pandas"} if kind is OutputCurve else set())
+    # contents of a law and the interval are data, not what is computed from them
+    assert own & public <= {"breaks", "interval"}
 
 
 def ends(curve: Curve) -> np.ndarray:

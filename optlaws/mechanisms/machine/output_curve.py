@@ -10,11 +10,9 @@ from numpy.typing import NDArray
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws.curve import Curve, Sides
 from optlaws.numbers import real_times, whole
-from optlaws.plotting import plotted
 from optlaws.series import chebyshev
 
 Array = NDArray[np.float64]
@@ -33,7 +31,11 @@ class OutputCurve(Curve):
     >>> curve = slow.response(smoothstep(3), dwell=1.0)["temperature"]
     >>> curve(1.0), curve.peak(0), curve.interval
     (0.605102, Peak(value=0.946556, k=2.0), (0.0, 2.0))
+    >>> curve.to_pandas(3).loc[1.0].round(6).to_dict()
+    {'temperature': 0.605102}
     """
+
+    _picture, _over = "output", "time"
 
     name: str
     starts: Array
@@ -62,47 +64,9 @@ class OutputCurve(Curve):
         added = [np.concatenate([part[:1] + offset, part[1:]]) for part in self.parts]
         return replace(self, parts=tuple(added)) if offset else self
 
-    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw the output over time, by matplotlib.
-
-        Parameters
-        ----------
-        ax
-            Axes; new ones unless given.
-        style
-            What `Axes.plot` takes.
-
-        Returns
-        -------
-        The line.
-        """
-        return plotted("output", self, ax, **style)
-
-    def to_pandas(self, count: int = 201) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
-        """Samples of the output as a data frame over time; needs the extra `optlaws[studies]`.
-
-        Parameters
-        ----------
-        count
-            Number of equally spaced times, at least 2.
-
-        Raises
-        ------
-        InputError
-            If `count` is not an integer of at least 2, or pandas is missing.
-
-        Examples
-        --------
-        >>> from optlaws import Machine, smoothstep
-        >>> curve = Machine([[-2.0]], [[2.0]], [[1.0]], outputs=["speed"]).response(smoothstep(3))["speed"]
-        >>> curve.to_pandas(3).loc[0.5].round(6).to_dict()
-        {'speed': 0.126171}
-        """
-        needed("pandas", "to_pandas")
-        import pandas as pd
-
+    def _sampled(self, count: int) -> tuple[Array, dict[str, Array]]:
         times = self.times(count)
-        return pd.DataFrame({self.name: self(times)}, index=pd.Index(times, name="time"))
+        return times, {self.name: self(times)}
 
     def times(self, count: int) -> Array:
         """Equally spaced times over the interval.

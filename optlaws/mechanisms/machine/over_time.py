@@ -107,9 +107,7 @@ class MachineMotion(ABC):
         needed("pandas", "to_pandas")
         import pandas as pd
 
-        times = self[self.machine.outputs[0]].times(count)
-        columns = {name: self[name](times) for name in self.machine.outputs}
-        return pd.DataFrame(columns, index=pd.Index(times, name="time"))
+        return pd.concat([self[name].to_pandas(count) for name in self.machine.outputs], axis=1)
 
     @kept_property
     def _curves(self) -> dict[str, OutputCurve]:
