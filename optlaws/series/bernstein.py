@@ -15,7 +15,8 @@ from optlaws.series.peaks import TIE
 Array = NDArray[np.float64]
 
 ROUNDING = 2.0**-48
-_ROUNDS, _PARTS = 20, 8
+PARTS = 8
+_ROUNDS = 20
 _WIDTH = 1e-4  # a smooth top is flat to TIE over about so much
 
 
@@ -61,7 +62,6 @@ def top(control: Array) -> Top:
     >>> top(from_powers(np.array([[0.0, 1.0, -1.0]])))
     Top(value=0.25, above=0.25, row=0, u=0.5)
     """
-    parts = _cuts(control.shape[1] - 1)
     scale = float(np.abs(control).max())
     rows, lows, width = np.arange(len(control)), np.zeros(len(control)), 1.0
     best, above = -np.inf, -np.inf
@@ -76,13 +76,24 @@ def top(control: Array) -> Top:
         above = max(above, float(height[~kept].max(initial=-np.inf)))
         if not kept.any():
             break
-        width /= _PARTS
-        control = (control[kept] @ parts).reshape(-1, control.shape[1])
-        rows, lows = np.repeat(rows[kept], _PARTS), (lows[kept, None] + width * np.arange(_PARTS)).ravel()
+        width /= PARTS
+        control = in_parts(control[kept])
+        rows, lows = np.repeat(rows[kept], PARTS), (lows[kept, None] + width * np.arange(PARTS)).ravel()
     else:
         above = max(above, float(control.max()))
     which, place = _first(np.concatenate(met, axis=1), best - TIE * scale)
     return Top(best, max(above, best), which, place)
+
+
+def in_parts(control: Array) -> Array:
+    """Bernstein coefficients of the same polynomials on eight equal parts of [0, 1], one row after the other.
+
+    Examples
+    --------
+    >>> in_parts(np.array([[0.0, 8.0]]))[[0, 7]].tolist()
+    [[0.0, 1.0], [7.0, 8.0]]
+    """
+    return (control @ _cuts(control.shape[1] - 1)).reshape(-1, control.shape[1])
 
 
 def _first(places: Array, least: float) -> tuple[int, float]:
@@ -115,7 +126,7 @@ def _cuts(degree: int) -> Array:
     """By what control points are multiplied for those of eight equal parts, side by side."""
     left = np.array([[comb(i, j) / 2.0**i for i in range(degree + 1)] for j in range(degree + 1)])
     matrices = [np.eye(degree + 1)]
-    while len(matrices) < _PARTS:
+    while len(matrices) < PARTS:
         matrices = [matrix @ half for matrix in matrices for half in (left, left[::-1, ::-1])]
     joined = np.concatenate(matrices, axis=1)
     joined.setflags(write=False)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from itertools import pairwise
 
 import numpy as np
@@ -114,6 +114,20 @@ def cut_at_roots(function: Callable[[float, float], Callable[[Array], Array]], e
         of = function(low, high)
         edge += [*_changes(of, np.array([low, *roots_between(of, (low, high)), high])), high]
     return edge
+
+
+def cut_at_all(functions: Iterable[Callable[[Array], Array]], edges: list[float]) -> list[float]:
+    """The edges, and between them the places where any of several functions, smooth there, changes its sign.
+
+    Examples
+    --------
+    >>> cut_at_all([np.cos, np.sin], [1.0, 4.0])
+    [1.0, 1.570796..., 3.141592..., 4.0]
+    """
+    places = {*edges}
+    for function in functions:
+        places.update(cut_at_roots(lambda low, high: function, edges))  # noqa: ARG005, B023 - it is called at once
+    return sorted(places)
 
 
 def _changes(function: Callable[[Array], Array], places: Array) -> list[float]:

@@ -1,4 +1,4 @@
-"""How far two functions are apart at most: by series of their difference on parts, not on a grid."""
+"""How far two functions seem to be apart at most: an estimate by series of their difference on parts."""
 
 from __future__ import annotations
 
@@ -20,10 +20,11 @@ _CUTS = 30
 
 
 def greatest_difference(first: Function, second: Function, places: Array) -> tuple[float, float]:
-    """The greatest |first - second| and where it is, between places among which both are smooth.
+    """An estimate of the greatest |first - second| and of where it is, between places among which both are smooth.
 
     Parts between the places are halved until a series of ten terms resolves the difference to rounding, or to 1e-10 of
-    its greatest value; the extremes of the series are enclosed.
+    its greatest value; of the series the extremes are taken. It is an estimate: functions are asked at the nodes of
+    parts alone, and a bump between these, narrower than any part, is not seen.
 
     Parameters
     ----------

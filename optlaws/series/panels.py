@@ -54,7 +54,7 @@ class Panels:
         return self.roots_of(self.series(f), f, slope)
 
     def roots_of(self, series: Array, f: Function, slope: Function) -> Array:
-        """The same where the series of f on every panel are known."""
+        """The roots where the series of f on every panel are known."""
         roots = [chebyshev.real_parts_of_roots(column) for column in series.T]
         counts = [len(x) for x in roots]
         low, high = (np.repeat(np.array(edges), counts) for edges in (self.edges[:-1], self.edges[1:]))

@@ -1,0 +1,1 @@
+"""Rigorous enclosures: interval arrays, Taylor jets over them, extremes by branch and bound, integrals."""

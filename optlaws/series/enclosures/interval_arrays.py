@@ -1,0 +1,250 @@
+"""Interval arithmetic on arrays, rounded outward: sums, products, quotients, roots and waves of middles and radii."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+Array = NDArray[np.float64]
+
+ROUNDING = 2.0**-53
+_WAVES = 8.0 * ROUNDING  # of sines and cosines as numpy has them
+_SMALLEST = 1e-300
+_FEW = 2  # products whose sum is taken one by one
+
+
+@dataclass(frozen=True, eq=False)
+class Interval:
+    """Every number from middle - radius to middle + radius; arrays of one shape.
+
+    Examples
+    --------
+    >>> third = Interval(np.array([1.0]), np.array([0.0])) / Interval(np.array([3.0]), np.array([0.0]))
+    >>> bool(third.low[0] <= 1 / 3 <= third.high[0]), bool(third.radius[0] < 1e-15)
+    (True, True)
+    """
+
+    middle: Array
+    radius: Array
+
+    @property
+    def low(self) -> Array:
+        """The least; minus infinity where nothing is known."""
+        return np.where(np.isfinite(self.radius), self.middle - self._outer, -np.inf)
+
+    @property
+    def high(self) -> Array:
+        """The greatest; infinity where nothing is known."""
+        return np.where(np.isfinite(self.radius), self.middle + self._outer, np.inf)
+
+    def __getitem__(self, places: Any) -> Interval:  # noqa: ANN401 - numpy's
+        return Interval(self.middle[places], self.radius[places])
+
+    @property
+    def _outer(self) -> Array:
+        return self.radius + 2.0 * ROUNDING * (self.radius + np.abs(self.middle))
+
+    def __neg__(self) -> Interval:
+        return Interval(-self.middle, self.radius)
+
+    def __add__(self, other: Any) -> Interval:  # noqa: ANN401 - a number, an array or an interval
+        if isinstance(other, Interval):
+            return _rounded(self.middle + other.middle, self.radius + other.radius)
+        return _rounded(self.middle + other, self.radius)
+
+    def __sub__(self, other: Any) -> Interval:  # noqa: ANN401
+        return self.__add__(-other)
+
+    def __mul__(self, other: Any) -> Interval:  # noqa: ANN401
+        with np.errstate(invalid="ignore"):  # 0 times infinity: no bound
+            if not isinstance(other, Interval):
+                return _rounded(self.middle * other, self.radius * abs(other))
+            radius = np.abs(self.middle) * other.radius + self.radius * (np.abs(other.middle) + other.radius)
+            return _rounded(self.middle * other.middle, radius)
+
+    def __truediv__(self, other: Any) -> Interval:  # noqa: ANN401
+        if isinstance(other, int | float):
+            return _rounded(self.middle / other, self.radius / abs(other))
+        return self.__mul__(_interval(other)._reciprocal())
+
+    __radd__, __rmul__ = __add__, __mul__
+
+    def __rsub__(self, other: Any) -> Interval:  # noqa: ANN401
+        return (-self).__add__(other)
+
+    def __rtruediv__(self, other: Any) -> Interval:  # noqa: ANN401
+        return self._reciprocal().__mul__(other)
+
+    def __array_ufunc__(self, ufunc: Any, method: str, *inputs: Any) -> Any:  # noqa: ANN401 - numpy's
+        """What numpy's functions and an array to the left of an operator mean."""
+        if method != "__call__" or ufunc not in _FUNCTIONS:
+            return NotImplemented
+        return _FUNCTIONS[ufunc](*inputs)
+
+    def _reciprocal(self) -> Interval:
+        size = np.abs(self.middle)
+        known = size > self.radius * (1.0 + 4.0 * ROUNDING)
+        least, most = np.where(known, size - self.radius, 1.0), size + self.radius
+        with np.errstate(over="ignore"):
+            low, high = 1.0 / np.where(known, most, 1.0), 1.0 / least
+        middle, radius = 0.5 * (high + low), 0.5 * (high - low) + 4.0 * ROUNDING * high
+        return Interval(np.where(known, np.sign(self.middle) * middle, 0.0), np.where(known, radius, np.inf))
+
+    def root(self) -> Interval:
+        """The square root, of what is at least 0 of it."""
+        with np.errstate(invalid="ignore"):
+            low, high = np.sqrt(np.maximum(self.middle - self.radius, 0.0)), np.sqrt(self.middle + self.radius)
+            return between(low * (1.0 - 4.0 * ROUNDING), high * (1.0 + 4.0 * ROUNDING))
+
+    def arctangent(self) -> Interval:
+        """The angle of a tangent, within a right one."""
+        with np.errstate(invalid="ignore"):
+            return between(np.arctan(self.low) - _WAVES, np.arctan(self.high) + _WAVES)
+
+    def sine(self) -> Interval:
+        """The sine."""
+        return Interval(np.sin(self.middle), self.radius + _WAVES)
+
+    def cosine(self) -> Interval:
+        """The cosine."""
+        return Interval(np.cos(self.middle), self.radius + _WAVES)
+
+
+def between(low: Array, high: Array) -> Interval:
+    """The interval from low to high; all numbers where one of them is not finite.
+
+    Examples
+    --------
+    >>> interval = between(np.array([1.0]), np.array([2.0]))
+    >>> bool(interval.low[0] <= 1.0), bool(interval.high[0] >= 2.0)
+    (True, True)
+    """
+    known = np.isfinite(low) & np.isfinite(high)
+    low, high = np.where(known, low, 0.0), np.where(known, high, 0.0)
+    middle = 0.5 * low + 0.5 * high
+    radius = np.maximum(middle - low, high - middle) * (1.0 + 4.0 * ROUNDING)
+    return Interval(middle, np.where(known, radius, np.inf))
+
+
+def bearing(y: Interval, x: Interval) -> Interval:
+    """The direction of the vectors (x, y) around that of their middle, rad; nothing is known where one may vanish.
+
+    Examples
+    --------
+    >>> turn = bearing(exact(np.array([2.0])), exact(np.array([0.0])))
+    >>> bool(turn.low[0] <= 0.5 * np.pi <= turn.high[0])
+    True
+    """
+    off, size = np.hypot(x.radius, y.radius), np.hypot(x.middle, y.middle)
+    with np.errstate(divide="ignore", invalid="ignore"):
+        share = off / size * (1.0 + 16.0 * ROUNDING)
+        turned = np.where(share < 1.0, np.arcsin(np.where(share < 1.0, share, 0.0)), np.inf)
+    return Interval(np.arctan2(y.middle, x.middle), turned * (1.0 + 8.0 * ROUNDING) + _WAVES)
+
+
+def dot(first: Sequence[Any], second: Sequence[Any]) -> Any:  # noqa: ANN401 - numbers, arrays or intervals
+    """The sum of products, of as many as the shorter of two has.
+
+    Examples
+    --------
+    >>> dot([1.0, 2.0], [3.0, 4.0])
+    11.0
+    """
+    pairs = list(zip(first, second, strict=False))
+    alike = all(
+        isinstance(one, Interval) and one.middle.shape == pairs[0][0].middle.shape for pair in pairs for one in pair
+    )
+    if len(pairs) < _FEW or not alike:
+        total = pairs[0][0] * pairs[0][1]
+        for one, two in pairs[1:]:
+            total = total + one * two
+        return total
+    m, n = np.array([one.middle for one, _ in pairs]), np.array([two.middle for _, two in pairs])
+    p, q = np.array([one.radius for one, _ in pairs]), np.array([two.radius for _, two in pairs])
+    products, size = m * n, np.abs(n)
+    with np.errstate(invalid="ignore"):  # 0 times infinity: no bound
+        radius = np.abs(m) * q + p * (size + q) + (len(pairs) + 1) * ROUNDING * np.abs(products)
+    return Interval(products.sum(axis=0), radius.sum(axis=0) * (1.0 + 32.0 * ROUNDING) + _SMALLEST)
+
+
+def hull(first: Interval, second: Interval) -> Interval:
+    """The least interval that holds two.
+
+    Examples
+    --------
+    >>> both = hull(exact(np.array([1.0])), exact(np.array([3.0])))
+    >>> bool(both.low[0] <= 1.0), bool(both.high[0] >= 3.0), round(float(both.radius[0]), 12)
+    (True, True, 1.0)
+    """
+    return between(np.minimum(first.low, second.low), np.maximum(first.high, second.high))
+
+
+def highest(value: Any) -> Array:  # noqa: ANN401 - numbers or intervals
+    """The greatest that numbers may be.
+
+    Examples
+    --------
+    >>> float(highest(2.0)), bool(highest(exact(2.0)) >= 2.0)
+    (2.0, True)
+    """
+    return value.high if isinstance(value, Interval) else np.asarray(value, dtype=np.float64)
+
+
+def middle(value: Any) -> Array:  # noqa: ANN401 - numbers or intervals
+    """Numbers themselves, or the middles of intervals.
+
+    Examples
+    --------
+    >>> float(middle(2.0)), float(middle(exact(2.0)))
+    (2.0, 2.0)
+    """
+    return value.middle if isinstance(value, Interval) else np.asarray(value, dtype=np.float64)
+
+
+def chosen(where: Any, first: Interval, second: Interval) -> Interval:  # noqa: ANN401 - an array of truths
+    """The first where a condition holds, else the second.
+
+    Examples
+    --------
+    >>> chosen(np.array([True, False]), exact(np.array([1.0, 1.0])), exact(np.array([2.0, 2.0]))).middle
+    array([1., 2.])
+    """
+    return Interval(np.where(where, first.middle, second.middle), np.where(where, first.radius, second.radius))
+
+
+def exact(value: Any) -> Interval:  # noqa: ANN401 - a number or an array
+    """Numbers as they are.
+
+    Examples
+    --------
+    >>> exact(2.0).high - exact(2.0).low < 2e-15
+    np.True_
+    """
+    middle = np.asarray(value, dtype=np.float64)
+    return Interval(middle, np.zeros_like(middle))
+
+
+def _interval(value: Any) -> Interval:  # noqa: ANN401
+    return value if isinstance(value, Interval) else exact(value)
+
+
+def _rounded(middle: Array, radius: Array) -> Interval:
+    return Interval(middle, (radius + ROUNDING * np.abs(middle)) * (1.0 + 8.0 * ROUNDING) + _SMALLEST)
+
+
+_FUNCTIONS: dict[Any, Callable[..., Interval]] = {
+    np.negative: Interval.__neg__,
+    np.arctan: Interval.arctangent,
+    np.arctan2: lambda y, x: bearing(_interval(y), _interval(x)),
+    np.sqrt: Interval.root,
+    np.sin: Interval.sine,
+    np.cos: Interval.cosine,
+    np.add: lambda left, right: _interval(left) + right,
+    np.subtract: lambda left, right: _interval(left) - right,
+    np.multiply: lambda left, right: _interval(left) * right,
+    np.divide: lambda left, right: _interval(left) / right,
+}
