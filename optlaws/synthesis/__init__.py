@@ -10,7 +10,8 @@ __getattr__, __dir__, __all__ = face(
         "optlaws.synthesis.limits.closed_forms": "acceleration_limit limit",
         "optlaws.synthesis.limits.laws": "limit_law",
         "optlaws.synthesis.pareto": "pareto_front",
-        "optlaws.synthesis.problem.constants": "FUNCTIONALS B C C_minus C_plus D Functional J jounce rms_c rms_j",
+        "optlaws.synthesis.problem.constants": "FUNCTIONALS B C C_minus C_plus D Functional J jounce "
+        "rms_c rms_j rms_jounce",
         "optlaws.synthesis.problem.expression": "Expression Maximum Term maximum",
         "optlaws.synthesis.problem.problem": "Problem",
         "optlaws.synthesis.problem.ranges": "Range at_least at_most between",

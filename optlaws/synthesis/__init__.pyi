@@ -17,6 +17,7 @@ from optlaws.synthesis.problem.constants import J as J
 from optlaws.synthesis.problem.constants import jounce as jounce
 from optlaws.synthesis.problem.constants import rms_c as rms_c
 from optlaws.synthesis.problem.constants import rms_j as rms_j
+from optlaws.synthesis.problem.constants import rms_jounce as rms_jounce
 from optlaws.synthesis.problem.expression import Expression as Expression
 from optlaws.synthesis.problem.expression import Maximum as Maximum
 from optlaws.synthesis.problem.expression import Term as Term
@@ -105,6 +106,7 @@ __all__ = [
     "proven_front",
     "rms_c",
     "rms_j",
+    "rms_jounce",
     "sweep",
     "synthesize",
     "synthesize_array",

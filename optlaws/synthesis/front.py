@@ -12,7 +12,6 @@ from numpy.typing import NDArray
 from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import PolynomialLaw
-from optlaws.plotting import plotted
 from optlaws.synthesis.arrays.constants import of_polynomials
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.named_constants import named, title_of
@@ -96,7 +95,9 @@ class Front:
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
         """Draw the points into matplotlib's axes, new ones unless given; a third constant as colour; the artists."""
-        return plotted("front", self, ax, **style)
+        from optlaws.plots.front import draw_front
+
+        return draw_front(self, ax, **style)
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported here alone
         """The rows as a data frame, a line for each point; needs the extra `optlaws[studies]`.

@@ -29,7 +29,7 @@ from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
 from optlaws.synthesis.proof.peaks.rows import peak_of
 from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.proof.power.search import tightened
-from optlaws.synthesis.solution import NOTHING, Solution, Status
+from optlaws.synthesis.solution import NOTHING, Solution, Status, measure
 
 Array = NDArray[np.float64]
 
@@ -131,10 +131,10 @@ class Search:
         """The best law that the search for a tight bound comes upon; notes its proof."""
         if not self.tight or self.problem.convex:
             return best
-        better = [best]
+        better, scales = [best], self.model.variable_scales
 
         def explore(x: Array) -> bool:
-            tried = attempt(self.model, None, x)
+            tried = attempt(self.model, None, x / scales)
             if tried.law is not None and tried.objective < better[-1].objective * (1.0 - GAP):
                 better.append(tried)
                 return True
@@ -143,7 +143,9 @@ class Search:
         while True:
             best = better[-1]
             optimum = best.outcome.optimum
-            self.power = None if optimum is None else tightened(self.problem, best.objective, optimum.x, explore)
+            self.power = (
+                None if optimum is None else tightened(self.problem, best.objective, optimum.x * scales, explore)
+            )
             if best is better[-1]:
                 return best
 
@@ -188,11 +190,11 @@ class Search:
         return 0.5 if attempt.law is None else attempt.law.peak(peak.nu).k
 
     def _placed(self, plain: Attempt, best: Attempt) -> Attempt:
-        """The best law that the search over the places of a peak held up comes upon; notes its proof."""
+        """The best law from a search over the places of a peak that is bounded from below; keeps its proof."""
         short = {} if plain.law is None else shortfalls(self.problem, plain.law)
         for constant, low in short.items():
-            peak = peak_of(self.problem, constant.name)
-            while peak is not None and plain.outcome.optimum is not None and best.objective > NOTHING:
+            peak, nothing = peak_of(self.problem, constant.name), NOTHING * self.problem.objective.scale
+            while peak is not None and plain.outcome.optimum is not None and best.objective > nothing:
                 ended = places.search(self.problem, peak, best.objective * (1.0 - _LEFT * GAP))
                 self.peaks = ended.certificate
                 if self.peaks is not None:
@@ -231,7 +233,7 @@ class Search:
             certificate=proof,
             lower_bound=bound,
             limit=limit,
-            status=status_of(best.objective, bound, proven=problem.convex and not held_up),
+            status=status_of(best.objective, bound, problem.objective.scale, proven=problem.convex and not held_up),
             iterations=sum(attempt.outcome.iterations for attempt in self.attempts),
             seconds=perf_counter() - self.began,
             starts=tuple(attempt.objective for attempt in self.sound) if several else (),
@@ -335,7 +337,7 @@ def _measured(laws: _Laws, outcome: Outcome) -> Attempt:
 
 
 def _kept(model: Model, outcome: Outcome) -> Attempt | None:
-    """The same; None where the law breaks a constraint or a lower bound."""
+    """The attempt; None where the law breaks a constraint or a lower bound."""
     kept = _measured(_Laws(model), outcome)
     return None if kept.law is None or shortfalls(model.problem, kept.law) else kept
 
@@ -351,8 +353,8 @@ def _agree(first: Attempt, last: Attempt) -> bool:
     return first.law is not None and last.law is not None and same
 
 
-def status_of(objective: float, bound: float, *, proven: bool) -> Status:
-    """`proven` says that the bound would meet the objective but for rounding."""
-    if abs(objective - bound) <= GAP * (objective if objective > NOTHING else 1.0):
+def status_of(objective: float, bound: float, scale: float, *, proven: bool) -> Status:
+    """`scale` is the objective's; `proven` says that the bound would meet the objective but for rounding."""
+    if abs(objective - bound) <= GAP * measure(objective, scale):
         return Status.OPTIMAL
     return Status.INACCURATE if proven else Status.LOCAL

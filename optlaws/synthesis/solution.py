@@ -6,15 +6,15 @@ from collections.abc import Callable, Mapping
 from dataclasses import MISSING, dataclass, field, fields
 from enum import StrEnum
 from functools import cache
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, overload
 
 import numpy as np
+from numpy.typing import NDArray
 
-from optlaws.exporting import exported
 from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.numbers import bounded
-from optlaws.plotting import plotted
+from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
@@ -23,8 +23,25 @@ from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 
-# an objective that is zero but for rounding, such as the jounce of a cubic, is judged absolutely
+#: of an objective's scale: one that is zero but for rounding, such as the jounce of a cubic, is measured by that
 NOTHING = 1e-6
+
+
+@overload
+def measure(objective: float, scale: float) -> float: ...
+@overload
+def measure(objective: NDArray[np.float64], scale: float | NDArray[np.float64]) -> NDArray[np.float64]: ...
+def measure(objective: float | NDArray[np.float64], scale: float | NDArray[np.float64]) -> float | NDArray[np.float64]:
+    """What gaps of objectives are shares of: these themselves or, where they are 0 but for rounding, their scale.
+
+    Examples
+    --------
+    >>> measure(5.0, 1.0), measure(1e-9, 1.0), measure(np.array([5e-12, 1e-20]), 1e-12).tolist()
+    (5.0, 1.0, [5e-12, 1e-12])
+    """
+    if isinstance(objective, float):
+        return objective if objective > NOTHING * float(scale) else float(scale)
+    return np.where(objective > NOTHING * scale, objective, scale)
 
 
 class Status(StrEnum):
@@ -73,9 +90,11 @@ class Solution:
     peak_certificate
         Where a peak is bounded from below and the bound was asked to be tight: the proof that no place is better.
     lower_bound
-        The best proven lower bound of the objective over all laws of the problem: a certificate's or the limit.
+        The best proven lower bound of the objective over all laws of the problem, with its order, basis, bounds and
+        windows: a certificate's or the limit.
     limit
-        What no law of any degree can beat; None where it is not known.
+        What no law of the problem's order and within its bounds can beat, whatever its degree: a closed form. None
+        where none is known, as for ends other than rest.
     status, iterations, seconds
         How it went: iterations of the solver on points (0 where a neighbour was continued) and the wall time.
     starts
@@ -146,16 +165,62 @@ class Solution:
 
     @property
     def gap(self) -> float:
-        """(objective - lower bound) / objective; the difference itself where the objective is 0 but for rounding."""
-        return (self.objective - self.lower_bound) / (self.objective if self.objective > NOTHING else 1.0)
+        """(objective - lower bound) / objective; as a share of its scale where the objective is 0 but for rounding."""
+        return (self.objective - self.lower_bound) / measure(self.objective, self.problem.objective.scale)
+
+    @property
+    def notes(self) -> tuple[str, ...]:
+        """What a person should know of the problem that was solved.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> optlaws.synthesize(optlaws.Problem(order=3, minimise="rms(c + 4*a)")).notes
+        ('laws need not be symmetric: rms(c + 4*a) says another thing of a law than of its mirror image',)
+        """
+        problem = self.problem
+        if problem.symmetric or problem.boundary is not None or not problem.uneven:
+            return ()
+        names = problem.titled(" and ".join(map(repr, problem.uneven)))
+        says = "says" if len(problem.uneven) == 1 else "say"
+        return (f"laws need not be symmetric: {names} {says} another thing of a law than of its mirror image",)
+
+    def summary(self) -> Summary:
+        """What was found and is proven, with the constants of the law, as rows.
+
+        Examples
+        --------
+        >>> import optlaws
+        >>> rows = optlaws.synthesize(optlaws.Problem(B=1.859, order=4)).summary()
+        >>> [row.name for row in rows][:4], rows[3].text(5), rows[3].note
+        (['status', 'C', 'lower bound', 'limit'], '4.0231', 'which no law of order 4 with this B can beat, whatever...
+        """
+        from optlaws.synthesis.limits.of_problem import limited_laws
+
+        problem, starts = self.problem, self.starts
+        rows = [
+            Row("status", self.status.value, note=self.status.advice),
+            Row(problem.titled(str(problem.minimise)), self.objective),
+            Row("lower bound", self.lower_bound, note=f"gap {self.gap:.1e}"),
+        ]
+        if self.limit is not None:
+            laws = f"which no {limited_laws(problem)} can beat, whatever its degree"
+            rows.append(Row("limit", self.limit, note=laws))
+        if starts:
+            rows.append(Row("starts", f"{len(starts)}", note=f"from {starts[0]:.10g} to {starts[-1]:.10g}"))
+        if self.z is not None:
+            rows.append(Row("Z(k)", " ".join(f"{number:.9g}" for number in self.z), note=problem.basis.name))
+        rows.append(Row("solved", problem.titled(repr(problem))))
+        rows.append(Row("", f"{self.iterations} iterations, {1e3 * self.seconds:.0f} ms"))
+        return Summary([*rows, *self.constants.summary(), *(Row("note", note) for note in self.notes)], at="k")
 
     @property
     def versions(self) -> dict[str, str]:
         """Versions of the libraries that took part."""
-        return dict(_versions())
+        return versions()
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
-        """Draw the law as `MotionLaw.plot` does, with the bounds and windows of its problem and what no law can beat.
+        """Draw the law as `MotionLaw.plot` does, with the bounds and windows of its problem and its `limit`.
 
         Raises
         ------
@@ -167,9 +232,11 @@ class Solution:
         >>> import optlaws
         >>> artists = optlaws.synthesize(optlaws.Problem(B=1.859, order=4)).plot()
         >>> [artist.get_label() for artist in artists if "no law" in artist.get_label()][0]
-        'no law has a smaller C: 4.02314'
+        'no law of order 4 with this B has a smaller C: 4.02314'
         """
-        return plotted("solution", self, ax, **style)
+        from optlaws.plots.law import draw_solution
+
+        return draw_solution(self, ax, **style)
 
     def export(
         self,
@@ -211,9 +278,14 @@ class Solution:
         >>> [line.strip() for line in made.text.splitlines() if "none below" in line]
         ['law: least C = 4.59646..., none below 4.59646... in its space; status optimal']
         """
-        said = {"stroke": stroke, "time": time, "master": master, "start": start}
-        asked = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
-        return exported("solution", self, to, said, **asked, interpolation=interpolation, task=task, name=name)
+        from optlaws.exports.export import export_law
+
+        placement = {"stroke": stroke, "time": time, "master": master, "start": start}
+        options = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
+        least = f"least {self.problem.minimise} = {self.objective:.9g}"
+        proof = (f"law: {least}, none below {self.lower_bound:.9g} in its space; status {self.status.value}",)
+        options |= {"interpolation": interpolation, "task": task, "name": name}
+        return export_law(self.law, to, placement, proof, **options)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict: the command line's `--json`, with the problem and the certificate beside it."""
@@ -237,18 +309,10 @@ class Solution:
         }
 
     def _repr_html_(self) -> str:
-        from optlaws.laws.html import drawings, table_of_constants
-        from optlaws.shown.showing import facts, page
+        from optlaws.laws.html import drawings
+        from optlaws.shown.showing import page
 
-        known = {
-            "status": self.status.value,
-            str(self.problem.minimise): self.objective,
-            "lower bound": self.lower_bound,
-            "gap": f"{self.gap:.1e}",
-            "limit": self.limit,
-            "problem": self.problem.titled(repr(self.problem)),
-        }
-        return page("Solution", facts(known), table_of_constants(self.constants), drawings(self.law))
+        return page("Solution", self.summary()._repr_html_(), drawings(self.law))
 
     def __repr__(self) -> str:
         limit = "" if self.limit is None else f"limit={self.limit:.9g}, "
@@ -278,9 +342,20 @@ def partly_known(known: dict[str, Any], later: Mapping[str, Callable[[Solution],
 _DEFAULTS = {entry.name: entry.default for entry in fields(Solution) if entry.default is not MISSING}
 
 
+def versions() -> dict[str, str]:
+    """Versions of optlaws and of the libraries of which another release may find other laws, or the same otherwise.
+
+    Examples
+    --------
+    >>> list(versions())
+    ['optlaws', 'casadi', 'clarabel', 'numpy', 'scipy']
+    """
+    return dict(_versions())
+
+
 @cache
 def _versions() -> tuple[tuple[str, str], ...]:
     # it takes as long to import as all of optlaws that a law needs
     from importlib.metadata import version
 
-    return tuple((name, version(name)) for name in ("optlaws", "casadi", "numpy"))
+    return tuple((name, version(name)) for name in ("optlaws", "casadi", "clarabel", "numpy", "scipy"))

@@ -12,10 +12,12 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
+from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.limits.of_problem import known_limit
-from optlaws.synthesis.proof.data import as_json
-from optlaws.synthesis.solution import NOTHING, Solution, Status
+from optlaws.synthesis.problem.plain_entries import plain_entries
+from optlaws.synthesis.search import status_of
+from optlaws.synthesis.solution import Solution, Status, measure
 from optlaws.synthesis.solution_tables import NUMBERS, as_pandas, as_xarray
 from optlaws.synthesis.solved_parts import Part, constant_of, stored_laws
 from optlaws.synthesis.stored_solutions import (
@@ -24,7 +26,6 @@ from optlaws.synthesis.stored_solutions import (
     INVALID,
     plain_alone,
     plain_error,
-    plain_problems,
     read_solutions,
     status_of_error,
 )
@@ -127,9 +128,12 @@ class SolutionArray:
 
     @kept_property
     def gap(self) -> Array:
-        """(objective - lower bound) / objective; the difference itself where the objective is 0 but for rounding."""
-        unit = np.where(self.objective > NOTHING, self.objective, 1.0)
-        return _frozen((self.objective - self.lower_bound) / unit)
+        """(objective - lower bound) / objective; as a share of its scale where the objective is 0 but for rounding."""
+        scale = self._gathered(
+            lambda part: np.full(len(part.places), part.model.problem.objective.scale),
+            lambda solution: solution.problem.objective.scale,
+        )
+        return _frozen((self.objective - self.lower_bound) / measure(self.objective, scale))
 
     @kept_property
     def status(self) -> NDArray[np.str_]:
@@ -149,7 +153,7 @@ class SolutionArray:
 
     @kept_property
     def limit(self) -> Array:
-        """What no law of any degree can beat; NaN where it is not known."""
+        """What no law of the problem's order and bounds can beat, of any degree; NaN where it is not known."""
         limits = np.full(self.size, np.nan)
         for place in np.flatnonzero(~np.isnan(self.objective.reshape(-1))).tolist():
             known = known_limit(self.problems.problem(place))
@@ -268,7 +272,7 @@ class SolutionArray:
             "solutions": [
                 result.to_dict() if isinstance(result, Solution) else plain_error(result) for result in results
             ],
-            "problems": plain_problems(self.problems),
+            "problems": plain_entries(self.problems.entries) if self.problems.entries else None,
             "parts": [
                 {
                     "places": part.places.tolist(),
@@ -287,7 +291,7 @@ class SolutionArray:
         Raises
         ------
         InputError
-            If an entry is missing or wrong, or a solution is another than the arrays have.
+            If an entry is missing or wrong, or one states what does not follow from problems, laws and proofs.
 
         Examples
         --------
@@ -300,23 +304,37 @@ class SolutionArray:
         stored = read_solutions(data)
         parts = tuple(Part(places, model, laws) for places, model, laws in stored.parts)
         made = cls(stored.problems, parts, stored.others, stored.seconds)
-        for place, row in enumerate(stored.rows):
-            said, known = row.get("objective"), float(made.objective.reshape(-1)[place])
-            if said != (None if np.isnan(known) else known):
-                raise InputError(f"the objective of solutions[{place}] is {said!r}, but that of the arrays {known!r}")
-            if said is not None and as_json(stored.problems.problem(place).to_dict()) != row.get("problem"):
-                raise InputError(f"the problem of solutions[{place}] is another than that of the arrays")
+        for place, status in enumerate(stored.statuses):
+            possible = statuses_of(made.result(place))
+            if status not in possible:
+                raise InputError(f"the status of solutions[{place}] is {status!r}, but it is {' or '.join(possible)}")
         return made
 
-    def _repr_html_(self) -> str:
-        from optlaws.shown.showing import drawing, facts, page
+    def summary(self) -> Summary:
+        """How many laws of each status there are, and between what objectives and gaps lie, as rows.
 
+        Examples
+        --------
+        >>> from optlaws import ProblemArray, synthesize_array
+        >>> laws = synthesize_array(ProblemArray(B=[1.05, 1.7, 1.8], order=4))
+        >>> [(row.name, row.text(5)) for row in laws.summary()][:4]
+        [('problems', '3'), ('infeasible', '1'), ('optimal', '2'), ('objective', '...')]
+        """
         names, counts = np.unique(self.status, return_counts=True)
-        shown = facts({"shape": str(self.shape), **dict(zip(names.tolist(), counts.tolist(), strict=True))})
+        rows = [Row("problems", self.size, note=f"shape {self.shape}"), *map(Row, names.tolist(), counts.tolist())]
+        for name, values in (("objective", self.objective), ("gap", self.gap)):
+            known = values[np.isfinite(values)]
+            if known.size:
+                rows.append(Row(name, (float(known.min()), float(known.max()))))
+        return Summary(rows)
+
+    def _repr_html_(self) -> str:
+        from optlaws.shown.showing import drawing, page
+
         values = self.objective
-        if values.ndim != 1 or len(values) < len(("first", "last")):
-            return page("SolutionArray", shown)
-        return page("SolutionArray", shown, drawing("objective", list(range(len(values))), values.tolist()))
+        line = values.ndim == 1 and len(values) > 1
+        drawings = [drawing("objective", list(range(len(values))), values.tolist())] if line else []
+        return page("SolutionArray", self.summary()._repr_html_(), *drawings)
 
     def __repr__(self) -> str:
         names, counts = np.unique(self.status, return_counts=True)
@@ -376,3 +394,15 @@ class SolutionArray:
 def _frozen(values: NDArray[Any]) -> NDArray[Any]:
     values.setflags(write=False)
     return values
+
+
+def statuses_of(result: Solution | OptlawsError) -> list[str]:
+    """The statuses that a result can have; a law that a lower bound of a constant holds up is proven in part alone."""
+    if not isinstance(result, Solution):
+        return [status_of_error(result)]
+    problem = result.problem
+    velocity = problem.range("B")
+    held_up = any(limits.low > 0.0 for _, limits in problem.bounded) or (velocity is not None and velocity.low > 0.0)
+    ways = {True: [True, False] if held_up else [True], False: [False]}[problem.convex]
+    scale = problem.objective.scale
+    return [status_of(result.objective, result.lower_bound, scale, proven=proven).value for proven in ways]

@@ -44,7 +44,8 @@ def synthesize(problem: Problem, *, start: Solution | None = None, bound: str = 
     Raises
     ------
     InfeasibleProblem
-        If no law of the problem exists; `proof` is a certificate of that.
+        If no law of the problem exists; `proof` is a certificate of that, unless the message names the limit that is
+        above what is asked.
     SolverFailure
         If no law could be found although none was shown not to exist.
 

@@ -27,6 +27,7 @@ from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
+from optlaws.synthesis.proof.no_law import proof_of_no_law
 from optlaws.synthesis.search import Search
 from optlaws.synthesis.solution import Solution
 from optlaws.synthesis.solution_array import SolutionArray
@@ -152,23 +153,28 @@ def _beyond(
     previous: Solution | None = None
     ended: InfeasibleProblem | None = None
     for place in places.tolist():
-        if ended is None:
+        result: Solution | OptlawsError | None = None
+        if ended is not None:
+            result = _infeasible(problems.problem(place), ended)
+        if result is None:
             result = _alone(problems, place, previous, bound)
             previous = result if isinstance(result, Solution) else previous
             if isinstance(result, InfeasibleProblem) and result.proof is not None:
                 ended = result
-            yield place, result
-        else:
-            yield place, _infeasible(problems.problem(place), ended)
+        yield place, result
 
 
-def _infeasible(problem: Problem, ended: InfeasibleProblem) -> InfeasibleProblem:
+def _infeasible(problem: Problem, ended: InfeasibleProblem) -> InfeasibleProblem | None:
+    """The error of a problem that the multipliers of a nearer one prove to have no law; None where they do not."""
+    proof = proof_of_no_law(problem, ended.proof)
+    if proof is None:
+        return None
     return InfeasibleProblem(
-        "no law of this problem exists: among problems that differ from it in one number those with laws are between "
-        "two values, and it lies beyond one without a law, which error.proof is of",
+        "no law of this problem exists: the constraints contradict each other where they do in a nearer problem of "
+        "the same line (error.proof is the certificate)",
         problem=problem,
-        tried="a nearer problem of the same line was proven to have no law",
-        proof=ended.proof,
+        tried="the multipliers that prove it of a nearer problem prove it of this one too",
+        proof=proof,
     )
 
 

@@ -20,7 +20,7 @@ from optlaws.synthesis.program.writer import Model
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.make import certificate, certify
 from optlaws.synthesis.search import GAP, status_of
-from optlaws.synthesis.solution import Solution, Status, partly_known
+from optlaws.synthesis.solution import Solution, Status, measure, partly_known
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 from optlaws.synthesis.spaces.space import LawSpace
@@ -41,7 +41,7 @@ class Part:
 
     @property
     def coordinates(self) -> Array:
-        """Those of each law."""
+        """The coordinates of each law."""
         return self.found.x[:, : self.model.space.terms]
 
     @property
@@ -50,7 +50,9 @@ class Part:
         optimal = np.full(len(self.places), Status.OPTIMAL.value)
         if self.model.problem.convex:
             return optimal
-        off = np.abs(self.found.objective - self.found.bound) > GAP * self.found.objective
+        off = np.abs(self.found.objective - self.found.bound) > GAP * measure(
+            self.found.objective, self.model.problem.objective.scale
+        )
         return np.where(off, Status.LOCAL.value, optimal)
 
     @property
@@ -94,7 +96,9 @@ class Part:
             k[mine] = np.clip(family.k(laws.u[mine]), 0.0, 1.0)
         rows: dict[str, NDArray[Any]] = {"constraint": names[laws.family], "k": k}
         rows["sign"] = np.where(none, np.nan, laws.sign)
-        rows["multiplier"] = np.where(none, np.nan, laws.multiplier)
+        # of the problem's own rows, as certificates have them
+        units = np.array([*(self.model.unit / family.unit for family in self.model.program.families), 1.0])
+        rows["multiplier"] = np.where(none, np.nan, laws.multiplier * units[laws.family])
         return rows
 
     def solution(self, row: int, problem: Problem, seconds: float) -> Solution:
@@ -125,7 +129,9 @@ class Part:
             "certificate": proof,
             "limit": lambda solution: known_limit(solution.problem),
             "lower_bound": lower_bound,
-            "status": lambda solution: status_of(solution.objective, solution.lower_bound, proven=problem.convex),
+            "status": lambda solution: status_of(
+                solution.objective, solution.lower_bound, problem.objective.scale, proven=problem.convex
+            ),
         }
         return partly_known(known, later)
 

@@ -1,37 +1,66 @@
-"""Solutions of many problems as plain data that are read back as they were, with the errors of those without a law."""
+"""Solutions of many problems as plain data that are read back as they were, with the errors of those without a law.
+
+Nothing that is read is taken on trust: laws are those of their coordinates, numbers are those of their laws, bounds are
+what the proofs beside them prove, and a problem is said to have no law where its proof shows that of this problem.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from dataclasses import dataclass, fields
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, fields, replace
+from functools import lru_cache
 from math import inf, isfinite, prod
-from typing import Any
+from typing import Any, Literal, TypeVar
 
 import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError, OptlawsError, SolverFailure
-from optlaws.laws import MotionLaw
-from optlaws.numbers import bounded
-from optlaws.synthesis.arrays.found import Found
+from optlaws.laws import MotionLaw, smoothstep
+from optlaws.synthesis.arrays.found import FOLLOWING, NO_CONTACT, Found
 from optlaws.synthesis.arrays.problems import ProblemArray
 from optlaws.synthesis.families.active_set import ActiveSet
-from optlaws.synthesis.problem.ranges import Range
-from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.families.family import Program
+from optlaws.synthesis.limits.of_problem import known_limit
+from optlaws.synthesis.problem.fields import differ_in_numbers
+from optlaws.synthesis.problem.plain_entries import read_entries
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.program.evaluation import shortfalls, worth
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.synthesis.proof.data import problem_of, stated
+from optlaws.synthesis.proof.data import as_json, problem_of, stated
+from optlaws.synthesis.proof.no_law import beyond_limit, proof_of_no_law
 from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
 from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.solution import Solution, Status
-from optlaws.synthesis.spaces.bases import Basis, basis
-from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+from optlaws.synthesis.spaces.bases import PolynomialBasis
+from optlaws.synthesis.spaces.splines import PiecewiseBasis
 
 #: what stands for the status of a problem without a law
 INFEASIBLE, FAILED, INVALID = "infeasible", "failed", "invalid"
 
+#: of a number, what another machine may round otherwise: of a value or a bound, and of a law's coefficients
+_VALUE, _COEFFICIENT = 1e-9, 1e-11
+
 Plain = dict[str, Any]
+Kind = TypeVar("Kind")
+
+
+class StatedOptima(msgspec.Struct, forbid_unknown_fields=True):
+    """What `Found.to_dict` writes; objectives and excesses, which older files have, are recomputed."""
+
+    x: list[list[float]]
+    family: list[list[int]]
+    u: list[list[float]]
+    sign: list[list[float]]
+    free: list[list[bool]]
+    multiplier: list[list[float]]
+    equations: list[list[float]]
+    bound: list[float]
+    objective: Any = None
+    excess: Any = None
 
 
 class StatedPart(msgspec.Struct, forbid_unknown_fields=True):
@@ -39,14 +68,59 @@ class StatedPart(msgspec.Struct, forbid_unknown_fields=True):
 
     places: list[int]
     problem: Plain
-    found: Plain
+    found: StatedOptima
+
+
+class StatedActiveSet(msgspec.Struct, forbid_unknown_fields=True):
+    """What an `ActiveSet` holds."""
+
+    x: list[float]
+    family: list[int]
+    u: list[float]
+    s: list[float]
+    free: list[bool]
+    multipliers: list[float]
+    equality_multipliers: list[float]
 
 
 class StatedAlone(msgspec.Struct, forbid_unknown_fields=True):
     """What the row of a law that was found alone does not say."""
 
     z_series: list[float]
-    active_set: Plain
+    active_set: StatedActiveSet
+
+
+class StatedSolution(msgspec.Struct, forbid_unknown_fields=True):
+    """The row of a problem with a law; what is not read here follows from the law and its proofs."""
+
+    problem: Plain
+    law: Plain
+    certificate: Plain
+    status: Literal["optimal", "local", "inaccurate"]
+    objective: float
+    lower_bound: float | None
+    iterations: int
+    seconds: float
+    starts: tuple[float, ...]
+    gap: Any = None
+    limit: Any = None
+    constants: Any = None
+    z: Any = None
+    power_certificate: Plain | None = None
+    peak_certificate: Plain | None = None
+    versions: Any = None
+    about: str = ""
+
+
+class StatedError(msgspec.Struct, forbid_unknown_fields=True):
+    """The row of a problem without a law."""
+
+    status: Literal["infeasible", "failed", "invalid"]
+    error: str
+    problem: Plain | None = None
+    proof: Plain | None = None
+    tried: str = ""
+    about: str = ""
 
 
 class StatedSolutions(msgspec.Struct, forbid_unknown_fields=True):
@@ -63,13 +137,16 @@ class StatedSolutions(msgspec.Struct, forbid_unknown_fields=True):
 
 @dataclass(frozen=True, eq=False)
 class Stored:
-    """What was stored: the problems, the optima found together by place and program, and all that was found alone."""
+    """What was stored: the problems, the optima found together by place and program, and all that was found alone.
+
+    `statuses` has the status that each row states.
+    """
 
     problems: ProblemArray
     parts: list[tuple[NDArray[np.intp], Model, Found]]
     others: dict[int, Solution | OptlawsError]
     seconds: float
-    rows: list[Plain]
+    statuses: list[str]
 
 
 def status_of_error(error: OptlawsError) -> str:
@@ -99,182 +176,325 @@ def plain_alone(solution: Solution) -> Plain:
     }
 
 
-def plain_problems(problems: ProblemArray) -> Plain | None:
-    """The entries that were given as plain data; None where they are to be read from the rows."""
-    if not problems.entries:
-        return None
-    try:
-        return {name: _plain(value) for name, value in problems.entries.items()}
-    except TypeError:
-        return None
-
-
 def read_solutions(data: object) -> Stored:
-    """Read what `SolutionArray.to_dict` wrote.
+    """Read what `SolutionArray.to_dict` wrote, and check all that is taken from it.
 
     Raises
     ------
     InputError
-        If an entry is missing or wrong.
+        If an entry is missing or wrong, or states what does not follow from the problems, the laws and the proofs.
     """
-    stated_array = stated(data, StatedSolutions, "stored array of solutions")
-    size, shape = prod(stated_array.shape), tuple(stated_array.shape)
-    if min(shape, default=0) < 0 or size != len(stated_array.solutions):
-        raise InputError(
-            f"an array of solutions of shape {shape} has {size} solutions, got {len(stated_array.solutions)}"
-        )
-    together = [place for part in stated_array.parts for place in part.places]
-    others = [place for place in range(size) if place not in set(together)]
-    if len(together) + len(others) != size:
+    entries = stated(data, StatedSolutions, "stored array of solutions")
+    size, shape = prod(entries.shape), tuple(entries.shape)
+    if min(shape, default=0) < 0 or size != len(entries.solutions):
+        raise InputError(f"an array of solutions of shape {shape} has {size} solutions, got {len(entries.solutions)}")
+    together = {place for part in entries.parts for place in part.places}
+    alone = {str(place) for place in range(size)} - set(map(str, together))
+    if sum(len(part.places) for part in entries.parts) != len(together) or not together <= set(range(size)):
         raise InputError("the parts of an array of solutions name a place twice, or one that it does not have")
-    try:
-        return Stored(
-            _problems(stated_array, shape),
-            [_part(part) for part in stated_array.parts],
-            {place: _alone(stated_array.solutions[place], stated_array.alone.get(str(place))) for place in others},
-            stated_array.seconds,
-            stated_array.solutions,
+    if not entries.alone.keys() <= alone:
+        raise InputError("an array of solutions says of a law that it was found alone and is none of those")
+    return _plainly(lambda: _Reading(entries, shape).stored(), "this is no array of solutions")
+
+
+@dataclass(frozen=True)
+class _Reading:
+    """An array of solutions that is read: what its file states, and the shape of its problems."""
+
+    entries: StatedSolutions
+    shape: tuple[int, ...]
+
+    def stored(self) -> Stored:
+        """All of it, checked."""
+        entries = self.entries
+        rows = [_row(row, f"solutions[{place}]") for place, row in enumerate(entries.solutions)]
+        problems = self._problems()
+        for place, row in enumerate(rows):
+            if row.problem is not None and row.problem != as_json(problems.problem(place).to_dict()):
+                raise InputError(f"the problem of solutions[{place}] is another than that of the arrays")
+        others: dict[int, Solution | OptlawsError] = {}
+        parts = [_part(part, problems, rows) for part in entries.parts]
+        for place in sorted(set(range(len(rows))) - {place for part in entries.parts for place in part.places}):
+            others[place] = _at(
+                f"solutions[{place}]",
+                lambda place=place: self._alone(place, rows[place], problems),  # type: ignore[misc]
+            )
+        return Stored(problems, parts, others, entries.seconds, [row.status for row in rows])
+
+    def _problems(self) -> ProblemArray:
+        entries, shape = self.entries, self.shape
+        if entries.problems is None:
+            given = [problem_of(row["problem"]) if "problem" in row else None for row in entries.solutions]
+            return ProblemArray.of(given, shape)
+        made = ProblemArray(**read_entries(entries.problems))
+        if made.shape == shape:
+            return made
+        if made.size != 1:
+            raise InputError(f"problems of shape {made.shape} are no array of solutions of shape {shape}")
+        # entries without arrays may have been taken many times
+        return made.taken(np.zeros(shape, dtype=np.intp))
+
+    def _alone(self, place: int, row: StatedSolution | StatedError, problems: ProblemArray) -> Solution | OptlawsError:
+        if isinstance(row, StatedError):
+            return _error(row, lambda: problems.problem(place))
+        kept = self.entries.alone.get(str(place))
+        if kept is None:
+            raise InputError("the arrays say nothing of its law")
+        problem, law = problems.problem(place), MotionLaw.from_dict(row.law)
+        _check_numbers(row, problem, law)
+        _check_z(kept.z_series, problem, law)
+        return Solution(
+            problem=problem,
+            law=law,
+            z_series=tuple(kept.z_series),
+            objective=row.objective,
+            certificate=Certificate.from_dict(row.certificate),
+            lower_bound=_bound(row),
+            limit=known_limit(problem),
+            status=Status(row.status),
+            iterations=row.iterations,
+            seconds=row.seconds,
+            starts=row.starts,
+            power_certificate=_read(PowerCertificate.from_dict, row.power_certificate),
+            peak_certificate=_read(PeakCertificate.from_dict, row.peak_certificate),
+            active_set=_active_set(kept.active_set, model_of(problem).program),
         )
-    except (IndexError, KeyError, TypeError, ValueError) as error:
-        raise (
-            error if isinstance(error, InputError) else InputError(f"this is no array of solutions: {error}")
-        ) from None
 
 
-def _problems(stated_array: StatedSolutions, shape: tuple[int, ...]) -> ProblemArray:
-    if stated_array.problems is None:
-        return ProblemArray.of(
-            [problem_of(row["problem"]) if "problem" in row else None for row in stated_array.solutions], shape
-        )
-    made = ProblemArray(**{name: _read(value) for name, value in stated_array.problems.items()})
-    if made.shape == shape:
-        return made
-    # entries without arrays may have been taken many times
-    places = np.arange(made.size) if made.size > 1 else np.zeros(prod(shape), dtype=np.intp)
-    return made.taken(places.reshape(shape))
+def _row(data: Plain, name: str) -> StatedSolution | StatedError:
+    what = f"row of an array of solutions ({name})"
+    return stated(data, StatedError, what) if "error" in data else stated(data, StatedSolution, what)
 
 
-def _part(part: StatedPart) -> tuple[NDArray[np.intp], Model, Found]:
-    places, model, laws = np.array(part.places, dtype=np.intp), model_of(problem_of(part.problem)), part.found
-    optima = Found.from_dict(laws).frozen()
-    rows = {len(getattr(optima, field.name)) for field in fields(optima)}
-    if rows != {len(places)} or optima.x.shape[1] != model.program.size:
+def _part(
+    part: StatedPart, problems: ProblemArray, rows: list[StatedSolution | StatedError]
+) -> tuple[NDArray[np.intp], Model, Found]:
+    model, found = model_of(problem_of(part.problem)), part.found
+    optima = {field.name: getattr(found, field.name) for field in fields(Found) if field.name not in FOLLOWING}
+    own = [rows[place] for place in part.places]
+    objective = [getattr(row, "objective", np.nan) for row in own]
+    laws = Found.from_dict({**optima, "objective": objective, "excess": [np.nan] * len(own)}).frozen()
+    _check_optima(laws, len(part.places), model.program)
+    for i, place in enumerate(part.places):
+        row = own[i]
+        if isinstance(row, StatedError):
+            raise InputError(f"solutions[{place}] has no law, but the arrays have one")
+        problem = problems.problem(place)
+        _at(f"solutions[{place}]", lambda: _check_row(row, problem, replace(model, problem=problem), laws, i))  # noqa: B023
+    same = problems.problem(part.places[0]) if part.places else model.problem
+    if not differ_in_numbers(same, model.problem) or (
+        problems.one_objective and repr(same.objective) != repr(model.problem.objective)
+    ):
+        raise InputError("a part of an array of solutions has optima of other problems")
+    return np.array(part.places, dtype=np.intp), model, laws
+
+
+def _check_optima(laws: Found, count: int, program: Program) -> None:
+    """Refuse arrays that are no optima of a program."""
+    shapes = {(getattr(laws, name).ndim, len(getattr(laws, name))) for name in ("objective", "bound")}
+    contacts = {getattr(laws, name).shape for name in ("family", "u", "sign", "free", "multiplier")}
+    sizes = {laws.x.shape, laws.equations.shape}
+    if (
+        shapes != {(1, count)}
+        or len(contacts) != 1
+        or any(len(shape) != 2 or shape[0] != count for shape in contacts)
+        or sizes != {(count, program.size), (count, len(program.right))}
+    ):
         raise InputError("a part of an array of solutions has optima of other problems, or more or fewer than places")
-    return places, model, optima
+    numbers = (laws.x, laws.u, laws.sign, laws.multiplier, laws.equations, laws.bound)
+    own = laws.family != NO_CONTACT
+    known = own & (laws.family >= 0) & (laws.family < len(program.families))
+    if not all(np.isfinite(values).all() for values in numbers) or not (known == own).all():
+        raise InputError("a part of an array of solutions has numbers that are not finite, or rows of no program")
 
 
-def _alone(row: Plain, kept: StatedAlone | None) -> Solution | OptlawsError:
-    if kept is None:
-        return _error(row)
-    power, peak = row.get("power_certificate"), row.get("peak_certificate")
-    return Solution(
-        problem=problem_of(row["problem"]),
-        law=MotionLaw.from_dict(row["law"]),
-        z_series=tuple(kept.z_series),
-        objective=row["objective"],
-        certificate=Certificate.from_dict(row["certificate"]),
-        lower_bound=-inf if row["lower_bound"] is None else row["lower_bound"],
-        limit=row["limit"],
-        status=Status(row["status"]),
-        iterations=row["iterations"],
-        seconds=row["seconds"],
-        starts=tuple(row["starts"]),
-        power_certificate=None if power is None else PowerCertificate.from_dict(power),
-        peak_certificate=None if peak is None else PeakCertificate.from_dict(peak),
-        active_set=_active_set(kept.active_set),
+def _check_row(row: StatedSolution, problem: Problem, model: Model, laws: Found, i: int) -> None:
+    """Refuse a row whose law, whose numbers or whose proof are not those of the arrays."""
+    law = model.law(laws.x[i])
+    if not _same(as_json(law.to_dict()), row.law):
+        raise InputError("its law is another than that of the arrays' coordinates")
+    _check_numbers(row, problem, law)
+    bound, limit = float(laws.bound[i]), known_limit(problem)
+    if max(bound, -inf if limit is None else limit) != _bound(row):
+        raise InputError(f"its lower bound is {row.lower_bound!r}, but that of the arrays {bound!r}")
+    if problem.convex:
+        _check_contacts(Certificate.from_dict(row.certificate), model.program, laws, i)
+
+
+def _check_contacts(proof: Certificate, program: Program, laws: Found, i: int) -> None:
+    """Refuse contacts and multipliers of the arrays that are not those of the row's certificate."""
+    own = [int(j) for family in range(len(program.families)) for j in np.flatnonzero(laws.family[i] == family)]
+    kinds = [program.families[laws.family[i, j]] for j in own]
+    same = [kind.name for kind in kinds] == [contact.constraint for contact in proof.contacts]
+    places = [float(kind.k(laws.u[i, j : j + 1])[0]) for kind, j in zip(kinds, own, strict=True)]
+    arrays: list[tuple[Any, list[float]]] = [
+        (laws.sign[i, own], [contact.sign for contact in proof.contacts]),
+        (np.clip(places, 0.0, 1.0), [contact.k for contact in proof.contacts]),
+        (laws.multiplier[i, own], [contact.multiplier for contact in proof.contacts]),
+        (laws.equations[i], list(proof.equations)),
+    ]
+    if not same or not all(_same(list(map(float, first)), second) for first, second in arrays):
+        raise InputError("its certificate is another than that of the arrays' contacts and multipliers")
+
+
+def _check_numbers(row: StatedSolution, problem: Problem, law: MotionLaw) -> None:
+    """Refuse an objective that is not the law's, a law that breaks its problem, and a bound that nothing proves."""
+    value, size = worth(problem, law), _size(problem)
+    if not value.sound or shortfalls(problem, law):
+        raise InputError("its law does not keep the constraints of its problem")
+    if not abs(row.objective - value.objective) <= _VALUE * max(abs(value.objective), size):
+        raise InputError(f"the objective is {row.objective!r}, but that of its law {value.objective!r}")
+    bound, proven = _bound(row), max(_proven(row, problem), default=-inf)
+    if not (bound == -inf or bound <= proven + _VALUE * max(abs(proven), size)):
+        raise InputError(f"the lower bound is {bound!r}, but what is proven beside it {proven!r}")
+
+
+def _proven(row: StatedSolution, problem: Problem) -> Iterator[float]:
+    """What the row's proofs prove of its problem in doubles."""
+    readers: tuple[tuple[Callable[[Plain], Certificate | PowerCertificate | PeakCertificate], Plain | None], ...] = (
+        (Certificate.from_dict, row.certificate),
+        (PowerCertificate.from_dict, row.power_certificate),
+        (PeakCertificate.from_dict, row.peak_certificate),
     )
+    for read, data in readers:
+        proof = _read(read, data)
+        if proof is not None and proof.problem != problem:
+            raise InputError("a proof beside its law is of another problem")
+        if proof is not None:
+            yield proof.bound
+    limit = known_limit(problem)
+    if limit is not None:
+        yield limit
 
 
-def _active_set(data: Plain) -> ActiveSet:
+def _size(problem: Problem) -> float:
+    """How large the objective of a plain law is: what rounding is held against where an objective is nearly 0."""
+    value = _of_plain_law(problem.shape) if isinstance(problem.B, float) else _of_plain_law(problem)
+    return value if isfinite(value) else 0.0
+
+
+@lru_cache(maxsize=256)
+def _of_plain_law(problem: Problem) -> float:
+    return abs(worth(problem, smoothstep(min(problem.order, 10))).objective)
+
+
+def _bound(row: StatedSolution) -> float:
+    return -inf if row.lower_bound is None else row.lower_bound
+
+
+def _check_z(series: list[float], problem: Problem, law: MotionLaw) -> None:
+    """Refuse coefficients of Z that do not make the law."""
+    basis, order = problem.basis, problem.order
+    if not isinstance(basis, PolynomialBasis | PiecewiseBasis):
+        wrong = bool(series)
+    else:
+        k = (1.0 - np.cos((np.arange(2 * len(series) + 8) + 0.5) * (np.pi / (2 * len(series) + 8)))) / 2.0
+        a0, a1 = (
+            np.polynomial.polynomial.polyval(k, list(map(float, part)))
+            for part in (problem.conditions.a0(), problem.conditions.a1())
+        )
+        a = a0 + k**order * (a1 + (k - 1.0) ** order * _z(basis, np.array(series), k))
+        off = np.abs(a - np.array([float(law(place)) for place in k.tolist()]))
+        wrong = not off.max() <= _VALUE
+    if wrong:
+        raise InputError("the coefficients of Z in the arrays do not make its law")
+
+
+def _z(basis: PolynomialBasis | PiecewiseBasis, series: NDArray[np.float64], k: NDArray[np.float64]) -> Any:  # noqa: ANN401
+    """Z at times k, of its Chebyshev series, on each piece where it has some."""
+    if isinstance(basis, PolynomialBasis):
+        return np.polynomial.chebyshev.chebval(2.0 * k - 1.0, series)
+    breaks = np.array(basis.breaks, dtype=np.float64)
+    rows = series.reshape(len(breaks) - 1, -1)
+    i = np.clip(np.searchsorted(breaks, k, side="right") - 1, 0, len(rows) - 1)
+    x = 2.0 * (k - breaks[i]) / (breaks[i + 1] - breaks[i]) - 1.0
+    return (rows[i] * np.cos(np.arange(rows.shape[1]) * np.arccos(np.clip(x, -1.0, 1.0))[:, None])).sum(axis=1)
+
+
+def _active_set(entries: StatedActiveSet, program: Program) -> ActiveSet:
+    """Where a neighbouring problem may begin: any numbers will do that are of the program's shape."""
     kinds = {"family": np.intp, "free": np.bool_}
-    return ActiveSet(**{name: np.array(value, dtype=kinds.get(name, np.float64)) for name, value in data.items()})
+    state = ActiveSet(
+        **{
+            field.name: np.array(getattr(entries, field.name), dtype=kinds.get(field.name, np.float64))
+            for field in fields(ActiveSet)
+        }
+    )
+    counts = {len(part) for part in (state.family, state.u, state.s, state.free, state.multipliers)}
+    finite = all(np.isfinite(getattr(state, field.name)).all() for field in fields(state))
+    known = ((state.family >= 0) & (state.family < len(program.families))).all()
+    sizes = (len(state.x), len(state.equality_multipliers)) == (program.size, len(program.right))
+    if len(counts) != 1 or not finite or not known or not sizes:
+        raise InputError("the contacts and multipliers in the arrays are not of its program")
+    return state
 
 
-def _error(row: Plain) -> OptlawsError:
-    problem = problem_of(row["problem"]) if "problem" in row else None
-    if row["status"] == INFEASIBLE:
-        proof = Certificate.from_dict(row["proof"]) if "proof" in row else None
-        return InfeasibleProblem(row["error"], problem=problem, tried=row.get("tried", ""), proof=proof)
-    if row["status"] == FAILED:
-        return SolverFailure(row["error"], problem=problem, tried=row.get("tried", ""))
-    if row["status"] == INVALID:
-        return InputError(row["error"])
-    raise InputError(f"a row without a law is {INFEASIBLE!r}, {FAILED!r} or {INVALID!r}, got {row['status']!r:.40}")
+def _error(row: StatedError, problem: Callable[[], Problem]) -> OptlawsError:
+    """The error of a row without a law, which has to be so of its problem."""
+    if row.status == INVALID:
+        if row.problem is not None or row.proof is not None:
+            raise InputError(f"a row that is {INVALID!r} has neither problem nor proof")
+        if _is_problem(problem):
+            raise InputError("it is said to be no problem, but it is one")
+        return InputError(row.error)
+    if row.status == FAILED:
+        if row.proof is not None:
+            raise InputError(f"a row that is {FAILED!r} has no proof")
+        return SolverFailure(row.error, problem=problem(), tried=row.tried)
+    if row.proof is None:
+        if not beyond_limit(problem()):
+            raise InputError("it is said to have no law, but no proof stands beside it")
+        return InfeasibleProblem(row.error, problem=problem(), tried=row.tried)
+    kind: Any = PowerCertificate if "steps" in row.proof else Certificate
+    proof = proof_of_no_law(problem(), kind.from_dict(row.proof))
+    if proof is None:
+        raise InputError("it is said to have no law, but its proof does not show that of its problem")
+    return InfeasibleProblem(row.error, problem=problem(), tried=row.tried, proof=proof)
 
 
-def _plain(value: Any) -> Any:  # noqa: ANN401
-    if isinstance(value, np.ndarray):
-        return _plain_array(value)
-    if isinstance(value, Range):
-        return [value.low, bounded(value.high)]
-    if isinstance(value, Basis):
-        return {"basis": dict(value.to_dict())}
-    if isinstance(value, Mapping):
-        return {"named": {_name(key): _plain(part) for key, part in value.items()}}
-    if isinstance(value, list | tuple):
-        return [_plain(part) for part in value]
-    if value is None or type(value) in {bool, int, float, str}:
-        return value
-    raise TypeError(type(value).__name__)
+def _is_problem(problem: Callable[[], Problem]) -> bool:
+    try:
+        model_of(problem())
+    except InputError:
+        return False
+    return True
 
 
-def _plain_array(values: NDArray[Any]) -> Plain:
-    shape = list(values.shape)
-    if values.dtype == object:
-        return {"objects": [_plain_object(value) for value in values.reshape(-1).tolist()], "shape": shape}
-    if values.dtype.kind not in "fiub":
-        raise TypeError(str(values.dtype))
-    flat = [value if np.isfinite(value) else str(value) for value in values.reshape(-1).tolist()]
-    return {"array": flat, "shape": shape, "type": str(values.dtype)}
+def _same(first: Any, second: Any) -> bool:  # noqa: ANN401 - JSON
+    """Whether plain data are the same, numbers but for the rounding of the greatest beside them."""
+    if isinstance(first, dict) and isinstance(second, dict):
+        return first.keys() == second.keys() and all(_same(first[name], second[name]) for name in first)
+    if isinstance(first, list) and isinstance(second, list) and first and all(map(_is_number, [*first, *second])):
+        allowed = _COEFFICIENT * max(map(abs, first))
+        return len(first) == len(second) and all(abs(a - b) <= allowed for a, b in zip(first, second, strict=True))
+    if isinstance(first, list) and isinstance(second, list):
+        return len(first) == len(second) and all(map(_same, first, second))
+    if _is_number(first) and _is_number(second):
+        return bool(abs(first - second) <= _COEFFICIENT * max(abs(first), 1.0))
+    return bool(first == second)
 
 
-def _plain_object(value: Any) -> Any:  # noqa: ANN401
-    """What stands at one place of an array of objects, of which each is read back as it was."""
-    if isinstance(value, Range):
-        return {"range": [value.low, bounded(value.high)]}
-    if isinstance(value, Window):
-        return {"window": value.to_dict()}
-    if isinstance(value, BoundaryConditions):
-        return {"start": list(map(float, value.start)), "end": list(map(float, value.end))}
-    if isinstance(value, float) and not isfinite(value):
-        return {"number": str(value)}
-    return _plain(value)
+def _is_number(value: object) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def _read_object(value: Any) -> Any:  # noqa: ANN401
-    if not isinstance(value, dict):
-        return _read(value)
-    if "range" in value:
-        low, high = value["range"]
-        return Range(low, inf if high is None else high)
-    if "window" in value:
-        return Window.from_dict(value["window"])
-    if "start" in value:
-        return BoundaryConditions(value["start"], value["end"])
-    return float(value["number"]) if "number" in value else _read(value)
+def _read(read: Callable[[Plain], Kind], data: Plain | None) -> Kind | None:
+    return None if data is None else read(data)
 
 
-def _name(key: object) -> str:
-    if not isinstance(key, str):
-        raise TypeError(type(key).__name__)
-    return key
+def _at(name: str, read: Callable[[], Kind]) -> Kind:
+    """What is read at a place, which an error names."""
+    try:
+        return read()
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
 
 
-def _read(value: Any) -> Any:  # noqa: ANN401
-    if isinstance(value, list):
-        return tuple(map(_read, value))
-    if not isinstance(value, dict):
-        return value
-    if "array" in value:
-        kind = np.dtype(value["type"])
-        numbers = [float(one) if isinstance(one, str) else one for one in value["array"]]
-        return np.array(numbers, dtype=kind).reshape(value["shape"])
-    if "objects" in value:
-        objects = np.empty(len(value["objects"]), dtype=object)
-        for i, one in enumerate(value["objects"]):
-            objects[i] = _read_object(one)
-        return objects.reshape(value["shape"])
-    if "basis" in value:
-        entries = dict(value["basis"])
-        return basis(entries.pop("basis"), entries.pop("degree"), **entries)
-    return {name: _read(part) for name, part in value["named"].items()}
+def _plainly(read: Callable[[], Kind], name: str) -> Kind:
+    """What is read of data that may be anything."""
+    try:
+        return read()
+    except InputError:
+        raise
+    except (ArithmeticError, AttributeError, LookupError, RecursionError, TypeError, ValueError) as error:
+        raise InputError(f"{name}: {shortened(str(error))}") from None

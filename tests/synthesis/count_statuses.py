@@ -1,5 +1,7 @@
 """What becomes of random problems over every public option: python -m tests.synthesis.count_statuses SEED COUNT.
 
+With `units` as a third argument formulas, machines, weights and windows are drawn too, in units from 1e-12 to 1e9.
+
 Each answer is judged from its law alone and against the law that the problem was drawn around. The counts go by kind
 of problem and by outcome; problems that raised, came out inaccurate, were judged wrong or took long are listed.
 """
@@ -13,7 +15,7 @@ from time import perf_counter
 
 from optlaws import InfeasibleProblem, NotNormalised, Problem, SolverFailure, synthesize
 from tests.synthesis.judge import Judged, judge, lower_bounded
-from tests.synthesis.random_options import Drawn, every_option
+from tests.synthesis.random_options import Drawn, every_option, every_unit
 
 SLOW = 20.0
 
@@ -54,7 +56,7 @@ def _answer(one: Drawn) -> tuple[str, str]:
     judge(solution)
     if one.witness is not None:
         best = Judged(one.witness).worth(one.problem.objective)
-        allowed = 1e-8 * abs(best) + 1e-11
+        allowed = 1e-8 * abs(best) + 1e-11 * one.problem.objective.scale
         assert solution.lower_bound <= best + allowed, f"the bound is above the known law's {best!r}"
         if solution.status.value == "optimal" or (one.problem.convex and not lower_bounded(one.problem)):
             assert solution.objective <= best + allowed, f"{solution.objective!r} is worse than {best!r}"
@@ -75,6 +77,9 @@ def kinds(problem: Problem) -> Iterator[str]:
         "B asked": problem.B is not None,
         "bounds": bool(problem.bounded),
         "of a cam or follower": any("(" in constant.name for constant in problem.constants),
+        "in small units": any(constant.scale < 1e-3 for constant in problem.constants),
+        "in large units": any(constant.scale > 1e3 for constant in problem.constants),
+        "windows of formulas": any(window.motion is not None for window in problem.windows),
     }
     yield from (name for name, holds in features.items() if holds)
 
@@ -92,10 +97,10 @@ def table(problems: list[Problem], outcomes: list[Outcome]) -> str:
     return "\n".join(lines)
 
 
-def report(seed: int, count: int) -> str:
+def report(seed: int, count: int, *, units: bool = False) -> str:
     """The table, and below it what needs a look."""
     warnings.simplefilter("ignore", NotNormalised)
-    drawn = every_option(seed, count)
+    drawn = every_unit(seed, count) if units else every_option(seed, count)
     outcomes = [outcome(one) for one in drawn]
     lines = [table([one.problem for one in drawn], outcomes)]
     lines += [
@@ -107,4 +112,4 @@ def report(seed: int, count: int) -> str:
 
 
 if __name__ == "__main__":
-    sys.stdout.write(report(int(sys.argv[1]), int(sys.argv[2])) + "\n")
+    sys.stdout.write(report(int(sys.argv[1]), int(sys.argv[2]), units="units" in sys.argv[3:]) + "\n")

@@ -29,7 +29,7 @@ Array = NDArray[np.float64]
 
 #: constants of one derivative, by its order
 PEAKS = {"B": 1, "C": 2, "J": 3, "jounce": 4}
-SQUARES = {"rms_c": 2, "rms_j": 3}
+SQUARES = {"rms_c": 2, "rms_j": 3, "rms_jounce": 4}
 
 
 @dataclass(frozen=True)
@@ -145,7 +145,7 @@ class Judged:
         if isinstance(constant, OfFormula):
             return self.of_formula(constant)
         if isinstance(constant, OutputConstant | ModeResidual):
-            return machine_value(constant, self.derivatives[0].pieces)
+            return float(machine_value(constant, self.derivatives[0].pieces))
         return self.constant(constant.name)
 
     def cam(self, frequency: float, damping: float) -> list[Curve]:
@@ -189,15 +189,19 @@ class Judged:
         finer = minimize_scalar(lambda nu: -size(nu), bounds=around, method="bounded", options={"xatol": 1e-9})
         return max(*sizes, -float(finer.fun))
 
+    def signal(self, text: str) -> Callable[[Any], Any]:
+        """A formula along the law, by Python's own grammar."""
+
+        def values(k: Any) -> Any:  # noqa: ANN401 - a number or an array, as it comes
+            names = {name: self.derivatives[nu](k) for nu, name in enumerate("abcj")}
+            return by_python(text, {**names, "k": k}) + 0.0 * np.asarray(k)
+
+        return values
+
     def of_formula(self, constant: OfFormula) -> float:
         """By Python's own grammar of the formula's text: a fine grid, and searches about its best places."""
-        motion, derivatives = constant.motion, self.derivatives
-        text = str(motion.formula)
-
-        def signal(k: Any) -> Any:  # noqa: ANN401 - a number or an array, as it comes
-            values = {name: derivatives[nu](k) for nu, name in enumerate("abcj")}
-            return by_python(text, {**values, "k": k}) + 0.0 * np.asarray(k)
-
+        motion = constant.motion
+        signal = self.signal(str(motion.formula))
         edges = sorted(
             {motion.start, motion.stop, *(k for k in self._breaks(motion) if motion.start < k < motion.stop)}
         )
@@ -265,7 +269,7 @@ def broken(problem: Problem, law: MotionLaw, allowed: float = 1e-8) -> list[str]
         found.append(f"b >= 0 by {-lowest:.1e}")
     found += velocity_broken(problem, judged, allowed)
     for constant, asked in problem.bounded:
-        value = judged.value(constant)
+        value = float(judged.value(constant))
         found += [f"{constant.name} = {value!r} over {asked!r}"] * (value > asked.high * (1.0 + allowed))
         found += [f"{constant.name} = {value!r} under {asked!r}"] * (value < asked.low * (1.0 - allowed))
     for window in problem.windows:
@@ -283,7 +287,7 @@ def window_broken(window: Window, one: Judged, allowed: float) -> list[str]:
         ends = {"start": window.start, "stop": window.stop}
         highest = one.value(peak(window.quantity, side="high", **ends)) if isfinite(window.high) else -inf
         lowest = -one.value(peak(window.quantity, side="low", **ends)) if isfinite(window.low) else inf
-        size = max(1.0, *(abs(end) for end in (window.low, window.high) if isfinite(end)))
+        size = max(abs(end) for end in (window.low, window.high, highest, lowest) if isfinite(end))
     found = [f"{window!r} by {highest - window.high:.1e} above"] * (highest > window.high + allowed * size)
     return found + [f"{window!r} by {window.low - lowest:.1e} below"] * (lowest < window.low - allowed * size)
 
@@ -369,8 +373,9 @@ def judge(solution: Solution) -> None:
     found = broken(problem, solution.law)
     assert found == [], f"{found}: {problem!r}"
     worth = Judged(solution.law).worth(problem.objective)
-    # an objective that is 0 but for rounding is judged absolutely
-    nothing = 0.0 if abs(worth) > 1e-6 else 1e-9
+    # an objective that is 0 but for rounding is judged by what it is made of
+    scale = problem.objective.scale
+    nothing = 0.0 if abs(worth) > 1e-6 * scale else 1e-9 * scale
     assert abs(worth - solution.objective) <= 1e-9 * abs(worth) + nothing, f"{worth!r} is not {solution.objective!r}"
     assert solution.lower_bound <= solution.objective + 1e-11 * abs(solution.objective), problem
     assert solution.lower_bound == max(

@@ -21,6 +21,7 @@ from optlaws import (
     Chebyshev,
     Expression,
     Functional,
+    Machine,
     MotionLaw,
     Pieces,
     Powers,
@@ -31,11 +32,16 @@ from optlaws import (
     at_most,
     between,
     cam_constant,
+    integral,
     maximum,
+    peak,
     residual,
+    rms,
+    value,
     via,
 )
 from optlaws.synthesis import PiecewiseBasis, PolynomialBasis, construct
+from optlaws.synthesis.functionals.kinds import OfFormula
 from tests.synthesis.judge import Judged, broken
 
 Numbers = np.random.Generator
@@ -59,6 +65,8 @@ class Frame:
     boundary: BoundaryConditions | None
     symmetric: bool
     basis: Basis
+    #: whether constants of formulas and machines are drawn too, and weights and windows, in units from 1e-12 to 1e9
+    units: bool = False
 
     @property
     def conditions(self) -> BoundaryConditions:
@@ -140,13 +148,13 @@ def _boundary(numbers: Numbers, order: int) -> BoundaryConditions:
     return BoundaryConditions(*ends)
 
 
-def _frame(numbers: Numbers) -> Frame:
+def _frame(numbers: Numbers, *, units: bool) -> Frame:
     order = int(numbers.choice(6, p=[0.06, 0.2, 0.24, 0.24, 0.18, 0.08])) + 1
     boundary = _boundary(numbers, order) if numbers.random() < 0.25 else None
     symmetric = boundary in {None, BoundaryConditions.rest(order)} and bool(numbers.random() < 0.5)
     name = str(numbers.choice(list(BASES), p=[0.12, 0.4, 0.16, 0.16, 0.16]))
     make = BASES[name][int(numbers.integers(len(BASES[name])))]
-    return Frame(order, boundary, symmetric, make(numbers, symmetric, order))
+    return Frame(order, boundary, symmetric, make(numbers, symmetric, order), units)
 
 
 # --- a law that keeps what is asked ---
@@ -198,9 +206,48 @@ def _residual(numbers: Numbers) -> Functional:
 
 #: by the name that text calls them by, all constants there are
 CONSTANTS: Mapping[str, Callable[[Numbers], Functional]] = {
-    **{name: _named(name) for name in ("B", "C", "C_plus", "C_minus", "D", "J", "jounce", "rms_c", "rms_j")},
+    **{
+        name: _named(name)
+        for name in ("B", "C", "C_plus", "C_minus", "D", "J", "jounce", "rms_c", "rms_j", "rms_jounce")
+    },
     **{f"{name}_cam": _cam(name) for name in ("B", "C", "C_plus", "C_minus", "D", "J")},
     "residual": _residual,
+}
+
+
+def _unit(numbers: Numbers) -> float:
+    return float(f"{10.0 ** float(numbers.uniform(-12.0, 9.0)):.3g}")
+
+
+def _mixed(numbers: Numbers, parts: tuple[str, ...]) -> str:
+    """A formula in a unit: `u` in the parts stands for it, times a number near 1."""
+    unit, part = _unit(numbers), str(numbers.choice(parts))
+    while "u" in part:
+        part = part.replace("u", repr(float(f"{unit * float(numbers.uniform(0.3, 3.0)):.3g}")), 1)
+    return part
+
+
+def _window_of_formula(numbers: Numbers) -> str:
+    return _mixed(numbers, ("u*c + u*b", "u*(1 + k)*c - u*b", "u*b - u*a"))
+
+
+def _machine(numbers: Numbers) -> Machine:
+    output = str(numbers.choice(["deflection", "acceleration", "position"]))
+    mode = (round(float(numbers.uniform(2.0, 60.0)), 2), float(numbers.choice([0.01, 0.1])))
+    return Machine.from_modes([mode], duration=1.0, stroke=_unit(numbers), outputs=[output])
+
+
+#: constants of formulas and of machines, in units, and the order and continuity that they need
+IN_UNITS: Mapping[str, tuple[Callable[[Numbers], Functional], int, int]] = {
+    "peak": (lambda n: peak(_mixed(n, ("u*c + u*b", "u*(1 + k)*c", "u*(c^2 + 3*b^2)", "u*abs(c) + u*abs(b)"))), 0, 0),
+    "one side": (lambda n: peak(_mixed(n, ("max(u*c, u*b)", "u*c - u*b", "u*c^2 + u*c")), side="high"), 2, 0),
+    "power": (lambda n: peak(_mixed(n, ("u*d", "u*d + u*c"))), 2, 1),
+    "rms": (lambda n: rms(_mixed(n, ("u*c + u*b", "norm(u*c, u*b)", "u*(1 + k)*c"))), 0, 0),
+    "integral": (lambda n: integral(_mixed(n, ("u*c^2", "u*b^2 + u*c^2", "u*(1 + k)*b^2"))), 0, 0),
+    "value": (lambda n: value(_mixed(n, ("u*c^2 + u*b", "u*abs(c)")), at=0.3), 0, 0),
+    "output peak": (lambda n: _machine(n).peak(), 3, 2),
+    "output rms": (lambda n: _machine(n).rms(), 3, 2),
+    "mode residual": (lambda n: _machine(n).residual(spread=0.05 * float(n.integers(2))), 3, 2),
 }
 
 
@@ -209,6 +256,7 @@ NEEDS: Mapping[str, tuple[int, int]] = {
     "J": (0, 2),
     "rms_j": (0, 2),
     "jounce": (0, 3),
+    "rms_jounce": (0, 3),
     "residual": (4, 3),
     "J_cam": (5, 4),
     **{f"{name}_cam": (4, 3) for name in ("B", "C", "C_plus", "C_minus", "D")},
@@ -220,6 +268,9 @@ def _constant(numbers: Numbers, frame: Frame) -> Functional:
     resting = frame.order if frame.boundary is None else 0
     smooth = getattr(frame.basis, "continuity", inf)
     names = []
+    if frame.units and numbers.random() < 0.6:
+        own = [make for make, order, continuity in IN_UNITS.values() if order <= resting and continuity <= smooth]
+        return own[int(numbers.integers(len(own)))](numbers)
     for name in CONSTANTS:
         order, continuity = NEEDS.get(name, (0, 0))
         if order <= resting and continuity <= smooth:
@@ -256,7 +307,7 @@ def _asked(numbers: Numbers, value: float, *, p: tuple[float, ...]) -> float | R
 def _part(numbers: Numbers, frame: Frame, judged: "Guess") -> Expression:
     constant = _constant(numbers, frame)
     value = judged.value(constant)
-    size = value if isfinite(value) and value > 1e-3 else 1.0
+    size = value if isfinite(value) and value > 1e-3 * constant.scale else 1.0
     return round(float(numbers.uniform(0.1, 1.0)), 2) * constant / float(f"{size:.3g}")
 
 
@@ -273,6 +324,8 @@ def _objective(numbers: Numbers, frame: Frame, judged: "Guess") -> Any:  # noqa:
         found = part() + 0.5 * maximum(part(), part() + part())
     else:
         found = maximum(part(), maximum(part(), part()))
+    if frame.units and numbers.random() < 0.2:
+        found = _unit(numbers) * found
     return repr(found) if numbers.random() < 0.5 else found
 
 
@@ -287,7 +340,7 @@ class Guess:
         return Judged(self.law)
 
     def value(self, constant: Functional) -> float:
-        return self.judged.value(constant)
+        return float(self.judged.value(constant))
 
 
 def _bounds(numbers: Numbers, frame: Frame, judged: Guess) -> dict[str, Any]:
@@ -298,11 +351,13 @@ def _bounds(numbers: Numbers, frame: Frame, judged: Guess) -> dict[str, Any]:
     for _ in range(int(numbers.choice(4, p=[0.5, 0.3, 0.15, 0.05]))):
         constant = _constant(numbers, frame)
         value = judged.value(constant)
-        if constant.name in names or constant.name == "B" or not 1e-6 < value < inf:
+        if constant.name in names or constant.name == "B" or not 1e-6 * constant.scale < value < inf:
             continue
         names.add(constant.name)
-        # a cam of a damped follower is not symmetric though its law is: its constants have no lower bounds then
+        # a cam of a damped follower is not symmetric though its law is: its constants have no lower bounds then, nor
+        # have formulas, of which the halves may differ and which may have branches
         uneven = frame.symmetric and "_cam(" in constant.name and "damping" in constant.name
+        uneven |= isinstance(constant, OfFormula)
         asked = _asked(numbers, value, p=(0.0, 1.0, 0.0, 0.0) if uneven else (0.06, 0.74, 0.1, 0.1))
         if constant.name in OWN_ENTRY and numbers.random() < 0.6:
             entries[constant.name] = asked
@@ -328,16 +383,19 @@ def _velocity(numbers: Numbers, frame: Frame, law: MotionLaw, judged: Guess) -> 
 # --- windows ---
 
 
-def _window(numbers: Numbers, law: MotionLaw) -> Window:
+def _window(numbers: Numbers, law: MotionLaw, *, units: bool) -> Window:
     """A value or a window that the law keeps."""
-    quantity = str(numbers.choice(QUANTITIES))
-    curve = Judged(law).derivatives[QUANTITIES.index(quantity)]
+    quantity, judged = str(numbers.choice(QUANTITIES)), Judged(law)
+    curve: Callable[[Any], Any] = judged.derivatives[QUANTITIES.index(quantity)]
+    if units and numbers.random() < 0.7:
+        quantity = _window_of_formula(numbers)
+        curve = judged.signal(quantity)
     start = round(float(numbers.uniform(0.05, 0.9)), 3)
     if numbers.random() < 0.4:
         return via(quantity, float(curve(start)), at=start)
     stop = round(min(1.0, start + float(numbers.uniform(0.01, 0.4))), 3)
     values = np.asarray(curve(np.linspace(start, stop, 401)))
-    size = float(np.abs(values).max()) + 0.1
+    size = float(np.abs(values).max()) + 0.1 * (1.0 if quantity in QUANTITIES else float(np.abs(values).max()))
     room = 0.01 * size + size * float(numbers.choice([0.01, 0.1, 0.4]))
     low, high = float(values.min()) - room, float(values.max()) + room
     side = str(numbers.choice(["low", "high", "both"]))
@@ -350,9 +408,9 @@ def _window(numbers: Numbers, law: MotionLaw) -> Window:
 # --- all together ---
 
 
-def drawn(numbers: Numbers) -> Drawn:
+def drawn(numbers: Numbers, *, units: bool = False) -> Drawn:
     """One problem."""
-    frame = _frame(numbers)
+    frame = _frame(numbers, units=units)
     law = _law(numbers, frame)
     typical = law or construct(frame.conditions)
     judged = Guess(typical)
@@ -361,7 +419,7 @@ def drawn(numbers: Numbers) -> Drawn:
     if numbers.random() < (0.5 if lowest >= 0.0 else 0.05):
         entries["monotone"] = True
     if numbers.random() < 0.25:
-        entries["windows"] = tuple(_window(numbers, typical) for _ in range(int(numbers.integers(1, 4))))
+        entries["windows"] = tuple(_window(numbers, typical, units=units) for _ in range(int(numbers.integers(1, 4))))
     problem = Problem(
         order=frame.order,
         boundary=frame.boundary,
@@ -382,3 +440,9 @@ def every_option(seed: int, count: int) -> list[Drawn]:
     """The same ones at every run."""
     numbers = np.random.default_rng([seed, 18])
     return [drawn(numbers) for _ in range(count)]
+
+
+def every_unit(seed: int, count: int) -> list[Drawn]:
+    """The same with formulas, machines, weights and windows in units from 1e-12 to 1e9."""
+    numbers = np.random.default_rng([seed, 24])
+    return [drawn(numbers, units=True) for _ in range(count)]

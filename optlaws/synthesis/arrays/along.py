@@ -206,7 +206,7 @@ def _affine(laws: Found, path: Path, segment: Segment, places: NDArray[np.intp],
     own = path.numbers(t)
     bound = lower_bounds(path, structure, own, first, value)
     objective = path.model.unit * (x @ own.cost[0])
-    sound = np.abs(objective - bound) <= _GAP * np.maximum(np.abs(objective), _EXACT)
+    sound = np.abs(objective - bound) <= _GAP * np.maximum(np.abs(objective), _EXACT * path.model.unit)
     end_parts = (np.broadcast_to(part, (len(t), part.shape[1])) for part in (first.u, first.weights, first.equations))
     states = States(x, *end_parts).taken(sound)
     _put(laws, structure, places[sound], states, (objective[sound], bound[sound], np.full(int(sound.sum()), excess)))

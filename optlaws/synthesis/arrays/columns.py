@@ -102,7 +102,7 @@ class Products(CurvedTangents):
 
     @property
     def proving(self) -> bool:
-        """Nowhere."""
+        """False: a plane that touches a power proves nothing."""
         return False
 
     @kept_property
@@ -110,7 +110,7 @@ class Products(CurvedTangents):
         return Columns(self.family.first), Columns(self.family.second)
 
     def hidden(self, weights: Array, u: Array, point: Array) -> Array:
-        """Of planes that prove nothing: that of their rows."""
+        """The rounding that the rows of both factors hide."""
         return np.asarray(sum(factor.hidden(weights, u, point) for factor in self._factors))
 
     def at(self, u: Array, point: Array) -> tuple[Array, Array, Array]:
@@ -142,7 +142,7 @@ class Norms(CurvedTangents):
     family: NormFamily
 
     def hidden(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - it has no place
-        """Of a unit vector times the matrix."""
+        """The rounding hidden in a unit vector times the matrix."""
         own = len(self.family.matrix) * ROUNDING * np.abs(self.family.matrix).sum(axis=0)
         return np.asarray(weights.sum(axis=1)[:, None] * own)
 
@@ -157,7 +157,7 @@ class Norms(CurvedTangents):
         return size, (image / size[:, None]) @ self.family.matrix
 
     def hessian(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
-        """Of the norm."""
+        """The second derivatives of the norm."""
         size, shown = self._shown(point)
         rows, matrix = shown[:, :-1], self.family.matrix[:, :-1]
         bent = matrix.T @ matrix - rows[:, :, None] * rows[:, None, :]
@@ -175,7 +175,7 @@ class Cones(CurvedTangents):
     family: ConeFamily
 
     def hidden(self, weights: Array, u: Array, point: Array) -> Array:  # noqa: ARG002 - the same everywhere
-        """Of a unit vector times the columns' two parts."""
+        """The rounding hidden in a unit vector times the two parts of the columns."""
         own = ROUNDING * (np.abs(self.family.series.real) + np.abs(self.family.series.imag)).sum(axis=0)
         return np.asarray(weights.sum(axis=1)[:, None] * own)
 

@@ -68,7 +68,7 @@ class Formulas(CurvedTangents):
         return np.asarray(np.einsum("imp,impn->mn", shares, _IN_A_ROW * _UNIT * np.abs(rows) + own[:, None, None]))
 
     def hessian(self, u: Array, point: Array, weights: Array) -> Array:
-        """Of the formula, between each two parts' rows."""
+        """The second derivatives of the formula, between each two parts' rows."""
         rows = np.array([part.at(u, point)[0] for part in self._parts])
         values = np.einsum("impn,mn->imp", rows, point)
         bent = self.family.slopes.hessian(self._names(values, u))[:-1, :-1] * weights
@@ -100,7 +100,7 @@ class Formulas(CurvedTangents):
         return np.asarray(peaks(signed) - size)
 
     def _series(self, formula: Formula, point: Array) -> Array | None:
-        """Of a formula along each law; None where too few points resolve it."""
+        """The series of a formula along each law; None where too few points resolve it."""
         degrees = {name: len(part.series) - 1 for name, part in self.family.parts}
         known = degree(formula, {**degrees, "k": 1})
         if known is not None:
@@ -166,7 +166,7 @@ class Integrals(CurvedTangents):
         return np.asarray((blur * share * weights.sum(axis=1))[:, None] * rows)
 
     def hessian(self, u: Array, point: Array, weights: Array) -> Array:  # noqa: ARG002 - it has no place
-        """Of the integral, or of its root."""
+        """The second derivatives of the integral, or of its root."""
         bent = self.family.slopes.hessian(self._names(point)) * self.family.weights
         between = _between(bent, self.family.columns[:, None, :, :-1])
         if self.family.root:

@@ -15,6 +15,9 @@ Array = NDArray[np.float64]
 
 NO_CONTACT = -1
 
+#: what is computed from the laws when they are read
+FOLLOWING = ("objective", "excess")
+
 
 @dataclass(frozen=True, eq=False)
 class Found:
@@ -29,7 +32,8 @@ class Found:
     equations
         Multipliers of the equations, shape (programs, equations).
     objective, bound, excess
-        The objective, what is proven that no law is below, and the most by which a row is broken; shape (programs,).
+        The objective, what is proven that no law is below, and the most by which a row is broken (NaN of laws that were
+        read from a file, which keep their rows as every `Solution` does); shape (programs,).
     """
 
     x: Array
@@ -87,7 +91,7 @@ class Found:
         return replace(self, objective=np.where(kept, self.objective, np.nan))
 
     def frozen(self) -> Self:
-        """The same, whose arrays nobody can write to."""
+        """A copy whose arrays cannot be written to."""
         for field in fields(self):
             getattr(self, field.name).setflags(write=False)
         return self
@@ -102,19 +106,11 @@ class Found:
                 mine[places, : given.shape[1]] = given
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain lists, NaN as None."""
-        return {field.name: _plain(getattr(self, field.name)) for field in fields(self)}
+        """Plain lists of what does not follow from the laws: all but objectives and excesses."""
+        return {field.name: getattr(self, field.name).tolist() for field in fields(self) if field.name not in FOLLOWING}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Self:
-        """Read what `to_dict` wrote."""
+        """Read what `to_dict` wrote, and what follows; it is checked by whoever reads."""
         kinds = {"family": np.int16, "free": np.bool_}
         return cls(**{name: np.array(value, dtype=kinds.get(name, np.float64)) for name, value in data.items()})
-
-
-def _plain(values: NDArray[Any]) -> Any:  # noqa: ANN401
-    if values.dtype.kind != "f":
-        return values.tolist()
-    listed = values.astype(object)
-    listed[np.isnan(values)] = None
-    return listed.tolist()

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from math import prod
 from typing import Any
 
@@ -24,11 +24,13 @@ NOT_GIVEN = ...
 
 
 class ProblemArray:
-    """Problems that differ in their entries' numbers: any entry of `Problem` may be a numpy array, or hold some.
+    """Problems that differ in their entries' numbers: any entry of `Problem` may be an array, or hold some.
 
-    Arrays are broadcast against each other as numpy does, and each place of their common shape is one problem. What
-    is no array is the same for all of them. Values other than numbers come in arrays made by `each`. The array is
-    immutable; nothing is checked before a problem is asked for, so that a wrong number spoils its own place alone.
+    Arrays are those of numpy, lists, ranges, and whatever numpy makes arrays of, such as a Series of pandas. They are
+    broadcast against each other as numpy does, and each place of their common shape is one problem. What is no array
+    is the same for all of them: a pair (low, high) is a tuple, for a list of two numbers is an array; a list of
+    windows alone is a value. Values other than numbers come in arrays made by `each`, too. The array is immutable;
+    nothing is checked before a problem is asked for, so that a wrong number spoils its own place alone.
 
     Parameters
     ----------
@@ -40,11 +42,11 @@ class ProblemArray:
     Raises
     ------
     InputError
-        If the arrays do not fit together.
+        If the arrays do not fit together, or a list has rows of several lengths.
 
     Examples
     --------
-    >>> problems = ProblemArray(B=np.array([1.6, 1.7, 1.8]), order=4)
+    >>> problems = ProblemArray(B=[1.6, 1.7, 1.8], order=4)
     >>> problems.shape, problems[1]
     ((3,), Problem(B=1.7, order=4, basis=Chebyshev(degree=9), minimise='C'))
     >>> ProblemArray(B=np.array([1.6, 1.7]), J=(None, np.array([[60.0], [70.0], [80.0]])), order=4).shape
@@ -71,7 +73,11 @@ class ProblemArray:
         named = {"B": B, "order": order, "basis": basis, "minimise": minimise, "monotone": monotone}
         named |= {"symmetric": symmetric, "C": C, "D": D, "J": J, "boundary": boundary, "windows": windows}
         named |= {"bounds": bounds, "inflexion": inflexion}
-        self._entries = {name: _frozen(value) for name, value in named.items() if value is not NOT_GIVEN}
+        self._entries = {
+            name: _frozen(value if name == "windows" else _with_arrays(value, name))
+            for name, value in named.items()
+            if value is not NOT_GIVEN
+        }
         arrays = {name: list(_arrays(value)) for name, value in self._entries.items()}
         try:
             shape = np.broadcast_shapes(
@@ -236,6 +242,25 @@ def each(function: Callable[..., Any], *arrays: Any) -> NDArray[Any]:  # noqa: A
         results[at] = function(*(_plain(array[at]) for array in given))
     results.setflags(write=False)
     return results
+
+
+def _with_arrays(value: Any, name: str) -> Any:  # noqa: ANN401
+    """The value with arrays for all in it that numpy makes some of; a pair stays one."""
+    if isinstance(value, Mapping):
+        return {key: _with_arrays(entry, f"{name}[{key!r}]") for key, entry in value.items()}
+    if isinstance(value, tuple) and len(value) == 2:
+        return tuple(_with_arrays(entry, name) for entry in value)
+    if isinstance(value, np.ndarray | np.generic | str):
+        return value
+    if isinstance(value, list | tuple | range) or hasattr(value, "__array__"):
+        try:
+            array = np.asarray(value)
+        except ValueError:
+            raise InputError(f"{name} has rows of several lengths, which are no array: {shortened(value)}") from None
+        return array.astype(object) if array.dtype.kind in "US" else array
+    if isinstance(value, Iterable):
+        raise InputError(f"{name} takes many values as a list or an array, got {shortened(value)}")
+    return value
 
 
 def _arrays(value: Any) -> Iterator[NDArray[Any]]:  # noqa: ANN401

@@ -45,7 +45,7 @@ class Numbers:
         return len(self.right)
 
     def taken(self, rows: NDArray[np.intp] | NDArray[np.bool_] | slice) -> Numbers:
-        """Those of some of the programs."""
+        """The numbers of some of the programs."""
         return Numbers(self.right[rows], self.bounds[rows], self.cost[rows])
 
 
@@ -90,11 +90,11 @@ class Path:
         families = tuple(
             replace(family, bound=float(bound)) for family, bound in zip(program.families, own.bounds[0], strict=True)
         )
-        return Program(families, program.equalities, own.right[0], own.cost[0])
+        return replace(program, families=families, right=own.right[0], objective=own.cost[0])
 
 
 def numbers_of(program: Program) -> Numbers:
-    """Those of one program."""
+    """The numbers of one program."""
     bounds = np.array([[family.bound for family in program.families]])
     return Numbers(program.right[None, :], bounds.reshape(1, -1), program.objective[None, :])
 

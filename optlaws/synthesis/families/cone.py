@@ -90,7 +90,7 @@ class ConeFamily(Family):
         return Jet(s * size - room, s * slope, s * curvature, signs * gradient - self.slack, signs * slope_gradient)
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
-        """Of the magnitudes, weighted."""
+        """The second derivatives of the weighted sum of the magnitudes."""
         columns = self.columns(u)[0]
         p = columns @ np.append(x, 1.0)
         size = np.maximum(np.abs(p), _NOTHING)

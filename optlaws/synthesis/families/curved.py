@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.slopes import derivative
+from optlaws.formulas.slopes import derivative, scaled
 from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
 from optlaws.series.candidates import candidates
@@ -85,6 +85,13 @@ class OfFormula(Family):
 
     formula: Formula
 
+    def scaled_down(self, by: float) -> Self:
+        """The same rows, divided by a power of 2: so is the formula."""
+        return self if by == 1.0 else self._divided(by, scaled(self.formula, 1.0 / by))
+
+    def _divided(self, by: float, formula: Formula) -> Self:
+        return replace(self, formula=formula, slack=self.slack / by, bound=self.bound / by, unit=self.unit * by)
+
     @abstractmethod
     def touching(self, x: Array, u: float) -> tuple[float, ...]:
         """Where in the names of the formula a tangent touches it in a law."""
@@ -132,7 +139,7 @@ class CurvedFamily(OfFormula):
         return Slopes(self.formula, (*self.names, "k"))
 
     def in_units(self, units: Array, unit: float) -> Self:  # noqa: ARG002 - a formula is in its own units
-        """The same of variables in other units; its own unit stays."""
+        """The family of variables in other units; its own unit stays."""
         parts = tuple((name, part.in_units(units, 1.0)) for name, part in self.parts)
         return replace(self, parts=parts, slack=self.slack * units)
 
@@ -177,7 +184,7 @@ class CurvedFamily(OfFormula):
         return Jet(s * value - self.room(x), s * slope, s * curvature, signs * by_x - self.slack, signs * slope_by_x)
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:
-        """Of the formula, weighted."""
+        """The second derivatives of the weighted sum of the formula."""
         columns = self.columns(u)[:, 0]
         bend = self.slopes.hessian(self._at(columns @ np.append(x, 1.0), u))[:-1, :-1]
         return bent(bend * weights, columns[:, :, :-1])
@@ -200,7 +207,7 @@ class CurvedFamily(OfFormula):
         return [(max(a, low), min(b, high)) for b, a in pairwise(self.edges) if a < high and b > low]
 
     def same_rows(self, other: OfFormula) -> bool:
-        """The same formula of the same series."""
+        """Whether another family has the same formula of the same series."""
         if not isinstance(other, CurvedFamily) or (self.formula, self.names) != (other.formula, other.names):
             return False
         rows = (
@@ -210,7 +217,7 @@ class CurvedFamily(OfFormula):
         return (self.tangents, self.edges) == (other.tangents, other.edges) and all(rows)
 
     def nodes(self) -> Array | None:
-        """Those of its parts, or as many as its degree asks for."""
+        """The nodes of the formula's parts, or as many as its degree needs."""
         low, high = self.domain
         if low == high:
             return None
@@ -259,15 +266,21 @@ class IntegralFamily(OfFormula):
         """The formula with its derivatives by the names."""
         return Slopes(self.formula, self.names)
 
+    def scaled_down(self, by: float) -> Self:
+        """The same row, divided by a power of 2; under a root the formula is by its square."""
+        if by == 1.0:
+            return self
+        return self._divided(by, scaled(self.formula, 1.0 / (by * by if self.root else by)))
+
     def in_units(self, units: Array, unit: float) -> Self:  # noqa: ARG002 - a formula is in its own units
-        """The same of variables in other units; its own unit stays."""
+        """The family of variables in other units; its own unit stays."""
         return replace(self, columns=self.columns * np.append(units, 1.0), slack=self.slack * units)
 
     def _at(self, values: Array) -> dict[str, Array]:
         return {**dict(zip(self.names, values, strict=True)), "k": self.places}
 
     def same_rows(self, other: OfFormula) -> bool:
-        """The same formula of the same rows at the same nodes."""
+        """Whether another family has the same formula of the same rows at the same nodes."""
         if not isinstance(other, IntegralFamily) or (self.formula, self.names) != (other.formula, other.names):
             return False
         arrays = ((self.columns, other.columns), (self.places, other.places), (self.weights, other.weights))
@@ -283,12 +296,13 @@ class IntegralFamily(OfFormula):
             return None
         values = np.array(point).reshape(len(self.names), -1)
         at = self._at(values)
-        gradient = self.slopes.gradient(at) * self.weights
-        total = float(self.weights @ self.slopes.value(at))
-        value, share = self.outer(np.array(total))
-        row = share * np.einsum("ip,ipn->n", gradient, self.columns)
-        row[-1] += value - share * float((gradient * values).sum())
-        return np.asarray(row)
+        # in a law so far away that the formula overflows there is no tangent
+        with np.errstate(over="ignore", invalid="ignore"):
+            gradient = self.slopes.gradient(at) * self.weights
+            value, share = self.outer(np.array(float(self.weights @ self.slopes.value(at))))
+            row = np.asarray(share * np.einsum("ip,ipn->n", gradient, self.columns))
+            row[-1] += value - share * float((gradient * values).sum())
+        return row if np.isfinite(row).all() else None
 
     def outer(self, total: Array) -> tuple[Array, Array]:
         """What f is where the sum over the nodes is this, and its derivative by the sum."""
@@ -311,7 +325,7 @@ class IntegralFamily(OfFormula):
         return Jet(s * value - self.room(x), nothing, nothing, gradient, np.zeros((len(u), len(x))))
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002 - it has no place
-        """Of f, times the sum of weights."""
+        """The second derivatives of f, times the sum of weights."""
         total, by_x, at = self._sum(x)
         moved = bent(self.slopes.hessian(at) * self.weights, self.columns[:, :, :-1])
         if self.root:
@@ -324,5 +338,5 @@ class IntegralFamily(OfFormula):
         return np.full(len(u), self.outer(self._sum(x)[0])[0])
 
     def stationary(self, x: Array) -> Array:  # noqa: ARG002
-        """Nothing: it has no place."""
+        """No places: an integral has none."""
         return np.empty(0)

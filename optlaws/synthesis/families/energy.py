@@ -46,7 +46,7 @@ class Energy:
     above: LinearFamily
 
     def in_units(self, units: Array, unit: float) -> Self:
-        """The same of laws in other units."""
+        """The family of laws in other units."""
         return replace(self, below=self.below.in_units(units, unit), above=self.above.in_units(units, unit))
 
     @kept_property
@@ -195,6 +195,10 @@ class EnergyFamily(Family):
     divided: bool = False
     scale: float = 1.0
     convex: bool = False
+
+    def scaled_down(self, by: float) -> Self:  # noqa: ARG002 - its unit is the law's
+        """Itself: peaks of the other body are in the units of the law."""
+        return self
 
     def in_units(self, units: Array, unit: float) -> Self:
         """The same of laws in other units: the other body's peaks do not depend on them."""

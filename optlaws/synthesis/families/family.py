@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from abc import ABC, abstractmethod
+from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
 from typing import Self
 
@@ -48,6 +49,8 @@ class Family(ABC):
         The least and the greatest u that count.
     held
         The family binds as an equation at a contact that it has, and nowhere else: a peak that is held up.
+    unit
+        What the rows have been divided by, a power of 2: certificates speak of them as they were.
     """
 
     name: str
@@ -56,6 +59,7 @@ class Family(ABC):
     signs: tuple[float, ...] = (1.0,)
     domain: tuple[float, float] = (-1.0, 1.0)
     held: bool = False
+    unit: float = 1.0
 
     @abstractmethod
     def jet(self, x: Array, u: Array, s: Array) -> Jet:
@@ -76,6 +80,12 @@ class Family(ABC):
     @abstractmethod
     def in_units(self, units: Array, unit: float) -> Self:
         """The same rows for variables x / units, divided by `unit`, which is what coordinates are divided by."""
+
+    def scaled_down(self, by: float) -> Self:
+        """The same rows, divided by a power of 2; the variables stay."""
+        if by == 1.0:
+            return self
+        return replace(self.in_units(np.ones(len(self.slack)), by), unit=self.unit * by)
 
     def nodes(self) -> Array | None:
         """Where to hold the family first; None leaves the choice to the exchange."""
@@ -153,7 +163,7 @@ class LinearFamily(Family):
         return Jet(value - self.bound, slope, curvature, columns[0, :, :-1], columns[1, :, :-1])
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002
-        """None: f is affine."""
+        """None, for f is affine."""
         return None
 
     def in_units(self, units: Array, unit: float) -> Self:
@@ -262,6 +272,11 @@ class ProductFamily(Family):
     first: LinearFamily
     second: LinearFamily
 
+    def scaled_down(self, by: float) -> Self:
+        """The same rows, divided by a power of 2."""
+        first = self.first.scaled_down(by)
+        return replace(self, first=first, slack=self.slack / by, bound=self.bound / by, unit=self.unit * by)
+
     def in_units(self, units: Array, unit: float) -> Self:
         """Both factors in other units, and so the right side by the square."""
         first, second = (factor.in_units(units, unit) for factor in (self.first, self.second))
@@ -326,7 +341,7 @@ class NormFamily(Family):
         return Jet(s * norm - self.room(x), zero, zero, gradient, flat)
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002
-        """Of the norm, times the sum of weights."""
+        """The second derivatives of the norm, times the sum of weights."""
         image = self.matrix @ np.append(x, 1.0)
         norm = max(float(np.linalg.norm(image)), _NO_NORM)
         direction = image @ self.matrix[:, :-1] / norm
@@ -338,7 +353,7 @@ class NormFamily(Family):
         return np.full(len(u), float(np.linalg.norm(self.matrix @ np.append(x, 1.0))))
 
     def stationary(self, x: Array) -> Array:  # noqa: ARG002
-        """Nothing: it has no place."""
+        """No places: a norm has none."""
         return np.empty(0)
 
 
@@ -350,18 +365,38 @@ class Points:
     s: Array
 
     def joined(self, other: Points) -> Points:
-        """Both sets."""
+        """These points and others."""
         return Points(np.concatenate([self.u, other.u]), np.concatenate([self.s, other.s]))
 
 
 @dataclass(frozen=True, eq=False)
 class Program:
-    """Minimise objective . x subject to families and equations: equalities . x = right."""
+    """Minimise objective . x subject to families and equations: equalities . x = right; all in units near its size.
+
+    Attributes
+    ----------
+    families, equalities, right, objective
+        Divided by powers of 2, so that tolerances are shares of what things are.
+    unit, equation_units
+        What the objective has been divided by, and each equation; None where no equation was.
+    """
 
     families: tuple[Family, ...]
     equalities: Array
     right: Array
     objective: Array
+    unit: float = 1.0
+    equation_units: Array | None = None
+
+    def multipliers_of_equations(self, stated: Sequence[float]) -> Array:
+        """The program's own multipliers, from those of the equations and the objective as the problem has them."""
+        units = np.ones(len(self.right)) if self.equation_units is None else self.equation_units
+        return np.array(stated[: len(units)], dtype=np.float64) * units[: len(stated)] / self.unit
+
+    def stated_multipliers(self, equations: Array) -> Array:
+        """The other way round."""
+        units = np.ones(len(self.right)) if self.equation_units is None else self.equation_units
+        return np.asarray(equations * self.unit / units)
 
     @property
     def size(self) -> int:

@@ -16,10 +16,10 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.formulas.arithmetic import NUMPY, evaluate
-from optlaws.formulas.branches import branch_at, switches
+from optlaws.formulas.branches import branch_at, knots
 from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
-from optlaws.series.candidates import cut_at_roots
+from optlaws.series.candidates import cut_at_all, cut_at_roots
 from optlaws.series.chebyshev import gauss
 from optlaws.synthesis.families.curved import IntegralFamily, Slopes, bent
 from optlaws.synthesis.families.family import Jet
@@ -38,11 +38,23 @@ class Stretch:
 
 @dataclass(frozen=True, eq=False)
 class Split:
-    """What the stretches of a law make of the integral: its sum, and its slope as a row."""
+    """What the stretches of a law make of the integral: its sum, and its slope as a row.
+
+    `places`, `columns` and `weights` are those of Gauss's rule, and belong to the stretches one after the other.
+    """
 
     stretches: list[Stretch]
     total: float
     slope: Array
+    columns: Array
+    names: dict[str, Array]
+    weights: Array
+
+    def of(self, i: int) -> tuple[dict[str, Array], Array, Array]:
+        """What the names are on a stretch, their columns, and the weights."""
+        count = len(self.weights) // len(self.stretches)
+        own = slice(i * count, (i + 1) * count)
+        return {name: values[own] for name, values in self.names.items()}, self.columns[:, own], self.weights[own]
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -52,7 +64,7 @@ class KinkedIntegralFamily(IntegralFamily):
     Attributes
     ----------
     rows
-        Of places k: the names' columns and those of their derivatives by k, shape (2, names, places, variables + 1).
+        Of 0 and places k: the names' columns, shape (names, places, variables + 1); of 1 those of their slopes by k.
     units
         What these are times.
     edges
@@ -61,24 +73,30 @@ class KinkedIntegralFamily(IntegralFamily):
         How many places a stretch needs.
     """
 
-    rows: Callable[[Array], Array]
+    rows: Callable[[int, Array], Array]
     units: Array
     edges: tuple[float, ...]
     length: int
     _known: dict[bytes, Split] = field(default_factory=dict, repr=False)
 
     @kept_property
-    def _switches(self) -> list[Formula]:
-        return switches(self.formula, self.names)
+    def _switches(self) -> tuple[list[Formula], list[Formula]]:
+        return knots(self.formula, self.names)
+
+    def scaled_down(self, by: float) -> Self:
+        """The same row, divided by a power of 2."""
+        return replace(super().scaled_down(by), _known={})
 
     def in_units(self, units: Array, unit: float) -> Self:
-        """The same of variables in other units; its own unit stays."""
+        """The family of variables in other units; its own unit stays."""
         return replace(super().in_units(units, unit), units=self.units * np.append(units, 1.0), _known={})
 
-    def _names_at(self, point: Array, k: Array) -> tuple[dict[str, Array], Array]:
-        """What the names are at places in a law, and their columns with those of their derivatives."""
-        columns = self.rows(k) * self.units
-        return {**dict(zip(self.names, columns[0] @ point, strict=True)), "k": k}, columns
+    def columns_at(self, k: Array, turn: int = 0) -> Array:
+        """The names' columns at places, or those of their slopes by k."""
+        return self.rows(turn, k) * self.units
+
+    def _names(self, point: Array, k: Array, columns: Array) -> dict[str, Array]:
+        return {**dict(zip(self.names, columns @ point, strict=True)), "k": k}
 
     def split(self, x: Array) -> Split:
         """The stretches of a law, and the integral over them."""
@@ -89,23 +107,33 @@ class KinkedIntegralFamily(IntegralFamily):
         return self._known[key]
 
     def _split(self, point: Array) -> Split:
-        stretches, total, slope = self._stretches(point), 0.0, np.zeros(len(point))
-        for stretch in stretches:
-            names, columns, weights = self._rule(point, stretch)
+        stretches = self._stretches(point)
+        x, share = gauss(self.length)
+        low, width = (
+            np.array(values)[:, None] for values in zip(*((s.low, s.high - s.low) for s in stretches), strict=True)
+        )
+        k, weights = (low + width * (x + 1.0) / 2.0).ravel(), (share * width / 2.0).ravel()
+        columns = self.columns_at(k)
+        split = Split(stretches, 0.0, np.zeros(len(point)), columns, self._names(point, k, columns), weights)
+        total, slope = 0.0, split.slope
+        for i, stretch in enumerate(stretches):
+            names, own, weights = split.of(i)
             slopes = _slopes(stretch.formula, self.names)
             total += float(weights @ slopes.value(names))
-            slope += np.einsum("ip,ipn->n", slopes.gradient(names) * weights, columns[0])
-        return Split(stretches, total, slope)
+            slope += np.einsum("ip,ipn->n", slopes.gradient(names) * weights, own)
+        return replace(split, total=total)
 
     def _stretches(self, point: Array) -> list[Stretch]:
-        edges = list(self.edges)
-        for switch in self._switches:
+        plain, bent = self._switches
+        edges = cut_at_all((partial(self._value, switch, point) for switch in plain), list(self.edges))
+        for switch in bent:
             value = partial(self._value, switch, point)
             edges = cut_at_roots(_same(value), edges)
         stretches: list[Stretch] = []
-        for low, high in pairwise(edges):
-            names, _ = self._names_at(point, np.array([(low + high) / 2.0]))
-            formula = branch_at(self.formula, {name: float(value[0]) for name, value in names.items()})
+        middles = (np.array(edges[1:]) + np.array(edges[:-1])) / 2.0
+        names = self._names(point, middles, self.columns_at(middles))
+        for i, (low, high) in enumerate(pairwise(edges)):
+            formula = branch_at(self.formula, {name: float(values[i]) for name, values in names.items()})
             if stretches and stretches[-1].formula == formula and low not in self.edges:
                 stretches[-1] = replace(stretches[-1], high=high)
             else:
@@ -113,14 +141,8 @@ class KinkedIntegralFamily(IntegralFamily):
         return stretches
 
     def _value(self, formula: Formula, point: Array, k: Array) -> Array:
-        names, _ = self._names_at(point, k)
+        names = self._names(point, k, self.columns_at(k))
         return np.broadcast_to(np.asarray(evaluate(formula, names, NUMPY), dtype=np.float64), k.shape)
-
-    def _rule(self, point: Array, stretch: Stretch) -> tuple[dict[str, Array], Array, Array]:
-        x, share = gauss(self.length)
-        half = (stretch.high - stretch.low) / 2.0
-        names, columns = self._names_at(point, stretch.low + half * (x + 1.0))
-        return names, columns, share * half
 
     def touching(self, x: Array, u: float) -> tuple[float, ...]:  # noqa: ARG002 - it has no place
         """The variables of the law."""
@@ -145,28 +167,31 @@ class KinkedIntegralFamily(IntegralFamily):
         return Jet(s * value - self.room(x), nothing, nothing, gradient, np.zeros((len(u), len(x))))
 
     def hessian(self, x: Array, u: Array, weights: Array) -> Array | None:  # noqa: ARG002 - it has no place
-        """Of f, times the sum of weights."""
-        own, point = self.split(x), np.append(x, 1.0)
-        matrix = np.zeros((len(x), len(x)))
-        for stretch in own.stretches:
-            names, columns, share = self._rule(point, stretch)
-            matrix += bent(_slopes(stretch.formula, self.names).hessian(names) * share, columns[0][..., :-1])
-        for left, right in pairwise(own.stretches):
-            matrix += self._moved(point, left, right)
+        """The second derivatives of f, times the sum of weights."""
+        own = self.split(x)
+        matrix = self._moved(own, np.append(x, 1.0))
+        for i, stretch in enumerate(own.stretches):
+            names, columns, share = own.of(i)
+            matrix += bent(_slopes(stretch.formula, self.names).hessian(names) * share, columns[..., :-1])
         if self.root:
             size, slope = self.outer(np.array(own.total))
             matrix = slope * matrix - np.outer(own.slope[:-1], own.slope[:-1]) / (4.0 * size**3)
         return np.asarray(matrix * float(weights.sum()))
 
-    def _moved(self, point: Array, left: Stretch, right: Stretch) -> Array:
-        """What it adds that the kink between two stretches moves: it is where their formulas have one value."""
-        k = np.array([right.low])
-        names, columns = self._names_at(point, k)
-        both = [_slopes(side.formula, (*self.names, "k")).gradient(names)[:, 0] for side in (left, right)]
-        apart = both[0] - both[1]
-        across = apart[:-1] @ columns[0][:, 0, :-1]
-        falls = float(apart[:-1] @ (columns[1][:, 0] @ point) + apart[-1])
-        return np.zeros((len(across), len(across))) if falls == 0.0 else np.outer(across, across) / -falls
+    def _moved(self, own: Split, point: Array) -> Array:
+        """What it adds that the kinks between stretches move: each is where the formulas beside it have one value."""
+        k = np.array([right.low for right in own.stretches[1:]])
+        columns, turns = self.columns_at(k), self.columns_at(k, 1)
+        names, matrix = self._names(point, k, columns), np.zeros((len(point) - 1,) * 2)
+        for i, both in enumerate(pairwise(own.stretches)):
+            at = {name: values[i : i + 1] for name, values in names.items()}
+            left, right = (_slopes(side.formula, (*self.names, "k")).gradient(at)[:, 0] for side in both)
+            apart = left - right
+            across = apart[:-1] @ columns[:, i, :-1]
+            falls = float(apart[:-1] @ (turns[:, i] @ point) + apart[-1])
+            if falls != 0.0:
+                matrix += np.outer(across, across) / -falls
+        return matrix
 
     def value(self, x: Array, u: Array) -> Array:
         """f."""

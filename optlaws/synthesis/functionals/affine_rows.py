@@ -49,7 +49,7 @@ def sides(motion: Motion, name: str, signs: tuple[float, ...], *, symmetric: boo
         return [Side(name, first, signs)]
     [other] = second
     if (first.start, first.stop) == (other.start, other.stop):
-        here, there = _sampled(first), _sampled(other)
+        here, there = sampled(first), sampled(other)
         size = _SAME * float(np.abs(here).max())
         with np.errstate(invalid="ignore"):
             even, odd = (float(np.abs(part).max()) <= size for part in (here - there, here + there))
@@ -62,7 +62,7 @@ def sides(motion: Motion, name: str, signs: tuple[float, ...], *, symmetric: boo
     return [Side(name, first, signs), Side(mirrored(name), other, turned)]
 
 
-def _sampled(motion: Motion) -> Array:
+def sampled(motion: Motion) -> Array:
     """Its values in motions at random."""
     numbers = np.random.default_rng(0)
     names = {name: numbers.normal(size=_PLACES) for name in "abcj"}

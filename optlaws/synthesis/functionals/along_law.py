@@ -9,13 +9,14 @@ from itertools import pairwise
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.formulas.branches import switches
+from optlaws.formulas.branches import knots
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.vocabulary import ORDERS
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
-from optlaws.series.candidates import candidates, cut_at_roots, series_between
+from optlaws.series.candidates import candidates, cut_at_all, cut_at_roots, series_between
 from optlaws.series.chebyshev import gauss, value
 from optlaws.series.peaks import Peak, extremes
 
@@ -23,11 +24,15 @@ Array = NDArray[np.float64]
 
 _BESIDE = 2.0**-50
 _LARGEST = 400
+#: how often a piece that is not smooth is cut in two, and how many places of Gauss's rule the last ones have
+_DEEPEST, _DENSE = 12, 32
+#: what twice as many places may change: of the whole, where no cut is needed, and of the last pieces
+_NEGLIGIBLE, _SETTLED = 1e-14, 1e-6
 
 
 def extremes_along(motion: Motion, law: MotionLaw) -> tuple[Peak, Peak]:
     """The least and the greatest value of a formula in a law, each with its place; infinite where it has no bound."""
-    candidates = [_candidates(motion, law, ends) for ends in pairwise(_edges(motion, law))]
+    candidates = [_candidates(motion, law, ends) for ends in pairwise(_smooth_edges(motion, law))]
     if not candidates:
         k = np.array([motion.start])
         return extremes(k, _values(motion, law, k))
@@ -40,12 +45,12 @@ def extremes_along(motion: Motion, law: MotionLaw) -> tuple[Peak, Peak]:
 
 def mean_square_along(motion: Motion, law: MotionLaw) -> float:
     """The integral over the part of the square of a formula in a law."""
-    return sum(_integral(motion, law, ends, square=True) for ends in pairwise(_smooth_edges(motion, law)))
+    return _Integral(motion, law, square=True).value
 
 
 def integral_along(motion: Motion, law: MotionLaw) -> float:
     """The integral over the part of a formula in a law."""
-    return sum(_integral(motion, law, ends, square=False) for ends in pairwise(_smooth_edges(motion, law)))
+    return _Integral(motion, law, square=False).value
 
 
 def value_along(motion: Motion, law: MotionLaw) -> float:
@@ -66,9 +71,10 @@ def _edges(motion: Motion, law: MotionLaw) -> list[float]:
 
 
 def _smooth_edges(motion: Motion, law: MotionLaw) -> list[float]:
-    """These, and the kinks that the law makes."""
-    edges = _edges(motion, law)
-    for switch in switches(motion.formula, ORDERS):
+    """These, the kinks that the law makes, and where it passes the knots of splines."""
+    plain, bent = knots(motion.formula, ORDERS)
+    edges = cut_at_all((partial(_values, Motion(switch), law) for switch in plain), _edges(motion, law))
+    for switch in bent:
         edges = cut_at_roots(partial(_inside, Motion(switch), law), edges)
     return edges
 
@@ -104,11 +110,47 @@ def _candidates(motion: Motion, law: MotionLaw, ends: tuple[float, float]) -> tu
     return _on(motion, law, ends, np.concatenate([np.array(ends), inner]))
 
 
-def _integral(motion: Motion, law: MotionLaw, ends: tuple[float, float], *, square: bool) -> float:
-    """Over a piece by Gauss's rule, exact where the formula is a polynomial."""
-    series = series_between(lambda k: _on(motion, law, ends, k)[1], ends, _count(motion, law, ends))
-    if series is None:
-        return float("inf")
-    x, weights = gauss(len(series) + 1)
-    values = np.asarray(value(series, x))
-    return float(weights @ (values**2 if square else values)) * (ends[1] - ends[0]) / 2.0
+class _Integral:
+    """The integral of a formula along a law, by Gauss's rule: exact where the formula is a polynomial."""
+
+    def __init__(self, motion: Motion, law: MotionLaw, *, square: bool) -> None:
+        self.motion, self.law, self.square = motion, law, square
+        self.pieces = list(pairwise(_smooth_edges(motion, law)))
+
+    @property
+    def value(self) -> float:
+        """It over all pieces; infinite where it seems to have none."""
+        return sum(self._over(ends) for ends in self.pieces)
+
+    @kept_property
+    def size(self) -> float:
+        """What it is without signs, nearly."""
+        return sum(abs(self._by_rule(ends, _DENSE, sizes=True)) for ends in self.pieces)
+
+    def _over(self, ends: tuple[float, float]) -> float:
+        count = _count(self.motion, self.law, ends)
+        series = series_between(lambda k: _on(self.motion, self.law, ends, k)[1], ends, count)
+        if series is None:
+            return self._in_parts(ends, 0)
+        x, weights = gauss(len(series) + 1)
+        values = np.asarray(value(series, x))
+        return float(weights @ (values**2 if self.square else values)) * (ends[1] - ends[0]) / 2.0
+
+    def _in_parts(self, ends: tuple[float, float], depth: int) -> float:
+        """Over a piece that is not smooth: a kink that a law comes near and turns is known to some digits alone."""
+        rough, fine = (self._by_rule(ends, count) for count in (_DENSE, 2 * _DENSE))
+        off = abs(fine - rough)
+        if off <= _NEGLIGIBLE * self.size:
+            return fine
+        if depth == _DEEPEST:
+            return fine if off <= _SETTLED * abs(fine) else float("inf")
+        middle = (ends[0] + ends[1]) / 2.0
+        return sum(self._in_parts(half, depth + 1) for half in ((ends[0], middle), (middle, ends[1])))
+
+    def _by_rule(self, ends: tuple[float, float], count: int, *, sizes: bool = False) -> float:
+        x, weights = gauss(count)
+        half = (ends[1] - ends[0]) / 2.0
+        values = _on(self.motion, self.law, ends, ends[0] + half * (x + 1.0))[1]
+        with np.errstate(invalid="ignore", over="ignore"):
+            shown = values**2 if self.square else np.abs(values) if sizes else values
+            return float(weights @ shown) * half

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.formulas.branches import smooth
+from optlaws.formulas.branches import switches, together
 from optlaws.formulas.convexity import Judge
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.quadratic import quadratic
@@ -111,19 +111,20 @@ def integral_rows(
         root=root,
         convex=convex,
     )
-    return plain if smooth(motion.formula, ORDERS) else _kinked(space, motion, plain)
+    return plain if not switches(motion.formula, ORDERS) else _kinked(space, motion, plain)
 
 
 def _kinked(space: LawSpace, motion: Motion, plain: IntegralFamily) -> KinkedIntegralFamily:
-    """The same of a formula with kinks in the law, by what it is between them."""
+    """The family of a formula with kinks in the law, by its smooth formulas between them."""
 
-    def rows(k: Array) -> Array:
-        orders = [ORDERS[name] for name in plain.names]
-        both = [[columns_of(space, nu + turn, k) for nu in orders] for turn in (0, 1)]
-        return np.array([[space.widened(row, len(plain.slack)) for row in of_order] for of_order in both])
+    def rows(turn: int, k: Array) -> Array:
+        several = (columns_of(space, ORDERS[name] + turn, k) for name in plain.names)
+        return np.array([space.widened(columns, len(plain.slack)) for columns in several])
 
     own = {field.name: getattr(plain, field.name) for field in fields(plain)}
-    length = _SPARE + max(space.degree_of(ORDERS[name]) for name in plain.names)
+    degrees = {name: space.degree_of(ORDERS[name]) for name in plain.names}
+    degree = replace(motion, formula=together(motion.formula)).degree(degrees)
+    length = _SPARE + max(degrees.values()) if degree is None else degree // 2 + 1
     edges = tuple(_known_edges(space, motion))
     return KinkedIntegralFamily(**own, rows=rows, units=np.ones(len(plain.slack) + 1), edges=edges, length=length)
 

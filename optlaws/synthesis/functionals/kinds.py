@@ -13,13 +13,15 @@ from numpy.typing import NDArray
 from optlaws.formulas.branches import smooth
 from optlaws.formulas.convexity import Judge
 from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.slopes import opposite
 from optlaws.formulas.tree import Negative
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.numbers import power_of_two
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily
-from optlaws.synthesis.functionals.affine_rows import columns, gauss, rows, sides
+from optlaws.synthesis.functionals.affine_rows import columns, gauss, rows, sampled, sides
 from optlaws.synthesis.functionals.along_law import (
     extremes_along,
     integral_along,
@@ -36,6 +38,7 @@ from optlaws.synthesis.functionals.curved_rows import (
     squared,
 )
 from optlaws.synthesis.functionals.sizes import known_values, reach
+from optlaws.synthesis.functionals.straight_reach import straight_reach
 from optlaws.synthesis.functionals.tangent_reach import tangent_reach
 from optlaws.synthesis.functionals.undefined import check_ends, check_passed, pitfalls
 from optlaws.synthesis.problem.constants import Asked, Functional
@@ -64,6 +67,11 @@ class OfFormula(Functional):
     motion: Motion
 
     @property
+    def scale(self) -> float:
+        """Of the formula; a power of 2."""
+        return self.motion.scale
+
+    @property
     def why(self) -> str:
         """The rule that says whether the constant is convex."""
         return self.motion.verdict.why
@@ -72,6 +80,24 @@ class OfFormula(Functional):
     def remarks(self) -> tuple[str, ...]:
         """Where the formula has no value or no slope, of what laws may bring it to."""
         return tuple(pitfalls(self.motion))
+
+    @kept_property
+    def even(self) -> bool:
+        """Whether the formula is even or, where its sign does not count, odd about the middle of the interval."""
+        mirrored = self.motion.mirrored()
+        if (mirrored.start, mirrored.stop) != (self.motion.start, self.motion.stop):
+            return False
+        here, there = sampled(self.motion), sampled(mirrored)
+        size = _ROUNDED * float(np.abs(here).max())
+        with np.errstate(invalid="ignore"):
+            apart = [float(np.abs(here - sign * there).max()) for sign in (1.0, -1.0)[: 1 + self.of_magnitude]]
+        # where it has no value nothing is known of it
+        return not min(apart) > size
+
+    @property
+    def of_magnitude(self) -> bool:
+        """Whether the formula's sign does not count."""
+        return False
 
     @property
     def affine(self) -> bool:
@@ -146,6 +172,11 @@ class FormulaPeak(OfFormula):
     signs: tuple[float, ...] = _BOTH
 
     @property
+    def of_magnitude(self) -> bool:
+        """Whether both signs count."""
+        return len(self.signs) == 2
+
+    @property
     def counted(self) -> tuple[float, ...]:
         """The signs that may count: of what is nowhere below 0 only one."""
         return (float(self.sign),) if len(self.signs) == 2 and self.sign and not self.affine else self.signs
@@ -161,13 +192,24 @@ class FormulaPeak(OfFormula):
         return max(greatest_along(self.motion, sign, law) for sign in self.counted)
 
     def _size(self, space: LawSpace) -> tuple[int, float, float] | None:
-        """Of a peak of one sign only if some mean of the formula is the same in every law."""
-        if not self.affine or self.motion.start == self.motion.stop:
+        """Of a peak of one sign only if some mean of the formula is the same in every law, or it is convex."""
+        if self.motion.start == self.motion.stop:
             return None
+        if not self.affine:
+            return self._by_mean(space)
         size = reach(space, self.parts(symmetric=space.symmetric))
         if size is None:
             return None
         return size.by_peak() if len(self.signs) == 2 else size.by_one_sign(self.signs[0])
+
+    def _by_mean(self, space: LawSpace) -> tuple[int, float, float] | None:
+        """By the mean of a convex formula, which is at most its peak."""
+        signed = {1.0: self.motion, -1.0: replace(self.motion, formula=opposite(self.motion.formula))}
+        for sign in self.counted:
+            size = _by_integral(space, signed[sign]) if signed[sign].curvature.convex else None
+            if size is not None:
+                return size[0], size[1] * (self.motion.stop - self.motion.start), size[2]
+        return None
 
     def branches(self, *, symmetric: bool) -> list[Branch]:
         """The smooth formulas whose rows hold the peak."""
@@ -211,8 +253,13 @@ class FormulaRms(OfFormula):
     """Root mean square of a formula over its part of the interval; made by `rms`."""
 
     @property
+    def of_magnitude(self) -> bool:
+        """It is squared."""
+        return True
+
+    @property
     def length(self) -> float:
-        """Of the part."""
+        """The length of the part of the interval."""
         return self.motion.stop - self.motion.start
 
     def value(self, law: MotionLaw) -> float:
@@ -233,6 +280,10 @@ class FormulaRms(OfFormula):
         """By Cauchy's inequality, or by tangents."""
         if not self.affine:
             size = _by_tangents(space, squared(self.motion), root=True) if self.convex else None
+            if size is None and self.convex and self.sign > 0:
+                # the mean is at most the root of the mean square
+                mean = _by_integral(space, self.motion)
+                size = None if mean is None else (mean[0], mean[1] * float(np.sqrt(self.length)), mean[2])
         else:
             values = reach(space, self.parts(symmetric=space.symmetric))
             size = None if values is None else values.by_square()
@@ -247,8 +298,13 @@ class FormulaRms(OfFormula):
 class FormulaIntegral(OfFormula):
     """Integral of a formula over its part of the interval; made by `integral`."""
 
+    @property
+    def scale(self) -> float:
+        """Of the formula times the part's length; a power of 2."""
+        return power_of_two(self.motion.scale * (self.motion.stop - self.motion.start))
+
     def floor(self, conditions: BoundaryConditions) -> float:  # noqa: ARG002
-        """Of what is nowhere below 0 it is not either."""
+        """Zero where the formula is nowhere below 0, else minus infinity."""
         return 0.0 if self.sign > 0 else -inf
 
     def value(self, law: MotionLaw) -> float:
@@ -256,8 +312,8 @@ class FormulaIntegral(OfFormula):
         return integral_along(self.motion, law)
 
     def _size(self, space: LawSpace) -> tuple[int, float, float] | None:
-        """By tangents."""
-        return _by_tangents(space, self.motion, root=False) if self.convex and not self.affine else None
+        """Of a convex formula."""
+        return _by_integral(space, self.motion) if self.convex and not self.affine else None
 
     def _families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """One row."""
@@ -295,11 +351,20 @@ def greatest_along(motion: Motion, sign: float, law: MotionLaw) -> float:
     return max(highest.value if sign > 0.0 else -lowest.value for sign, (lowest, highest) in ends)
 
 
+def _by_integral(space: LawSpace, motion: Motion) -> tuple[int, float, float] | None:
+    """What bounds the laws in which the integral of a convex formula is small."""
+    return straight_reach(space, motion) or _by_tangents(space, motion, root=False)
+
+
 def _by_tangents(space: LawSpace, motion: Motion, *, root: bool) -> tuple[int, float, float] | None:
     """What bounds the laws in which the integral of a convex formula, or its root, is small."""
     nothing = np.zeros(space.terms)
-    plain = integral_rows(space, motion, "", nothing, 0.0, root=False, convex=True)
-    return tangent_reach(space, plain, replace(plain, root=True) if root else plain)
+    unit = power_of_two(np.sqrt(motion.scale)) if root else motion.scale
+    plain = integral_rows(space, motion, "", nothing, 0.0, root=False, convex=True).scaled_down(
+        unit**2 if root else unit
+    )
+    size = tangent_reach(space, plain, replace(plain, root=True) if root else plain)
+    return None if size is None else (size[0], size[1] / unit, size[2])
 
 
 def refusal(constant: OfFormula) -> str | None:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -10,6 +10,7 @@ from numpy.typing import NDArray
 
 from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.vocabulary import ORDERS
+from optlaws.numbers import power_of_two
 from optlaws.synthesis.functionals.affine_rows import columns, gauss
 from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
 
@@ -81,6 +82,15 @@ def reach(space: LawSpace, parts: tuple[Motion, ...]) -> Reach | None:
 
 def reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
     """The same of anything that is affine in the law, by its columns at places and the weights of these."""
+    unit = power_of_two(float(np.abs(values).max(initial=0.0)))
+    near = _reach_of(space, values / unit, weights)
+    if near is None:
+        return None
+    turning = None if near.turning is None else (near.turning[0], near.turning[1] * unit)
+    return replace(near, pulls=near.pulls / unit, turning=turning)
+
+
+def _reach_of(space: LawSpace, values: Array, weights: Array) -> Reach | None:
     fixed, free = kept_directions(space)
     rows, right = values[:, :-1] @ free, -(values[:, :-1] @ fixed + values[:, -1])
     inverse = np.linalg.pinv(rows)
@@ -173,13 +183,13 @@ def known_values(motion: Motion, conditions: BoundaryConditions) -> list[tuple[f
     >>> from optlaws.formulas.of_motion import of_text
     >>> from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
     >>> known_values(of_text("c + 2*b"), BoundaryConditions.rest(3))
-    [(0.0, 1.0), (0.0, 1.0), (2.0, 2.0)]
+    [(0.0, 8.0), (0.0, 8.0), (2.0, 2.0)]
     """
     values = []
     for k, end in ((0.0, conditions.start), (1.0, conditions.end)):
         if motion.start <= k <= motion.stop and max(motion.orders, default=0) < len(end):
             value = motion.values({"k": k, **{name: end[nu] for name, nu in ORDERS.items() if nu < len(end)}})
-            values.append((float(value), 1.0 + abs(float(value))))
+            values.append((float(value), max(motion.scale, abs(float(value)))))
     mean = mean_value(motion, conditions)
     return values if mean is None else [*values, (mean, _mean_size(motion, conditions))]
 

@@ -55,7 +55,7 @@ def tangent_reach(space: LawSpace, plain: IntegralFamily, family: IntegralFamily
     far = float(np.sqrt(2.0 * abs(_value(plain, lowest)))) or 1.0
     for reach in (far * nearer for nearer in _NEARER):
         heights, slopes = _tangents(family, lowest, reach * np.hstack([steps, -steps]).T, steps)
-        shares = _shares(slopes)
+        shares = _shares(slopes) if np.isfinite(heights).all() else None
         if shares is not None:
             return _summed(space, lowest, steps, heights, shares)
     return None
@@ -109,7 +109,9 @@ def _tangents(family: IntegralFamily, lowest: Array, ways: Array, steps: Array) 
     """Heights at the lowest place, and slopes along the steps, of tangents there and on all sides."""
     rows = [family.tangent_row(1.0, 1.0, family.touching(lowest + way, 1.0)) for way in (0.0 * ways[0], *ways)]
     stacked = np.array([row for row in rows if row is not None])
-    return stacked @ np.append(lowest, 1.0), stacked[:, :-1] @ steps
+    # tangents that touch very far away overflow: nearer ones are tried then
+    with np.errstate(over="ignore", invalid="ignore"):
+        return stacked @ np.append(lowest, 1.0), stacked[:, :-1] @ steps
 
 
 def _shares(slopes: Array) -> Array | None:

@@ -20,6 +20,9 @@ Array = NDArray[np.float64]
 
 #: values of b or c, among them 0, 1/2 and 1
 _PASSED = 2049
+#: motions at random, of which sizes, and how often one of the names is 0
+_MOTIONS, _STILL = 4096, 0.2
+_SIZES = {"a": 1.0, "b": 2.0, "c": 8.0, "j": 60.0}
 
 
 def check_ends(motion: Motion, conditions: BoundaryConditions) -> None:
@@ -96,23 +99,41 @@ def check_passed(motion: Motion, conditions: BoundaryConditions, *, smooth: bool
 
 
 def pitfalls(motion: Motion) -> Iterator[str]:
-    """Parts of a formula that some laws may bring where they have no value or no slope, in words.
+    """Parts of a formula that some motions bring where they have no value or no slope, in words.
 
     Examples
     --------
     >>> from optlaws.formulas.of_motion import of_text
-    >>> list(pitfalls(of_text("b^0.5 + 1/(c - 7)")))
+    >>> list(pitfalls(of_text("b^0.5 + 1/(c - 7) + 1/sqrt(4 + c^2)")))
     ['b^0.5 has no slope or no value where b <= 0', '1/(c - 7) has no value where c - 7 = 0']
     """
     for part in motion.formula.walk():
         if not part.names() & ORDERS.keys():
             continue
         if isinstance(part, Reciprocal):
-            yield f"{part} has no value where {part.of} = 0"
-        elif isinstance(part, Power) and not float(constant(part.exponent) or 0.5).is_integer():
-            yield f"{part} has no slope or no value where {part.base} <= 0"
+            low, high = _between(part.of, motion)
+            if low <= 0.0 <= high:
+                yield f"{part} has no value where {part.of} = 0"
+            continue
+        inner = None
+        if isinstance(part, Power) and not float(constant(part.exponent) or 0.5).is_integer():
+            inner = part.base
         elif isinstance(part, Call) and part.function in {"sqrt", "log"}:
-            yield f"{part} has no slope or no value where {part.arguments[0]} <= 0"
+            inner = part.arguments[0]
+        if inner is not None and _between(inner, motion)[0] <= 0.0:
+            yield f"{part} has no slope or no value where {inner} <= 0"
+
+
+def _between(formula: Formula, motion: Motion) -> tuple[float, float]:
+    """The least and the greatest of a formula's values in some motions, most of them gentle, some without any."""
+    numbers = np.random.default_rng(0)
+    names = {name: size * numbers.normal(size=_MOTIONS) for name, size in _SIZES.items()}
+    for values in names.values():
+        values[numbers.random(_MOTIONS) < _STILL] = 0.0
+    k = motion.start + (motion.stop - motion.start) * numbers.random(_MOTIONS)
+    values = np.broadcast_to(Motion(formula).values({**names, "k": k}), (_MOTIONS,))
+    known = values[np.isfinite(values)]
+    return (float(known.min()), float(known.max())) if len(known) else (np.inf, -np.inf)
 
 
 def _nowhere(part: Formula, names: Mapping[str, Array]) -> NDArray[np.bool_]:

@@ -1,4 +1,4 @@
-"""What no law of any degree can beat, in closed form, and the laws that attain it."""
+"""What no law from rest to rest can beat, of any degree, in closed form, and the laws that attain it."""
 
 from optlaws.lazy import face
 

@@ -1,7 +1,8 @@
-"""Peak constants that no law can beat, in closed form (derivations: docs/theory/limits.md and limit-laws.md).
+"""Peak constants that no law of an order can beat, in closed form (derivations: docs/theory/limits.md, limit-laws.md).
 
-Each is the infimum over all laws from rest to rest with stroke 1, b(1/2) = B and b <= B, dimensionless; smooth laws
-come as near as one likes. For D the bound holds for unsymmetric laws too, for the others they can do no better.
+Each is the infimum over all laws from rest to rest with stroke 1, b(1/2) = B and b <= B, dimensionless (at order 1 with
+free end velocities; J from order 3 on, and C at a given J, with c = 0 at the ends); smooth laws come as near as one
+likes. For D the bound holds for unsymmetric laws too, for the others they can do no better.
 Doubles are rounded down: none is above the exact value at the given double B.
 """
 
@@ -264,7 +265,7 @@ def limit(
         Peak velocity b(1/2), above 1; without it the least over all B.
     order
         Number l of boundary conditions at each end. All orders from 3 (zero end accelerations) have the same limits;
-        J is lower at order 2, C at order 1.
+        J is lower at order 2 (free end accelerations), C at order 1 (free end velocities).
     monotone
         Whether b >= 0 is asked.
     J

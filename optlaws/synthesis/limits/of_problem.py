@@ -1,4 +1,4 @@
-"""The limit that no law of any degree can beat, for a problem's own objective, where one is known."""
+"""The limit of a problem's own objective over laws of its order and its bounds, of any degree, where one is known."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ _MEAN_VELOCITY = 1.0
 
 
 def known_limit(problem: Problem) -> float | None:
-    """A value that no law with the problem's constants can beat, whatever its degree; None where none is known.
+    """A value that no law of the problem's order and within its bounds can beat, whatever its degree; None if unknown.
 
     For a sum it is the sum of the parts' limits, which no one law need reach together. It is rounded down.
 
@@ -36,6 +36,21 @@ def known_limit(problem: Problem) -> float | None:
         return None if part is None else rounded_down(part)
     total = _of_sum(problem, problem.objective)
     return None if total is None else rounded_down(total)
+
+
+def limited_laws(problem: Problem) -> str:
+    """Which laws the limit of a problem holds for, in words.
+
+    Examples
+    --------
+    >>> limited_laws(Problem(B=1.5, order=3)), limited_laws(Problem(order=4))
+    ('law of order 3 with this B', 'law of order 4')
+    >>> limited_laws(Problem(order=3, B=(1.5, 1.8), J=(0, 70)))
+    'law of order 3 within these bounds'
+    """
+    if problem.bounded or problem.windows or isinstance(problem.B, Range):
+        return f"law of order {problem.order} within these bounds"
+    return f"law of order {problem.order}{'' if problem.B is None else ' with this B'}"
 
 
 def _of_sum(problem: Problem, expression: Expression) -> Fraction | None:

@@ -20,6 +20,7 @@ from optlaws.synthesis.method.on_points.grids import first_points
 from optlaws.synthesis.method.units import units_of
 from optlaws.synthesis.method.ways.contacts import polished
 from optlaws.synthesis.method.ways.interior_points import ByInteriorPoints
+from optlaws.synthesis.method.ways.quadratics import ByQuadratics, bends_both_ways
 from optlaws.synthesis.method.ways.vertices import ByVertices, many_pieces
 from optlaws.synthesis.method.ways.way import in_rounds
 
@@ -70,7 +71,7 @@ def _in_own_units(
     holds: Callable[[Array], bool] | None,
     rounds: int,
 ) -> Outcome:
-    """The same for a program whose numbers are near 1."""
+    """The solution of a program whose numbers are near 1."""
     if warm is not None:
         optimum = polished(program, warm, holds)
         if optimum is not None:
@@ -90,7 +91,7 @@ def _in_own_units(
 
 
 def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool] | None, rounds: int) -> Outcome:
-    """The same for a program whose equations are independent."""
+    """The solution of a program whose equations are independent."""
     points = first_points(program)
     if start is None and program.curved:
         nothing_left = vanishing(program)
@@ -105,6 +106,11 @@ def _solved(program: Program, start: Array | None, holds: Callable[[Array], bool
         optimum, count = in_rounds(ByVertices(program, holds), points)
         if optimum is not None:
             return Outcome(optimum, 0, count, "vertices")
+    if bends_both_ways(program):
+        stepwise = ByQuadratics(program, lifted(program, points) if start is None else start, holds)
+        optimum, count = in_rounds(stepwise, points)
+        if optimum is not None:
+            return Outcome(optimum, stepwise.iterations, count, "quadratic programs")
     way = ByInteriorPoints(program, start, holds, rounds)
     optimum, _ = in_rounds(way, points)
     return Outcome(optimum, way.iterations, way.count, way.status)

@@ -72,14 +72,14 @@ def raised(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
 
 def raised_at(model: Model, optimum: ActiveSet, constant: Functional, low: float, k: float) -> list[ActiveSet]:
     """Candidates in which the peak is asked at k, and let go to where it is best nearby."""
-    family = family_of(model, constant)
+    family, low = family_of(model, constant, low)
     ways = _asked(model.program, family, optimum, (constant.name, low), family.u(np.array([k])))
     return [candidate for program, state in ways for candidate in raised(replace(model, program=program), state)]
 
 
 def _held_up(model: Model, plain: ActiveSet, constant: Functional, low: float) -> list[tuple[Model, ActiveSet]]:
     """Optima in which the constant is `low` at one place, with the programs that ask it there."""
-    family = family_of(model, constant)
+    family, low = family_of(model, constant, low)
     held = replace(family, held=True)
     extrema, signs, height = family.extremes(plain.x)
     led = []
@@ -199,18 +199,19 @@ _PLACED_ROUNDS = 4
 _SMOOTH = {"C": "rms_c", "C_plus": "rms_c", "C_minus": "rms_c", "J": "rms_j", "D": "rms_c", "B": "rms_c"}
 
 
-def family_of(model: Model, constant: Functional) -> Family:
-    """The rows of a constant that is to be held up.
+def family_of(model: Model, constant: Functional, low: float) -> tuple[Family, float]:
+    """The rows of a constant that is to be held up, near 1, and its lower bound in their units.
 
     Raises
     ------
     InputError
         If there are several families of them.
     """
-    families = constant.families(model.space, np.zeros(model.program.size), 0.0)
+    families = constant.families(model.space, np.zeros(model.program.size), low)
     if len(families) != 1:
         raise InputError(f"{constant.title} is of {len(families)} families of rows: it cannot be bounded from below")
-    return replace(families[0], name=at_least(constant.name))
+    family = families[0] if constant.normalised else families[0].scaled_down(constant.scale)
+    return replace(family, name=at_least(constant.name), bound=0.0), family.bound
 
 
 def places(problem: Problem, family: Family) -> Array:
@@ -225,7 +226,7 @@ def places(problem: Problem, family: Family) -> Array:
 def between(model: Model, plain: ActiveSet, constant: Functional, low: float) -> Iterator[ActiveSet]:
     """Laws between the optimum without the lower bound and smooth laws beyond it that have the constant at `low`."""
     other = model_of(_without(model.problem, constant))
-    family = family_of(other, constant)
+    family, least = family_of(other, constant, low)
     terms = model.space.terms
 
     def value(coordinates: Array) -> float:
@@ -234,9 +235,9 @@ def between(model: Model, plain: ActiveSet, constant: Functional, low: float) ->
     laws: Iterator[ActiveSet]
     if isinstance(family, NormFamily):
         begin = solve(other.program).optimum
-        laws = iter(()) if begin is None else (state for _, state in aligned(other.program, family, begin, low))
+        laws = iter(()) if begin is None else (state for _, state in aligned(other.program, family, begin, least))
     else:
-        laws = _at_places(model.problem, other, family, low)
+        laws = _at_places(model.problem, other, family, least)
     for beyond in laws:
         if value(beyond.x[:terms]) >= low:
             x = plain.x.copy()

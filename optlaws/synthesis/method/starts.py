@@ -69,7 +69,7 @@ def _completed(model: Model, coordinates: Array) -> Array:
     for name, place in model.places.items():
         value = own[name].value(law) if name in own else inf
         if isfinite(value):
-            x[place] = _AMPLE * value
+            x[place] = _AMPLE * value / model.scales.get(name, 1.0)
         else:
             x[place] = law.peak(1).value if name == "B" else 2.0 * law.power_peak().value
     return x

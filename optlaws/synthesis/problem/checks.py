@@ -94,6 +94,26 @@ class NotGiven(int):
     """
 
 
+class AsItFits(int):
+    """What nobody asked of symmetry: symmetric laws where they may be best, equal to True."""
+
+    def __repr__(self) -> str:
+        return repr(bool(self))
+
+
+AS_IT_FITS: Any = AsItFits(1)
+
+
+def is_open(given: object) -> bool:
+    """Whether nobody asked for symmetric laws or others."""
+    return isinstance(given, AsItFits)
+
+
+def symmetric(given: Any) -> Any:  # noqa: ANN401 - it is checked here
+    """True, False, or what nobody asked."""
+    return given if is_open(given) else switch(given, "symmetric")
+
+
 def order(given: Any) -> int:  # noqa: ANN401 - it is checked here
     """The order l, where it is given."""
     return given if isinstance(given, NotGiven) else whole(given, "order", least=1, most=MOST_ORDER)

@@ -10,7 +10,9 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.numbers import power_of_two
 from optlaws.synthesis.families.family import Family
 from optlaws.synthesis.families.names import mirrored
 from optlaws.synthesis.problem.constants import Functional, Power
@@ -19,6 +21,9 @@ if TYPE_CHECKING:
     from optlaws.synthesis.spaces.space import LawSpace
 
 Array = NDArray[np.float64]
+
+#: what a smooth law's derivative is times the one before, nearly
+_STEEPER = 6.0
 
 
 @dataclass(frozen=True, repr=False)
@@ -51,6 +56,11 @@ class CombinedPeak(Combined):
     nu: int
     weights: tuple[Fraction, ...]
     signs: tuple[float, ...] = (1.0, -1.0)
+
+    @kept_property
+    def scale(self) -> float:
+        """By how much its parts exceed the lowest derivative in smooth laws, where each next one is some times it."""
+        return power_of_two(sum(abs(float(weight)) * _STEEPER**i for i, weight in enumerate(self.weights)))
 
     def families(self, space: LawSpace, slack: Array, bound: float) -> tuple[Family, ...]:
         """One family; two where symmetric laws count on half the interval but the combination is not symmetric."""

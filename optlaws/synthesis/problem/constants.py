@@ -11,13 +11,16 @@ from collections import ChainMap
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
-from typing import TYPE_CHECKING, Protocol
+from typing import TYPE_CHECKING, ClassVar, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.laws import MotionLaw
+from optlaws.errors import OptlawsError
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw, smoothstep
 from optlaws.lazy import Registry
+from optlaws.numbers import power_of_two
 from optlaws.synthesis.families.family import Family
 from optlaws.synthesis.problem.expression import Term
 
@@ -27,6 +30,7 @@ if TYPE_CHECKING:
 
 Array = NDArray[np.float64]
 
+_SMOOTH = 4  # the order of the law that scales are taken from
 _NO_ACCELERATION = 3  # the order from which laws begin and end without acceleration
 
 
@@ -102,6 +106,25 @@ class Functional(Term, ABC):
         """What it is at least in every law with these end conditions; minus infinity where nothing is known."""
         return 0.0
 
+    @kept_property
+    def scale(self) -> float:
+        """Of what size it is in smooth laws: a power of 2, never 0, that rows are divided by and gaps compared with.
+
+        Examples
+        --------
+        >>> C.scale
+        1.0
+        """
+        return _scale_along_smooth_law(self)
+
+    #: whether its rows are in units of their own size already
+    normalised: ClassVar[bool] = False
+
+    @property
+    def even(self) -> bool:
+        """Whether it says the same of a law and of its mirror image, 1 - a(1-k), so that symmetric laws may be best."""
+        return True
+
     @property
     def remarks(self) -> tuple[str, ...]:
         """What a person should know of it whose problem found no law."""
@@ -167,8 +190,25 @@ class Functional(Term, ABC):
         return self.name
 
 
+def _scale_along_smooth_law(constant: Functional) -> float:
+    try:
+        return power_of_two(abs(constant.value(smoothstep(_SMOOTH))))
+    except (ArithmeticError, AttributeError, LookupError, OptlawsError, RuntimeError, TypeError, ValueError):
+        return 1.0  # not every constant has a value along every law
+
+
 @dataclass(frozen=True, repr=False)
-class Peak(Functional):
+class _InUnitsOfLaws(Functional):
+    """A constant in the units of the law: stroke and duration are 1."""
+
+    @property
+    def scale(self) -> float:
+        """One, as the law's own."""
+        return 1.0
+
+
+@dataclass(frozen=True, repr=False)
+class Peak(_InUnitsOfLaws):
     """Peak of a derivative: magnitude, or one sign only.
 
     Examples
@@ -214,7 +254,7 @@ class PeakJerk(Peak):
 
 
 @dataclass(frozen=True, repr=False)
-class Power(Functional):
+class Power(_InUnitsOfLaws):
     """Peak D of the kinetic power d = b c: not convex in the law.
 
     Examples
@@ -236,7 +276,7 @@ class Power(Functional):
 
 
 @dataclass(frozen=True, repr=False)
-class RootMeanSquare(Functional):
+class RootMeanSquare(_InUnitsOfLaws):
     """RMS of a derivative over the interval.
 
     Examples
@@ -247,6 +287,10 @@ class RootMeanSquare(Functional):
     """
 
     nu: int
+
+    def curbs(self) -> tuple[tuple[int, float], ...]:
+        """The mean magnitude of a derivative is at most its RMS."""
+        return ((self.nu, 1.0),)
 
     def value(self, law: MotionLaw) -> float:
         """The root of the mean square, by Gauss-Legendre quadrature exact for the law's degree."""
@@ -266,8 +310,11 @@ J = PeakJerk("J", 12.0, convex=True, nu=3)
 jounce = Peak("jounce", np.nan, convex=True, nu=4)
 rms_c = RootMeanSquare("rms_c", 12.0**0.5, convex=True, nu=2)
 rms_j = RootMeanSquare("rms_j", np.nan, convex=True, nu=3)
+rms_jounce = RootMeanSquare("rms_jounce", np.nan, convex=True, nu=4)
 
-FUNCTIONALS: dict[str, Functional] = {f.name: f for f in (B, C, C_plus, C_minus, D, J, jounce, rms_c, rms_j)}
+FUNCTIONALS: dict[str, Functional] = {
+    f.name: f for f in (B, C, C_plus, C_minus, D, J, jounce, rms_c, rms_j, rms_jounce)
+}
 ALIASES: dict[str, Functional] = {"rms": rms_c}
 #: constants of other subjects without arguments, by their names: `C_loader`
 PLAIN: Registry[Functional] = Registry("plain constant")

@@ -9,7 +9,10 @@ from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.numbers import MAGNITUDE_LIMIT, real
+from optlaws.numbers import MAGNITUDE_LIMIT, power_of_two, real
+
+#: weights beyond are part of an objective's scale
+_LEAST_WEIGHT, _GREATEST_WEIGHT = 1e-3, 1e3
 
 
 class Term:
@@ -21,6 +24,11 @@ class Term:
     >>> 0.5 * C / 4 + 0.5 * D / 2
     0.125*C + 0.25*D
     """
+
+    @property
+    def scale(self) -> float:
+        """Of what size it is in smooth laws: a power of 2."""
+        return 1.0
 
     def expression(self) -> Expression:
         """The term alone, as a sum."""
@@ -79,6 +87,20 @@ class Expression:
     def vanishes(self) -> bool:
         """Whether all weights are 0, so that every law is as good as any other."""
         return not any(weight for weight, _ in self.terms)
+
+    @property
+    def scale(self) -> float:
+        """Of what size the sum is in smooth laws: a power of 2, never 0, with which gaps are compared.
+
+        Examples
+        --------
+        >>> from optlaws.synthesis import C
+        >>> (0.5 * C).scale, (2.0**-40 * C).scale * 2.0**40
+        (1.0, 1.0)
+        """
+        unit = max(term.scale for _, term in self.terms)
+        share = max(weight * (term.scale / unit) for weight, term in self.terms)
+        return unit if _LEAST_WEIGHT < share < _GREATEST_WEIGHT else unit * power_of_two(share)
 
     def weights(self) -> dict[str, float]:
         """Weights by the name of the term."""
@@ -144,6 +166,11 @@ class Maximum(Term):
     """
 
     parts: tuple[Expression, ...]
+
+    @property
+    def scale(self) -> float:
+        """Of the greatest part."""
+        return max(part.scale for part in self.parts)
 
     def __repr__(self) -> str:
         return f"max({', '.join(map(repr, self.parts))})"

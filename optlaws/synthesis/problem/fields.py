@@ -249,8 +249,8 @@ FIELDS: tuple[Field, ...] = (
         partial(checks.switch, name="monotone"),
     ),
     _single(
-        _entry("symmetric", Kind.SWITCH, "Ask a(k) + a(1-k) = 1.", default=True),
-        partial(checks.switch, name="symmetric"),
+        _entry("symmetric", Kind.SWITCH, "Ask a(k) + a(1-k) = 1; not of uneven formulas unless given.", default=True),
+        checks.symmetric,
     ),
     Field(
         "boundary",

@@ -10,7 +10,7 @@ from typing import Any
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import MOST_ORDER
-from optlaws.synthesis.problem.checks import NotGiven, constant_of_bounds, order_with
+from optlaws.synthesis.problem.checks import AS_IT_FITS, NotGiven, constant_of_bounds, is_open, order_with
 from optlaws.synthesis.problem.constants import FUNCTIONALS, C_minus, C_plus, Functional
 from optlaws.synthesis.problem.expression import Expression, Term, leaves
 from optlaws.synthesis.problem.fields import CONSTANTS, FIELDS, from_entries, to_entries
@@ -47,6 +47,8 @@ class Problem:
     symmetric
         Ask a(k) + a(1-k) = 1. From rest to rest the optimum is the same either way where the objective is convex and
         treats rise and fall alike and there are no windows (the mean of a law and its mirror image is no worse).
+        Unless given it is True, but False where a formula that is minimised or bounded says another thing of a law
+        than of its mirror image, as a torque against a load over a does: then no symmetric law need be best.
     boundary
         End conditions; rest to rest unless given. Others make the law unsymmetric.
     inflexion
@@ -72,7 +74,7 @@ class Problem:
     basis: Basis = field(default_factory=lambda: Chebyshev(9))
     minimise: str | Term | Expression = "C"
     monotone: bool = False
-    symmetric: bool = True
+    symmetric: bool = AS_IT_FITS
     C: float | Range | None = None
     D: float | Range | None = None
     J: float | Range | None = None
@@ -86,6 +88,8 @@ class Problem:
             object.__setattr__(self, entry.name, entry.check(getattr(self, entry.name)))
         object.__setattr__(self, "order", order_with(self.order, self.boundary))
         self._give_bounds_their_entries()
+        if is_open(self.symmetric):
+            object.__setattr__(self, "symmetric", not self.uneven)
         if self.symmetric and self.inflexion not in {None, 0.5}:
             raise InputError(
                 f"a symmetric law has its inflexion at 1/2, not at {self.inflexion!r}: ask symmetric=False"
@@ -176,6 +180,18 @@ class Problem:
         """The constants in the objective and the bounded ones."""
         minimised = {leaf for _, leaf in leaves(self.objective) if isinstance(leaf, Functional)}
         return minimised | {constant for constant, _ in self.bounded}
+
+    @property
+    def uneven(self) -> list[Functional]:
+        """The constants that say another thing of a law than of its mirror image, by name.
+
+        Examples
+        --------
+        >>> problem = Problem(order=4, minimise="rms(c + 4*a)")
+        >>> problem.uneven, problem.symmetric
+        ([rms(c + 4*a)], False)
+        """
+        return sorted((constant for constant in self.constants if not constant.even), key=repr)
 
     @kept_property
     def shape(self) -> Problem:

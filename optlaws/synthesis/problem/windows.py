@@ -114,6 +114,11 @@ class Window:
         return (kind.convex or not isfinite(self.high)) and (kind.concave or not isfinite(self.low))
 
     @property
+    def scale(self) -> float:
+        """Of what size its quantity is in smooth laws: a power of 2, and 1 for a, b, c and j alone."""
+        return 1.0 if self.motion is None else self.motion.scale
+
+    @property
     def order(self) -> int:
         """Order of the derivative."""
         return QUANTITIES[self.quantity]

@@ -46,7 +46,7 @@ def worth(problem: Problem, law: MotionLaw) -> Worth:
 
 
 def _window_excess(window: Window, law: MotionLaw) -> tuple[float, float]:
-    """By how much a law is above and below a window."""
+    """By how much a law is above and below a window, in units of its scale."""
     if window.motion is None:
         lowest, highest = law.extrema(window.order, within=(window.start, window.stop))
         return highest.value - window.high, window.low - lowest.value
@@ -54,7 +54,7 @@ def _window_excess(window: Window, law: MotionLaw) -> tuple[float, float]:
     above, below = (
         greatest_along(window.motion, sign, law) - bound if isfinite(bound) else -inf for sign, bound in bounds
     )
-    return above, below
+    return above / window.scale, below / window.scale
 
 
 def _velocity_excess(problem: Problem, law: MotionLaw) -> float:

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, replace
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
 from functools import lru_cache
 from math import isfinite, nextafter
 
@@ -18,10 +19,11 @@ from optlaws.synthesis.functionals.affine_rows import columns as formula_columns
 from optlaws.synthesis.functionals.curved_rows import branch_rows, split
 from optlaws.synthesis.problem.combined import facing, floats
 from optlaws.synthesis.problem.constants import B, Functional, Power
-from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
+from optlaws.synthesis.problem.expression import Expression, Maximum, Term, leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.program.agreement import check_rows
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
 
@@ -43,8 +45,8 @@ class Model:
         from above, and "B" where the peak velocity that is asked is a variable.
     equation_names
         What each equation of the program is.
-    unit
-        What the program's objective is times to be the problem's.
+    scales
+        What these variables have been divided by, powers of 2 by name, so that they are near 1.
     """
 
     problem: Problem
@@ -52,10 +54,27 @@ class Model:
     program: Program
     places: dict[str, int]
     equation_names: tuple[str, ...]
-    unit: float = 1.0
+    scales: Mapping[str, float] = field(default_factory=dict)
+
+    @property
+    def unit(self) -> float:
+        """What the program's objective is times to be the problem's."""
+        return self.program.unit
+
+    @property
+    def variable_scales(self) -> Array:
+        """What the program's variables have been divided by."""
+        scales = np.ones(self.program.size)
+        for name, place in self.places.items():
+            scales[place] = self.scales.get(name, 1.0)
+        return scales
+
+    def in_scales(self, bounds: Mapping[str, float]) -> dict[str, float]:
+        """Numbers by the names of variables as the program has them."""
+        return {name: value / self.scales.get(name, 1.0) for name, value in bounds.items()}
 
     def coordinates(self, x: Array) -> Array:
-        """Those of a law, of all the program's variables."""
+        """The coordinates of a law among all the program's variables."""
         return x[: self.space.terms]
 
     def law(self, x: Array) -> MotionLaw:
@@ -63,25 +82,27 @@ class Model:
         return self.space.law(self.coordinates(x))
 
 
-def model_of(problem: Problem) -> Model:
-    """The program of a problem. Built once per shape: a fixed B only enters the right side of an equation."""
+def model_of(problem: Problem, *, scaled: bool = True) -> Model:
+    """The program of a problem. Built once per shape: a fixed B only enters the right side of an equation.
+
+    Its objective, rows and variables are divided by what they are in smooth laws, unless it is to be as it is written.
+    """
     if isinstance(problem.B, float):
-        shape = _model(problem.shape)
+        shape = _model(problem.shape, scaled=scaled)
         right = shape.program.right.copy()
         right[0] += problem.B - 2.0
         return replace(shape, problem=problem, program=replace(shape.program, right=right))
-    return replace(_model(problem), problem=problem)
+    return replace(_model(problem, scaled=scaled), problem=problem)
 
 
 _REST = 1e-15
 _ABOVE_MEAN = nextafter(1.0, 2.0)
 _ANY = 2.0
-_LEAST_WEIGHT, _GREATEST_WEIGHT = 1e-3, 1e3
 
 
 @lru_cache(maxsize=256)
-def _model(problem: Problem) -> Model:
-    writer = _Writer(problem, _objective_names(problem))
+def _model(problem: Problem, *, scaled: bool) -> Model:
+    writer = _Writer(problem, _objective_names(problem), scaled=scaled)
     writer.objective(problem.objective)
     writer.constraints()
     return writer.model()
@@ -107,7 +128,7 @@ def _relaxed(problem: Problem, tangent: float) -> Model:
 
 
 def _objective_names(problem: Problem) -> list[str]:
-    """Of the variables that the objective is made of."""
+    """Names of the variables that the objective is made of."""
     return [repr(term) for term in (*(leaf for _, leaf in leaves(problem.objective)), *maxima(problem.objective))]
 
 
@@ -154,12 +175,15 @@ def maxima(expression: Expression) -> list[Maximum]:
 
 
 class _Writer:
-    def __init__(self, problem: Problem, variables: list[str], extra: str | None = None) -> None:
+    def __init__(
+        self, problem: Problem, variables: list[str], extra: str | None = None, *, scaled: bool = True
+    ) -> None:
         if problem.peak_is_variable:
             variables = [*variables, "B"]
         if extra is not None:
             variables = [*variables, extra]
-        self.problem, self.power = problem, relaxed_power(problem)
+        self.problem, self.power, self.scaled = problem, relaxed_power(problem), scaled
+        self.scales: dict[str, float] = {}
         self.convex = False
         self.space = space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
         self.places = {name: self.space.terms + i for i, name in enumerate(dict.fromkeys(variables))}
@@ -172,6 +196,11 @@ class _Writer:
         self.equalities: list[Array] = []
         self.right: list[float] = []
         self.equation_names: list[str] = []
+        self.equation_units: list[float] = []
+
+    def scale(self, of: Term | Expression | Window) -> float:
+        """What rows and variables are divided by."""
+        return of.scale if self.scaled else 1.0
 
     def unit(self, name: str, weight: float = 1.0) -> Array:
         row = np.zeros(self.size)
@@ -179,15 +208,13 @@ class _Writer:
         return row
 
     def sum(self, expression: Expression) -> Array:
-        return np.asarray(sum(self.unit(repr(term), weight) for weight, term in expression.terms))
+        return np.asarray(sum(self.unit(repr(term), weight * self.scale(term)) for weight, term in expression.terms))
 
     def objective(self, expression: Expression) -> None:
-        self.cost = self.sum(expression)
-        size = float(self.cost.max())
-        if not _LEAST_WEIGHT < size < _GREATEST_WEIGHT:
-            # tolerances are made for objectives near 1
-            self.cost /= size
-            self.cost_unit = size
+        terms = (*(leaf for _, leaf in leaves(expression)), *maxima(expression))
+        self.scales = {repr(term): self.scale(term) for term in terms}
+        self.cost_unit = self.scale(expression)
+        self.cost = self.sum(expression) / self.cost_unit
         for leaf in dict.fromkeys(leaf for _, leaf in leaves(expression)):
             if isinstance(leaf, Power) and VariableName.POWER_ROOT in self.places:
                 self._power(leaf, self.unit(leaf.name), 0.0)
@@ -195,12 +222,13 @@ class _Writer:
                 self.families += self._rows(leaf, self.unit(repr(leaf)), 0.0)
         for term in dict.fromkeys(maxima(expression)):
             for i, part in enumerate(term.parts, 1):
-                self.row(names.maximum_part(i, repr(term)), self.sum(part) - self.unit(repr(term)), 0.0)
+                own = self.scale(term)
+                self.row(names.maximum_part(i, repr(term)), self.sum(part) - self.unit(repr(term), own), 0.0, own)
 
-    def row(self, name: str, row: Array, bound: float) -> None:
-        """One row, row . x <= bound."""
-        series = np.append(row, 0.0)[None, :]
-        self.families.append(LinearFamily(name, self.spare, bound, (1.0,), (1.0, 1.0), series=series))
+    def row(self, name: str, row: Array, bound: float, unit: float = 1.0) -> None:
+        """One row, row . x <= bound, divided by its unit."""
+        series = np.append(row / unit, 0.0)[None, :]
+        self.families.append(LinearFamily(name, self.spare, bound / unit, (1.0,), (1.0, 1.0), unit=unit, series=series))
 
     def constraints(self) -> None:
         problem = self.problem
@@ -276,13 +304,14 @@ class _Writer:
 
     def _bounded(self, constant: Functional, limits: Range) -> None:
         name = constant.name
+        unit = self.scales.get(name, 1.0)
         if name in self.places and limits.low > 0.0:
             # its own constant is a law's best choice of the variable
-            self.row(names.at_least(name), -self.unit(name), -limits.low)
+            self.row(names.at_least(name), self.unit(name, -unit), -limits.low, unit)
         if not isfinite(limits.high):
             return
         if name in self.places:
-            self.row(names.at_most(name), self.unit(name), limits.high)
+            self.row(names.at_most(name), self.unit(name, unit), limits.high, unit)
         elif isinstance(constant, Power) and VariableName.POWER_ROOT in self.places:
             self._power(constant, np.zeros(self.size), limits.high)
         else:
@@ -290,23 +319,29 @@ class _Writer:
 
     def _rows(self, constant: Functional, slack: Array, bound: float) -> tuple[Family, ...]:
         constant.check_problem(self.problem)
+        scale = self.scale(constant)
+        check_rows(constant, self.space)
         if self.convex:
-            return constant.convex_families(self.space, slack, bound, self.problem)
-        return constant.families(self.space, slack, bound)
+            families = constant.convex_families(self.space, scale * slack, bound, self.problem)
+        else:
+            families = constant.families(self.space, scale * slack, bound)
+        return families if constant.normalised else tuple(family.scaled_down(scale) for family in families)
 
     def _formula_window(self, window: Window, motion: Motion, halves: tuple[str, str]) -> None:
-        parts = motion.halves() if self.problem.symmetric else (motion,)
+        parts, unit = motion.halves() if self.problem.symmetric else (motion,), self.scale(window)
         for part, name in zip(parts, halves, strict=False):
             if window.value:
                 columns = formula_columns(self.space, part, np.array([1.0 - 2.0 * part.start]))
                 row = self.space.widened(columns, self.size)[0]
-                self.equation(repr(window), row[:-1], window.high - float(row[-1]))
+                self.equation(repr(window), row[:-1], window.high - float(row[-1]), unit)
                 continue
             for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
                 branches = split(part, sign, names.window_side(name, sign)) if isfinite(bound) else None
                 for branch in branches or []:
                     if branch.convex or not self.convex:
-                        self.families.append(branch_rows(self.space, branch, self.spare, bound))
+                        self.families.append(
+                            branch_rows(self.space, branch, unit * self.spare, bound).scaled_down(unit)
+                        )
 
     def _window(self, name: str, window: Window) -> None:
         ends = (1.0 - 2.0 * window.stop, 1.0 - 2.0 * window.start)
@@ -337,12 +372,14 @@ class _Writer:
             self.families.append(self.space.from_rest(RowName.FROM_END, root, backward=True, weights=weights))
         self.row(RowName.TANGENT, 2.0 * self.tangent * root - slack, bound + self.tangent**2)
 
-    def equation(self, name: str, row: Array, right: float) -> None:
+    def equation(self, name: str, row: Array, right: float, unit: float = 1.0) -> None:
         self.equation_names.append(name)
-        self.equalities.append(row)
-        self.right.append(right)
+        self.equation_units.append(unit)
+        self.equalities.append(row / unit)
+        self.right.append(right / unit)
 
     def model(self) -> Model:
         equalities = np.array(self.equalities).reshape(-1, self.size)
-        program = Program(tuple(self.families), equalities, np.array(self.right), self.cost)
-        return Model(self.problem, self.space, program, self.places, tuple(self.equation_names), self.cost_unit)
+        units = np.array(self.equation_units) if any(unit != 1.0 for unit in self.equation_units) else None
+        program = Program(tuple(self.families), equalities, np.array(self.right), self.cost, self.cost_unit, units)
+        return Model(self.problem, self.space, program, self.places, tuple(self.equation_names), self.scales)

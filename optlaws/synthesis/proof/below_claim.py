@@ -22,6 +22,7 @@ from optlaws.synthesis.spaces.space import LawSpace
 Array = NDArray[np.float64]
 
 _ACCELERATION = 2
+_UNIT = 1e-15
 
 
 def asked_or_claimed(model: Model, claim: float) -> dict[str, float]:
@@ -152,6 +153,10 @@ def _extension(space: LawSpace, nu: int) -> Array:
     def computed() -> Array:
         rule = space.quadrature(nu)
         moments = rule.moments.T @ (rule.weights[:, None] * rule.values[:, :-1])
-        return np.asarray(np.linalg.pinv(moments.T), dtype=np.float64)
+        functions, sizes, weights = np.linalg.svd(moments.T, full_matrices=False)
+        # what has no such derivative would be told from it by rounding alone
+        sizes = sizes[: max(len(moments.T) - space.vanishing(nu), 0)]
+        sizes = sizes[sizes > _UNIT * sizes.max(initial=0.0)]
+        return np.asarray(weights[: len(sizes)].T @ (functions[:, : len(sizes)] / sizes).T, dtype=np.float64)
 
     return space.cached(("extension", nu), computed)

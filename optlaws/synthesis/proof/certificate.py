@@ -111,7 +111,8 @@ class Certificate:
             raise InputError(
                 f"program of a certificate must be objective, relaxed or violation, got {shortened(self.program)}"
             )
-        if not all(map(isfinite, (*self.equations, self.tangent))):
+        # rows have the square of the tangent
+        if not all(map(isfinite, (*self.equations, self.tangent * self.tangent))):
             raise InputError("the equations' multipliers and the tangent of a certificate must be finite numbers")
 
     @kept_property
@@ -179,7 +180,8 @@ def lines_of(
 ) -> list[tuple[float, Array, float]]:
     """Contacts and the program's equations as weights, rows and right sides; negative multipliers of contacts are 0."""
     lines = [(max(contact.multiplier, 0.0), *row_of(program, contact)) for contact in contacts]
-    return [*lines, *zip(equations, program.equalities, program.right.tolist(), strict=False)]
+    own = program.multipliers_of_equations(equations).tolist()
+    return [*lines, *zip(own, program.equalities, program.right.tolist(), strict=False)]
 
 
 def _surplus(certificate: Certificate, program: Program) -> float:
@@ -200,7 +202,7 @@ def _surplus(certificate: Certificate, program: Program) -> float:
     return surplus(
         together[:, free],
         np.array([*right, *program.right[: len(equations)]]),
-        np.array([*multipliers, *equations]),
+        np.array([*multipliers, *program.multipliers_of_equations(equations)]),
         count,
     )
 
@@ -221,31 +223,39 @@ def _model(certificate: Certificate) -> Model:
     return model_of(certificate.problem)
 
 
+def _at_most_one(direction: Sequence[float]) -> Array:
+    """A direction whose length is at most 1, which bounds a norm too where it is shorter; one that overflows is 0."""
+    given = np.array(direction)
+    with np.errstate(over="ignore"):
+        return np.asarray(given / max(float(np.linalg.norm(given)), 1.0))
+
+
 def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
-    """The row of a contact and its right side: row . x <= right for every law of the problem."""
+    """The row of a contact and its right side: row . x <= right for every law of the problem.
+
+    It is the problem's own row, in the program's variables and in units of its objective.
+    """
     for family in program.families:
         if family.name != contact.constraint or contact.sign not in family.signs:
             continue
+        share = family.unit / program.unit
         u = np.clip(family.u(np.array([contact.k])), *family.domain)
         if isinstance(family, LinearFamily):
             rows, right = family.rows(u, np.array([contact.sign]))
-            return rows[0], float(right[0])
+            return rows[0] * share, float(right[0]) * share
         if isinstance(family, NormFamily) and len(contact.direction) == len(family.matrix):
-            direction = np.array(contact.direction)
-            # a shorter direction bounds the norm too
-            row = (direction / max(float(np.linalg.norm(direction)), 1.0)) @ family.matrix
-            return row[:-1] - family.slack, family.bound - float(row[-1])
+            row = _at_most_one(contact.direction) @ family.matrix
+            return share * (row[:-1] - family.slack), share * (family.bound - float(row[-1]))
         if isinstance(family, ConeFamily) and len(contact.direction) == 2:
-            direction = np.array(contact.direction)
-            row = family.tangent(float(u[0]), direction / max(float(np.linalg.norm(direction)), 1.0))
-            return row[:-1] - family.slack, family.bound - float(row[-1])
+            row = family.tangent(float(u[0]), _at_most_one(contact.direction))
+            return share * (row[:-1] - family.slack), share * (family.bound - float(row[-1]))
         if isinstance(family, OfFormula):
             tangent = family.tangent_row(float(u[0]), contact.sign, contact.direction)
             if tangent is not None:
-                return tangent[:-1] - family.slack, family.bound - float(tangent[-1])
+                return share * (tangent[:-1] - family.slack), share * (family.bound - float(tangent[-1]))
         if isinstance(family, EnergyFamily) and family.convex and len(contact.direction) <= program.size:
             row = family.minorant(_on_equations(program, np.array(contact.direction)))
-            return row[:-1] - family.slack, family.bound - float(row[-1])
+            return share * (row[:-1] - family.slack), share * (family.bound - float(row[-1]))
     return np.zeros(program.size), 0.0
 
 

@@ -54,10 +54,11 @@ def _image(model: Model, contact: Contact) -> Array | None:
     terms = model.space.terms
     for family in model.program.families:
         if family.name == contact.constraint and contact.multiplier > 0.0:
+            share = family.unit / model.unit
             if isinstance(family, NormFamily):
-                return family.matrix[:, :terms]
+                return family.matrix[:, :terms] * share
             if isinstance(family, ConeFamily):
-                columns = family.columns(np.clip(family.u(np.array([contact.k])), *family.domain))[0, 0, :terms]
+                columns = family.columns(np.clip(family.u(np.array([contact.k])), *family.domain))[0, 0, :terms] * share
                 return np.vstack([columns.real, columns.imag])
     return None
 
@@ -67,7 +68,7 @@ def _slope(model: Model, proof: Certificate) -> Array:
     slope = model.program.objective.copy()
     for contact in proof.contacts:
         slope += max(contact.multiplier, 0.0) * row_of(model.program, contact)[0]
-    slope += model.program.equalities.T @ np.array(proof.equations)
+    slope += model.program.equalities.T @ model.program.multipliers_of_equations(proof.equations)
     return np.asarray(slope[: model.space.terms])
 
 

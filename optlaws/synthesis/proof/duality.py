@@ -86,8 +86,8 @@ def _halves(values: Array) -> tuple[Array, Array]:
 def charge(model: Model, total: Sum, claim: float) -> float:
     """Most that rounding in the slope can be worth, over all laws that contradict the claim."""
     terms, slope = model.space.terms, total.slope
-    greatest = greatest_values(model, max(claim, 0.0))
-    least = least_values(model.problem, model.space)
+    known = greatest_values(model, max(claim, 0.0))
+    greatest, least = model.in_scales(known), model.in_scales(least_values(model.problem, model.space))
     beyond = 0.0
     for name, place in model.places.items():
         # a positive slope can only help where the constant is at least 0
@@ -97,9 +97,7 @@ def charge(model: Model, total: Sum, claim: float) -> float:
             # of the two one-sided peaks one is at least the other's opposite
             facing = greatest.get(_FACING.get(name, ""), inf)
             beyond += slope[place] * max(min(-least.get(name, 0.0), facing), 0.0)
-    reaches = (
-        float(_reach(extension, slope[:terms], total.blur) @ most) for most, extension in moments(model, greatest)
-    )
+    reaches = (float(_reach(extension, slope[:terms], total.blur) @ most) for most, extension in moments(model, known))
     return beyond + min(reaches, default=0.0 if not slope[:terms].any() and not total.blur.any() else inf)
 
 

@@ -12,7 +12,6 @@ from optlaws.synthesis.families import names
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import LinearFamily, Points
 from optlaws.synthesis.families.names import RowName
-from optlaws.synthesis.limits.of_problem import known_limit
 from optlaws.synthesis.method.equations import contradiction
 from optlaws.synthesis.method.exchange import Outcome, solve
 from optlaws.synthesis.method.on_points.grids import first_points, with_extrema
@@ -24,10 +23,10 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, extreme_velocity, least_violation, model_of
 from optlaws.synthesis.proof.certificate import OBJECTIVE, VIOLATION, Certificate
 from optlaws.synthesis.proof.make import certificate, violation_certificate
+from optlaws.synthesis.proof.no_law import beyond_limit, convex_part, least_of
 from optlaws.synthesis.spaces.bases import Basis, PolynomialBasis
 
 _WEIGHTLESS = 1e-9
-_ROUNDING = 1e-12
 _ROUNDS = 6
 _DEEP = 1e5  # beyond what laws of the field have
 _PLAIN = 2  # so few equations contradict each other whatever freedom the law has
@@ -51,7 +50,7 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
     """The error to raise; an elastic phase tells which constraints contradict each other, or a limit does."""
     said, rounds = f"the solver said {outcome.status!r}", f"{outcome.rounds} rounds of exchange"
     tried = f"{said} after {outcome.iterations} iterations, {rounds}"
-    straight = _convex_part(problem)
+    straight = convex_part(problem)
     elastic = least_violation(straight)
     disagreement = _disagreement(elastic)
     if disagreement is not None:
@@ -71,7 +70,7 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
         )
     if trial.optimum is not None:
         tried += f"; the constraints leave {-trial.optimum.x[-1]:.3e} to spare"
-    beyond = _beyond_limit(problem)
+    beyond = beyond_limit(problem)
     if beyond:
         return InfeasibleProblem(beyond, problem=problem, tried=tried)
     least = _out_of_reach(problem, elastic)
@@ -85,8 +84,8 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
         )
     if _falls_for_ever(problem):
         msg = (
-            f"{problem.minimise} has no least value: there are laws with {-_DEEP:.0f} and less. A bound on C, J or B "
-            "from above, or end conditions of a higher order, help"
+            f"{problem.minimise} has no least value: there are laws with {_deep(problem)} and less. A bound on C, J or "
+            "B from above, or end conditions of a higher order, help"
         )
         return SolverFailure(msg, problem=problem, tried=tried)
     msg = "no law was found, and none was shown not to exist; try a degree higher or lower by 2, or other numbers"
@@ -94,36 +93,21 @@ def failure(problem: Problem, outcome: Outcome) -> InfeasibleProblem | SolverFai
     return SolverFailure("; mind that ".join([msg, *remarks]), problem=problem, tried=tried)
 
 
+def _deep(problem: Problem) -> str:
+    scale = problem.objective.scale
+    return f"{-_DEEP:.0f}" if scale == 1.0 else f"{-_DEEP * scale:g}"
+
+
 def _falls_for_ever(problem: Problem) -> bool:
     """Whether the objective, which peaks of one sign may make negative, is held by nothing but a row that says so."""
     if not problem.convex:
         return False
     model = model_of(problem)
-    program, depth = model.program, _DEEP / model.unit
+    program, depth = model.program, _DEEP
     row = np.append(-program.objective, 0.0)[None, :]
     ground = LinearFamily("objective at least", np.zeros(program.size), depth, (1.0,), (1.0, 1.0), series=row)
     deepest = solve(replace(program, families=(*program.families, ground))).optimum
     return deepest is not None and program.worth(deepest.x) < -0.99 * depth
-
-
-def _convex_part(problem: Problem) -> Problem:
-    """The problem without the bounds that are not convex: what contradicts itself there does so with them too."""
-    kept = {constant: asked for constant, asked in problem.bounded if constant.convex}
-    if len(kept) == len(problem.bounded):
-        return problem
-    return replace(problem, C=None, D=None, J=None, bounds=kept)
-
-
-def _beyond_limit(problem: Problem) -> str:
-    """Which constant is asked to be below what no law of any degree can beat; empty if none is."""
-    for constant, asked in problem.bounded:
-        least = known_limit(replace(problem, minimise=constant.expression()))
-        if least is not None and asked.high < least * (1.0 - _ROUNDING):
-            return (
-                f"no law of any degree has {constant!r} <= {asked.high:g} with the other constraints: "
-                f"its limit is {least:.7g} (optlaws.limit). A higher bound of {constant!r} helps, or another B"
-            )
-    return ""
 
 
 def _contradiction(proof: Certificate) -> str:
@@ -139,10 +123,8 @@ def _out_of_reach(problem: Problem, elastic: Model) -> Certificate | None:
     """Proof that an amplitude cannot be as small as asked, from its least under all other constraints."""
     cones = {family.name for family in elastic.program.families if isinstance(family, ConeFamily)}
     for constant, asked in problem.bounds.items():
-        others = {other: wanted for other, wanted in problem.bounds.items() if other != constant}
         if constant.name in cones:
-            least = replace(problem, minimise=constant.expression(), bounds=others)
-            model = model_of(least)
+            model = model_of(least_of(problem, constant))
             optimum = solve(model.program).optimum
             proof = None if optimum is None else certificate(model, optimum, OBJECTIVE)
             if proof is not None and proof.bound > asked.high:
@@ -166,7 +148,8 @@ def _disagreement(elastic: Model) -> Certificate | None:
     weights = contradiction(elastic.program.equalities, elastic.program.right)
     if weights is None:
         return None
-    proof = Certificate(elastic.problem, (), tuple(weights.tolist()), VIOLATION)
+    stated = tuple(elastic.program.stated_multipliers(weights).tolist())
+    proof = Certificate(elastic.problem, (), stated, VIOLATION)
     return proof if proof.proves_infeasible else None
 
 
@@ -210,11 +193,12 @@ def _disagreeing(problem: Problem, proof: Certificate, elastic: Model) -> str:
 
 def _equations(problem: Problem, proof: Certificate, elastic: Model) -> list[str]:
     """The equations that have a multiplier in the proof."""
+    weights = elastic.program.multipliers_of_equations(proof.equations).tolist()
     return [
         f"{name} = {problem.B:g}"
         if name == names.velocity_at_peak(problem.peak_at) and isinstance(problem.B, float)
         else name
-        for name, weight in zip(elastic.equation_names, proof.equations, strict=True)
+        for name, weight in zip(elastic.equation_names, weights, strict=True)
         if abs(weight) > _WEIGHTLESS
     ]
 

@@ -27,6 +27,7 @@ from optlaws.synthesis.proof.certificate import (
     row_of,
     weighted_rows,
 )
+from optlaws.synthesis.proof.cuts import by_tangents, needs_tangents
 from optlaws.synthesis.proof.directions import turned
 from optlaws.synthesis.proof.duality import summed
 from optlaws.synthesis.spaces.bases import PolynomialBasis
@@ -36,6 +37,8 @@ _PLACES = 256
 _NEAR = 0.9
 _NO_NORM = 1e-300
 _NOTHING = 1e-14
+#: of the objective: a bound that leaves no more needs no other proof
+_ENOUGH = 5e-9
 _MORE = 2.0  # times as much as rounding lets go
 
 
@@ -47,7 +50,12 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
     """
     problem = model.problem
     if problem.convex:
-        return certificate(model, optimum, OBJECTIVE)
+        proof = certificate(model, optimum, OBJECTIVE)
+        if not needs_tangents(model) or objective - proof.bound <= _ENOUGH * max(abs(objective), _ENOUGH):
+            return proof
+        several = by_tangents(model, optimum, objective)
+        several = None if several is None else _held(model, several)
+        return several if several is not None and several.bound > proof.bound else proof
     if relaxed_power(problem) is None:
         loose = relaxed(problem, 0.0)
         state = solve(loose.program).optimum
@@ -84,9 +92,9 @@ def _by_the_peak(problem: Problem) -> Certificate | None:
     if others or term != D or not plain or problem.order == 1 or not isinstance(problem.B, float):
         return None
     loose = relaxed(problem, problem.B)
-    pull = 2.0 * weight * problem.B / loose.unit
+    pull = 2.0 * weight * problem.B
     contacts = (
-        Contact(RowName.TANGENT, 1.0, 0.0, weight / loose.unit),
+        Contact(RowName.TANGENT, 1.0, 0.0, weight),
         Contact(RowName.FROM_START, 1.0, 0.5, pull),
     )
     equations = [0.0] * len(loose.program.right)
@@ -121,29 +129,33 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
                 direction = family.touching(optimum.x, float(optimum.u[j]))
             if isinstance(family, EnergyFamily):
                 direction = tuple(model.coordinates(optimum.x).tolist())
-            multiplier = float(optimum.multipliers[j])
+            multiplier = float(optimum.multipliers[j]) * (model.unit / family.unit)
             place = float(min(max(k, 0.0), 1.0))
             contacts.append(Contact(family.name, float(optimum.s[j]), place, multiplier, direction))
-    equations = tuple(optimum.equality_multipliers.tolist())
+    equations = tuple(model.program.stated_multipliers(optimum.equality_multipliers).tolist())
     return _held(model, turned(model, Certificate(model.problem, tuple(contacts), equations, program, tangent)))
 
 
 def _held(model: Model, proof: Certificate) -> Certificate:
-    """The certificate with multipliers that hold what may fall for ever: a peak of one side, which rounding lets go."""
+    """The certificate with multipliers that hold what may fall for ever: a peak of one side, which rounding lets go.
+
+    Beside such a peak other constants may be as great as they like, and are not pulled by more than they cost.
+    """
     least = least_values(model.problem, model.space)
     falling = [name for name in model.places if least.get(name) == -np.inf]
     if not falling or proof.program == VIOLATION:
         return proof
     slope = summed(model, weighted_rows(proof)[1]).slope
     contacts = list(proof.contacts)
-    for name in falling:
-        own = [i for i, contact in enumerate(contacts) if contact.constraint == name and contact.multiplier > 0.0]
-        place = model.places[name]
-        if own and slope[place] > 0.0:
+    rows = [row_of(model.program, contact)[0] for contact in contacts]
+    for name, place in model.places.items():
+        # its rows may be several, with names of their own
+        own = [i for i, contact in enumerate(contacts) if contact.multiplier > 0.0 and rows[i][place] < 0.0]
+        if own and (slope[place] > 0.0 if name in falling else slope[place] < 0.0):
             most = max(own, key=lambda i: contacts[i].multiplier)
-            pull = -float(row_of(model.program, contacts[most])[0][place])
+            pull = -float(rows[most][place])
             greater = contacts[most].multiplier + _MORE * float(slope[place]) / pull
-            contacts[most] = replace(contacts[most], multiplier=nextafter(greater, np.inf))
+            contacts[most] = replace(contacts[most], multiplier=nextafter(greater, np.copysign(np.inf, slope[place])))
     held = replace(proof, contacts=tuple(contacts))
     return held if held.bound > proof.bound else proof
 

@@ -17,17 +17,15 @@ from optlaws.kept import kept_property
 from optlaws.laws import Constants, MotionLaw
 from optlaws.laws.making.between import law_between
 from optlaws.numbers import bounded, real
-from optlaws.plotting import plotted
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
-from optlaws.synthesis.program.writer import model_of
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate, Contact, contact_of
 from optlaws.synthesis.proof.data import StatedContact, problem_of, stated
 from optlaws.synthesis.proven.interval_gaps import interval_gaps
 from optlaws.synthesis.proven.lazily import Lazily
 from optlaws.synthesis.proven.line import lower_line
 from optlaws.synthesis.proven.running import RunningNumber
-from optlaws.synthesis.solution import NOTHING
+from optlaws.synthesis.solution import measure
 
 Array = NDArray[np.float64]
 Many = NDArray[Any] | Sequence[float] | float
@@ -70,7 +68,7 @@ class FrontPoint:
     @property
     def gap(self) -> float:
         """(objective - lower bound) / objective, as of a `Solution`."""
-        return (self.objective - self.lower_bound) / (self.objective if self.objective > NOTHING else 1.0)
+        return (self.objective - self.lower_bound) / measure(self.objective, self.problem.objective.scale)
 
     @property
     def constants(self) -> Constants:
@@ -207,7 +205,9 @@ class ProvenFront:
     @kept_property
     def gaps(self) -> Array:
         """Between each two certified laws the greatest gap of any value, relative as of a `Solution`."""
-        return interval_gaps(np.array(self.values), self.sides, concave=self.number.concave)
+        return interval_gaps(
+            np.array(self.values), self.sides, self.problem.objective.scale, concave=self.number.concave
+        )
 
     @property
     def gap(self) -> float:
@@ -281,11 +281,9 @@ class ProvenFront:
     def _averaged(self, i: int, share: float, value: float, problem: Problem) -> FrontPoint:
         sums = [worth(problem, law).objective for law in self.laws[i : i + 2]]
         best = int(np.argmin(sums))
-        unit = model_of(problem).unit
         contacts: list[Contact] = []
         equations = np.zeros(len(self.certificates[i].equations))
-        for certificate, weight in zip(self.certificates[i : i + 2], (1.0 - share, share), strict=True):
-            factor = weight * model_of(certificate.problem).unit / unit
+        for certificate, factor in zip(self.certificates[i : i + 2], (1.0 - share, share), strict=True):
             contacts += [replace(c, multiplier=c.multiplier * factor) for c in certificate.contacts if factor > 0.0]
             equations += factor * np.array(certificate.equations)
         proof = Certificate(problem, tuple(contacts), tuple(equations.tolist()))
@@ -314,7 +312,9 @@ class ProvenFront:
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
         """Draw the front as it is at every value, into matplotlib's axes, new ones unless given; the artists."""
-        return plotted("proven_front", self, ax, **style)
+        from optlaws.plots.front import draw_proven_front
+
+        return draw_proven_front(self, ax, **style)
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict, which `optlaws verify` proves; numbers that follow from the laws are left out."""
@@ -359,7 +359,12 @@ def front_of(stated_front: StatedFront) -> ProvenFront:
         for point in stated_front.points
     ]
     laws = tuple(MotionLaw.from_dict(point.law) for point in stated_front.points)
-    return ProvenFront(number, tuple(point.at for point in stated_front.points), laws, tuple(proofs))
+    front = ProvenFront(number, tuple(point.at for point in stated_front.points), laws, tuple(proofs))
+    with np.errstate(over="ignore", invalid="ignore"):
+        nothing = np.flatnonzero(~np.isfinite(front.sides).all(axis=1))
+    if len(nothing):
+        raise InputError(f"the law or the certificate at {number.name} = {front.values[nothing[0]]!r} proves nothing")
+    return front
 
 
 def weighted_value(number: RunningNumber, law: MotionLaw) -> float:

@@ -5,12 +5,12 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.synthesis.solution import NOTHING
+from optlaws.synthesis.solution import measure
 
 Array = NDArray[np.float64]
 
 
-def interval_gaps(t: Array, known: Array, *, concave: bool) -> Array:
+def interval_gaps(t: Array, known: Array, scale: float | Array, *, concave: bool) -> Array:
     """The greatest gap in each interval: between a chord and two lines, the difference is greatest where these cross.
 
     Parameters
@@ -20,6 +20,8 @@ def interval_gaps(t: Array, known: Array, *, concave: bool) -> Array:
     known
         At each value what is known above and below the least objective, and a slope: of the line through the lower
         value or, where the objective is concave, through the upper one.
+    scale
+        Of the objective; one number, or one for each interval.
     concave
         Whether it is.
     """
@@ -39,4 +41,4 @@ def interval_gaps(t: Array, known: Array, *, concave: bool) -> Array:
     crossing = np.minimum((1.0 - share) * first[0] + share * first[1], (1.0 - share) * last[0] + share * last[1])
     greatest = np.maximum(crossing, np.minimum(first, last).max(axis=0))
     least = np.minimum(top[:-1], top[1:])
-    return np.asarray(greatest / np.where(least > NOTHING, least, 1.0))
+    return np.asarray(greatest / measure(least, scale))

@@ -73,7 +73,8 @@ def _rows(part: Part, model: Model, further: Array) -> Array:
 
 def _charges(model: Model, claim: float, slope: Array, blur: Array) -> Array:
     """Most that each slope can be worth in laws of the model up to the claim, wherever it is within its blur."""
-    greatest, least = greatest_values(model, max(claim, 0.0)), least_values(model.problem, model.space)
+    known = greatest_values(model, max(claim, 0.0))
+    greatest, least = model.in_scales(known), model.in_scales(least_values(model.problem, model.space))
     terms, beyond = model.space.terms, np.zeros(len(slope))
     for name, place in model.places.items():
         own, low = slope[:, place], least.get(name, 0.0)
@@ -81,6 +82,6 @@ def _charges(model: Model, claim: float, slope: Array, blur: Array) -> Array:
         beyond += np.maximum(blur[:, place] + own, 0.0) * -low if low < 0.0 else 0.0
     reaches = [
         (np.abs(slope[:, :terms] @ extension.T) + blur[:, :terms] @ np.abs(extension).T) @ most
-        for most, extension in moments(model, greatest)
+        for most, extension in moments(model, known)
     ]
     return np.asarray(beyond + (np.min(reaches, axis=0) if reaches else inf))

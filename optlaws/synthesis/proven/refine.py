@@ -25,7 +25,7 @@ from optlaws.synthesis.proven.lazily import Lazily
 from optlaws.synthesis.proven.line import lower_line
 from optlaws.synthesis.proven.line_array import lower_lines
 from optlaws.synthesis.proven.running import RunningNumber
-from optlaws.synthesis.solution import NOTHING, Solution, Status
+from optlaws.synthesis.solution import Solution, Status, measure
 from optlaws.synthesis.solution_array import SolutionArray
 from optlaws.synthesis.solve import synthesize
 from optlaws.synthesis.solved_line import SolvedLine
@@ -123,7 +123,7 @@ class _Refined:
         while (parts > 1).any():
             self._insert(parts, gap)
             self._check(gap)
-            gaps = interval_gaps(self.values, self.known, concave=self.number.concave)
+            gaps = interval_gaps(self.values, self.known, self._scale, concave=self.number.concave)
             pieces = np.clip(np.ceil(np.sqrt(np.maximum(gaps, gap) / (_AIM * gap))), 2, _MOST_PIECES)
             parts = np.where(gaps <= gap, 1, pieces).astype(int)
         count, solution = len(self.laws), self._solution
@@ -205,10 +205,15 @@ class _Refined:
         return top, line.value, slope if self.number.concave else line.slope
 
     @property
+    def _scale(self) -> float:
+        """Of the objective."""
+        return self.number.problem.objective.scale
+
+    @property
     def own_gaps(self) -> Array:
         """The gap of each certified law itself."""
         top, bottom, _ = self.known.T
-        return np.asarray((top - bottom) / np.where(top > NOTHING, top, 1.0))
+        return np.asarray((top - bottom) / measure(top, self._scale))
 
     def _check(self, gap: float) -> None:
         """Refuse a gap that certified laws have themselves: no law between them would mend it."""

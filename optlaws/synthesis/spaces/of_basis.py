@@ -2,7 +2,11 @@
 
 from __future__ import annotations
 
-from functools import singledispatch
+from dataclasses import replace
+from functools import lru_cache, singledispatch
+
+import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
@@ -13,6 +17,9 @@ from optlaws.synthesis.spaces.pieces.splines import SplineSpace, spline_space
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace, polynomial_space
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
+
+#: the greatest degree at which conversions are compared, where even powers lose no digits, and how near they come
+_CHECKED, _AGREED = 6, 1e-8
 
 
 @singledispatch
@@ -35,7 +42,38 @@ def space_of(basis: Basis, boundary: BoundaryConditions, *, symmetric: bool) -> 
 
 @space_of.register
 def _(basis: PolynomialBasis, boundary: BoundaryConditions, *, symmetric: bool) -> PolynomialSpace:
+    check_conversions(replace(basis, degree=min(basis.degree, _CHECKED)))
     return polynomial_space(boundary, basis.degree, symmetric=symmetric)
+
+
+@lru_cache(maxsize=64)
+def check_conversions(basis: PolynomialBasis) -> None:
+    """See that a basis leads from a Chebyshev series to its coefficients and back.
+
+    Raises
+    ------
+    InputError
+        If it does not: its two methods contradict each other.
+    """
+    numbers = np.random.default_rng(0)
+    for _ in range(2):
+        given = numbers.normal(size=basis.size)
+        coefficients = np.asarray(basis.coefficients(given), dtype=np.float64)
+        back = np.zeros(basis.size)
+        series = np.asarray(basis.series(tuple(coefficients.tolist())), dtype=np.float64)
+        if coefficients.shape == back.shape and series.ndim == 1 and len(series) <= len(back):
+            back[: len(series)] = series
+            if np.abs(back - given).max() <= _AGREED:
+                continue
+        raise InputError(
+            f"{type(basis).__name__}.coefficients and .series contradict each other at degree {basis.degree}: the "
+            f"series {_shown(given)} comes back as {_shown(series)}. series(coefficients(s)) must be s, with "
+            f"{basis.size} coefficients"
+        )
+
+
+def _shown(series: NDArray[np.float64]) -> str:
+    return f"[{', '.join(f'{value:.4g}' for value in np.ravel(series)[: _CHECKED + 1])}]"
 
 
 @space_of.register

@@ -128,6 +128,10 @@ class LawSpace(ABC):
         """Whether the derivative of order nu may jump at an edge."""
         return False
 
+    def vanishing(self, nu: int) -> int:  # noqa: ARG002 - none where end conditions are kept by every function
+        """How many dimensions of the free functions have no derivative of order nu."""
+        return 0
+
     @abstractmethod
     def row(self, nu: int, k: float) -> Array:
         """The derivative of order nu at k: free functions, then the base law."""

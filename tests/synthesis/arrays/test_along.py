@@ -212,7 +212,11 @@ def test_beyond_the_first_problem_without_a_law_none_has_one() -> None:
     assert isinstance(farthest, InfeasibleProblem)
     assert isinstance(nearest.proof, Certificate)
     assert nearest.proof.proves_infeasible
-    assert farthest.proof is nearest.proof
+    # the multipliers of the nearest prove it of the farthest, whose problem their certificate is of
+    assert isinstance(farthest.proof, Certificate)
+    assert farthest.proof.contacts == nearest.proof.contacts
+    assert farthest.proof.problem == farthest.problem == laws.problems.problem(0)
+    assert farthest.proof.proves_infeasible
     assert farthest.problem == laws.problems[0]
     with pytest.raises(InfeasibleProblem):
         synthesize(laws.problems[0])

@@ -5,9 +5,12 @@ import inspect
 import json
 import pickle
 from dataclasses import FrozenInstanceError, fields, replace
+from typing import Any
 
 import numpy as np
+import pandas as pd
 import pytest
+import xarray as xr
 
 from optlaws import (
     BoundaryConditions,
@@ -19,6 +22,7 @@ from optlaws import (
     Solution,
     SolutionArray,
     at_most,
+    between,
     each,
     synthesize,
     synthesize_array,
@@ -93,7 +97,48 @@ def test_values_that_are_no_numbers_come_from_a_function() -> None:
     assert ProblemArray(J=(None, np.array([60.0, 70.0])), B=1.7, order=4)[0] == problems[0]
 
 
+MANY: dict[str, Any] = {
+    "list": [1.6, 1.7, 1.8],
+    "tuple": (1.6, 1.7, 1.8),
+    "range": range(2, 5),
+    "rows": [[1.6], [1.7]],
+    "list of two": [1.6, 1.7],
+    "list of texts": ["C", "J"],
+    "Series": pd.Series([1.6, 1.7, 1.8], index=[3, 4, 5]),
+    "Index": pd.Index([1.6, 1.7]),
+    "DataArray": xr.DataArray([[1.6, 1.7]], dims=("a", "b")),
+    "None among numbers": [None, 1.7],
+    "a Range among numbers": [at_most(1.7), 1.7],
+}
+
+
+@pytest.mark.parametrize("name", MANY)
+def test_whatever_holds_many_values_is_an_array(name: str) -> None:
+    values = MANY[name]
+    plain = np.asarray(values)
+    entry = "minimise" if name == "list of texts" else "B"
+    problems = ProblemArray(**{"order": 4, "B": 1.7, entry: values})
+    assert problems.shape == plain.shape
+    for place, value in enumerate(plain.flat):
+        assert problems.problem(place) == Problem(**{"order": 4, "B": 1.7, entry: value})
+
+
+def test_lists_are_arrays_within_pairs_and_bounds() -> None:
+    assert ProblemArray(B=1.7, J=(None, [60.0, 70.0]), order=4)[1] == Problem(B=1.7, J=at_most(70.0), order=4)
+    bounds = ProblemArray(B=1.7, bounds={"rms_c": (None, [4.0, 5.0])}, order=[3, 4])
+    assert bounds[1] == Problem(B=1.7, bounds={"rms_c": at_most(5.0)}, order=4)
+
+
+def test_a_pair_is_a_range_and_windows_are_one_value() -> None:
+    assert ProblemArray(B=(1.5, 1.6), order=4).problem(0) == Problem(B=between(1.5, 1.6), order=4)
+    windows = [via("b", 1.0, at=0.25), via("b", 1.0, at=0.75)]
+    assert ProblemArray(B=[1.6, 1.7], windows=windows, order=4)[1] == Problem(B=1.7, windows=tuple(windows), order=4)
+
+
 def test_what_makes_no_array_of_problems_is_refused() -> None:
+    for wrong in ([[1.6, 1.7], [1.8]], {1.6, 1.7}, (value for value in (1.6, 1.7)), {"B": 1.7}.values()):
+        with pytest.raises(InputError, match=r"^B (has rows of several lengths|takes many values as a list)"):
+            ProblemArray(B=wrong, order=4)
     with pytest.raises(InputError, match="one shape"):
         ProblemArray(B=np.ones(2), J=np.ones(3))
     with pytest.raises(TypeError, match="unexpected keyword argument 'ordr'"):
@@ -182,7 +227,7 @@ def test_an_array_is_stored_and_read_as_it_was(problems: ProblemArray) -> None:
 def test_an_array_that_was_edited_is_refused() -> None:
     data = synthesize_array(ProblemArray(B=np.linspace(1.5, 2.0, 130), order=4)).to_dict()
     data["solutions"][3]["objective"] *= 0.9
-    with pytest.raises(InputError, match=r"objective of solutions\[3\]"):
+    with pytest.raises(InputError, match=r"solutions\[3\]: the objective"):
         SolutionArray.from_dict(data)
     with pytest.raises(InputError, match="130 solutions, got 129"):
         SolutionArray.from_dict({**data, "solutions": data["solutions"][1:]})
@@ -201,8 +246,9 @@ def test_an_array_that_was_edited_is_refused() -> None:
 def test_each_solution_of_a_stored_array_is_verified() -> None:
     data = synthesize_array(ProblemArray(B=np.array([1.02, 1.6, np.nan]), order=4)).to_dict()
     proven = verify_all(data)
-    assert list(proven) == ["solutions[0].proof", "solutions[1]"]
+    assert list(proven) == ["solutions[0].proof", "solutions[1]", "parts"]
     assert all(claim.proven for one in proven.values() for claim in one.claims)
+    assert [str(claim).split()[0] for claim in proven["parts"].recomputed] == ["recomputed"]
 
 
 def test_constants_are_those_of_the_laws_where_the_weight_of_one_varies() -> None:

@@ -69,7 +69,7 @@ class Cells:
 
     @kept_property
     def family(self) -> NDArray[np.intp]:
-        """Whose each cell is."""
+        """The number of the family that each cell belongs to."""
         return np.repeat(self.order, [block.stop - block.start for block in self.blocks])
 
     @kept_property
@@ -100,7 +100,7 @@ class Cells:
 
     @kept_property
     def by_cell(self) -> Array:
-        """The same cell by cell, shape (cells, coefficients, variables + 1)."""
+        """The coefficients cell by cell, shape (cells, coefficients, variables + 1)."""
         return np.ascontiguousarray(self.series.transpose(1, 0, 2))
 
     @kept_property
@@ -153,7 +153,7 @@ def excess(cells: Cells, point: Array, room: Array, touching: Sequence[Array]) -
 
 
 def excess_at(family: LinearFamily, point: Array, room: Array) -> Array:
-    """The same of a family whose domain is one place."""
+    """The excess of a family whose domain is one place."""
     value = point @ family.columns(np.array(family.domain[:1]))[0, 0]
     broken = np.max([sign * value - room for sign in family.signs], axis=0)
     return np.asarray(np.maximum(broken, 0.0) / np.maximum(1.0, np.abs(room)))

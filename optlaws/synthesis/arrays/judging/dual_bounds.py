@@ -116,6 +116,7 @@ def _below(path: Path, claim: float) -> _Below:
             for name, value in greatest_values(model, 0.0 if step is None else _CLAIMS**step * _ABOVE).items():
                 greatest[name] = max(greatest.get(name, 0.0), value)
         least = least_values(path.model.problem, path.model.space)
-        path.kept[step] = (greatest, dict(least), moments(path.model, greatest))
+        scales = path.model.in_scales
+        path.kept[step] = (scales(greatest), scales(least), moments(path.model, greatest))
     below: _Below = path.kept[step]
     return below

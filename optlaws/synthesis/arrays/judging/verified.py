@@ -46,6 +46,8 @@ class Judgement:
         the bound is that of their rows' planes at the law.
     affine
         Whether all rows are affine, so that a gap that is left is one of rounding.
+    scale
+        Of the objective.
     """
 
     objective: Array
@@ -55,6 +57,7 @@ class Judgement:
     inward: Array
     best: NDArray[np.bool_]
     affine: bool
+    scale: float
 
     @property
     def broken(self) -> Array:
@@ -75,7 +78,7 @@ class Judgement:
     @property
     def gap(self) -> Array:
         """Between objective and bound, as a share of the objective."""
-        unit = np.where(np.abs(self.objective) > _SMALL, np.abs(self.objective), 1.0)
+        unit = np.where(np.abs(self.objective) > _SMALL * self.scale, np.abs(self.objective), self.scale)
         return np.asarray(np.abs(self.objective - self.bound) / unit)
 
     @property
@@ -116,6 +119,7 @@ def judged(path: Path, structure: Structure, numbers: Numbers, states: States) -
         pull=np.where(np.isfinite(pull), pull, 0.0),
         inward=np.where(held, inward, -np.inf).max(axis=1, initial=-np.inf),
         affine=not program.curved,
+        scale=path.model.unit,
     )
     blurred = judgement.blurred
     if len(blurred):

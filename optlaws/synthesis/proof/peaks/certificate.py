@@ -44,8 +44,10 @@ class Cell:
 
     def __post_init__(self) -> None:
         finite = all(map(isfinite, (self.k, self.reach, *self.equations)))
-        if not finite or not 0.0 <= self.k <= 1.0 or self.reach < 0.0 or abs(self.sign) != 1.0:
-            raise InputError(f"a cell needs k in [0, 1], a reach, a sign and finite multipliers, got {shortened(self)}")
+        if not finite or not 0.0 <= self.k <= 1.0 or not 0.0 <= self.reach <= 1.0 or abs(self.sign) != 1.0:
+            raise InputError(
+                f"a cell needs k and its reach in [0, 1], a sign and finite multipliers, got {shortened(self)}"
+            )
 
 
 @dataclass(frozen=True)

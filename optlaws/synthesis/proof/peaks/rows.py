@@ -53,7 +53,7 @@ class PeakRows:
         objective = np.append(self.model.program.objective, 0.0)[None, :]
         most = claim / self.model.unit * _UPWARD
         nothing = np.zeros(self.model.program.size)
-        row = LinearFamily(CLAIM, nothing, most, (1.0,), (1.0, 1.0), series=objective)
+        row = LinearFamily(CLAIM, nothing, most, (1.0,), (1.0, 1.0), unit=self.model.unit, series=objective)
         self._program = replace(self.model.program, families=(*self.model.program.families, row))
         self._moments = moments(self.model, greatest_values(self.model, claim))
         self._curvatures: dict[float, list[float]] = {}
@@ -79,11 +79,12 @@ class PeakRows:
         return (1.0, -1.0) if self.half and self.peak.nu % 2 == 0 else self.peak.signs
 
     def at(self, k: float, sign: float) -> tuple[Model, float]:
-        """The program whose least value is that of -sign times the derivative at k, but for the number beside it."""
+        """The program that minimises -sign times the derivative at k, and the constant part of the derivative."""
         row = self.model.space.row(self.peak.nu, k)
         objective = np.zeros(self._program.size)
         objective[: self.model.space.terms] = -sign * row[:-1]
-        return replace(self.model, program=replace(self._program, objective=objective), unit=1.0), sign * float(row[-1])
+        program = replace(self._program, objective=objective, unit=1.0)
+        return replace(self.model, program=program), sign * float(row[-1])
 
     def upper(self, k: float, sign: float, contacts: tuple[Contact, ...], equations: tuple[float, ...]) -> float:
         """Most that sign times the derivative at k can be in laws below the claim, by weak duality."""

@@ -196,7 +196,7 @@ class FormulaRows(BoxRows):
 
     @property
     def alone(self) -> tuple[str, ...]:
-        """Of integrals."""
+        """Names of the rows of integrals, which belong to no place."""
         return tuple(self.integrals)
 
     @property
@@ -264,7 +264,7 @@ class FormulaRows(BoxRows):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Of every plane."""
+        """Names of every plane."""
         return tuple(dict.fromkeys(name for name, _ in self._planes))
 
     def kinds(self, box: Box) -> list[tuple[str, float]]:

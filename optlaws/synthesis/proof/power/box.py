@@ -53,7 +53,7 @@ class Places:
     rows: tuple[Array, ...]
 
     def joined(self, other: Places) -> Places:
-        """Both."""
+        """These places and others."""
         rows = tuple(np.vstack(pair) for pair in zip(self.rows, other.rows, strict=True))
         return Places(np.append(self.k, other.k), rows)
 
@@ -76,7 +76,11 @@ class BoxRows(ABC):
 
     def __init__(self, problem: Problem, claim: float, points: Sequence[float]) -> None:
         self.problem, self.claim, self.points = problem, claim, np.array(points, dtype=np.float64)
-        self.model = model_of(problem)
+        self.model = model_of(problem, scaled=False)
+        scaled = model_of(problem)
+        #: of what size the rows of each family are, and each variable of a box and the number 1
+        self.units = {family.name: family.unit for family in scaled.program.families}
+        self.sizes = np.concatenate([scaled.variable_scales, np.ones(self.extra + 1)])
         self.space = self.model.space
         self.terms, self.own = self.space.terms, self.model.program.size
         self.size = self.own + self.extra
@@ -109,11 +113,11 @@ class BoxRows(ABC):
     @property
     @abstractmethod
     def names(self) -> tuple[str, ...]:
-        """Of all the curved rows that there may be."""
+        """Names of all the curved rows that there may be."""
 
     @property
     def alone(self) -> tuple[str, ...]:
-        """Of the further rows that there may be, which belong to no place."""
+        """Names of the rows that belong to no place, such as those of integrals."""
         return ()
 
     def beside(self, box: Box) -> list[tuple[Contact, Array]]:
@@ -173,7 +177,7 @@ class BoxRows(ABC):
         return values
 
     def derivative(self, nu: int, k: Array) -> Array:
-        """The same over the variables of a box."""
+        """Rows of a derivative at places, over the variables of a box."""
         return self.mapped(self.rows(nu, k))
 
     def of_contacts(self, contacts: Sequence[Contact], box: Box) -> Array:

@@ -86,7 +86,7 @@ class Grid:
             if isinstance(family, NormFamily) or family.domain[0] == family.domain[1]:
                 continue
             u, _, residual = family.extremes(x)
-            near = family.k(u[residual > -_NEAR * max(1.0, abs(family.room(x)))])
+            near = family.k(u[residual > -_NEAR * max(self.rows.units[family.name], abs(family.room(x)))])
             seen = self._seen.setdefault(family.name, [])
             new = [k for k in near.tolist() if not seen or min(abs(k - place) for place in seen) > spacing]
             if new:
@@ -115,7 +115,7 @@ class Grid:
         self.places = new if self.places is None else self.places.joined(new)
 
     def _held(self, box: Box) -> Array:
-        """Every row of a box but the objective's: those of all boxes, the curved ones, those of no place."""
+        """All rows of a box except the objective's: linear rows, curved rows at places, rows of integrals."""
         parts = [self.fixed]
         if self.places is not None:
             count = len(self.places.k)
@@ -145,11 +145,15 @@ class Grid:
         centre, half = (box.low + box.high) / 2.0, (box.high - box.low) / 2.0
         matrix, right = every[:, :-1] * half, -every[:, -1] - every[:, :-1] @ centre
         length = np.abs(matrix).sum(axis=1)
-        which = np.flatnonzero((length > right) & (length > _EMPTY * np.abs(every).max(axis=1)))
+        which = np.flatnonzero((length > right) & (length > _EMPTY * np.abs(every * rows.sizes).max(axis=1)))
         equations = rows.equations()
         equal, equal_right = equations[:, :-1] * half, -equations[:, -1] - equations[:, :-1] @ centre
         equal_length = np.abs(equal).sum(axis=1)
-        kept = np.where(equal_length > _EMPTY, equal_length, np.inf)
+        kept = np.where(
+            equal_length > _EMPTY * np.minimum(1.0, np.abs(equations * rows.sizes).max(axis=1, initial=0.0)),
+            equal_length,
+            np.inf,
+        )
         return Linear(
             matrix[which] / length[which, None],
             right[which] / length[which],

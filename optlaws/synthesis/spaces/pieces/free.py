@@ -85,6 +85,10 @@ class PieceSpace(PiecewiseSpace):
                 self._pieces[nu] = self._integrated(self.pieces(nu + 1), value)
         return self._pieces[nu]
 
+    def vanishing(self, nu: int) -> int:
+        """Accelerations of a degree below nu - 2, and the velocity at the start where it is free."""
+        return max(nu - 2, 0) + (self._free_start and nu > 1)
+
     @staticmethod
     def _integrated(pieces: PieceSeries, value: Array) -> PieceSeries:
         integrals = []

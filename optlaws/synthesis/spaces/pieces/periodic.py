@@ -80,7 +80,7 @@ class PeriodicPieces(Pieces):
             raise InputError("a law that repeats is not symmetric about 1/2: ask symmetric=False")
 
     def to_dict(self) -> dict[str, Any]:
-        """As of pieces, with the straight ones."""
+        """Plain data as of `Pieces`, with the straight pieces."""
         return super().to_dict() | ({"straight": list(self.straight)} if self.straight else {})
 
 
@@ -116,6 +116,10 @@ class PeriodicSpace(PieceSpace):
             series[i, :, :-1] = from_values(turns.sum(axis=1))
         kept = [j for j in range(count) if not series[list(self._straight), :, j].any()]
         return np.ascontiguousarray(series[:, :, [*kept, count]])
+
+    def vanishing(self, nu: int) -> int:
+        """A constant acceleration, where no piece is straight, and the velocity at the start."""
+        return (nu > 2 and not self._straight) + (nu > 1)
 
     def equations(self) -> list[Equation]:
         """The displacement at the end, and that the velocity ends as it began."""

@@ -129,7 +129,7 @@ class PieceProductFamily(ProductFamily):
         return _stationary(self.second, [self.first.pieces.series @ point, self.second.pieces.series @ point])
 
     def nodes(self) -> Array:
-        """Those of the acceleration."""
+        """The nodes of the acceleration."""
         return self.second.nodes()
 
     def pinned(self, u: Array) -> NDArray[np.bool_]:

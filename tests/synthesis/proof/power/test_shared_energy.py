@@ -10,7 +10,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from optlaws import Chebyshev, InputError, MotionLaw, PowerCertificate, Problem, Solution, at_most, loader, synthesize
-from optlaws.mechanisms.loader.constants import NAMES, D_loader
+from optlaws.balancing.loaders.constants import NAMES, D_loader
 from optlaws.synthesis.proof.power.box import Box, BoxRows
 from optlaws.synthesis.proof.power.certificate import Step
 from optlaws.synthesis.proof.power.lines_above import above_inverse, above_root

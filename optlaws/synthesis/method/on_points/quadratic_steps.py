@@ -1,0 +1,255 @@
+"""Programs on finitely many points by quadratic programs, one after the other, with exact second derivatives.
+
+For families that are smooth only once, such as integrals of formulas with kinks: interior points need more. Each step
+is the optimum of the program with straight constraints and the curvature of the Lagrangian, damped until it pays.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.curved import IntegralFamily
+from optlaws.synthesis.families.family import LinearFamily, Points, Program
+from optlaws.synthesis.method.on_points.ipopt import Answer
+
+Array = NDArray[np.float64]
+
+_STEPS = 80
+#: of the greatest variable: a step that is less ends the search
+_SETTLED = 1e-11
+#: of what a step promises: the share that it must keep, and that with which the damping falls
+_PAYS, _AS_PROMISED = 1e-4, 0.25
+_FIRST_DAMPING, _DAMPED, _EASED, _MOST_DAMPED = 1e-2, 8.0, 0.125, 1e12
+#: a step that keeps less of its promise is corrected
+_SHORT_OF = 0.5
+#: what a row may be exceeded by in a step, and the price at which it may be by more
+_KEPT, _MOST_DEAR = 1e-9, 1e7
+#: of the objective: a step that promises less is rounding
+_NOTHING = 1e-13
+#: what a residual costs beside the multipliers
+_DEARER, _LEAST_PRICE = 2.0, 10.0
+_TOLERANCE = 1e-13
+_USABLE = ("Solved", "AlmostSolved")
+_SHORT = 1e-13
+#: how many tangents are kept
+_TANGENTS = 60
+
+
+@dataclass(frozen=True, eq=False)
+class _Rows:
+    """All rows at some variables: residuals, and gradients as rows of length 1 with what they were divided by."""
+
+    residual: Array
+    gradient: Array
+
+
+@dataclass(frozen=True, eq=False)
+class _Step:
+    """A step of a quadratic program, the multipliers of rows and equations, and the greatest residual left."""
+
+    x: Array
+    rows: Array
+    equations: Array
+    left: float
+
+
+def stepwise_on_points(program: Program, points: list[Points], start: Array) -> Answer | None:
+    """Where quadratic programs lead from a start, with the families held at the points only; None if nowhere.
+
+    Parameters
+    ----------
+    program, points
+        What is solved, and where its families are held.
+    start
+        Variables near which it begins; the equations need not hold.
+    """
+    return _Descent(program, points).answer(start)
+
+
+class _Descent:
+    def __init__(self, program: Program, points: list[Points]) -> None:
+        self.program, self.points = program, points
+        self.pairs = list(zip(program.families, points, strict=True))
+        self.ends = np.cumsum([0, *(len(held.u) for held in points)])
+        self.raised = list(self._only_raised())
+        self.price = _LEAST_PRICE
+        #: tangents of convex integrals where they were asked: rows, what is beside them, and whose row each is like
+        self.tangents: list[tuple[Array, float, int]] = []
+
+    def _only_raised(self) -> Iterator[tuple[int, float, NDArray[np.intp]]]:
+        """Variables that cost and are only what some families are at most: their places, factors and families' rows."""
+        program = self.program
+        for i in np.flatnonzero(program.objective > 0.0):
+            above = [family.slack[i] != 0.0 for family in program.families]
+            factors = {float(family.slack[i]) for family, own in zip(program.families, above, strict=True) if own}
+            alone = all(np.count_nonzero(f.slack) == 1 for f, own in zip(program.families, above, strict=True) if own)
+            elsewhere = any(
+                (family.rows(held.u, held.s)[0][:, i] != -family.slack[i]).any()
+                for family, held in self.pairs
+                if isinstance(family, LinearFamily)
+            )
+            if (
+                len(factors) == 1
+                and min(factors) > 0.0
+                and alone
+                and not elsewhere
+                and not program.equalities[:, i].any()
+            ):
+                rows = [np.arange(*self.ends[n : n + 2]) for n, own in enumerate(above) if own]
+                yield int(i), min(factors), np.concatenate(rows)
+
+    def answer(self, start: Array) -> Answer | None:
+        """Step after step, until these are nothing."""
+        program = self.program
+        x = start + np.linalg.lstsq(program.equalities, program.right - program.equalities @ start, rcond=None)[0]
+        damping, taken, settled, last = _FIRST_DAMPING, 0, False, None
+        x, rows = self._rows(x)
+        multipliers = np.zeros(self.ends[-1])
+        for i, factor, own in self.raised:
+            multipliers[own[np.argmax(rows.residual[own])]] = program.objective[i] / factor
+        for taken in range(1, _STEPS + 1):  # noqa: B007 - it is said afterwards
+            bend = self._bend(x, multipliers)
+            step = self._step(x, rows, rows.residual, bend, damping)
+            if damping > _MOST_DAMPED:
+                break
+            if step is None:
+                damping *= _DAMPED
+                continue
+            if step.left > _KEPT and self.price < _MOST_DEAR:
+                # rows that could be kept are too cheap: what they cost is asked again
+                self.price *= _DAMPED
+                continue
+            last, size = step, float(np.abs(step.x).max()) / max(1.0, float(np.abs(x).max()))
+            self.price = max(self.price, min(_DEARER * float(step.rows.sum()), _DEARER * self.price))
+            onward, ratio = self._tried(x, rows, step, bend, damping)
+            settled = ratio is None or size <= _SETTLED
+            if ratio is None or settled:
+                multipliers = step.rows
+                break
+            if ratio < _PAYS:
+                damping *= _DAMPED
+                continue
+            multipliers = step.rows
+            x, rows = onward
+            if ratio > _AS_PROMISED:
+                damping *= _EASED
+        if last is None:
+            return None
+        weights = np.split(np.maximum(multipliers, 0.0), self.ends[1:-1])
+        return Answer(x, [*weights, last.equations], success=settled, status="quadratic programs", iterations=taken)
+
+    def _tried(
+        self, x: Array, rows: _Rows, step: _Step, bend: Array, damping: float
+    ) -> tuple[tuple[Array, _Rows], float | None]:
+        """Where a step leads, corrected by what its rows bend where that is better, and what share of its promise.
+
+        None where it promises nothing.
+        """
+        before = self._merit(x, rows)
+        promised = before - self.program.worth(x + step.x) - self.price * step.left
+        there, onward = self._rows(x + step.x)
+        best, gained = (there, onward), before - self._merit(there, onward)
+        if gained < _SHORT_OF * promised:
+            bent = onward.residual - rows.gradient @ (there - x)
+            second = self._step(x, rows, bent, bend, damping)
+            if second is not None:
+                again = self._rows(x + second.x)
+                better = before - self._merit(*again)
+                if better > gained:
+                    best, gained = again, better
+        if promised <= _NOTHING * max(1.0, abs(before)):
+            return best, None
+        return best, gained / promised
+
+    def _merit(self, x: Array, rows: _Rows) -> float:
+        return self.program.worth(x) + self.price * max(float(rows.residual.max(initial=0.0)), 0.0)
+
+    def _rows(self, x: Array) -> tuple[Array, _Rows]:
+        """The rows, and the variables with those that are only raised as small as the rows let them be."""
+        values, gradients = [np.empty(0)], [np.empty((0, len(x)))]
+        for family, held in self.pairs:
+            if isinstance(family, LinearFamily):
+                matrix, right = family.rows(held.u, held.s)
+                values.append(matrix @ x - right)
+                gradients.append(matrix)
+            else:
+                jet = family.jet(x, held.u, held.s)
+                if isinstance(family, IntegralFamily) and family.convex:
+                    beside = float(jet.value[0] - jet.gradient[0] @ x)
+                    self.tangents.append((jet.gradient[0], beside, int(sum(map(len, values)))))
+                values.append(jet.value)
+                gradients.append(jet.gradient)
+        del self.tangents[:-_TANGENTS]
+        residual, x = np.concatenate(values), x.copy()
+        for i, factor, own in self.raised:
+            excess = float(residual[own].max())
+            x[i] += excess / factor
+            residual[own] -= excess
+        return x, _Rows(residual, np.vstack(gradients))
+
+    def _bend(self, x: Array, multipliers: Array) -> Array:
+        """Of the Lagrangian, without what bends down."""
+        total, begin = np.zeros((len(x), len(x))), 0
+        for family, held in self.pairs:
+            own = multipliers[begin : begin + len(held.u)]
+            begin += len(held.u)
+            bent = family.hessian(x, held.u, own * held.s) if own.any() else None
+            if bent is not None:
+                total += bent
+        if not total.any():
+            return total
+        sizes, axes = np.linalg.eigh((total + total.T) / 2.0)
+        return np.asarray((axes * np.maximum(sizes, 0.0)) @ axes.T)
+
+    def _step(self, x: Array, rows: _Rows, residual: Array, bend: Array, damping: float) -> _Step | None:
+        """The step of least cost, with one variable more: by how much every row may be exceeded."""
+        import clarabel
+        from scipy import sparse
+
+        program, size = self.program, self.program.size
+        gradient, count = rows.gradient, len(residual)
+        if self.tangents:
+            slopes = np.array([row for row, _, _ in self.tangents])
+            gradient = np.vstack([gradient, slopes])
+            residual = np.append(residual, slopes @ x + [beside for _, beside, _ in self.tangents])
+        length = np.linalg.norm(gradient, axis=1)
+        kept = np.isfinite(residual) & (length > _SHORT)
+        scale = 1.0 / length[kept]
+        inner = np.column_stack([gradient[kept] * scale[:, None], -scale])
+        spare = np.zeros((1, size + 1))
+        spare[0, -1] = -1.0
+        equations = np.column_stack([program.equalities, np.zeros(len(program.right))])
+        matrix = np.vstack([equations, inner, spare])
+        right = np.concatenate([np.zeros(len(program.right)), -residual[kept] * scale, [0.0]])
+        curvature = np.zeros((size + 1, size + 1))
+        curvature[:size, :size] = bend + damping * np.eye(size)
+        cones = [clarabel.ZeroConeT(len(program.right)), clarabel.NonnegativeConeT(int(kept.sum()) + 1)]
+        cost = np.append(program.objective, self.price)
+        solver = clarabel.DefaultSolver(
+            sparse.csc_matrix(np.triu(curvature)), cost, sparse.csc_matrix(matrix), right, cones, _settings()
+        )
+        optimum = solver.solve()
+        if str(optimum.status) not in _USABLE:
+            return None
+        duals = np.asarray(optimum.z)
+        weights = np.zeros(len(residual))
+        weights[kept] = np.maximum(duals[len(program.right) : -1], 0.0) * scale
+        for weight, (_, _, row) in zip(weights[count:], self.tangents, strict=True):
+            weights[row] += weight
+        weights = weights[:count]
+        x = np.asarray(optimum.x)
+        return _Step(x[:-1], weights, duals[: len(program.right)], max(float(x[-1]), 0.0))
+
+
+def _settings() -> Any:  # noqa: ANN401 - Clarabel's, imported late
+    import clarabel
+
+    settings = clarabel.DefaultSettings()
+    settings.verbose = False
+    settings.tol_gap_abs = settings.tol_gap_rel = settings.tol_feas = _TOLERANCE
+    return settings

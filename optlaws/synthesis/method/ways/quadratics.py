@@ -1,0 +1,81 @@
+"""Integrals with kinks, or that are not convex: a linear program shows the kinks, quadratic ones the optimum."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.synthesis.families.active_set import ActiveSet
+from optlaws.synthesis.families.curved import IntegralFamily
+from optlaws.synthesis.families.family import Points, Program
+from optlaws.synthesis.families.kinked import KinkedIntegralFamily
+from optlaws.synthesis.method.on_points.grids import with_extrema
+from optlaws.synthesis.method.on_points.quadratic_steps import stepwise_on_points
+from optlaws.synthesis.method.on_points.straight import is_straight, straight_step
+from optlaws.synthesis.method.tolerances import EXCESS
+from optlaws.synthesis.method.ways.identified import as_answered, optimum_near
+from optlaws.synthesis.method.ways.way import Way
+
+Array = NDArray[np.float64]
+
+#: how far a linear program may go, in times the greatest variable: beyond what laws of the field have
+_REACH = 1e4
+_ROUNDS = 14
+
+
+def bends_both_ways(program: Program) -> bool:
+    """Whether an integral of a formula with kinks, or of one that is not convex, is in a program.
+
+    Interior points lose their way there; quadratic programs never leave the start for a worse law.
+    """
+    integrals = (family for family in program.families if isinstance(family, IntegralFamily))
+    return any(isinstance(family, KinkedIntegralFamily) or not family.convex for family in integrals)
+
+
+@dataclass(eq=False)
+class ByQuadratics(Way[list[Points], ActiveSet]):
+    """The optimum on the points by quadratic programs, round by round.
+
+    Attributes
+    ----------
+    program
+        What is solved.
+    x
+        Where the next round begins.
+    holds
+        May tell from x alone, and more quickly than the families do, whether every constraint holds.
+    count, iterations
+        The rounds and the quadratic programs so far.
+    """
+
+    program: Program
+    x: Array
+    holds: Callable[[Array], bool] | None = None
+    rounds: int = _ROUNDS
+    count: int = 0
+    iterations: int = 0
+
+    def answered(self, held: list[Points]) -> tuple[ActiveSet | None, list[Points] | None]:
+        """The optimum, or the points with the extrema of the answer; neither where there is none."""
+        if self.count == 0 and is_straight(self.program, self.x):
+            step = straight_step(self.program, held, self.x, _REACH * max(1.0, float(np.abs(self.x).max())))
+            if step is not None:
+                self.x = self.x + step
+                held = with_extrema(self.program, held, self.x)
+        self.count += 1
+        answer = stepwise_on_points(self.program, held, self.x)
+        if answer is None:
+            return None, None
+        self.x, self.iterations = answer.x, self.iterations + answer.iterations
+        optimum = optimum_near(self.program, self.holds, held, answer)
+        if optimum is not None:
+            return optimum, None
+        onward = with_extrema(self.program, held, answer.x)
+        known = all(len(new.u) == len(old.u) for new, old in zip(onward, held, strict=True))
+        if (known or answer.success) and self.program.violation(answer.x) <= EXCESS:
+            # an optimum may be so flat that no exact active set shows
+            return as_answered(held, answer), None
+        return (None, None) if known else (None, onward)

@@ -1,0 +1,79 @@
+"""Integrals of splines and tables over the displacement, against quadrature between the places they have."""
+
+from collections.abc import Callable
+from functools import partial
+from itertools import pairwise
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.integrate import fixed_quad
+from scipy.optimize import brentq
+
+from optlaws import Chebyshev, MotionLaw, Problem, drive_torque, integral, rms, smoothstep, synthesize, via
+from optlaws.formulas.of_motion import Motion, of_text
+
+Array = NDArray[np.float64]
+
+_GRID = np.linspace(0.0, 1.0, 4001)
+
+
+def there_and_back(degree: int) -> MotionLaw:
+    """A law that goes above 1 and below 0, and passes every place in between three times."""
+    high, low = via("a", 1.15, at=0.3), via("a", -0.1, at=0.6)
+    return synthesize(Problem(order=3, basis=Chebyshev(degree), symmetric=False, windows=(high, low))).law
+
+
+def by_quadrature(motion: Motion, law: MotionLaw, places: list[float], *, square: bool) -> float:
+    """The integral, cut wherever the law passes a place or the formula changes its sign, which scipy finds."""
+
+    def formula(k: Array) -> Array:
+        return motion.values({**{name: law(k, nu) for nu, name in enumerate("abcj")}, "k": k})
+
+    cuts = {0.0, 1.0}
+    functions: list[Callable[[Array], Array]] = [*(partial(_above, law, place) for place in places), formula]
+    for function in functions:
+        heights = function(_GRID)
+        for i in np.flatnonzero(heights[1:] * heights[:-1] < 0.0):
+            cuts.add(brentq(lambda k, of=function: float(of(np.array([k]))[0]), _GRID[i], _GRID[i + 1], xtol=1e-15))
+    edges = sorted(cuts)
+    shown = (lambda k: formula(k) ** 2) if square else (lambda k: np.abs(formula(k)))
+    return float(sum(fixed_quad(shown, low, high, n=80)[0] for low, high in pairwise(edges)))
+
+
+def _above(law: MotionLaw, place: float, k: Array) -> Array:
+    return np.asarray(law(k, 0) - place)
+
+
+@pytest.mark.parametrize(
+    ("kind", "count", "degree"),
+    [
+        ("spline", 5, 0),
+        ("spline", 12, 9),
+        ("spline", 50, 41),
+        ("table", 2, 0),
+        ("table", 9, 7),
+    ],
+)
+def test_integrals_and_root_mean_squares_are_those_of_scipy(kind: str, count: int, degree: int) -> None:
+    law = there_and_back(degree) if degree else smoothstep(3)
+    numbers = np.random.default_rng(count)
+    places = sorted(numbers.uniform(0.0, 1.0, count).round(4).tolist())
+    heights = numbers.uniform(0.5, 3.0, count).round(3).tolist()
+    text = f"{kind}(a, {', '.join(f'{x!r}:{y!r}' for x, y in zip(places, heights, strict=True))})*c + b"
+    motion = of_text(text)
+    assert rms(text).value(law) == pytest.approx(by_quadrature(motion, law, places, square=True) ** 0.5, rel=1e-9)
+    sizes = by_quadrature(motion, law, places, square=False)
+    assert integral(f"abs({text})").value(law) == pytest.approx(sizes, rel=1e-8)
+
+
+def test_a_torque_whose_inertia_is_a_spline_has_a_root_mean_square() -> None:
+    torque = drive_torque(inertia="spline(a, 0:1, 0.25:2, 0.5:3, 0.75:2, 1:1)")
+    assert rms(torque).value(smoothstep(3)) == pytest.approx(9.480863, abs=5e-7)
+
+
+def test_a_bound_of_a_spline_is_kept_as_exactly_as_any() -> None:
+    places = "0:1, 0.1:1.2, 0.25:2, 0.3:2.6, 0.5:3, 0.6:2.6, 0.75:2, 0.9:1.5, 1:1"
+    torque = rms(drive_torque(inertia=f"spline(a, {places})"))
+    solution = synthesize(Problem(order=3, symmetric=False, bounds={torque: (None, 9.0)}))
+    assert torque.value(solution.law) == pytest.approx(9.0, rel=1e-10)

@@ -1,0 +1,176 @@
+"""Integrals of formulas with kinks: found and proven, against linear programs on grids and descents of scipy."""
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.optimize import linprog, minimize
+
+from optlaws import Chebyshev, Functional, Problem, Status, at_most, drive_torque, integral, peak, rms, synthesize
+from optlaws.laws import smoothstep
+from optlaws.verification.exact.bound import prove
+from tests.synthesis.grids import Grid, polynomials
+
+Array = NDArray[np.float64]
+
+#: straight formulas by the orders of derivatives, each within a size
+Sizes = list[tuple[float, dict[int, float]]]
+
+_POINTS = 401
+_SEEDS = [0, 1, *(pytest.param(seed, marks=pytest.mark.long) for seed in (2, 3))]
+
+
+def drawn(numbers: np.random.Generator) -> Sizes:
+    """One to three sizes of sums of b, c and j."""
+    return [
+        (
+            round(float(numbers.uniform(0.2, 2.0)), 2),
+            {
+                int(nu): round(float(numbers.uniform(-3.0, 3.0)), 2)
+                for nu in numbers.choice([1, 2, 3], 2, replace=False)
+            },
+        )
+        for _ in range(int(numbers.integers(1, 4)))
+    ]
+
+
+def text_of(sizes: Sizes) -> str:
+    """The integral of their sum."""
+    sums = [" + ".join(f"({factor})*{'abcj'[nu]}" for nu, factor in inner.items()) for _, inner in sizes]
+    return f"integral({' + '.join(f'{weight}*abs({one})' for (weight, _), one in zip(sizes, sums, strict=True))})"
+
+
+def least_on_grid(grid: Grid, sizes: Sizes) -> float:
+    """The least sum of the sizes at the grid's places, by weights of the trapezium rule."""
+    k = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, _POINTS))
+    weights = np.gradient(k)
+    free = len(grid.series[0]) - 1
+    cost, table, right = [np.zeros(free)], [], []
+    for i, (weight, inner) in enumerate(sizes):
+        rows = np.sum([factor * grid.rows(nu) for nu, factor in inner.items()], axis=0)
+        own = np.zeros((_POINTS, len(sizes) * _POINTS))
+        own[:, i * _POINTS : (i + 1) * _POINTS] = -np.eye(_POINTS)
+        for sign in (1.0, -1.0):
+            table.append(np.hstack([sign * rows[:, :-1], own]))
+            right.append(-sign * rows[:, -1])
+        cost.append(weight * weights)
+    bounds = [(None, None)] * free + [(0.0, None)] * (len(sizes) * _POINTS)
+    answer = linprog(np.concatenate(cost), np.vstack(table), np.concatenate(right), bounds=bounds, method="highs-ipm")
+    return float(np.asarray(answer.fun))
+
+
+@pytest.mark.parametrize("seed", _SEEDS)
+def test_sums_of_sizes_are_proven_and_what_a_grid_says(seed: int) -> None:
+    numbers = np.random.default_rng(seed)
+    order, degree, sizes = int(numbers.integers(2, 5)), int(numbers.choice([3, 5, 9])), drawn(numbers)
+    solution = synthesize(Problem(order=order, basis=Chebyshev(degree), symmetric=False, minimise=text_of(sizes)))
+    assert solution.status is Status.OPTIMAL
+    assert solution.lower_bound <= solution.objective * (1.0 + 1e-12)
+    assert solution.objective == pytest.approx(least_on_grid(polynomials(order, degree, _POINTS), sizes), rel=2e-3)
+
+
+@pytest.mark.parametrize("formula", ["abs(j)", "abs(c)", "abs(c - 2*b)", "abs(j + 3*c) + max(c, -2*c)"])
+@pytest.mark.parametrize("options", [{"B": 1.8, "order": 4}, {"order": 3, "basis": Chebyshev(15), "symmetric": False}])
+def test_integrals_of_sizes_are_proven(formula: str, options: dict[str, object]) -> None:
+    solution = synthesize(Problem(**options, minimise=f"integral({formula})"))  # type: ignore[arg-type]
+    assert solution.status is Status.OPTIMAL
+    assert solution.certificate.bound >= solution.objective * (1.0 - 1e-8)
+    exact = prove(solution.certificate)
+    assert exact.value is not None
+    assert exact.value >= solution.objective * (1.0 - 1e-8)
+
+
+def test_they_are_bounds_and_parts_of_mixtures_too() -> None:
+    problem = Problem(B=1.8, order=4, symmetric=False)
+    wander = integral("abs(j)")
+    least = synthesize(Problem(B=1.8, order=4, symmetric=False, minimise=wander)).objective
+    bounded = synthesize(Problem(B=1.8, order=4, symmetric=False, bounds={wander: at_most(1.05 * least)}))
+    mixed = synthesize(Problem(B=1.8, order=4, symmetric=False, minimise="C + 0.2*integral(abs(j))"))
+    assert (bounded.status, mixed.status) == (Status.OPTIMAL, Status.OPTIMAL)
+    assert wander.value(bounded.law) <= 1.05 * least * (1.0 + 1e-9)
+    assert synthesize(problem).objective <= bounded.objective * (1.0 + 1e-9)
+
+
+def test_where_a_formula_vanishes_along_the_law_its_corner_is_proven() -> None:
+    # of order 1 the law a = k has no acceleration at all: the integral has a corner there
+    solution = synthesize(Problem(order=1, minimise="C + 0.25*integral(2*abs(a + b) + 4*abs(c))"))
+    assert solution.status is Status.OPTIMAL
+    assert solution.objective == pytest.approx(0.75, rel=1e-9)
+
+
+@pytest.mark.long
+def test_a_slider_crank_needs_no_more_energy_than_its_speed_asks_for() -> None:
+    inertia = "0.02 + 0.05*(sin(pi*a) + 0.25*sin(pi*a)*cos(pi*a)/sqrt(1 - (0.25*sin(pi*a))^2))^2"
+    energy = integral(f"max(({drive_torque(inertia=inertia)})*b, 0)")
+    unit = np.pi / 0.3**2
+    assert energy.value(smoothstep(3)) * unit == pytest.approx(4.416, abs=5e-4)
+    solution = synthesize(Problem(order=3, C=at_most(12), basis=Chebyshev(9), symmetric=False, minimise=energy))
+    assert solution.objective * unit == pytest.approx(1.196, abs=5e-4)
+    assert solution.law.peak(2).value <= 12.0 * (1.0 + 1e-9)
+
+
+@pytest.mark.parametrize("seed", _SEEDS)
+def test_no_descent_of_scipy_finds_a_law_of_less_heat(seed: int) -> None:
+    numbers = np.random.default_rng(seed)
+    share, waves, drag = numbers.uniform(0.2, 3.0), int(numbers.integers(1, 3)), numbers.uniform(0.0, 1.0)
+    torque = drive_torque(inertia=f"1 + {share:.3f}*sin({waves}*pi*a)^2", friction=f"{drag:.3f}")
+    heat = rms(torque)
+    ours = synthesize(Problem(order=3, basis=Chebyshev(5), symmetric=False, minimise=heat)).objective
+    grid = polynomials(3, 5, 201)
+    motion = grid.rows(0), grid.rows(1), grid.rows(2)
+    k = 0.5 - 0.5 * np.cos(np.linspace(0.0, np.pi, 201))
+
+    def on_grid(z: Array) -> float:
+        a, b, c = (rows @ np.append(z, 1.0) for rows in motion)
+        bend = share * waves * np.pi * np.sin(2 * waves * np.pi * a)
+        force = (1.0 + share * np.sin(waves * np.pi * a) ** 2) * c + 0.5 * bend * b**2 + drag * b
+        return float(np.trapezoid(force**2, k))
+
+    starts = [np.zeros(6), *numbers.normal(size=(4, 6)) * 3.0]
+    least = min(minimize(on_grid, start, method="BFGS").fun for start in starts)
+    assert ours <= float(np.sqrt(least)) * (1.0 + 2e-3)
+
+
+@pytest.mark.parametrize(
+    "constant",
+    [
+        peak("0.0753982237*c + max(0.591358617*c, 0.427256601*c)", side="high"),
+        peak("c^2 + c", side="high"),
+        peak("max(c, 2*b)", side="high"),
+        peak("min(-abs(j), -2*abs(c))", side="low"),
+        peak("exp(c/10) - b", side="high"),
+        rms("abs(c) + abs(b)"),
+        integral("max(c, 0) + 0.1*abs(j)"),
+    ],
+    ids=repr,
+)
+def test_convex_constants_alone_bound_their_laws(constant: Functional) -> None:
+    solution = synthesize(Problem(order=3, basis=Chebyshev(13), symmetric=False, minimise=constant))
+    assert solution.status is Status.OPTIMAL
+
+
+def test_what_is_symmetric_and_not_convex_descends_from_the_law_it_begins_at() -> None:
+    heat = rms(drive_torque(inertia="1 + 3*sin(pi*a)^2"))
+    problem = Problem(order=3, basis=Chebyshev(9), minimise=heat)
+    assert problem.symmetric
+    assert synthesize(problem).objective == pytest.approx(6.082473, abs=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("minimise", "symmetric"),
+    [
+        ("rms(c + 4*a)", False),
+        ("rms(c)", True),
+        ("peak(b*c)", True),
+        ("peak(b*c, side=high)", False),
+        ("integral(abs(c), stop=0.4)", False),
+        ("C + 0.1*integral(max(b*c, 0))", False),
+        ("C", True),
+    ],
+)
+def test_unless_asked_laws_are_symmetric_where_all_that_is_asked_is(minimise: str, symmetric: bool) -> None:  # noqa: FBT001
+    problem = Problem(order=3, minimise=minimise)
+    assert problem.symmetric is symmetric
+    assert Problem(order=3, minimise=minimise, symmetric=True).symmetric
+    assert Problem.from_dict(problem.to_dict()) == problem
+    bounded = Problem(order=3, bounds={name: at_most(9.0) for name in [minimise] if minimise[0] != "C"})
+    assert bounded.symmetric is (symmetric or minimise[0] == "C")
