@@ -9,13 +9,16 @@ from collections.abc import Mapping
 from fractions import Fraction
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from optlaws.errors import InputError
-from optlaws.laws import MotionLaw
+from optlaws.lazy import imported
 from optlaws.locks import process_lock
-from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.verification.result import Claim, Verification
+
+if TYPE_CHECKING:
+    from optlaws.laws import MotionLaw
+    from optlaws.synthesis.proof.certificate import Certificate
+    from optlaws.verification.result import Claim, Verification
 
 # python-flint has one precision for the process: what one thread asks for would be another's
 _precision = process_lock()
@@ -127,3 +130,10 @@ def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
 def _need_flint() -> None:
     if find_spec("flint") is None:
         raise InputError('exact verification needs python-flint: pip install "optlaws[verify]"')
+
+
+def __getattr__(name: str) -> Any:  # noqa: ANN401
+    # a package that imports its own modules and a thread that imports one of them first would wait for each other
+    if name in {"Claim", "Verification"}:
+        return getattr(imported("optlaws.verification.result"), name)
+    raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

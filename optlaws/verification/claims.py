@@ -19,14 +19,15 @@ from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
 from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.proven.front import ProvenFront
-from optlaws.synthesis.solution import NOTHING
+from optlaws.synthesis.solution import measure
+from optlaws.synthesis.stored_solutions import read_solutions
 from optlaws.verification.conditions import excesses
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Proof, never_negative, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.limits import exact_limit
 from optlaws.verification.exact.power import prove_power
-from optlaws.verification.places import NO_FILE, Entry, check_keys, entries, is_entry, is_proven_front
+from optlaws.verification.places import NO_FILE, Entry, check_keys, entries, is_array, is_entry, is_proven_front
 from optlaws.verification.proven_fronts import proven_front
 from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
@@ -68,6 +69,8 @@ def _entry(entry: Entry) -> Verification:
 
 
 def _alone(data: Mapping[str, Any]) -> Verification:
+    if is_array(data):
+        return _arrays(data)
     if is_proven_front(data):
         return proven_front(built(ProvenFront.from_dict, data, "the proven front"), number(data, "gap"))
     if "certificate" in data:
@@ -77,6 +80,18 @@ def _alone(data: Mapping[str, Any]) -> Verification:
     if "steps" in data:
         return _power_alone(built(PowerCertificate.from_dict, data, "the power certificate"), data)
     return _law_alone(data)
+
+
+def _arrays(data: Mapping[str, Any]) -> Verification:
+    """What an array of solutions is read from, held against its solutions, which are verified one by one."""
+    try:
+        read_solutions(data)
+    except InputError as error:
+        claim = Claim("the arrays", proven=False, detail=str(error))
+        return Verification(problem=None, bound=None, claims=(claim,))
+    detail = "their problems, laws, bounds and proofs are those of the solutions"
+    claim = Claim("the arrays", proven=False, detail=detail, recomputed=True)
+    return Verification(problem=None, bound=None, recomputed=(claim,))
 
 
 def _law_alone(data: Mapping[str, Any]) -> Verification:
@@ -101,7 +116,8 @@ def _of_power(certificate: PowerCertificate, proven: Fraction | None, data: Mapp
     left = "no law has" if proven is not None else "the steps do not show that no law has"
     yield Claim("steps", proven is not None, f"{left} an objective below {certificate.claim!r}")
     if data.get("bound") is not None:
-        yield at_most("the power certificate's bound", number(data, "bound"), proven)
+        scale = certificate.problem.objective.scale
+        yield at_most("the power certificate's bound", number(data, "bound"), proven, scale)
 
 
 def _certificate_alone(certificate: Certificate, data: Mapping[str, Any]) -> Verification:
@@ -115,7 +131,8 @@ def _bound(proof: Proof, certificate: Certificate, data: Mapping[str, Any]) -> I
         value = float(proof.value or 0)
         yield Claim("no law exists", value > 0.0, f"the constraints contradict each other by {value:.6g}")
     elif data.get("bound") is not None:
-        yield at_most("the certificate's bound", number(data, "bound"), proof.value)
+        scale = certificate.problem.objective.scale
+        yield at_most("the certificate's bound", number(data, "bound"), proof.value, scale)
 
 
 def _solution(data: Mapping[str, Any]) -> Verification:
@@ -134,7 +151,8 @@ def _solution(data: Mapping[str, Any]) -> Verification:
     bound, source = _best(proof.value if same else None, power, exact_limit(problem))
     gap = None
     if bound is not None and objective[1] < inf:
-        gap = rounded_up((Fraction(objective[1]) - bound) / (Fraction(objective[1]) if objective[1] > NOTHING else 1))
+        size = Fraction(measure(objective[1], problem.objective.scale))
+        gap = rounded_up((Fraction(objective[1]) - bound) / size)
     constants = law.enclosures()
     conditions = excesses(problem, law)
     claims = [
@@ -151,7 +169,8 @@ def _solution(data: Mapping[str, Any]) -> Verification:
         *_of_places(data.get("peak_certificate"), problem),
     ]
     if data.get("lower_bound") is not None:
-        claims.append(at_most("the lower bound", number(data, "lower_bound"), bound, source))
+        scale = problem.objective.scale
+        claims.append(at_most("the lower bound", number(data, "lower_bound"), bound, scale, source))
     claims += _of_gap(data, gap)
     return _verification(
         problem,
@@ -179,7 +198,8 @@ def _verification(
         problem=problem,
         infeasible=contradiction and proof.value is not None and proof.value > 0,
         charge=proof.charge,
-        claims=tuple(claims),
+        claims=tuple(claim for claim in claims if not claim.recomputed),
+        recomputed=tuple(claim for claim in claims if claim.recomputed),
         **known,
     )
 
@@ -205,6 +225,10 @@ def _of_gap(data: Mapping[str, Any], gap: float | None) -> Iterator[Claim]:
         yield Claim("the gap", holds, f"{value:.1e} stated, {_shown(gap)} proven")
     if data.get("status") == "optimal":
         yield Claim("optimal", gap is not None and gap <= _GAP, f"the proven gap is {_shown(gap)}")
+    elif data.get("status") is not None:
+        # what is as good as optimal is called so
+        far = gap is None or gap > _GAP / 2.0
+        yield Claim("the status", far, f"{data['status']!r} stated, the proven gap is {_shown(gap)}")
 
 
 def _beside(data: object, problem: Problem) -> tuple[Fraction | None, list[Claim]]:

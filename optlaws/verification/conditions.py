@@ -57,9 +57,10 @@ def excesses(problem: Problem, law: ExactLaw) -> list[Excess]:
         ]
 
 
-def _of(name: str, value: arb, scale: float = 1.0, tolerance: float = _TOLERANCE) -> Excess:
+def _of(name: str, value: arb, scale: float = 1.0, tolerance: float = _TOLERANCE, least: float = 1.0) -> Excess:
+    """`scale` is of the condition's numbers; `least` of its quantity in smooth laws, for numbers that are 0."""
     by = rounded_up(upper(value)) + 0.0 if value.is_finite() else inf
-    return Excess(name, by, tolerance * max(1.0, scale))
+    return Excess(name, by, tolerance * max(least, scale))
 
 
 def _ends(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
@@ -167,11 +168,11 @@ def _velocity(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
 
 
 def _constant(law: ExactLaw, constant: Functional, wanted: Range) -> Iterator[Excess]:
-    value = law.term(constant)
+    value, scale = law.term(constant), constant.scale
     if isfinite(wanted.high):
-        yield _of(names.at_most(constant.name), value - ball(wanted.high), wanted.high)
+        yield _of(names.at_most(constant.name), value - ball(wanted.high), wanted.high, least=scale)
     if wanted.low > 0.0:
-        yield _of(names.at_least(constant.name), ball(wanted.low) - value, wanted.low)
+        yield _of(names.at_least(constant.name), ball(wanted.low) - value, wanted.low, least=scale)
 
 
 def _extremes(window: Window, law: ExactLaw) -> Extremes:
@@ -185,8 +186,10 @@ def _extremes(window: Window, law: ExactLaw) -> Extremes:
 
 def _windows(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     for i, window in enumerate(problem.windows, 1):
-        least, greatest = _extremes(window, law)
+        (least, greatest), own = _extremes(window, law), window.scale
         if isfinite(window.high):
-            yield _of(names.window_side(names.window(i), 1.0), greatest - ball(window.high), abs(window.high))
+            yield _of(
+                names.window_side(names.window(i), 1.0), greatest - ball(window.high), abs(window.high), least=own
+            )
         if isfinite(window.low):
-            yield _of(names.window_side(names.window(i), -1.0), ball(window.low) - least, abs(window.low))
+            yield _of(names.window_side(names.window(i), -1.0), ball(window.low) - least, abs(window.low), least=own)

@@ -15,7 +15,10 @@ import msgspec
 
 from optlaws.errors import InputError
 from optlaws.files.typed import typed
+from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import problem_of
+from optlaws.synthesis.proof.no_law import ground_of
+from optlaws.synthesis.proof.power.certificate import PowerCertificate
 
 Data = Mapping[str, Any]
 
@@ -97,17 +100,20 @@ class Around:
         The peak velocity of its row.
     values
         Constants by name, in a front.
+    above
+        What the entry's bound has to exceed, if its row is to have no law.
     """
 
     status: str | None = None
     asked: Any = None
     B: float | None = None
     values: Mapping[str, float] = field(default_factory=dict)
+    above: float | None = None
 
 
 @dataclass(frozen=True)
 class Entry:
-    """A solution, certificate or law, and what is said around it; without data only that is said."""
+    """A solution, certificate, law or array, and what is said around it; without data only that is said."""
 
     data: Data
     around: Around = Around()
@@ -137,6 +143,11 @@ def is_entry(data: Data) -> bool:
     solution = {"problem", "law", "certificate"} <= data.keys()
     certificate = {"problem", "contacts"} <= data.keys() or {"problem", "steps"} <= data.keys()
     return solution or certificate or is_proven_front(data) or {"law", "constants"} <= data.keys()
+
+
+def is_array(data: Data) -> bool:
+    """Whether this is an array of solutions, with the arrays that it is read from."""
+    return {"shape", "solutions"} <= data.keys()
 
 
 def is_proven_front(data: Data) -> bool:
@@ -176,8 +187,8 @@ def _walk(data: object, path: str, around: Around) -> Iterator[tuple[str, Entry]
         yield path, Entry(data, around)
     elif {"solution", "asked"} & data.keys():
         yield from _row(_stated(data, Row, path), path, around)
-    elif {"shape", "solutions"} <= data.keys():
-        yield from _array(_stated(data, SolutionArrayFile, path or "the array of solutions"), path)
+    elif is_array(data):
+        yield from _array(_stated(data, SolutionArrayFile, path or "the array of solutions"), data, path)
     elif "over" in data:
         yield from _front(_stated(data, FrontFile, path or "the front"), path)
     elif "B" in data:
@@ -202,19 +213,36 @@ def _row(row: Row, path: str, around: Around) -> Iterator[tuple[str, Entry]]:
     yield from inside
 
 
-def _array(array: SolutionArrayFile, path: str) -> Iterator[tuple[str, Entry]]:
+def _array(array: SolutionArrayFile, data: Data, path: str) -> Iterator[tuple[str, Entry]]:
     if prod(array.shape) != len(array.solutions):
         raise InputError(f"{path or 'the array'}: {len(array.solutions)} solutions are not of shape {array.shape}")
+    inside = f"{path}." if path else ""
     for i, row in enumerate(array.solutions):
-        place = f"{path}.solutions[{i}]" if path else f"solutions[{i}]"
+        place = f"{inside}solutions[{i}]"
         if is_entry(row):
             yield place, Entry(row)
         elif row.get("status") == "infeasible":
-            proof = row.get("proof")
-            said = Around(status="infeasible")
-            yield (f"{place}.proof", Entry(proof, said)) if isinstance(proof, Mapping) else (place, Entry({}, said))
-        elif {"error", "status"} != row.keys() - {"problem", "tried"}:
+            yield from _no_law(row, place)
+        elif {"error", "status"} != row.keys() - {"problem", "tried"} or row["status"] not in {"failed", "invalid"}:
             raise InputError(f"{NO_FILE}: {place} is neither a solution nor an error")
+    if array.parts is not None or array.alone is not None or array.problems is not None:
+        yield f"{inside}parts", Entry(data)
+
+
+def _no_law(row: Data, path: str) -> Iterator[tuple[str, Entry]]:
+    """The proof that the problem of a row has no law, as one of that problem, whichever it says it is of."""
+    proof = row.get("proof")
+    if not isinstance(proof, Mapping):
+        yield path, Entry({}, Around(status="infeasible"))
+        return
+    kind: type[Certificate | PowerCertificate] = PowerCertificate if "steps" in proof else Certificate
+    problem = problem_of(_stated(row.get("problem"), dict[str, Any], f"{path}.problem"))
+    ground = ground_of(problem, kind.from_dict(proof))
+    if ground is None:
+        yield path, Entry({}, Around(status="infeasible"))
+        return
+    moved = {**proof, "problem": ground.problem.to_dict()}
+    yield f"{path}.proof", Entry(moved, Around(status="infeasible", above=ground.above))
 
 
 def _front(front: FrontFile, path: str) -> Iterator[tuple[str, Entry]]:
@@ -222,7 +250,11 @@ def _front(front: FrontFile, path: str) -> Iterator[tuple[str, Entry]]:
         raise InputError(f"{path or 'the front'}: values must be as many as points, one for each of {front.over}")
     for i, (values, point) in enumerate(zip(front.values, front.points, strict=True)):
         said = Around(values=dict(zip(front.over, values, strict=True)))
-        yield from _walk(point, f"{path}.points[{i}]" if path else f"points[{i}]", said)
+        place = f"{path}.points[{i}]" if path else f"points[{i}]"
+        inside = list(_walk(point, place, said))
+        if not inside:
+            raise InputError(f"{NO_FILE}: {place} has no law, but its values claim one")
+        yield from inside
 
 
 def _of_velocity(data: Data, path: str) -> Iterator[tuple[str, Entry]]:

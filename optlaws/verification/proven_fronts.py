@@ -128,4 +128,5 @@ def _between(point: _Known, other: _Known, number: RunningNumber) -> Fraction | 
     shares = [Fraction(0), Fraction(1), *([(second - first) / turn] if turn else [])]
     gaps = [min(first + (last - first) * s, second + (end - second) * s) for s in shares if 0 <= s <= 1]
     least = min(point.top, other.top)
-    return max(gaps) / (least if least > Fraction(NOTHING) else 1)
+    scale = Fraction(number.problem.objective.scale)
+    return max(gaps) / (least if least > Fraction(NOTHING) * scale else scale)

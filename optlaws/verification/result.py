@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from dataclasses import asdict, dataclass, field
+from dataclasses import dataclass, field
 from typing import Any
 
 from optlaws.numbers import bounded
@@ -13,6 +13,11 @@ from optlaws.synthesis.problem.problem import Problem
 class Claim:
     """Something a file says or implies, whether it is proven, and the numbers.
 
+    Attributes
+    ----------
+    recomputed
+        Whether it was only computed again in doubles and agrees, so that nothing of it is proven or refuted.
+
     Examples
     --------
     >>> print(Claim("end conditions", True, "off by at most 1e-16"))
@@ -22,9 +27,11 @@ class Claim:
     name: str
     proven: bool
     detail: str
+    recomputed: bool = False
 
     def __str__(self) -> str:
-        return f"{'proven' if self.proven else 'NOT PROVEN':<12}{self.name}: {self.detail}"
+        word = "recomputed" if self.recomputed else "proven" if self.proven else "NOT PROVEN"
+        return f"{word:<12}{self.name}: {self.detail}"
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -50,7 +57,9 @@ class Verification:
     charge
         What the bound lost to moments that had to be charged; mostly 0.
     claims
-        Everything that was checked.
+        Everything that was checked, and is proven or not.
+    recomputed
+        What was only computed again in doubles, and agrees.
 
     Examples
     --------
@@ -70,6 +79,7 @@ class Verification:
     excesses: dict[str, float] = field(default_factory=dict)
     charge: float = 0.0
     claims: tuple[Claim, ...] = ()
+    recomputed: tuple[Claim, ...] = ()
 
     @property
     def proven(self) -> bool:
@@ -87,7 +97,8 @@ class Verification:
             "constants": {name: _pair(pair) for name, pair in self.constants.items()},
             "excesses": {name: bounded(by) for name, by in self.excesses.items()},
             "charge": self.charge,
-            "claims": [asdict(claim) for claim in self.claims],
+            "claims": [{name: getattr(claim, name) for name in ("name", "proven", "detail")} for claim in self.claims],
+            "recomputed": [{"name": claim.name, "detail": claim.detail} for claim in self.recomputed],
             "problem": None if self.problem is None else self.problem.to_dict(),
         }
 
@@ -102,7 +113,7 @@ class Verification:
         if self.gap is not None:
             lines.append(f"gap          at most {self.gap:.2e}")
         lines += [f"{name:<12} in [{low!r}, {high!r}]" for name, (low, high) in self.constants.items()]
-        return "\n".join([*lines, *map(str, self.claims)])
+        return "\n".join([*lines, *map(str, (*self.claims, *self.recomputed))])
 
 
 def _pair(pair: tuple[float, float]) -> list[float | None]:

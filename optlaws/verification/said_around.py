@@ -27,7 +27,7 @@ def said_around(entry: Entry, verification: Verification) -> Iterator[Claim]:
     """
     around, problem = entry.around, verification.problem
     if around.status is not None:
-        own = "infeasible" if verification.infeasible else entry.data.get("status")
+        own = "infeasible" if _no_law(verification, around.above) else entry.data.get("status")
         yield Claim("the row's status", own == around.status, f"{around.status!r} stated, {own!r} inside")
     if around.asked is not None:
         asked = problem_of(around.asked)
@@ -35,6 +35,12 @@ def said_around(entry: Entry, verification: Verification) -> Iterator[Claim]:
     if around.B is not None and problem is not None:
         yield Claim("the row's B", around.B == problem.B, f"{around.B!r} stated, {problem.B!r} in the problem")
     yield from _constants(entry)
+
+
+def _no_law(verification: Verification, above: float | None) -> bool:
+    """Whether no law exists: the constraints contradict each other, or a least value is above what is asked."""
+    bound = verification.bound
+    return verification.infeasible or (above is not None and bound is not None and bound > above)
 
 
 def _constants(entry: Entry) -> Iterator[Claim]:

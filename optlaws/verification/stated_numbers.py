@@ -19,6 +19,7 @@ from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.verification.enclosing.balls import at, enclosed, rational
 from optlaws.verification.enclosing.pieces import between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw
+from optlaws.verification.exact.limits import exact_limit
 from optlaws.verification.reading import number
 from optlaws.verification.result import Claim
 
@@ -30,11 +31,11 @@ _WHOLE = (fmpq(-1), fmpq(1))
 _ORDERS = {"B": 1, "C": 2, "J": 3}
 
 
-def at_most(name: str, stated: float, proven: Fraction | None, source: str = "") -> Claim:
-    """That a stated bound is proven, but for the rounding of doubles."""
+def at_most(name: str, stated: float, proven: Fraction | None, scale: float, source: str = "") -> Claim:
+    """That a stated bound is proven, but for the rounding of doubles; a bound near 0 is measured by its scale."""
     if proven is None:
         return Claim(name, proven=False, detail=f"{stated!r} stated, nothing proven")
-    holds = Fraction(stated) <= proven + Fraction(_BOUND) * max(Fraction(1), abs(proven))
+    holds = Fraction(stated) <= proven + Fraction(_BOUND) * max(Fraction(scale), abs(proven))
     return Claim(name, holds, f"{stated!r} stated, {rounded_down(proven)!r} proven{source}")
 
 
@@ -43,13 +44,22 @@ def stated_numbers(
 ) -> Iterator[Claim]:
     """Objective, limit and Z of a solution."""
     if "objective" in data:
-        yield near("the objective", number(data, "objective"), objective)
+        yield near("the objective", number(data, "objective"), objective, problem.objective.scale)
     if data.get("limit") is not None:
-        value, known = number(data, "limit"), known_limit(problem)
-        holds = known is not None and value <= known + _BOUND * max(1.0, known)
-        yield Claim("the limit", holds, f"{value!r} stated, {known!r} by its closed form in doubles")
+        yield _limit(number(data, "limit"), problem)
     if data.get("z") is not None:
         yield _of_z(data["z"], problem, law)
+
+
+def _limit(value: float, problem: Problem) -> Claim:
+    """That a limit of laws of any degree is proven by exact closed forms, or agrees with one in doubles."""
+    scale = problem.objective.scale
+    claim = at_most("the limit", value, exact_limit(problem), scale, " by its closed form")
+    known = known_limit(problem)
+    if claim.proven or known is None:
+        return claim
+    agrees = value <= known + _BOUND * max(scale, known)
+    return Claim("the limit", proven=False, detail=f"{value!r} stated, {known!r} in doubles", recomputed=agrees)
 
 
 def stated_constants(data: Mapping[str, Any], law: ExactLaw) -> Iterator[Claim]:
@@ -69,10 +79,10 @@ def stated_constants(data: Mapping[str, Any], law: ExactLaw) -> Iterator[Claim]:
             yield _reached(name, value, number(entry, "k"), law)
 
 
-def near(name: str, stated: float, pair: tuple[float, float]) -> Claim:
-    """That a stated value is the proven one, but for the rounding of doubles."""
+def near(name: str, stated: float, pair: tuple[float, float], scale: float = 1.0) -> Claim:
+    """That a stated value is the proven one, but for the rounding of doubles; one near 0 is measured by its scale."""
     low, high = pair
-    room = _VALUE * max(1.0, abs(high)) if high < inf else 0.0
+    room = _VALUE * max(scale, abs(high)) if high < inf else 0.0
     return Claim(name, low - room <= stated <= high + room, f"{stated!r} stated, in [{low!r}, {high!r}]")
 
 

@@ -4,6 +4,7 @@ import copy
 import json
 from collections.abc import Iterator, Sequence
 from functools import cache
+from math import inf
 from typing import Any
 
 from optlaws import Problem, synthesize
@@ -92,7 +93,17 @@ def overstated(tampered: Data, true: Verification) -> list[str]:
     gap = tampered.get("gap")
     if gap is not None and true.gap is not None and gap < true.gap - 2e-8:
         wrong.append(f"gap {gap!r}")
+    return [*wrong, *wrong_constants(tampered, true)]
+
+
+def wrong_constants(tampered: Data, true: Verification) -> list[str]:
+    """Constants of a law that a file states otherwise than they are."""
+    wrong = []
     for name, one in tampered.get("constants", {}).items():
-        if abs(one["value"] - true.constants[name][0]) > 1e-9 * max(1.0, true.constants[name][1]):
+        value = one.get("value", one) if isinstance(one, dict) else one
+        low, high = true.constants[name]
+        # without a value a constant has no bound
+        off = high < inf if value is None else not abs(value - low) <= 1e-9 * max(1.0, high)
+        if off:
             wrong.append(f"{name} {one!r}")
     return wrong

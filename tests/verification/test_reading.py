@@ -12,6 +12,7 @@ from optlaws.cli.app import exit_code
 from optlaws.synthesis.spaces.bases import Basis
 from optlaws.verification import exact_bound, verify, verify_all
 from optlaws.verification.exact.of_basis import exact_space
+from optlaws.verification.reading import built, number, read
 from tests.documents import ROOT
 from tests.verification.tampering import data_of, text_of
 
@@ -41,7 +42,7 @@ WRONG: dict[str, tuple[Callable[[str], str], str]] = {
     "program": (lambda text: text.replace('"program": "objective"', '"program": "divine"'), "program of a certificate"),
     "basis": (lambda text: text.replace('"chebyshev"', '"legendre"'), "basis 'legendre' is unknown"),
     "kind": (lambda text: text.replace('"kind": "polynomial"', '"kind": "oracle"'), "kind"),
-    "deep": (lambda _: '{"a":' * 100_000 + "1" + "}" * 100_000, "nested too deeply"),
+    "deep": (lambda _: '{"a":' * 100_000 + "1" + "}" * 100_000, "nested more than 50 deep"),
 }
 
 
@@ -53,6 +54,43 @@ def test_a_wrong_file_is_refused_and_says_why(name: str, tmp_path: Path, capsys:
     assert text != before
     assert exit_code(["verify", written(tmp_path, text)]) == 2
     assert message in capsys.readouterr().err
+
+
+@pytest.mark.parametrize(
+    ("good", "bad", "why"),
+    [
+        ({"order": 100}, {"order": 101}, "order: 101 is more than exact verification takes, 100"),
+        ({"degree": 300}, {"degree": 301}, "degree: 301 is more"),
+        ({"continuity": 300}, {"continuity": 301}, "continuity: 301 is more"),
+        ({"breaks": [0.0] * 1000}, {"breaks": [0.0] * 1001}, "breaks: 1001 is more"),
+        ({"breaks": 1000}, {"rows": [{"breaks": 1001}]}, r"rows\[0\].breaks: 1001"),
+        ({"C": 1e100}, {"C": 1.001e100}, "C: 1.001e\\+100 is beyond what exact verification takes"),
+        ({"C": -1e100}, {"law": {"C": [0.0, -1.001e100]}}, r"law.C\[1\]: -1.001e\+100"),
+        ({"B": 1.5}, {"B": float("nan")}, "B must be a finite number, got nan"),
+        ({"B": 10**90}, {"B": 10**400}, "B is beyond the numbers of double precision"),
+        ({"format": 1}, {"format": 2}, "the file has the format 2; this version reads 1"),
+        ({"format": 1}, {"law": {"format": True}}, "law has the format True"),
+    ],
+)
+def test_sizes_and_numbers_are_read_up_to_their_greatest(good: dict[str, Any], bad: dict[str, Any], why: str) -> None:
+    assert read(good) == good
+    with pytest.raises(InputError, match=why):
+        read(bad)
+
+
+def test_only_numbers_are_numbers() -> None:
+    assert number({"B": 2}, "B") == 2.0
+    for wrong in (True, None, "2"):
+        with pytest.raises(InputError, match="B must be a finite number, got"):
+            number({"B": wrong}, "B")
+
+
+def test_what_cannot_be_built_is_said_by_its_name() -> None:
+    assert built(int, "3", "degree") == 3
+    with pytest.raises(InputError, match="degree: ValueError: invalid literal"):
+        built(int, "three", "degree")
+    with pytest.raises(InputError, match="problem: B must be a finite number above 1"):
+        built(Problem.from_dict, {"B": 0.5, "order": 3}, "problem")
 
 
 def test_a_file_that_is_not_there_is_refused(tmp_path: Path, capsys: pytest.CaptureFixture[str]) -> None:

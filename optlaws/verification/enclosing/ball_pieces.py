@@ -87,7 +87,7 @@ def _sine(sine: SineSegment, nu: int, s: Ball) -> Ball:
 
 
 def _factor(i: int, nu: int) -> Fraction:
-    """Of s^i, differentiated nu - 2 times (integrated if below 2)."""
+    """The factor of s^i, differentiated nu - 2 times (integrated if below 2)."""
     if nu >= 2:
         return Fraction(prod(range(i - nu + 3, i + 1)))
     return Fraction(1, i + 1) if nu == 1 else Fraction(1, (i + 1) * (i + 2))

@@ -47,7 +47,7 @@ def enclosure(value: arb) -> tuple[float, float]:
 
 
 def enclosed(value: arb) -> tuple[float, float]:
-    """The same, also of a number that may be infinite."""
+    """The two doubles that enclose a ball, which may be infinite."""
     if value.is_finite():
         return enclosure(value)
     return (inf, inf) if value == arb.pos_inf() else (-inf, inf)

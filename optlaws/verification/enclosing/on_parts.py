@@ -96,7 +96,7 @@ def on_part(formula: Formula, low: Fraction, high: Fraction) -> Formula:
 
 
 def _sign(formula: Formula, low: Fraction, high: Fraction) -> float | None:
-    """Of what is affine in k; None where it is not, or changes."""
+    """The sign of a formula that is affine in k; None where it is not, or where the sign changes."""
     line = _line(formula)
     ends = [] if line is None else [line[0] * k + line[1] for k in (low, high)]
     if not ends:

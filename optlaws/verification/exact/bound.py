@@ -157,12 +157,15 @@ class _Helper:
     vector: Vector
     low: arb
     high: arb
+    scale: float = 1.0
 
 
 class _System:
     def __init__(self, certificate: Certificate, along: Along | None = None, *, beside: bool = True) -> None:
         self.certificate, self.along, self.beside = certificate, along, beside
         self.rows = rows = ExactRows(certificate)
+        #: the objective's, in which it is reckoned
+        self.unit = Fraction(1 if certificate.program == VIOLATION else certificate.problem.objective.scale)
         self.vectors: list[Vector] = []
         self.multipliers: list[arb] = []
         self.negative = self.unknown = 0
@@ -177,9 +180,11 @@ class _System:
         self.contacts = len(self.vectors)
         for row, weight in zip(rows.equations, certificate.equations, strict=False):
             self.vectors.append(row.vector(rows.names))
-            self.multipliers.append(ball(weight))
+            self.multipliers.append(ball(Fraction(weight) / self.unit))
         self.size = rows.space.terms + len(rows.names)
-        self.cost = [arb(0)] * rows.space.terms + [ball(rows.cost.get(name, 0.0)) for name in rows.names]
+        self.cost = [arb(0)] * rows.space.terms + [
+            ball(Fraction(rows.cost.get(name, 0.0)) / self.unit) for name in rows.names
+        ]
 
         self.rates = self._rates()
 
@@ -198,13 +203,13 @@ class _System:
         return [(other[-1] - here[-1]) / ball(self.along.width) for here, other in together]
 
     def _take(self, contact: Contact, row: Row) -> None:
-        weight = Fraction(contact.multiplier)
+        whole = weight = Fraction(contact.multiplier) / self.unit
         for near, k in self._neighbours(contact) if self.beside else ():
             moved = self.rows.row(near, k)
             if moved is not None:
                 self.vectors.append(moved.vector(self.rows.names))
-                self.multipliers.append(ball(Fraction(contact.multiplier) * _SHARE))
-                weight -= Fraction(contact.multiplier) * _SHARE
+                self.multipliers.append(ball(whole * _SHARE))
+                weight -= whole * _SHARE
         self.vectors.append(row.vector(self.rows.names))
         self.multipliers.append(ball(weight))
 
@@ -237,7 +242,7 @@ class _System:
         for readiness in _READINESS:
             for helpers in joining:
                 corrected = self._corrected(helpers, readiness, claim)
-                if corrected is not None and (best is None or _better(corrected[0], best[0])):
+                if corrected is not None and (best is None or _better(corrected[0], best[0], self.unit)):
                     best = corrected
         return best if best is not None else (Proof(None, 0.0, 0.0, self.negative, self.unknown), False)
 
@@ -245,12 +250,13 @@ class _System:
         if self.along is not None:
             return self.along.claim
         total = sum((m * vector[-1] for m, vector in zip(self.multipliers, self.vectors, strict=True)), arb(0))
-        return rounded_up(upper(total)) if total.is_finite() else inf
+        return rounded_up(upper(total) * self.unit) if total.is_finite() else inf
 
     def _corrected(self, helpers: list[_Helper], readiness: float, claim: float = inf) -> tuple[Proof, bool] | None:
         vectors = self.vectors + [helper.vector for helper in helpers]
         weights = [m * m for m in self.multipliers[: self.contacts]]
-        weights += [arb(1)] * (len(self.vectors) - self.contacts) + [arb(readiness)] * len(helpers)
+        weights += [1 / ball(scale) ** 2 for scale in self.rows.equation_scales[: len(self.vectors) - self.contacts]]
+        weights += [readiness / ball(helper.scale) ** 2 for helper in helpers]
         changes = _changes(vectors, weights, self._slopes())
         if changes is None:
             return None
@@ -265,14 +271,16 @@ class _System:
             charge += (weight * helper.low).max(weight * helper.high)
         if not value.is_finite() or not charge.is_finite():
             return None
-        total = lower(value - charge)
+        total = lower(value - charge) * self.unit
         greatest = max((rounded_up(upper(abs(m))) for m in self.multipliers), default=0.0) or 1.0
         moved = max((rounded_up(upper(abs(c))) for c in changes[: len(self.vectors)]), default=0.0)
         # a law either contradicts the claim, and then the helpers are bounded, or it does not
         proven = min(total, Fraction(claim)) if helpers and self.along is None else total
         slope = sum((m * rate for m, rate in zip(multipliers, self.rates, strict=False)), arb(0))
-        bounds = (lower(slope), upper(slope))
-        proof = Proof(proven, rounded_up(upper(charge)) + 0.0, moved / greatest, self.negative, self.unknown, bounds)
+        bounds = (lower(slope) * self.unit, upper(slope) * self.unit)
+        proof = Proof(
+            proven, rounded_up(upper(charge) * self.unit) + 0.0, moved / greatest, self.negative, self.unknown, bounds
+        )
         return proof, bool(value.rad() < _WIDE)
 
     def _slopes(self) -> Vector:
@@ -292,7 +300,9 @@ class _System:
             if isfinite(greatest.get(name, inf)) and isfinite(least.get(name, 0)):
                 unit = [arb(0)] * (self.size + 1)
                 unit[rows.space.terms + i] = arb(1)
-                constants.append(_Helper(unit, ball(least.get(name, 0)), ball(greatest[name])))
+                constants.append(
+                    _Helper(unit, ball(least.get(name, 0)), ball(greatest[name]), rows.scales.get(name, 1.0))
+                )
         bounded = means(widest.problem, rows, greatest)
         for nu, mean in bounded.items():
             moments = [[arb(entry) for entry in row] for row in rows.space.moments(nu)]
@@ -303,18 +313,19 @@ class _System:
         for name, output in rows.outputs.items():
             if output.exact.both and isfinite(greatest.get(name, inf)):
                 size = ball(greatest[name])
-                yield constants + [self._moment(moment, size) for moment in output.moments()]
+                scale = output.exact.constant.scale
+                yield constants + [self._moment(moment, size, scale) for moment in output.moments()]
 
-    def _moment(self, moment: Vector, size: arb) -> _Helper:
+    def _moment(self, moment: Vector, size: arb, scale: float = 1.0) -> _Helper:
         *free, base = moment
-        return _Helper([*free, *[arb(0)] * len(self.rows.names), base], -size, size)
+        return _Helper([*free, *[arb(0)] * len(self.rows.names), base], -size, size, scale)
 
 
-def _better(proof: Proof, than: Proof) -> bool:
+def _better(proof: Proof, than: Proof, scale: Fraction) -> bool:
     """Whether a proof bounds more, or as much but for a rounding with multipliers that are corrected much less."""
     if proof.value is None or than.value is None:
         return proof.value is not None
-    rounding = _SAME * max(Fraction(1), abs(than.value))
+    rounding = _SAME * max(scale, abs(than.value))
     if proof.correction <= _LITTLE < than.correction:
         return proof.value > than.value - rounding
     if than.correction <= _LITTLE < proof.correction:

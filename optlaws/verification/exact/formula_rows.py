@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from itertools import pairwise
 from operator import mul
@@ -19,8 +19,9 @@ from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tree import Formula
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
+from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.functionals.affine_rows import gauss_parts
-from optlaws.synthesis.functionals.curved_rows import Branch, rule_edges, rule_length
+from optlaws.synthesis.functionals.curved_rows import Branch, integral_rows, rule_edges, rule_length
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.verification.enclosing.ball_formulas import BALLS, composed, series_of
 from optlaws.verification.enclosing.balls import ball, rational
@@ -92,6 +93,34 @@ def tangent_integral(space: ExactSpace, motion: Motion, point: Sequence[float], 
     if root:
         return [value / size.sqrt() for value in row]
     return row
+
+
+def straight_integral(space: ExactSpace, motion: Motion, point: Sequence[float]) -> list[arb]:
+    """An affine function that the integral of a greatest of straight formulas is nowhere below.
+
+    On every stretch it is the integral of that one which is the greatest there in a law, whose variables the point
+    gives: whichever it is, the formula is nowhere below it. LookupError where the formula is no such greatest.
+    """
+    formulas = motion.branches(1.0) or []
+    straight = [replace(motion, formula=formula) for formula in formulas]
+    laws = space_of(space.problem.basis, space.problem.conditions, symmetric=space.problem.symmetric)
+    if not straight or any(branch.affine is None for branch in straight) or len(point) < laws.terms:
+        raise LookupError
+    family = integral_rows(laws, motion, "", np.zeros(laws.terms), 0.0, root=False, convex=True)
+    if not isinstance(family, KinkedIntegralFamily):
+        raise LookupError  # noqa: TRY004 - the point belongs to no such row
+    law = np.array(point[: laws.terms])
+    columns = [arb(0)] * (space.terms + 1)
+    for stretch in family.split(law).stretches:
+        middle = np.array([(stretch.low + stretch.high) / 2.0])
+        values = zip(family.names, family.columns_at(middle) @ np.append(law, 1.0), strict=True)
+        names = {**dict(values), "k": middle}
+        heights = [float(branch.values(names).item()) for branch in straight]
+        greatest = straight[heights.index(max(heights))]
+        for ends, _ in _within(space, greatest, [Fraction(stretch.low), Fraction(stretch.high)]):
+            several = _weighted(space, greatest, fmpq_poly([1]), ends)
+            columns = [entry + other for entry, other in zip(columns, several, strict=True)]
+    return columns
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,9 @@ from operator import mul
 from flint import arb
 
 from optlaws.errors import InputError
+from optlaws.formulas.branches import switches
 from optlaws.formulas.of_motion import Motion
+from optlaws.formulas.vocabulary import ORDERS
 from optlaws.kept import kept_property
 from optlaws.synthesis.families import names
 from optlaws.synthesis.families.names import RowName, VariableName
@@ -33,7 +35,13 @@ from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.enclosing.row import Maker, Names, Row
-from optlaws.verification.exact.formula_rows import formula_columns, norm_columns, tangent_columns, tangent_integral
+from optlaws.verification.exact.formula_rows import (
+    formula_columns,
+    norm_columns,
+    straight_integral,
+    tangent_columns,
+    tangent_integral,
+)
 from optlaws.verification.exact.known_constants import OfFormula, OfMachine, known
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.of_basis import exact_space
@@ -91,6 +99,9 @@ class ExactRows:
         self.cost: dict[str, float] = {}
         self._makers: dict[tuple[str, float], list[Maker]] = {}
         self.equations: list[Row] = []
+        #: of what size each equation is, and each variable
+        self.equation_scales: list[float] = []
+        self.scales: dict[str, float] = {}
         if certificate.program != VIOLATION:
             self._objective(problem.objective)
         if problem.peak_is_variable:
@@ -117,11 +128,16 @@ class ExactRows:
         for sign in signs:
             self._makers.setdefault((name, sign), []).append(maker)
 
+    def _equal(self, row: Row, scale: float = 1.0) -> None:
+        self.equations.append(row)
+        self.equation_scales.append(scale)
+
     def _objective(self, expression: Expression) -> None:
         self.cost = expression.weights()
         constants = list(dict.fromkeys(leaf for _, leaf in leaves(expression)))
         maxima = list(dict.fromkeys(_maxima(expression)))
         self.names += [repr(term) for term in (*constants, *maxima)]
+        self.scales = {repr(term): term.scale for term in (*constants, *maxima)}
         for leaf in constants:
             if not isinstance(leaf, Functional) or [repr(other) for other in constants].count(repr(leaf)) > 1:
                 raise InputError(f"there are no exact rows for {leaf!r}: it is no constant, or shares its name")
@@ -208,6 +224,8 @@ class ExactRows:
 
         def make(contact: Contact, _: Fraction) -> Row:
             squares = squared(motion) if root else motion
+            if not root and switches(motion.formula, ORDERS):
+                return Row(straight_integral(self.space, motion, contact.direction), slack, -ball(high))
             columns = tangent_integral(self.space, squares, contact.direction, root=root)
             return Row([value / unit for value in columns], slack, -ball(high))
 
@@ -318,7 +336,7 @@ class ExactRows:
         for constant, wanted in problem.bounded:
             self._range(constant, wanted)
         for asked in self.space.conditions:
-            self.equations.append(Row(self.space.condition(asked), {}, -ball(asked.value)))
+            self._equal(Row(self.space.condition(asked), {}, -ball(asked.value)))
         for i, window in enumerate(problem.windows, 1):
             halves = (names.window(i), names.mirrored(names.window(i)))
             if window.motion is not None:
@@ -343,17 +361,17 @@ class ExactRows:
         problem, space, wanted = self.problem, self.space, self.problem.range("B")
         fixed = wanted.high if wanted is not None and wanted.fixed else None
         if fixed is not None and not problem.symmetric:
-            self.equations.append(Row([arb(0)] * (space.terms + 1), {"B": 1.0}, -ball(fixed)))
+            self._equal(Row([arb(0)] * (space.terms + 1), {"B": 1.0}, -ball(fixed)))
         if problem.peak_at is None:
             return
         peak = Fraction(problem.peak_at)
         self._everywhere(RowName.BELOW_PEAK, partial(space.chord, peak), (1.0,), {})
         if fixed is not None and problem.symmetric:
-            self.equations.append(Row(space.values(1, peak), {}, -ball(fixed)))
+            self._equal(Row(space.values(1, peak), {}, -ball(fixed)))
         elif problem.peak_is_variable:
-            self.equations.append(Row(space.values(1, peak), {"B": -1.0}))
+            self._equal(Row(space.values(1, peak), {"B": -1.0}))
         if not problem.symmetric:
-            self.equations.append(Row(space.values(2, peak)))
+            self._equal(Row(space.values(2, peak)))
 
     def _velocity(self) -> None:
         """Rows |b| <= B and the bounds of B."""
@@ -381,7 +399,7 @@ class ExactRows:
         for part, name in zip(separate, halves, strict=False):
             if window.value:
                 columns = formula_columns(self.space, part, Fraction(part.start))
-                self.equations.append(Row(columns, {}, -ball(window.high)))
+                self._equal(Row(columns, {}, -ball(window.high)), window.scale)
                 continue
             for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
                 branches = split(part, sign, names.window_side(name, sign)) if isfinite(bound) else None
@@ -392,7 +410,7 @@ class ExactRows:
     def _window(self, name: str, window: Window, part: Part) -> None:
         if window.value:
             values = self.space.values(part.order, part.start)
-            self.equations.append(Row(values, {}, -ball(part.high or Fraction(0))))
+            self._equal(Row(values, {}, -ball(part.high or Fraction(0))))
             return
 
         def make(contact: Contact, k: Fraction) -> Row:

@@ -38,7 +38,7 @@ class ModeConstant(Protocol):
 
     @property
     def machine(self) -> StateSpace:
-        """Of which machine."""
+        """The machine whose residual it is."""
 
     @property
     def output(self) -> str:

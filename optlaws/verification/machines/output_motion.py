@@ -56,7 +56,7 @@ class Motion:
     laws: int
 
     def raised(self, by: arb, columns: Sequence[int]) -> Motion:
-        """The same with a number added to some of the outputs."""
+        """The motion with a number added to some of the outputs."""
         if by == 0:
             return self
         stretches = []
@@ -111,7 +111,7 @@ class _Chains:
         self.last: States = []
 
     def settled(self, first: Drive) -> States:
-        """Those of rest where a drive begins."""
+        """The states of rest where a drive begins."""
         levels = first.first if self.transfer.order == 0 else [fmpq(0)] * self.laws
         if any(level != 0 for level in levels) and self.transfer.characteristic(fmpq(0)) == 0:
             raise InputError("exact verification knows no state of rest, away from 0, of a machine that drifts")
@@ -140,7 +140,7 @@ class _Chains:
         self.last = states
 
     def returned(self, driven: Sequence[Drive]) -> States:
-        """Those that come back after a cycle."""
+        """The states that come back after a cycle."""
         list(self.moved(driven, [acb_mat(len(pole.shares), self.laws) for pole in self.poles]))
         period = ball(driven[-1].stop - driven[0].start)
         return [_returned(pole, period, rows) for pole, rows in zip(self.poles, self.last, strict=True)]

@@ -29,8 +29,12 @@ class OutputConstant(Protocol):
         """Its name."""
 
     @property
+    def scale(self) -> float:
+        """The size of the output while a smooth law drives the machine, a power of 2."""
+
+    @property
     def machine(self) -> StateSpace:
-        """Of which machine."""
+        """The machine whose output it is."""
 
     @property
     def output(self) -> str:
@@ -62,7 +66,7 @@ class OutputPeak(OutputConstant, Protocol):
 
     @property
     def signs(self) -> tuple[float, ...]:
-        """Of which of the output and its opposite the peak is."""
+        """The signs with which the output is followed: of the output, of its opposite, or both."""
 
 
 @runtime_checkable

@@ -29,7 +29,7 @@ _TERMS, _NOTHING, _SHORTEST = 24, 2.0**-80, Fraction(1, 2**20)
 
 
 def ends_of(space: Space) -> list[list[Ends]]:
-    """Of every function of a space, by its pieces."""
+    """The derivatives at the ends of the pieces of every function of a space."""
     degree = max(polynomial.degree() for part in space.derivative(0) for polynomial in part)
     derivatives = [space.derivative(nu) for nu in range(1, degree + 1)]
     edges = [2 * fmpq(k.numerator, k.denominator) - 1 for k in space.breaks]
@@ -46,7 +46,7 @@ def ends_of(space: Space) -> list[list[Ends]]:
 
 
 def ends_of_piece(piece: PolynomialPiece) -> Ends:
-    """Of a stored law's piece."""
+    """The derivatives at the ends of a stored law's piece."""
     orders = range(1, piece.derivative(0).degree() + 1)
     return [piece.exact(nu, piece.start) for nu in orders], [piece.exact(nu, piece.stop) for nu in orders]
 

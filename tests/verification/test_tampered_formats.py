@@ -1,0 +1,43 @@
+"""Whatever stands in whatever place of a file of ours: it is refused, or what it says is still true."""
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from optlaws.verification import verify_all
+from tests.sampling import examples
+from tests.verification.tampered_formats import Format, changes, formats, outcome, places, tampered
+from tests.verification.tampering import value_at
+
+pytest.importorskip("flint")
+
+
+@pytest.fixture(scope="module", params=formats())
+def form(request: pytest.FixtureRequest) -> Format:
+    return formats()[request.param]()
+
+
+def test_what_was_not_changed_is_read_and_proven(form: Format) -> None:
+    if form.read is not None:
+        assert form.wrong(form.data, form.read(form.data)) == []
+    if form.verified:
+        verifications = verify_all(form.data)
+        assert all(one.proven for one in verifications.values())
+        assert form.wrong_proven(form.data, verifications) == []
+
+
+@examples(40)
+@given(drawn=st.data())
+def test_what_was_changed_is_refused_or_still_true(form: Format, drawn: st.DataObject) -> None:
+    path = drawn.draw(st.sampled_from(list(places(form.data))))
+    before = value_at(form.data, path)
+    near = st.floats(0.5, 2.0).map(lambda share: share * before) if type(before) in {int, float} else st.nothing()
+    value = drawn.draw(st.sampled_from(changes(before)) | near)
+    assert outcome(form, tampered(form.data, path, value))[1] == []
+
+
+@pytest.mark.long
+def test_every_change_of_every_value_is_refused_or_still_true(form: Format) -> None:
+    for path in places(form.data):
+        for value in changes(value_at(form.data, path)):
+            assert outcome(form, tampered(form.data, path, value))[1] == [], (path, value)
