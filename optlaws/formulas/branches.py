@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from bisect import bisect_right
-from collections.abc import Callable, Collection, Mapping
+from collections.abc import Callable, Collection, Mapping, Sequence
 from functools import reduce
 from itertools import combinations
 from itertools import product as every
@@ -67,17 +67,19 @@ def smooth_itself(part: Formula) -> bool:
 
 
 def switches(formula: Formula, names: Collection[str]) -> list[Formula]:
-    """Formulas between whose changes of sign it has no kinks in these names; those of inner parts come first.
+    """Formulas between whose changes of sign it is as often differentiable as they are; those of inner parts first.
 
     Examples
     --------
     >>> from optlaws.formulas.reading import read
     >>> switches(read("max(abs(b) - 1, c, 0)"), "bc")
     [b, abs(b) - 1 - c, abs(b) - 1, c]
+    >>> switches(read("spline(a, 0:1, 0.25:2, 0.75:3, 1:3)*c"), "ac")
+    [a - 0.25, a - 0.75]
     """
     formulas: list[Formula] = []
     for part in reversed(list(formula.walk())):
-        if smooth_itself(part) or not part.names() & set(names):
+        if (smooth_itself(part) and not isinstance(part, Table)) or not part.names() & set(names):
             continue
         if isinstance(part, Table):
             formulas += [added([part.of, opposite(number(place))]) for place in part.places[1:-1]]
@@ -88,6 +90,19 @@ def switches(formula: Formula, names: Collection[str]) -> list[Formula]:
     return [fromkey for fromkey in dict.fromkeys(formulas) if fromkey.names() & set(names)]
 
 
+def knots(formula: Formula, names: Collection[str]) -> tuple[list[Formula], list[Formula]]:
+    """The switches that have none themselves, and the others.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> knots(read("max(abs(b) - 1, c, 0)"), "bc")
+    ([b, c], [abs(b) - 1 - c, abs(b) - 1])
+    """
+    several = switches(formula, names)
+    return [one for one in several if not switches(one, names)], [one for one in several if switches(one, names)]
+
+
 def branch_at(formula: Formula, names: Mapping[str, float]) -> Formula:
     """The smooth formula that it is where its names, all of them, have these values.
 
@@ -96,20 +111,44 @@ def branch_at(formula: Formula, names: Mapping[str, float]) -> Formula:
     >>> from optlaws.formulas.reading import read
     >>> branch_at(read("abs(b) + max(c, 2*b)"), {"b": -1.0, "c": 3.0})
     -b + c
+    >>> branch_at(read("table(a, 0:0, 0.5:2, 1:3)"), {"a": 0.75})
+    2 + 2*(a - 0.5)
     """
     parts = [branch_at(part, names) for part in formula.parts]
-    if smooth_itself(formula):
+    if smooth_itself(formula) and not isinstance(formula, Table):
         return rebuilt(formula, parts) if parts else formula
     values = [float(evaluate(part, names, NUMPY)) for part in parts]
     if isinstance(formula, Table):
-        lines = pieces(formula).tolist()
-        i = min(max(bisect_right(formula.places, values[0]) - 1, 0), len(lines) - 1)
-        start, slope = lines[i][0], (lines[i][1] if len(lines[i]) > 1 else 0.0)
-        return added([number(start - slope * formula.places[i]), multiplied([number(slope), parts[0]])])
+        rows = pieces(formula).tolist()
+        i = min(max(bisect_right(formula.places, values[0]) - 1, 0), len(rows) - 1)
+        return _in_powers(rows[i], added([parts[0], opposite(number(formula.places[i]))]))
     if len(parts) == 1:
         return parts[0] if values[0] >= 0.0 else opposite(parts[0])
     best = max(values) if isinstance(formula, Call) and formula.function == "max" else min(values)
     return parts[values.index(best)]
+
+
+def together(formula: Formula) -> Formula:
+    """A formula of the degree that the smooth ones which it is somewhere have at most.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> together(read("max(b^2, c) + abs(k)"))
+    b^2 + c + k
+    """
+    parts = [together(part) for part in formula.parts]
+    if isinstance(formula, Table):
+        return Power(parts[0], Number(max((3.0 if formula.smooth else 1.0) - formula.order, 0.0)))
+    if smooth_itself(formula):
+        return rebuilt(formula, parts) if parts else formula
+    return added(parts)
+
+
+def _in_powers(coefficients: Sequence[float], of: Formula) -> Formula:
+    """The polynomial with these coefficients, ascending."""
+    powers = [Number(1.0), of, *(Power(of, Number(float(m))) for m in range(2, len(coefficients)))]
+    return added([multiplied([number(value), power]) for value, power in zip(coefficients, powers, strict=False)])
 
 
 def rounded(formula: Formula, radius: float) -> Formula:
@@ -144,7 +183,7 @@ class _Branches:
         self.names, self.sign = names, sign
 
     def of(self, formula: Formula, *, greatest: bool) -> list[Formula] | None:
-        """As the greatest, or the least, of smooth formulas."""
+        """The smooth formulas of which a formula is the greatest or the least; None where it is neither."""
         if smooth(formula, self.names):
             return [formula]
         if isinstance(formula, Negative):

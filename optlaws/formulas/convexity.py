@@ -41,7 +41,7 @@ class Curvature(Enum):
 
     @property
     def opposite(self) -> Curvature:
-        """Of the formula with its sign turned."""
+        """The curvature of the formula with its sign turned."""
         return {Curvature.CONVEX: Curvature.CONCAVE, Curvature.CONCAVE: Curvature.CONVEX}.get(self, self)
 
     @property

@@ -164,7 +164,7 @@ def _call(function: str, parts: list[Interval]) -> Interval:
 
 
 def _wave(turn: Interval) -> Interval:
-    """Of a cosine."""
+    """The range of a cosine."""
     with np.errstate(invalid="ignore"):
         ends = [np.cos(turn.low), np.cos(turn.high)]
     top = np.floor(turn.high / (2 * pi)) * 2 * pi >= turn.low

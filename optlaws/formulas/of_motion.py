@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from functools import partial
+from functools import partial, reduce
+from math import prod
 from typing import Any
 
 import numpy as np
@@ -16,10 +17,23 @@ from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.branches import branches
 from optlaws.formulas.convexity import Curvature, Judge, Verdict
 from optlaws.formulas.reading import read, refused
-from optlaws.formulas.slopes import added, constant, opposite
-from optlaws.formulas.tree import Call, Formula, Name, Negative, Number, Product, Reciprocal, Table, substituted
+from optlaws.formulas.slopes import added, constant, opposite, scaled
+from optlaws.formulas.tree import (
+    Call,
+    Formula,
+    Name,
+    Negative,
+    Number,
+    Power,
+    Product,
+    Reciprocal,
+    Sum,
+    Table,
+    substituted,
+)
 from optlaws.formulas.vocabulary import ORDERS, VOCABULARY
 from optlaws.kept import kept_property
+from optlaws.numbers import power_of_two
 from optlaws.series.chebyshev import interpolated, real_parts_of_roots
 
 Array = NDArray[np.float64]
@@ -128,6 +142,30 @@ class Motion:
         return tuple(k for k in self.kinks if self.start < k < self.stop)
 
     @kept_property
+    def scale(self) -> float:
+        """Of what size it is in smooth laws: a power of 2 near its parts there, never 0.
+
+        Examples
+        --------
+        >>> of_text("c").scale, of_text("2^-40*c").scale * 2.0**40, of_text("c - j").scale
+        (4.0, 4.0, 64.0)
+        """
+        k = np.linspace(self.start, self.stop, _LOOKS)
+        moved = {
+            "a": k,
+            "b": 30.0 * (k * (1 - k)) ** 2,
+            "c": 60.0 * k * (1 - k) * (1 - 2 * k),
+            "j": 60.0 - 360.0 * k * (1 - k),
+        }
+        with np.errstate(all="ignore"):
+            sizes = _magnitude(self.formula, {**_REACHED, "k": k}, {**moved, "k": k})
+        return power_of_two(float(np.max(sizes, where=np.isfinite(sizes), initial=0.0)))
+
+    def scaled(self, factor: float) -> Motion:
+        """A factor above 0 times the formula."""
+        return replace(self, formula=scaled(self.formula, factor))
+
+    @kept_property
     def kinks(self) -> tuple[float, ...]:
         """The k strictly between 0 and 1 at which a factor is not smooth, ascending."""
         places: set[float] = set()
@@ -156,6 +194,36 @@ class Motion:
             series = interpolated(partial(_along, Motion(part)), str(part))
             places += ((1.0 + real_parts_of_roots(series)) / 2.0).tolist()
         return places
+
+
+#: what a, b, c and j reach in a smooth law from rest to rest, and at how many k a formula is looked at
+_REACHED = {"a": 1.0, "b": 2.0, "c": 6.0, "j": 60.0}
+_LOOKS = 33
+
+
+def _magnitude(formula: Formula, names: Mapping[str, Any], values: Mapping[str, Any]) -> Array:
+    """The size of a formula's parts at some places, without regard to signs; in another unit it is that times as much.
+
+    `names` are what the derivatives reach anywhere, `values` what they are there.
+    """
+    parts = [_magnitude(part, names, values) for part in formula.parts]
+    if isinstance(formula, Name | Number):
+        return np.asarray(np.abs(evaluate(formula, names, NUMPY)))
+    if isinstance(formula, Negative):
+        return parts[0]
+    if isinstance(formula, Sum):
+        return np.asarray(sum(parts))
+    if isinstance(formula, Product):
+        return np.asarray(prod(parts))
+    if isinstance(formula, Reciprocal):
+        return 1.0 / parts[0]
+    if isinstance(formula, Power):
+        return np.asarray(parts[0] ** evaluate(formula.exponent, values, NUMPY))
+    if isinstance(formula, Call) and formula.function in {"abs", "norm"}:
+        return np.asarray(reduce(np.maximum, parts))
+    there = np.asarray(np.abs(evaluate(formula, values, NUMPY)))
+    # at rest a formula may be 0 that is not elsewhere
+    return there if np.any(there) or not parts else np.asarray(reduce(np.maximum, parts))
 
 
 def _along(motion: Motion, x: Array) -> Array:

@@ -1,11 +1,13 @@
 """The grammar of formulas. Nothing is ever evaluated as Python, and size and depth are bounded.
 
-sum    = [sign] product { ("+" | "-") product }
-product = signed { ("*" | "/") signed }
-signed = [sign] power
-power  = atom [ ("^" | "**") signed ]
-atom   = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
-         | ("table" | "spline") "(" sum "," place ":" value { "," place ":" value } ")"
+::
+
+    sum    = [sign] product { ("+" | "-") product }
+    product = signed { ("*" | "/") signed }
+    signed = [sign] power
+    power  = atom [ ("^" | "**") signed ]
+    atom   = number | name | function "(" sum { "," sum } ")" | "(" sum ")"
+             | ("table" | "spline") "(" sum "," place ":" value { "," place ":" value } ")"
 """
 
 from __future__ import annotations

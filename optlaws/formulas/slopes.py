@@ -146,6 +146,25 @@ def added(terms: list[Formula]) -> Formula:
     return total(kept) if kept else _ZERO
 
 
+def scaled(formula: Formula, factor: float) -> Formula:
+    """A factor above 0 times a formula, taken into its sums, absolute values, maxima, minima and norms.
+
+    Examples
+    --------
+    >>> from optlaws.formulas.reading import read
+    >>> scaled(read("max(c, 2*b) - sqrt(k)"), 4.0)
+    max(4*c, 8*b) - 4*sqrt(k)
+    """
+    if isinstance(formula, Negative):
+        return Negative(scaled(formula.of, factor))
+    if isinstance(formula, Sum):
+        return total([scaled(term, factor) for term in formula.terms])
+    if isinstance(formula, Call) and formula.function in {"abs", "max", "min", "norm"}:
+        return Call(formula.function, tuple(scaled(argument, factor) for argument in formula.arguments))
+    factors = formula.factors if isinstance(formula, Product) else (formula,)
+    return multiplied([Number(factor), *factors])
+
+
 def multiplied(factors: list[Formula]) -> Formula:
     """The product without what is 1; 0 where a factor is; numbers first, as one."""
     value, others, minus = 1.0, [], False

@@ -136,7 +136,7 @@ def _rms(motion: SimpleNamespace, of: Any) -> Any:  # noqa: ANN401 - cvxpy's
 
 @pytest.mark.parametrize("text", sampled(OPTIMA, 2))
 def test_least_values_are_those_of_cvxpy_on_a_grid_and_never_beaten(text: str) -> None:
-    problem = Problem(B=1.8, order=4, basis=Chebyshev(7), minimise=text)
+    problem = Problem(B=1.8, order=4, basis=Chebyshev(7), minimise=text, symmetric=True)
     solution = synthesize(problem)
     assert solution.status.value == "optimal"
     space = space_of(problem.basis, problem.conditions, symmetric=True)

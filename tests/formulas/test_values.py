@@ -69,6 +69,43 @@ def test_what_has_kinks_has_no_slope(written: str) -> None:
         derivative(read(written), "b")
 
 
+@pytest.mark.parametrize(
+    "written",
+    [
+        "sin(2*b)", "cos(2*b)", "tan(b)", "atan(2*b)", "tanh(2*b)", "exp(2*b)", "log(b + 2)", "sqrt(b + 2)",
+        "norm(b, 2, k*b)", "1/(b + 2)", "-(b^2)", "b*k*b", "b - b*k", "(b + 2)^1", "(b + 2)^2", "(b + 2)^3",
+        "(b + 2)^-2", "(b + 2)^0", "(b + 2)^k", "2^b", "(b + 2)^b", "(k + 2)^(b*k)", "spline(b, -2:1, 0:3, 1:0, 2:1)",
+        "spline1(2*b, -4:1, 0:3, 1:0, 2:1)", "table(k, 0:1, 1:3)*b^3", "pi*b",
+    ],
+)  # fmt: skip
+def test_every_kind_of_part_has_the_slope_of_differences(written: str) -> None:
+    formula = read(written)
+    for name, b, k in (("b", 0.4, 0.7), ("b", 0.9, 0.2), ("k", 0.4, 0.7)):
+        values, h = {"b": b, "k": k}, 1e-5
+        ends = [float(evaluate(formula, {**values, name: values[name] + s * h}, NUMPY)) for s in (1, -1)]
+        slope = float(evaluate(derivative(formula, name), values, NUMPY))
+        assert slope == pytest.approx((ends[0] - ends[1]) / (2 * h), rel=1e-8, abs=1e-9)
+
+
+@pytest.mark.parametrize(
+    ("written", "slope"),
+    [
+        ("b", "1"),
+        ("c", "0"),
+        ("-b", "-1"),
+        ("3*b", "3"),
+        ("b^2", "2*b"),
+        ("b^3", "3*b^2"),
+        ("b + c", "1"),
+        ("2*(-b)", "-2"),
+        ("0*b", "0"),
+        ("1*b*c", "c"),
+    ],
+)
+def test_slopes_are_written_without_what_is_0_or_1(written: str, slope: str) -> None:
+    assert str(derivative(read(written), "b")) == slope
+
+
 def test_tables_and_splines_are_those_of_numpy_and_scipy() -> None:
     places, heights = (0.0, 0.2, 0.55, 0.7, 1.0), (1.0, -2.0, 0.5, 3.0, 2.0)
     pairs = ", ".join(f"{x}:{y}" for x, y in zip(places, heights, strict=True))
