@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from optlaws.numbers import bounded
 from optlaws.series import peaks
 from optlaws.series.peaks import Peak
+from optlaws.shown.summary import Row, Summary
 
 
 @dataclass(frozen=True, slots=True)
@@ -52,10 +53,20 @@ class Constants:
             table["rms_c"] = bounded(self.rms_c)
         return table
 
-    def _repr_html_(self) -> str:
-        from optlaws.laws.html import table_of_constants
+    def summary(self) -> Summary:
+        """The peaks with their places, and the root mean square of c, as rows.
 
-        return table_of_constants(self)
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> [row.name for row in smoothstep(2).constants.summary() if row.place == 0.0]
+        ['C', 'J']
+        """
+        peaks = [Row(name, peak.value, place=peak.k) for name in "BCDJ" for peak in [getattr(self, name)]]
+        return Summary([*peaks, Row("RMS of c", self.rms_c)], at="k")
+
+    def _repr_html_(self) -> str:
+        return self.summary()._repr_html_()
 
 
 # where pickles of laws made before it stood here look for it

@@ -13,8 +13,8 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.extras import needed
+from optlaws.kept import kept_property
 from optlaws.numbers import MOST_VALUES, derivative, finite, whole
-from optlaws.plotting import plotted
 from optlaws.series import peaks
 from optlaws.series.crossings import crossings
 from optlaws.series.peaks import Peak
@@ -37,7 +37,7 @@ class Curve(ABC):
     """
 
     #: what draws the curve, and what its samples run over; an output of a machine has its own
-    _picture, _over = "curve", "k"
+    _over = "k"
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -326,7 +326,12 @@ class Curve(ABC):
         >>> [panel.get_title(loc="left") for panel in smoothstep(3).plot()[0].figure.axes][1:3]
         ['B = 1.875 at k = 0.5', 'C = 5.773503 at k = 0.211325']
         """
-        return plotted(self._picture, self, ax, **style)
+        return self._plot(ax, style)
+
+    def _plot(self, ax: Any, style: dict[str, Any]) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        from optlaws.plots.law import draw_curve
+
+        return draw_curve(self, ax, **style)
 
     def _sampled(self, count: int) -> tuple[Array, dict[str, Array]]:
         """Places, and what a table has there."""
@@ -337,8 +342,11 @@ class Curve(ABC):
 
     def _whole(self, nu: int) -> Sides:
         """Places with values among which the extremes of the derivative of order nu are, infinite ones included."""
-        (k, values), (places, heights) = self._sides(nu), self._impulses(nu)
-        return (np.append(k, places), np.append(values, heights)) if places.size else (k, values)
+        if nu not in self._known_sides:
+            (k, values), (places, heights) = self._sides(nu), self._impulses(nu)
+            joined = (np.append(k, places), np.append(values, heights)) if places.size else (k, values)
+            self._known_sides[nu] = joined
+        return self._known_sides[nu]
 
     def _whole_power(self) -> Sides:
         """Places with values among which the extremes of d are, infinite ones included."""
@@ -360,6 +368,10 @@ class Curve(ABC):
         if ends.shape != (2,) or not low <= ends[0] <= ends[1] <= high:
             raise InputError(f"within must be two k, {low:g} <= first <= last <= {high:g}, got {shortened(within)}")
         return ends
+
+    @kept_property
+    def _known_sides(self) -> dict[int, Sides]:
+        return {}
 
     @property
     def _breaks(self) -> tuple[float, ...]:

@@ -1,8 +1,8 @@
-"""How laws and motions of a mass show themselves in a notebook: their constants, and a, b, c and j drawn small."""
+"""Small drawings of a, b, c and j of laws and motions of a mass, for notebooks."""
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -12,20 +12,6 @@ if TYPE_CHECKING:
     from optlaws.laws.curve import Curve
 
 _SAMPLES = 121
-
-
-def table_of_constants(constants: Any) -> str:  # noqa: ANN401 - Constants, which show themselves by it
-    """The peaks with their places, and the root mean square of c.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> "<td>5.773503</td>" in table_of_constants(smoothstep(3).constants)
-    True
-    """
-    peaks = {name: getattr(constants, name) for name in "BCDJ"}
-    rows: list[list[object]] = [[name, peak.value, peak.k] for name, peak in peaks.items()]
-    return showing.table(("", "peak", "k"), [*rows, ["RMS c", constants.rms_c, None]])
 
 
 def drawings(curve: Curve) -> str:

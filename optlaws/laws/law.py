@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.exporting import exported
 from optlaws.kept import kept_property
 from optlaws.laws.constants import Constants
 from optlaws.laws.curve import Curve, Sides
@@ -189,9 +188,11 @@ class MotionLaw(Curve, Stored):
         >>> round(made.report.ratio(2), 1), round(made.report.bound / made.report.law.peak(2), 1)
         (1.9, 1.6)
         """
-        said = {"stroke": stroke, "time": time, "master": master, "start": start}
-        asked = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
-        return exported("law", self, to, said, **asked, interpolation=interpolation, task=task, name=name)
+        from optlaws.exports.export import export_law
+
+        placement = {"stroke": stroke, "time": time, "master": master, "start": start}
+        options: dict[str, Any] = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
+        return export_law(self, to, placement, **options, interpolation=interpolation, task=task, name=name)
 
     def pieces(
         self,
@@ -219,8 +220,9 @@ class MotionLaw(Curve, Stored):
         >>> pieces.breaks, pieces.coefficients
         ((0.0, 2.0), ((0.0, 0.0, 0.375, -0.125),))
         """
-        said = {"stroke": stroke, "time": time, "master": master, "start": start}
-        return exported("pieces_of_law", self, tolerance, **said)
+        from optlaws.exports.pieces.motion_pieces import pieces_of_law
+
+        return pieces_of_law(self, tolerance, stroke=stroke, time=time, master=master, start=start)
 
     def __repr__(self) -> str:
         constants = self.constants
@@ -228,11 +230,11 @@ class MotionLaw(Curve, Stored):
         return f"{type(self).__name__}({self._summary()}, {shown})"
 
     def _repr_html_(self) -> str:
-        from optlaws.laws.html import drawings, table_of_constants
+        from optlaws.laws.html import drawings
         from optlaws.shown.showing import page
 
         title = f"{type(self).__name__}, {self._summary()}"
-        return page(title, table_of_constants(self.constants), drawings(self))
+        return page(title, self.constants._repr_html_(), drawings(self))
 
     def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
         return times(k)

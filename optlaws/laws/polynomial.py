@@ -230,7 +230,7 @@ def smoothstep(order: int) -> PolynomialLaw:
 
 
 def _fixed(k: Array, values: Array) -> tuple[Array, Array]:
-    """Both, which nobody changes: they are kept."""
+    """Places and values as arrays that cannot be written to, kept for the next call."""
     k.flags.writeable = values.flags.writeable = False
     return k, values
 

@@ -105,11 +105,11 @@ class Entry:
         return f"Entry({self.name!r}, {self.formula!r})"
 
     def _repr_html_(self) -> str:
-        from optlaws.laws.html import drawings, table_of_constants
+        from optlaws.laws.html import drawings
         from optlaws.shown.showing import facts, page
 
         known = {"also": ", ".join(self.aliases) or None, "built": self.formula, "source": self.source}
-        return page(self.name, facts(known), table_of_constants(self.constants), drawings(self.law))
+        return page(self.name, facts(known), self.constants._repr_html_(), drawings(self.law))
 
     @property
     def aliases(self) -> tuple[str, ...]:

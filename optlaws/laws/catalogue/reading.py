@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -15,20 +16,36 @@ from optlaws.laws.law import MotionLaw
 from optlaws.laws.savin.family import FAMILIES, SavinFamily
 
 _MEMBER = re.compile(r"\s*(?:family\s+)?(IV|I{1,3})\s*(?:\((.*)\))?\s*", re.IGNORECASE)
-_TABLE = ".csv"
-_ENDINGS = (".json", _TABLE)
+_TABLES = (".csv", ".txt", ".tsv", ".tab", ".dat")
+_ENDINGS = (".json", *_TABLES)
+_SAID: dict[str, Callable[[str], Any]] = {"tolerance": float, "columns": lambda text: tuple(text.split(","))}
+#: a file's name and what is said of its table in brackets
+_OF_TABLE = re.compile(r"(.+)\((?=[^()]*=)([^()]*)\)", re.DOTALL)
 _LONGEST = 100
 
 
-def read_law(text: str | Path) -> MotionLaw:
+def read_law(
+    text: str | Path, *, tolerance: float | None = None, columns: Sequence[int | str] | None = None
+) -> MotionLaw:
     """The law that a text names.
 
     Parameters
     ----------
     text
         A name or code of the catalogue ("modified sine", "0317(1,5)"), a member of Savin's families by alpha or B
-        ("III(7.2)", "III(B=1.8)"), a JSON file with a law, alone or of a solution, a CSV file with a table of
-        points.
+        ("III(7.2)", "III(B=1.8)"), a JSON file with a law, alone or of a solution, a file with a table of points
+        (.csv, .txt, .tsv, .tab, .dat), whose tolerance and columns may stand behind it in brackets:
+        "old.csv(tolerance=0.02; columns=1,3)".
+    tolerance
+        Of a table: how far the law may be off its points, in the unit of its displacements, 0 for a law through them;
+        the last digit, or what its noise asks for, unless given.
+    columns
+        Of a table of more than two: those of the time or angle and of the displacement, by headings or numbers from 1.
+
+    Warns
+    -----
+    NoisyTable
+        If a table without a tolerance is noisy.
 
     Raises
     ------
@@ -42,26 +59,65 @@ def read_law(text: str | Path) -> MotionLaw:
     >>> read_law("III(7.2)") == SavinFamily.of("III").law(7.2)
     True
     """
-    if isinstance(text, Path):
-        return stored_law(text)
-    chosen = member(text)
+    file = text if isinstance(text, Path) else None
+    if isinstance(text, str) and member(text) is None and is_file(text):
+        name, said = _of_table(text)
+        file, tolerance, columns = Path(name), said.get("tolerance", tolerance), said.get("columns", columns)
+    if file is not None and file.suffix.lower() in _TABLES:
+        return law_of_points(file, tolerance, columns)
+    if tolerance is not None or columns is not None:
+        raise InputError(
+            f"a tolerance and columns are of a table of points ({', '.join(_TABLES)}), got {shortened(text)}"
+        )
+    if file is not None:
+        return stored_law(file)
+    chosen = member(str(text))
     if chosen is not None:
         family, alpha = chosen
         return family.law(alpha)
-    return stored_law(Path(text)) if is_file(text) else catalogue[text].law
+    return catalogue[str(text)].law
+
+
+def _of_table(text: str) -> tuple[str, dict[str, Any]]:
+    """The name of a file, and what is said of its table in brackets."""
+    match = _OF_TABLE.fullmatch(text)
+    if match is None or not match[1].lower().endswith(_TABLES):
+        return text, {}
+    said: dict[str, Any] = {}
+    for part in match[2].split(";"):
+        name, _, value = (piece.strip() for piece in part.partition("="))
+        try:
+            said[name] = _SAID[name](value)
+        except (KeyError, ValueError):
+            raise InputError(
+                f"a table is said to be read as in old.csv(tolerance=0.02; columns=1,3), got {shortened(text)}"
+            ) from None
+    return match[1], said
 
 
 def is_file(text: str) -> bool:
-    """Whether a text is taken for a file: it ends in .json or .csv, or is no law's name and a file is there.
+    """Whether a text is taken for a file: it ends as one of a law or a table, or is no law's name and a file is there.
 
     Examples
     --------
     >>> is_file("law.json"), is_file("modified sine")
     (True, False)
     """
+    text = _of_table(text)[0]
     if text.lower().endswith(_ENDINGS):
         return True
-    return text not in catalogue and reading.storable(text) and Path(text).is_file()
+    return text not in catalogue and reading.is_file(Path(text))
+
+
+def is_table(text: str) -> bool:
+    """Whether a text is taken for a file with a table of points.
+
+    Examples
+    --------
+    >>> is_table("old.csv"), is_table("old.csv(tolerance=0.02)"), is_table("law.json")
+    (True, True, False)
+    """
+    return _of_table(text)[0].lower().endswith(_TABLES)
 
 
 def member(text: str) -> tuple[SavinFamily, float] | None:
@@ -103,15 +159,13 @@ def member(text: str) -> tuple[SavinFamily, float] | None:
 
 
 def stored_law(file: Path) -> MotionLaw:
-    """The law in a JSON file, alone or under "law" as in what `optlaws solve --output` writes, or of a table in CSV.
+    """The law in a JSON file, alone or under "law" as in what `optlaws solve --output` writes.
 
     Raises
     ------
     InputError
         If the file cannot be read or holds no law.
     """
-    if file.suffix.lower() == _TABLE:
-        return law_of_points(file)
     data: Any = reading.json_file(file)
     if isinstance(data, dict) and "kind" not in data and "law" in data:
         data = data["law"]

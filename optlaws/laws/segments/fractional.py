@@ -69,13 +69,13 @@ class FractionalSegment(Segment, kind="fractional"):
 
     def power(self, u: Array, length: float) -> Array:
         """Kinetic power d = b c at u, finite where c is infinite and b zero."""
-        return real_powers.value(self._power(length), self._v(u))
+        return real_powers.value(self.power_powers(length), self._v(u))
 
     def candidates(self, length: float, nu: int) -> Array:  # noqa: D102
         return self._u(self.powers(length, nu + 1))
 
     def power_candidates(self, length: float) -> Array:  # noqa: D102
-        return self._u(real_powers.derivative(self._power(length)))
+        return self._u(real_powers.derivative(self.power_powers(length)))
 
     def square(self, length: float, nu: int) -> float:  # noqa: D102
         powers = self.powers(length, nu)
@@ -150,5 +150,6 @@ class FractionalSegment(Segment, kind="fractional"):
             terms = {e: q * rate for e, q in real_powers.derivative(terms).items()}
         return terms
 
-    def _power(self, length: float) -> dict[float, float]:
+    def power_powers(self, length: float) -> dict[float, float]:
+        """The kinetic power d = b c in powers of v."""
         return real_powers.product(self.powers(length, 1), self.powers(length, 2))

@@ -17,6 +17,9 @@ from optlaws.series.panels import of_waves
 
 Array = NDArray[np.float64]
 
+#: below it the sides of a swing are no numbers of double precision
+_SLOWEST = 1e-150
+
 
 @dataclass(frozen=True)
 class SineSegment(Segment, kind="sine"):
@@ -46,7 +49,7 @@ class SineSegment(Segment, kind="sine"):
 
     def __post_init__(self) -> None:
         self._check()
-        if self.frequency <= 0.0 or len(self.powers) > 3:
+        if self.frequency < _SLOWEST or len(self.powers) > 3:
             raise InputError(f"a sine segment needs frequency > 0 and at most three powers, got {self}")
 
     def derivative(self, u: Array, length: float, nu: int) -> Array:  # noqa: D102
