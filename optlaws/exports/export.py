@@ -2,25 +2,33 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from math import isfinite
 from pathlib import Path
-from typing import Any
+from typing import Any, Protocol
 
-from optlaws.cycles.cycle import Cycle
-from optlaws.exporting import exports
-from optlaws.exports.at_task import AtTask, at_task
+from optlaws.errors import InputError
 from optlaws.exports.format import Format, Written, format_of
-from optlaws.exports.motion import Motion, motion_of_cycle, motion_of_law
-from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.exports.identifiers import variable_names
 from optlaws.exports.report import QUANTITIES, Report, as_run
+from optlaws.exports.task_sampling import TaskSampling, task_sampling
 from optlaws.files import writing
 from optlaws.laws import MotionLaw
-from optlaws.synthesis.solution import Solution
+from optlaws.motion.motion import Motion, motion_of_law
+from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.shown.summary import Row, Summary
 
-Row = tuple[str, float | None, float | None, float | None]
+Comparison = tuple[str, float | None, float | None, float | None]
 
 _NAMES = [quantity.lower() for quantity in QUANTITIES]
+
+
+class _HasMotion(Protocol):
+    """A value whose motion in machine units can be exported, as a cycle is."""
+
+    def motion(self, master: Any = "360 deg", unit: str | None = None) -> Motion:  # noqa: ANN401 - a quantity
+        """The exact motion over its master, in units of both."""
 
 
 @dataclass(frozen=True)
@@ -38,15 +46,15 @@ class Export:
     report
         Peaks, leaps and deviation of that motion, beside the law's.
     task
-        What a drive hears of it once in a task, where one is given.
+        The run as the drive samples it, where the time of a task is given.
 
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> made = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", time="0.1 s", points=7)
-    >>> made.text.splitlines()[6:8]
+    >>> export = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", time="0.1 s", points=7)
+    >>> export.text.splitlines()[6:8]
     ['        (dX := 0.0, dY := 0.0, dV := 0.0, dA := 0.0),', '        (dX := 20.0, dY := 1.24228395...
-    >>> round(made.report.ratio(2), 6)
+    >>> round(export.report.ratio(2), 6)
     1.0
     """
 
@@ -54,7 +62,7 @@ class Export:
     motion: Motion
     written: Written
     report: Report
-    task: AtTask | None = None
+    task: TaskSampling | None = None
 
     @property
     def text(self) -> str:
@@ -99,46 +107,54 @@ class Export:
             else {"seconds": self.task.seconds, "acceleration": self.task.acceleration},
         }
 
-    def rows(self) -> list[Row]:
+    def rows(self) -> list[Comparison]:
         """The report as rows: what it is with its unit, of the run, of the law, and the ratio; None for none."""
         run, law, units = self.report.run, self.report.law, self._units()
         means = run.mean_absolute_velocity, law.mean_absolute_velocity
         effective = run.effective_acceleration, law.effective_acceleration
         where = "where it repeats" if self.motion.repeats else "from and to rest"
-        moving = [(nu, f"{_NAMES[nu]}", units[nu]) for nu in (1, 2, 3)]
-        rows: list[Row] = [
+        moving = list(enumerate(_NAMES))[1:]
+        rows: list[tuple[str, int, float | None, float | None, float | None]] = [
+            *((f"peak of {name}", nu, run.peak(nu), law.peak(nu), self.report.ratio(nu)) for nu, name in moving),
+            ("effective acceleration", 2, *effective, _ratio(*effective)),
+            ("mean absolute velocity", 1, *means, _ratio(*means)),
+            *((f"leap of {q} inside", n, run.leaps[n - 1].value, law.leaps[n - 1].value, None) for n, q in moving),
+            *((f"leap of {q} {where}", n, run.leaps_at_ends[n - 1], law.leaps_at_ends[n - 1], None) for n, q in moving),
             *(
-                (f"peak of {name}, {unit}", run.peak(nu), law.peak(nu), self.report.ratio(nu))
-                for nu, name, unit in moving
-            ),
-            (f"effective acceleration, {units[2]}", *effective, _ratio(*effective)),
-            (f"mean absolute velocity, {units[1]}", *means, _ratio(*means)),
-            *(
-                (f"leap of {name} inside, {unit}", run.leaps[nu - 1].value, law.leaps[nu - 1].value, None)
-                for nu, name, unit in moving
-            ),
-            *(
-                (f"leap of {name} {where}, {unit}", run.leaps_at_ends[nu - 1], law.leaps_at_ends[nu - 1], None)
-                for nu, name, unit in moving
-            ),
-            *(
-                (f"greatest deviation of {_NAMES[nu]}, {units[nu]}", extreme.value, None, None)
-                for nu, extreme in enumerate(self.report.deviation)
+                (f"greatest deviation of {_NAMES[n]}", n, d.value, None, None)
+                for n, d in enumerate(self.report.deviation)
             ),
         ]
         if self.report.bound:
-            rows.append((f"roundings may add, {units[2]}", self.report.bound, None, None))
+            rows.append(("roundings may add", 2, self.report.bound, None, None))
         if self.task is not None:
-            heard, whole = self.task.acceleration, law.peak(2)
-            rows.append(
-                (
-                    f"acceleration heard every {1e3 * self.task.seconds:g} ms, {units[2]}",
-                    heard,
-                    whole,
-                    _ratio(heard, whole),
-                )
-            )
-        return [(name, _finite(of_run), _finite(of_law), _finite(ratio)) for name, of_run, of_law, ratio in rows]
+            sampled = self.task.acceleration, law.peak(2)
+            rows.append((f"acceleration heard every {1e3 * self.task.seconds:g} ms", 2, *sampled, _ratio(*sampled)))
+        return [
+            (f"{name}, {units[nu]}", _finite(of_run), _finite(of_law), _finite(ratio))
+            for name, nu, of_run, of_law, ratio in rows
+        ]
+
+    def summary(self) -> Summary:
+        """What the controller will run, as rows: notes say what the law has in its place.
+
+        Examples
+        --------
+        >>> from optlaws.laws import smoothstep
+        >>> made = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", time="0.1 s", points=7)
+        >>> row = made.summary()[3]
+        >>> row.name, row.text(5), row.unit, row.note
+        ('peak of acceleration', '20207', 'mm/s²', 'of the law 20207.26')
+        """
+        written = self.written
+        rows = [Row("format", self.format.name, note=written.model), Row(written.counted, written.points)]
+        for text, run, law, _ in self.rows():
+            name, unit = text.rsplit(", ", 1)
+            rows.append(Row(name, run, unit, note="" if law is None else f"of the law {law:.7g}"))
+        return Summary([*rows, *(Row("note", note) for note in (*self.motion.proof, *written.notes))])
+
+    def _repr_html_(self) -> str:
+        return self.summary()._repr_html_()
 
     def _units(self) -> list[str]:
         units = self.motion.units
@@ -160,9 +176,8 @@ class Export:
         return "\n".join(lines)
 
 
-@exports("motion")
-def export_motion(motion: Motion, to: Any, *, task: Any = None, **asked: Any) -> Export:  # noqa: ANN401
-    """A motion in a format, which checks what is asked; `task` is the time of a drive's task, such as "1 ms".
+def export_motion(motion: Motion, to: Any, *, task: Any = None, **options: Any) -> Export:  # noqa: ANN401
+    """A motion in a format, which checks its options; `task` is the time of a drive's task, such as "1 ms".
 
     Raises
     ------
@@ -170,32 +185,45 @@ def export_motion(motion: Motion, to: Any, *, task: Any = None, **asked: Any) ->
         If there is no such format, it takes no such option, or it cannot hold the motion.
     """
     chosen = format_of(to)
-    written = chosen.write(motion, chosen.request(**asked))
-    heard = None if task is None else at_task(written.run, motion, task)
-    return Export(chosen, motion, written, as_run(written.run, motion, written.bound, written.roundings), heard)
+    written = chosen.write(motion, chosen.request(**options))
+    sampling = None if task is None else task_sampling(written.run, motion, task)
+    return Export(chosen, motion, written, as_run(written.run, motion, written.bound, written.roundings), sampling)
 
 
-@exports("law")
-def export_law(law: MotionLaw, to: Any, said: dict[str, Any], **asked: Any) -> Export:  # noqa: ANN401
-    """A law with its stroke, time and master, as `motion_of_law` takes them, in a format."""
+def export_law(
+    law: MotionLaw,
+    to: Any,  # noqa: ANN401
+    placement: dict[str, Any],
+    proof: tuple[str, ...] = (),
+    **options: Any,  # noqa: ANN401
+) -> Export:
+    """A law with its stroke, time and master, as `motion_of_law` takes them, in a format; `proof` heads it."""
     chosen = format_of(to)
-    return export_motion(motion_of_law(law, **said), chosen.name, **asked)
+    return export_motion(replace(motion_of_law(law, **placement), proof=proof), chosen.name, **options)
 
 
-@exports("solution")
-def export_solution(solution: Solution, to: Any, said: dict[str, Any], **asked: Any) -> Export:  # noqa: ANN401
-    """A solution's law as `export_law` takes one; the file and the report say what is proven of it."""
-    best = f"least {solution.problem.minimise} = {solution.objective:.9g}"
-    proof = f"law: {best}, none below {solution.lower_bound:.9g} in its space; status {solution.status.value}"
+def export_cycle(cycle: _HasMotion, to: Any, placement: dict[str, Any], **options: Any) -> Export:  # noqa: ANN401
+    """A cycle with its master and unit, as `Cycle.motion` takes them, in a format, which is checked before laws are."""
     chosen = format_of(to)
-    return export_motion(replace(motion_of_law(solution.law, **said), proof=(proof,)), chosen.name, **asked)
+    return export_motion(cycle.motion(**placement), chosen.name, **options)
 
 
-@exports("cycle")
-def export_cycle(cycle: Cycle, to: Any, said: dict[str, Any], **asked: Any) -> Export:  # noqa: ANN401
-    """A cycle with its master, as `motion_of_cycle` takes it, in a format."""
-    chosen = format_of(to)
-    return export_motion(motion_of_cycle(cycle, **said), chosen.name, **asked)
+def export_axes(
+    axes: Mapping[str, _HasMotion],
+    to: Mapping[str, Any],
+    placement: dict[str, Any],
+    **options: Any,  # noqa: ANN401
+) -> dict[str, Export]:
+    """Axes in formats by their names, each under a name of its own."""
+    names = variable_names(axes)
+    by_axis = {}
+    for axis, form in to.items():
+        cycle = axes[axis]
+        try:
+            by_axis[axis] = export_cycle(cycle, form, placement, **options, name=names[axis])
+        except InputError as error:
+            raise InputError(f"axis {axis}: {error}") from None
+    return by_axis
 
 
 def _finite(value: float | None) -> float | None:

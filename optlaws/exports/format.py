@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Callable, Collection
 from dataclasses import dataclass, field, fields
 from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.exports.motion import Motion
-from optlaws.exports.polynomials import PiecewiseMotion
 from optlaws.lazy import Registry
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numbers import whole
 from optlaws.suggest import unknown_key
 
@@ -20,7 +20,7 @@ BEST = "best"
 
 @dataclass(frozen=True)
 class Request:
-    """What is asked of an export beside the motion; each format takes some of it.
+    """The options of an export beside the motion; each format takes some of them.
 
     Parameters
     ----------
@@ -36,7 +36,7 @@ class Request:
     decimal
         The decimal sign, "." or ",".
     interpolation
-        How the controller is told to interpolate, where it can be told.
+        The interpolation that the file demands of the controller, where it can.
     """
 
     name: str = "Cam"
@@ -53,13 +53,30 @@ class Request:
             object.__setattr__(self, "counts", whole(self.counts, "counts", least=2, most=2**53))
         if self.digits is not None:
             object.__setattr__(self, "digits", whole(self.digits, "digits", most=17))
+        for entry in ("name", "decimal", "interpolation"):
+            value: object = getattr(self, entry)
+            if not isinstance(value, str) and not (entry == "interpolation" and value is None):
+                raise InputError(f"{entry} must be text, got {shortened(value)}")
         if self.decimal not in {".", ","}:
             raise InputError(f"decimal must be '.' or ',', got {shortened(self.decimal)}")
+
+    def interpolation_among(self, known: Collection[str], default: str = "cubic") -> str:
+        """The interpolation, one of those that the target knows.
+
+        Raises
+        ------
+        InputError
+            If it is none of them.
+        """
+        interpolation = self.interpolation or default
+        if interpolation not in known:
+            raise InputError(f"interpolation must be one of {', '.join(known)}, got {interpolation!r}")
+        return interpolation
 
 
 @dataclass(frozen=True)
 class Written:
-    """An export as it was written.
+    """The file of an export, and what a controller makes of it.
 
     Parameters
     ----------
@@ -105,7 +122,7 @@ class Format:
         As `--to` takes it.
     target
         Controller and variable or file that takes it.
-    held
+    contents
         Fields of a row.
     model
         How the target interpolates.
@@ -121,15 +138,15 @@ class Format:
 
     name: str
     target: str
-    held: str
+    contents: str
     model: str
     limits: str
     extension: str
     write: Callable[[Motion, Request], Written] = field(repr=False)
     takes: tuple[str, ...] = ("points",)
 
-    def request(self, **asked: Any) -> Request:  # noqa: ANN401 - options of several kinds
-        """What is asked, checked against what the format takes; None asks for nothing.
+    def request(self, **options: Any) -> Request:  # noqa: ANN401 - options of several kinds
+        """The options that are not None, checked against what the format takes.
 
         Raises
         ------
@@ -137,7 +154,7 @@ class Format:
             If it is unknown, or means nothing to this format.
         """
         known = {field.name for field in fields(Request)}
-        given = {name: value for name, value in asked.items() if value is not None}
+        given = {name: value for name, value in options.items() if value is not None}
         for name in given:
             if name not in known:
                 raise InputError(f"export: {unknown_key(name, sorted(known), 'option')}")
@@ -162,7 +179,7 @@ def format_of(name: Any) -> Format:  # noqa: ANN401 - it is checked here
     return FORMATS[name]
 
 
-def declared(made: Format) -> Format:
-    """Enter a format under its name."""
-    FORMATS[made.name] = made
-    return made
+def register(file_format: Format) -> Format:
+    """The format, entered under its name."""
+    FORMATS[file_format.name] = file_format
+    return file_format

@@ -3,12 +3,15 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Iterable
+from itertools import chain, count
 from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 
 _PLAIN = re.compile(r"[A-Za-z_][A-Za-z0-9_]*")
+_SHORT = 26  # characters, so that prefix and number have room in the shortest names of targets
 _RUNS = re.compile(r"[^A-Za-z0-9]+")
 
 _WORDS = """
@@ -23,6 +26,16 @@ _WORDS = """
     transition true trunc type udint uint ulint until using usint var var_access var_config var_external var_global
     var_in_out var_input var_output var_temp wchar when while with word wstring xor
 """
+_C_WORDS = """
+    auto break case char const continue default do double else enum extern float for goto if inline int long
+    register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
+    alignas alignof and and_eq asm atomic bitand bitor bool catch class compl concept const_cast constexpr delete
+    dynamic_cast explicit export false friend mutable namespace new noexcept not not_eq nullptr operator or or_eq
+    private protected public reinterpret_cast requires static_assert static_cast template this thread_local throw
+    true try typeid typename typeof using virtual wchar_t xor xor_eq
+"""
+#: keywords of C and C++
+C_KEYWORDS = frozenset(_C_WORDS.split())
 #: keywords of IEC 61131-3 and of the languages made of it; no variable may be called so, in whatever case
 IEC_KEYWORDS = frozenset(_WORDS.split())
 
@@ -57,6 +70,25 @@ def iec_name(name: Any, target: str, longest: int = 40) -> str:  # noqa: ANN401 
         proposed = _proposed(name, longest)
         raise InputError(f"{target} takes no variable called {shortened(name)}: {why}; take {proposed!r}")
     return str(name)
+
+
+def variable_names(names: Iterable[str]) -> dict[str, str]:
+    """For each name one that every target takes for a variable, and no two alike whatever the case of letters.
+
+    Examples
+    --------
+    >>> variable_names(["weld head", "Weld_head", "string", "2nd table"])
+    {'weld head': 'weld_head', 'Weld_head': 'Weld_head_2', 'string': 'Cam_string', '2nd table': 'Cam_2nd_table'}
+    """
+    identifiers: dict[str, str] = {}
+    taken: set[str] = set()
+    for name in names:
+        plain = _proposed(name, _SHORT)
+        plain = f"Cam_{plain}" if plain.lower() in C_KEYWORDS else plain
+        numbered = (f"{plain}_{number}" for number in count(2))
+        identifiers[name] = next(candidate for candidate in chain([plain], numbered) if candidate.lower() not in taken)
+        taken.add(identifiers[name].lower())
+    return identifiers
 
 
 def _fault(name: Any, longest: int) -> str:  # noqa: ANN401

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.motion.polynomials import PiecewiseMotion
 
 Array = NDArray[np.float64]
 Ends = Literal["clamped", "natural", "periodic"]

@@ -1,4 +1,4 @@
-"""What a controller will run, beside the law: peaks, leaps and deviation, by TwinCAT's names of cam characteristics."""
+"""The report of a run beside its law: peaks, leaps and deviation, by TwinCAT's names of cam characteristics."""
 
 from __future__ import annotations
 
@@ -9,9 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.exports.motion import Motion
-from optlaws.exports.polynomials import Extreme, PiecewiseMotion
 from optlaws.exports.travel import travel_of_law, travel_of_run
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import Extreme, PiecewiseMotion
 
 Array = NDArray[np.float64]
 
@@ -56,16 +56,16 @@ class Characteristics:
 
     def to_dict(self) -> dict[str, Any]:
         """The characteristics by TwinCAT's names, as plain data; what is infinite is null."""
-        told: dict[str, Any] = {"StartPoint": _point(None, self.start), "EndPoint": _point(None, self.end)}
+        data: dict[str, Any] = {"StartPoint": _point(None, self.start), "EndPoint": _point(None, self.end)}
         for side, extremes in (("Min", self.least), ("Max", self.greatest)):
             for name, extreme in zip(QUANTITIES, extremes, strict=True):
-                told[f"PointAt{side}Slave{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
-        told["SlaveMeanAbsoluteVelocity"] = self.mean_absolute_velocity
-        told["SlaveEffectiveAcceleration"] = _known(self.effective_acceleration)
+                data[f"PointAt{side}Slave{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
+        data["SlaveMeanAbsoluteVelocity"] = self.mean_absolute_velocity
+        data["SlaveEffectiveAcceleration"] = _known(self.effective_acceleration)
         for name, extreme, end in zip(QUANTITIES[1:], self.leaps, self.leaps_at_ends, strict=True):
-            told[f"Leap{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
-            told[f"LeapAtEnds{name}"] = _known(end)
-        return told
+            data[f"Leap{name}"] = {"MasterPosition": extreme.x, f"Slave{name}": _known(extreme.value)}
+            data[f"LeapAtEnds{name}"] = _known(end)
+        return data
 
 
 @dataclass(frozen=True)
@@ -87,7 +87,7 @@ class Report:
     Examples
     --------
     >>> from optlaws.exports.interpolation import cubic_spline
-    >>> from optlaws.exports.motion import motion_of_law
+    >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", time="0.1 s")
     >>> x = np.linspace(0.0, 0.1, 13)

@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.exports.format import BEST, Request
-from optlaws.exports.motion import Motion
+from optlaws.motion.motion import Motion
 from optlaws.series import bernstein
 
 Array = NDArray[np.float64]
@@ -44,7 +44,7 @@ class Tabled(Protocol):
         """Step of positions."""
 
 
-Made = TypeVar("Made", bound=Tabled)
+TableT = TypeVar("TableT", bound=Tabled)
 
 
 def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
@@ -66,7 +66,7 @@ def places(motion: Motion, count: int, *, straight: bool = False) -> Array:
 
     Examples
     --------
-    >>> from optlaws.exports.motion import motion_of_law
+    >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> places(motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg"), 5).tolist()
     [0.0, 30.0, 60.0, 90.0, 120.0]
@@ -90,8 +90,8 @@ def least_points(motion: Motion, least: int = 2) -> int:
     return max(least, len(motion.breaks))
 
 
-def chosen(motion: Motion, request: Request, make: Callable[[int], Made], least: int, most: int) -> Made:
-    """What is made with the points that were asked for, or with the number whose run is best.
+def chosen(motion: Motion, request: Request, make: Callable[[int], TableT], least: int, most: int) -> TableT:
+    """The table with the requested number of points, or with the number whose run is best.
 
     Parameters
     ----------
@@ -120,20 +120,20 @@ def chosen(motion: Motion, request: Request, make: Callable[[int], Made], least:
     return best(motion, make, fewest, min(most, max(MOST_TRIED, fewest)))
 
 
-def best(motion: Motion, make: Callable[[int], Made], least: int, most: int) -> Made:
-    """What is made with the number of points whose run is best, tried up to 64 one by one, then over the range.
+def best(motion: Motion, make: Callable[[int], TableT], least: int, most: int) -> TableT:
+    """The table with the number of points whose run is best, tried up to 64 one by one, then over the range.
 
     Runs count that are within 1e-4 of the stroke of the law, or within the resolution, or as near as any. The best of
     them has the least peak of the acceleration (where straight lines leap in velocity, the least leap); what is below
     the law's own peak is no gain. Among numbers as good to a thousandth those count whose acceleration leaps
     least further than the law's, at points and at the ends, to a thousandth of the peak, and of these the least.
     """
-    judge, tried = Judge.of(motion), dict[int, tuple[Rank, Made]]()
+    judge, tried = RunRanking.of(motion), dict[int, tuple[Rank, TableT]]()
 
     def attempt(counts: set[int]) -> None:
         for count in sorted(counts - tried.keys()):
-            made = make(count)
-            tried[count] = (judge.rank(made), made)
+            table = make(count)
+            tried[count] = (judge.rank(table), table)
 
     rough = least * _RATIO ** np.arange(1 + int(np.log(most / least) / np.log(_RATIO)))
     attempt({*range(least, min(most, _EACH) + 1), *(int(guess) for guess in rough), most})
@@ -165,8 +165,8 @@ def _fewest(ranks: dict[int, Rank]) -> int:
 
 
 @dataclass(frozen=True)
-class Judge:
-    """What runs are held against: the motion, its peaks of velocity and acceleration, and its leaps of the latter."""
+class RunRanking:
+    """What runs are compared with: the motion, its peaks of velocity and acceleration, and its leaps of the latter."""
 
     motion: Motion
     velocity: float
@@ -175,15 +175,15 @@ class Judge:
     leap_at_ends: float
 
     @classmethod
-    def of(cls, motion: Motion) -> Judge:
+    def of(cls, motion: Motion) -> RunRanking:
         """The judge of runs of a motion."""
         first, last = motion.ends(2)
         ends = abs(last - first) if motion.repeats else max(abs(first), abs(last))
         return cls(motion, motion.peak(1), motion.peak(2), motion.leap(2)[0], ends)
 
-    def rank(self, made: Tabled) -> Rank:
+    def rank(self, table: Tabled) -> Rank:
         """How good polynomials are."""
-        x, powers, off = made.x, made.powers, self._off(made)
+        x, powers, off = table.x, table.powers, self._off(table)
         steps = np.diff(x)
         if self.acceleration in {0.0, inf} or powers.shape[1] == 2:
             first, last = _ends(powers, steps, 1)
@@ -197,13 +197,13 @@ class Judge:
         peak = max(_peak(powers, steps, first, last) / self.acceleration, 1.0)
         return Rank(off, peak, beyond / self.acceleration)
 
-    def _off(self, made: Tabled) -> float:
+    def _off(self, table: Tabled) -> float:
         """How far the polynomials are from the motion between points, where they are about farthest."""
-        after = _BETWEEN * np.diff(made.x)
-        run = (made.powers * after[:, None] ** np.arange(made.powers.shape[1])).sum(axis=1)
-        places = np.clip(made.x[:-1] + after, self.motion.start, self.motion.stop)
+        after = _BETWEEN * np.diff(table.x)
+        run = (table.powers * after[:, None] ** np.arange(table.powers.shape[1])).sum(axis=1)
+        places = np.clip(table.x[:-1] + after, self.motion.start, self.motion.stop)
         apart = float(np.abs(run - self.motion(places)).max())
-        return max(apart / max(_OFF * self.motion.stroke, made.resolution), 1.0)
+        return max(apart / max(_OFF * self.motion.stroke, table.resolution), 1.0)
 
 
 def _ends(powers: Array, steps: Array, nu: int) -> tuple[Array, Array]:

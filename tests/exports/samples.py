@@ -4,7 +4,7 @@ from functools import cache
 from typing import Any
 
 from optlaws import Chebyshev, ConstantVelocity, Cycle, Dwell, MotionLaw, Problem, Return, Rise, synthesize
-from optlaws.exports.motion import Motion, motion_of_cycle, motion_of_law
+from optlaws.motion.motion import Motion, motion_of_law
 
 SAID: dict[str, Any] = {"stroke": "35 mm", "master": "120 deg", "time": "0.1 s"}
 
@@ -33,7 +33,7 @@ def press(law: str = "modified sine") -> Cycle:
 @cache
 def repeating() -> Motion:
     """The cycle as a motion."""
-    return motion_of_cycle(press())
+    return press().motion()
 
 
 @cache

@@ -9,7 +9,7 @@ from scipy.interpolate import Akima1DInterpolator, BPoly, CubicHermiteSpline, Cu
 
 from optlaws import InputError, smoothstep
 from optlaws.exports.interpolation import akima, cubic_spline, hermite, linear, sampled
-from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.motion.polynomials import PiecewiseMotion
 from tests.documents import ROOT
 from tests.exports.samples import optimal
 

@@ -11,13 +11,13 @@ import pytest
 from numpy.typing import NDArray
 
 from optlaws import Cycle, InputError, PolynomialLaw, catalogue, reversed_law, smoothstep
-from optlaws.cycles.asked.conversion import Piece
 from optlaws.exports.export import Export, export_motion
 from optlaws.exports.format import FORMATS
 from optlaws.exports.interpolation import cubic_spline
-from optlaws.exports.motion import Motion, Units, motion_of_cycle, motion_of_law
 from optlaws.exports.tables.rockwell import profile_motion, profile_rows
-from optlaws.exports.tables.table import Held, splined
+from optlaws.exports.tables.table import NumberFormat, spline_table
+from optlaws.motion.motion import Motion, Units, motion_of_law
+from optlaws.motion.piece import Piece
 from tests.exports import readers
 from tests.exports.samples import SAID, one_shot, optimal, press, repeating, shearing, turning
 
@@ -159,7 +159,7 @@ def test_counts_make_many_points_worse() -> None:
     assert many.written.resolution == pytest.approx(35.0 / 65536)
     assert many.report.bound / many.report.law.peak(2) == pytest.approx(6 * 360**2 / 65536 / 4.647776, rel=2e-2)
     best = export_motion(one_shot(), "csv", points="best", counts=65536)
-    each = [splined(one_shot(), count, Held(65536)).run.peak(2).value for count in range(6, 120)]
+    each = [spline_table(one_shot(), count, NumberFormat(65536)).run.peak(2).value for count in range(6, 120)]
     assert best.report.ratio(2) <= 1.001 * min(each) / one_shot().peak(2)
     assert best.points < 60
 
@@ -221,7 +221,7 @@ def test_a_motion_that_does_not_fit_is_refused() -> None:
     with pytest.raises(InputError, match="how fast the master goes"):
         export_motion(motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg"), "ros2")
     with pytest.raises(InputError, match="points must be from 5 "):
-        export_motion(motion_of_cycle(press("cycloidal")), "csv", points=4)
+        export_motion(press("cycloidal").motion(), "csv", points=4)
     infinite = motion_of_law(catalogue["0050"].law, **SAID)
     sized = replace(infinite, pieces=tuple(infinite.pieces))
     assert export_motion(sized, "csv", points=20).points == 20

@@ -7,21 +7,13 @@ from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, held
+from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, as_stored
 from optlaws.exports.code.heading import QUANTITIES, Labels, heading
 from optlaws.exports.code.literals import real, safe, wrapped
-from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.exports.identifiers import C_KEYWORDS
 from optlaws.files.writing import MARK
+from optlaws.motion.polynomials import PiecewiseMotion
 
-_WORDS = """
-    auto break case char const continue default do double else enum extern float for goto if inline int long
-    register restrict return short signed sizeof static struct switch typedef union unsigned void volatile while
-    alignas alignof and and_eq asm atomic bitand bitor bool catch class compl concept const_cast constexpr delete
-    dynamic_cast explicit export false friend mutable namespace new noexcept not not_eq nullptr operator or or_eq
-    private protected public reinterpret_cast requires static_assert static_cast template this thread_local throw
-    true try typeid typename typeof using virtual wchar_t xor xor_eq
-"""
-_KEYWORDS = frozenset(_WORDS.split())
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,30}")
 
 _FUNCTIONS = """\
@@ -106,8 +98,8 @@ def header(motion: PiecewiseMotion, name: str = "motion", labels: Labels | None 
     ['static inline double press_position(double x)']
     """
     called = c_name(name)
-    said = heading(motion, labels or Labels(), [DOUBLE, SINGLE])
-    comment = "\n".join(f" * {line}".rstrip() for line in safe([*said, "", MARK]))
+    lines = heading(motion, labels or Labels(), [DOUBLE, SINGLE])
+    comment = "\n".join(f" * {line}".rstrip() for line in safe([*lines, "", MARK]))
     guard = f"OPTLAWS_{called.upper()}_H"
     parts = [
         f"/* {called}: a motion law.\n *\n{comment}\n */\n#ifndef {guard}\n#define {guard}\n",
@@ -130,10 +122,10 @@ def c_name(name: Any) -> str:  # noqa: ANN401 - it is checked here
     >>> c_name("press")
     'press'
     """
-    if isinstance(name, str) and _NAME.fullmatch(name) and name not in _KEYWORDS and "__" not in name:
+    if isinstance(name, str) and _NAME.fullmatch(name) and name not in C_KEYWORDS and "__" not in name:
         return name
     words = re.sub(r"[^A-Za-z0-9]+", "_", name if isinstance(name, str) else "").strip("_")
-    proposed = (words if words and words[0].isalpha() and words not in _KEYWORDS else f"cam_{words}".rstrip("_"))[:31]
+    proposed = (words if words and words[0].isalpha() and words not in C_KEYWORDS else f"cam_{words}".rstrip("_"))[:31]
     raise InputError(
         f"C takes no name {shortened(name)}: letters, digits and single _, at most 31, no keyword; take {proposed!r}"
     )
@@ -141,7 +133,7 @@ def c_name(name: Any) -> str:  # noqa: ANN401 - it is checked here
 
 def _in(motion: PiecewiseMotion, name: str, *, single: bool) -> str:
     """The tables and functions in one of the two kinds of numbers."""
-    run = held(motion, SINGLE if single else DOUBLE)
+    run = as_stored(motion, SINGLE if single else DOUBLE)
     f, suffix = ("_f", "F") if single else ("", "")
     texts = {
         "name": name,

@@ -6,12 +6,12 @@ from dataclasses import dataclass
 from fractions import Fraction
 from math import factorial, inf, nextafter, perm
 
-from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.series import exact
 
 
 @dataclass(frozen=True)
-class Arithmetic:
+class FloatingPoint:
     """Floating-point numbers of IEEE 754, rounded to nearest.
 
     Attributes
@@ -29,12 +29,12 @@ class Arithmetic:
     least: Fraction
 
 
-DOUBLE = Arithmetic("LREAL", Fraction(1, 2**53), Fraction(1, 2**1022))
-SINGLE = Arithmetic("REAL", Fraction(1, 2**24), Fraction(1, 2**126))
+DOUBLE = FloatingPoint("LREAL", Fraction(1, 2**53), Fraction(1, 2**1022))
+SINGLE = FloatingPoint("REAL", Fraction(1, 2**24), Fraction(1, 2**126))
 ORDERS = 4
 
 
-def held(motion: PiecewiseMotion, arithmetic: Arithmetic) -> PiecewiseMotion:
+def as_stored(motion: PiecewiseMotion, arithmetic: FloatingPoint) -> PiecewiseMotion:
     """The motion in the numbers that an arithmetic has, each polynomial moved to where its break comes to lie.
 
     Raises
@@ -44,7 +44,7 @@ def held(motion: PiecewiseMotion, arithmetic: Arithmetic) -> PiecewiseMotion:
 
     Examples
     --------
-    >>> held(PiecewiseMotion([0.1, 1.1], [[0.0, 1.0]]), SINGLE).coefficients
+    >>> as_stored(PiecewiseMotion([0.1, 1.1], [[0.0, 1.0]]), SINGLE).coefficients
     ((1.4901161415892261e-09, 1.0),)
     """
     if arithmetic is DOUBLE:
@@ -54,7 +54,7 @@ def held(motion: PiecewiseMotion, arithmetic: Arithmetic) -> PiecewiseMotion:
     return PiecewiseMotion(breaks, rows).in_single()
 
 
-def error_bounds(motion: PiecewiseMotion, arithmetic: Arithmetic = DOUBLE) -> tuple[float, ...]:
+def error_bounds(motion: PiecewiseMotion, arithmetic: FloatingPoint = DOUBLE) -> tuple[float, ...]:
     """Bounds of the error of position, velocity, acceleration and jerk, rounded up, over all pieces.
 
     Horner's scheme with s = x - x_i runs through the powers from the highest, and gives the derivatives with it:
@@ -70,7 +70,7 @@ def error_bounds(motion: PiecewiseMotion, arithmetic: Arithmetic = DOUBLE) -> tu
     motion
         The motion.
     arithmetic
-        In which it is held and evaluated.
+        In which it is stored and evaluated.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def error_bounds(motion: PiecewiseMotion, arithmetic: Arithmetic = DOUBLE) -> tu
     >>> [f"{bound:.1e}" for bound in error_bounds(motion)]
     ['7.2e-15', '1.7e-14', '2.6e-14', '1.7e-14']
     """
-    run = held(motion, arithmetic)
+    run = as_stored(motion, arithmetic)
     count = 3 * (run.degree + 1) + 1
     gamma = count * arithmetic.unit / (1 - count * arithmetic.unit)
     bounds = [Fraction(0)] * ORDERS
@@ -113,7 +113,7 @@ def _magnitude(row: list[Fraction], length: Fraction, nu: int) -> Fraction:
     )
 
 
-def _underflow(degree: int, length: Fraction, nu: int, arithmetic: Arithmetic) -> Fraction:
+def _underflow(degree: int, length: Fraction, nu: int, arithmetic: FloatingPoint) -> Fraction:
     # four products a step may each miss by u times the least normal number, which at most 2^degree paths then carry on,
     # with at most as many factors s as there are steps; twice that covers the roundings on the way
     paths = Fraction((4 * degree + 2) * 2 ** (degree + 1)) * max(Fraction(1), length) ** degree

@@ -6,8 +6,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import ROUND_CEILING, Context
 
-from optlaws.exports.code.error_bounds import Arithmetic, error_bounds
-from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.exports.code.error_bounds import FloatingPoint, error_bounds
+from optlaws.motion.polynomials import PiecewiseMotion
 
 QUANTITIES = ("position", "velocity", "acceleration", "jerk")
 
@@ -31,7 +31,7 @@ class Labels:
         return self.slave if nu == 0 else f"{self.slave}/{self.master}" + (f"^{nu}" if nu > 1 else "")
 
 
-def heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequence[Arithmetic]) -> list[str]:
+def heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequence[FloatingPoint]) -> list[str]:
     """Lines that say what a program evaluates, its peaks, and the bound of its rounding errors.
 
     Examples
@@ -49,8 +49,8 @@ def heading(motion: PiecewiseMotion, labels: Labels, arithmetics: Sequence[Arith
     ]
     for arithmetic in arithmetics:
         bounds = error_bounds(motion, arithmetic)
-        said = ", ".join(f"{rounded_up(bound)} {labels.unit(nu)}" for nu, bound in enumerate(bounds))
-        lines += [f"rounding in {arithmetic.name}, proven, at most: {said}"]
+        bounds_in_words = ", ".join(f"{rounded_up(bound)} {labels.unit(nu)}" for nu, bound in enumerate(bounds))
+        lines += [f"rounding in {arithmetic.name}, proven, at most: {bounds_in_words}"]
     return lines
 
 

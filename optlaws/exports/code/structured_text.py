@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, held
+from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, as_stored
 from optlaws.exports.code.heading import Labels, heading
 from optlaws.exports.code.literals import real, safe, wrapped
 from optlaws.exports.identifiers import iec_name
-from optlaws.exports.polynomials import PiecewiseMotion
 from optlaws.files.writing import MARK
+from optlaws.motion.polynomials import PiecewiseMotion
 
 _BODY = """\
 place := LIMIT(breaks[0], x, breaks[{last}]);
@@ -87,9 +87,9 @@ def function_block(
     """
     called = iec_name(name, "IEC 61131-3")
     arithmetic = SINGLE if single else DOUBLE
-    run, kind = held(motion, arithmetic), arithmetic.name
-    said = heading(motion, labels or Labels(), [arithmetic])
-    comment = "\n".join(f"   {line}".rstrip() for line in safe([*said, MARK]))
+    run, kind = as_stored(motion, arithmetic), arithmetic.name
+    lines = heading(motion, labels or Labels(), [arithmetic])
+    comment = "\n".join(f"   {line}".rstrip() for line in safe([*lines, MARK]))
     numbers = {"last": len(run.breaks) - 1, "most": len(run.breaks) - 2, "degree": run.degree}
     parts = [
         f"(* {called}\n{comment}\n*)\nFUNCTION_BLOCK {called}\n",

@@ -5,13 +5,13 @@ from __future__ import annotations
 from fractions import Fraction
 
 from optlaws.errors import InputError
-from optlaws.exports.code.error_bounds import SINGLE, held
+from optlaws.exports.code.error_bounds import SINGLE, as_stored
 from optlaws.exports.code.literals import real
-from optlaws.exports.controllers.polynomials_of import asked, iec_heading, leaps_of_single, said_of_leaps
-from optlaws.exports.format import Format, Request, Written, declared
+from optlaws.exports.controllers.polynomials_of import iec_heading, leaps_in_words, leaps_of_single, polynomials_for
+from optlaws.exports.format import Format, Request, Written, register
 from optlaws.exports.identifiers import iec_name
-from optlaws.exports.motion import Motion
-from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
 
 DEGREE = 6
 MOST = 64
@@ -26,12 +26,12 @@ def _write(motion: Motion, request: Request) -> Written:
     scale = 1.0 if request.counts is None else request.counts / motion.stroke
     master = _period(motion.length, "master", motion.units.master, least=1)
     slave = _period(scale * motion.advance, "slave", motion.units.slave, least=-LARGEST)
-    made = asked(motion, request, DEGREE, MOST)
-    profile = _profile(made.run, scale, master, slave)
-    run, roundings = _as_run(profile, made.run, scale), leaps_of_single(made.run)
+    fit = polynomials_for(motion, request, DEGREE, MOST)
+    profile = _profile(fit.run, scale, master, slave)
+    run, roundings = _as_run(profile, fit.run, scale), leaps_of_single(fit.run)
     notes = (
-        made.said(motion.units.slave),
-        said_of_leaps(motion, roundings),
+        fit.in_words(motion.units.slave),
+        leaps_in_words(motion, roundings),
         "powers of each polynomial count from where it begins, x is where it ends: compare a point before use",
         *(() if request.counts is None else (f"slave in increments, {request.counts} over the stroke",)),
     )
@@ -72,14 +72,14 @@ def _profile(run: PiecewiseMotion, scale: float, master: int, slave: int) -> Pie
     for row in rows:
         row[0] -= first * Fraction(scale)
     breaks = [float(Fraction(x) - Fraction(run.start)) for x in run.breaks[:-1]] + [float(master)]
-    made = held(PiecewiseMotion(breaks, [[float(c) for c in row] for row in rows]), SINGLE)
-    off = abs(float(made.ends(0)[1][-1]) - slave)
+    stored = as_stored(PiecewiseMotion(breaks, [[float(c) for c in row] for row in rows]), SINGLE)
+    off = abs(float(stored.ends(0)[1][-1]) - slave)
     if off > CLOSES:
         raise InputError(
             f"in REAL32 the last polynomial ends {off:.3g} beside the slave's period {slave}, which the drive refuses "
             f"(5304, 37111: at most {CLOSES}): take fewer counts, a larger unit, or more pieces"
         )
-    return made
+    return stored
 
 
 def _as_run(profile: PiecewiseMotion, exact: PiecewiseMotion, scale: float) -> PiecewiseMotion:
@@ -97,11 +97,11 @@ def _row(row: tuple[float, ...], x: float) -> str:
     return ", ".join([*texts, f"x := {real(x, single=True)}"])
 
 
-PROFILE = declared(
+PROFILE = register(
     Format(
         name="br-acp10",
         target="B&R ACP10, MC_CAMPROFILE_TYP",
-        held="MasterPeriod, SlavePeriod (DINT), PolynomialNumber, a ... g, x (REAL32)",
+        contents="MasterPeriod, SlavePeriod (DINT), PolynomialNumber, a ... g, x (REAL32)",
         model="REAL32 polynomials to degree 6",
         limits=f"at most {MOST} polynomials, whole-number periods, REAL32, the first begins at 0 (error 5304)",
         extension=".var",

@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
-from optlaws.exports.controllers.polynomials_of import asked, fields, iec_heading
-from optlaws.exports.format import Format, Request, Written, declared
+from optlaws.exports.controllers.polynomials_of import fields, iec_heading, polynomials_for
+from optlaws.exports.format import Format, Request, Written, register
 from optlaws.exports.identifiers import iec_name
-from optlaws.exports.motion import Motion
+from optlaws.motion.motion import Motion
 
 DEGREE = 7
 MOST = 32_767  # nElements of MC_CAM_REF is an INT
@@ -13,10 +13,10 @@ MOST = 32_767  # nElements of MC_CAM_REF is an INT
 
 def _write(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "CODESYS")
-    made = asked(motion, request, DEGREE, MOST)
-    run, count = made.run, made.count
+    fit = polynomials_for(motion, request, DEGREE, MOST)
+    run, count = fit.run, fit.count
     notes = (
-        made.said(motion.units.slave),
+        fit.in_words(motion.units.slave),
         f"the library's parameter MAX_CAM_SEGMENT_COUNT must be at least {count}",
         "library SM3_CamBuilder, namespace SMCB, of SoftMotion 4.17 or later",
     )
@@ -55,11 +55,11 @@ def _coefficients(low: float, high: float, row: tuple[float, ...]) -> str:
     return fields(x0=low, x1=high, **{f"a{n}": c for n, c in enumerate(powers)})
 
 
-CAM_BUILDER = declared(
+CAM_BUILDER = register(
     Format(
         name="codesys-cambuilder",
         target="CODESYS SoftMotion, Poly7_Coeffs of CamBuilder",
-        held="x0, x1, a0 ... a7 (LREAL)",
+        contents="x0, x1, a0 ... a7 (LREAL)",
         model="exact polynomials of degree 7",
         limits=f"degree 7, at most {MOST} segments (nElements is an INT), MAX_CAM_SEGMENT_COUNT of the library",
         extension=".st",

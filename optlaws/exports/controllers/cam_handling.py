@@ -6,17 +6,16 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from optlaws.errors import InputError
-from optlaws.exports.controllers.polynomials_of import Ends, asked, ends_of, fields, iec_heading, leaping
-from optlaws.exports.format import Format, Request, Written, declared
+from optlaws.exports.controllers.polynomials_of import Ends, ends_of, fields, iec_heading, polynomials_for, refuse_leaps
+from optlaws.exports.format import Format, Request, Written, register
 from optlaws.exports.identifiers import iec_name
 from optlaws.exports.interpolation import hermite_powers
-from optlaws.exports.motion import Motion
-from optlaws.exports.pieces.fitting import Fitted
-from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
 
 SEGMENTS = 50
 POINTS = SEGMENTS + 1
+_REMEDY = "take siemens-elements, whose elements have ends of their own, or a smoother law"
 #: codes of LCamHdl_ProfileConstants; an element of each takes one segment of the TO
 DWELL, CONST_VELO, POLY_5, ADD_POLY = 2, 3, 5, 44
 START_JERK = 1  # LCAMHDL_POLY_MODE_BOUNDARY_VALUES_AND_START_JERK
@@ -24,28 +23,28 @@ START_JERK = 1  # LCAMHDL_POLY_MODE_BOUNDARY_VALUES_AND_START_JERK
 
 def _write_elements(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "SIMATIC AX")
-    made = asked(motion, request, 5, SEGMENTS)
-    ends = ends_of(motion, made.run, 3)
+    fit = polynomials_for(motion, request, 5, SEGMENTS)
+    ends = ends_of(motion, fit.run, 3)
     rows = [
         fields(**_bounds(end), camProfileType=_profile(row))
-        for end, row in zip(ends, made.run.coefficients, strict=True)
+        for end, row in zip(ends, fit.run.coefficients, strict=True)
     ]
-    run = PiecewiseMotion(made.run.breaks, [_quintic(end) for end in ends])
-    notes = (made.said(motion.units.slave), f"{len(rows)} of the {SEGMENTS} segments of the TO")
+    run = PiecewiseMotion(fit.run.breaks, [_quintic(end) for end in ends])
+    notes = (fit.in_words(motion.units.slave), f"{len(rows)} of the {SEGMENTS} segments of the TO")
     text = _configuration(name, "LCamHdl_typeAdvancedElement", rows, motion, (run, notes))
     return Written(text, run, "quintic polynomials by their ends", len(rows), "segments", notes=notes)
 
 
 def _write_polynomials(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "SIMATIC AX")
-    made = asked(motion, request, 6, SEGMENTS)
-    ends = ends_of(motion, made.run, 4)
+    fit = polynomials_for(motion, request, 6, SEGMENTS)
+    ends = ends_of(motion, fit.run, 4)
     rows = [
         fields(**_bounds(end), geoJerkStart=end.first[3], camProfileType=ADD_POLY, polynomialMode=START_JERK)
         for end in ends
     ]
-    run = PiecewiseMotion(made.run.breaks, [_sixth(end) for end in ends])
-    notes = (made.said(motion.units.slave), f"{len(rows)} of the {SEGMENTS} segments of the TO")
+    run = PiecewiseMotion(fit.run.breaks, [_sixth(end) for end in ends])
+    notes = (fit.in_words(motion.units.slave), f"{len(rows)} of the {SEGMENTS} segments of the TO")
     text = _configuration(name, "LCamHdl_typePolynomialElement", rows, motion, (run, notes))
     return Written(
         text, run, "polynomials of degree 6 by their ends and start jerk", len(rows), "segments", notes=notes
@@ -77,7 +76,7 @@ def _quintic(ends: Ends) -> list[float]:
 
 
 def _sixth(ends: Ends) -> list[float]:
-    """The quintic of the ends and so much of u³ (1 - u)³ that the jerk at the start is as told."""
+    """The quintic of the ends and so much of u³ (1 - u)³ that the jerk at the start is that of the ends."""
     quintic, length = _quintic(ends), ends.x[1] - ends.x[0]
     share = ends.first[3] / 6.0 - quintic[3]
     bump = {3: share, 4: -3.0 * share / length, 5: 3.0 * share / length**2, 6: -share / length**3}
@@ -86,34 +85,24 @@ def _sixth(ends: Ends) -> list[float]:
 
 def _write_points(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "SIMATIC AX")
-    made = _smooth(motion, asked(motion, request, 5, SEGMENTS, points=True))
-    ends = ends_of(motion, made.run, 3)
+    fit = polynomials_for(motion, request, 5, SEGMENTS, points=True)
+    refuse_leaps(motion, fit.run, "a basic point", _REMEDY)
+    ends = ends_of(motion, fit.run, 3)
     values = np.array([*(end.first for end in ends), ends[-1].last]).T
-    run = PiecewiseMotion(made.run.breaks, hermite_powers(np.array(made.run.breaks), values))
+    run = PiecewiseMotion(fit.run.breaks, hermite_powers(np.array(fit.run.breaks), values))
     rows = [
         fields(leadingValue=x, followingValue=y, velocityRatio=v, accelerationRatio=a)
         for x, (y, v, a) in zip(run.breaks, values.T.tolist(), strict=True)
     ]
-    notes = (made.said(motion.units.slave), f"{made.count} of the {SEGMENTS} segments of the TO")
+    notes = (fit.in_words(motion.units.slave), f"{fit.count} of the {SEGMENTS} segments of the TO")
     text = _configuration(name, "LCamHdl_typeBasicPoint", rows, motion, (run, notes))
     return Written(text, run, "quintic polynomials between points", len(rows), notes=notes)
 
 
-def _smooth(motion: Motion, made: Fitted) -> Fitted:
-    for nu, quantity in ((1, "velocity"), (2, "acceleration")):
-        x = leaping(made.run, nu)
-        if x is not None:
-            raise InputError(
-                f"the {quantity} leaps at x = {x:.9g} {motion.units.master}, and a basic point holds one value of it: "
-                "take siemens-elements, whose elements have ends of their own, or a smoother law"
-            )
-    return made
-
-
 def _configuration(
-    name: str, kind: str, rows: Sequence[str], motion: Motion, said: tuple[PiecewiseMotion, Sequence[str]]
+    name: str, kind: str, rows: Sequence[str], motion: Motion, run_and_notes: tuple[PiecewiseMotion, Sequence[str]]
 ) -> str:
-    run, notes = said
+    run, notes = run_and_notes
     return "\n".join(
         [
             iec_heading(f"{name}: a cam for LCamHdl and a TO_Cam of the S7-1500T, {kind}", motion, run, notes)
@@ -130,33 +119,34 @@ def _configuration(
     )
 
 
-BASIC = declared(
+BASIC = register(
     Format(
         name="siemens-points",
         target="Siemens S7-1500T, LCamHdl_typeBasicPoint of LCamHdl_CreateCamBasic",
-        held="leadingValue, followingValue, velocityRatio, accelerationRatio (LREAL)",
+        contents="leadingValue, followingValue, velocityRatio, accelerationRatio (LREAL)",
         model="quintic polynomials",
         limits=f"at most {POINTS} points, which make the {SEGMENTS} segments of a TO_Cam",
         extension=".st",
         write=_write_points,
     )
 )
-ADVANCED = declared(
+ADVANCED = register(
     Format(
         name="siemens-elements",
         target="Siemens S7-1500T, LCamHdl_typeAdvancedElement of LCamHdl_CreateCamAdvanced",
-        held="leading and following values, geoVelo and geoAccel at both ends (LREAL), camProfileType",
+        contents="leading and following values, geoVelo and geoAccel at both ends (LREAL), camProfileType",
         model="quintic polynomials, straight lines, dwells",
         limits=f"at most {SEGMENTS} segments in a TO_Cam; degree 5 (POLY_7 takes two segments of degree 6: not used)",
         extension=".st",
         write=_write_elements,
     )
 )
-POLYNOMIALS = declared(
+POLYNOMIALS = register(
     Format(
         name="siemens-polynomials",
         target="Siemens S7-1500T, LCamHdl_typePolynomialElement of LCamHdl_AddCamPolynomial",
-        held="leading and following values, geoVelo and geoAccel at both ends, geoJerkStart (LREAL), polynomialMode 1",
+        contents="leading and following values, geoVelo and geoAccel at both ends, geoJerkStart (LREAL), "
+        "polynomialMode 1",
         model="exact polynomials of degree 6",
         limits=f"at most {SEGMENTS} segments in a TO_Cam, degree 6",
         extension=".st",

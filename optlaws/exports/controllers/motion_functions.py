@@ -5,34 +5,41 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.errors import InputError
-from optlaws.exports.controllers.polynomials_of import asked, ends_of, fields, iec_heading, leaping
-from optlaws.exports.format import MOST_POINTS, Format, Request, Written, declared
+from optlaws.exports.controllers.polynomials_of import (
+    ends_of,
+    fields,
+    iec_heading,
+    leaping,
+    polynomials_for,
+    refuse_leaps,
+)
+from optlaws.exports.format import MOST_POINTS, Format, Request, Written, register
 from optlaws.exports.identifiers import iec_name
 from optlaws.exports.interpolation import hermite_powers
-from optlaws.exports.motion import Motion
 from optlaws.exports.pieces.fitting import Fitted
-from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
 
 DEGREE = 7
 #: by the degree of the polynomial: names in MC_MotionFunctionType and in EMotionFunctionType
 FUNCTIONS = {5: ("MOTIONFUNCTYPE_POLYNOM5_MM", "Polynomial5"), 7: ("MOTIONFUNCTYPE_POLYNOM7_MM", "Polynomial7")}
+_REMEDY = "take a smoother law, or a format whose pieces have ends of their own, such as codesys-cambuilder"
 _LAST = ("MOTIONFUNCTYPE_NOTDEF", "Undefined")
 
 
 def _write(motion: Motion, request: Request, *, third: bool) -> Written:
     name = iec_name(request.name, "TwinCAT")
-    made = _shared(motion, request)
-    degrees = [5 if len(row) <= 6 or not any(row[6:]) else 7 for row in made.run.coefficients]
-    ends = ends_of(motion, made.run, 4)
+    fit = _shared(motion, request)
+    degrees = [5 if len(row) <= 6 or not any(row[6:]) else 7 for row in fit.run.coefficients]
+    ends = ends_of(motion, fit.run, 4)
     values = np.array([*(end.first for end in ends), ends[-1].last]).T
-    run = _run(made.run.breaks, values, degrees)
+    run = _run(fit.run.breaks, values, degrees)
     rows = [
         (_of_mc3 if third else _of_nc2)(i, x, values[:, i].tolist(), degree)
-        for i, (x, degree) in enumerate(zip(made.run.breaks, [*degrees, 0], strict=True))
+        for i, (x, degree) in enumerate(zip(fit.run.breaks, [*degrees, 0], strict=True))
     ]
     kind = "MotionFunctionPoint" if third else "MC_MotionFunctionPoint"
-    notes = (made.said(motion.units.slave),)
+    notes = (fit.in_words(motion.units.slave),)
     text = "\n".join(
         [
             iec_heading(f"{name}: a motion function for TwinCAT, {kind}", motion, run, notes) + "VAR_GLOBAL",
@@ -55,17 +62,11 @@ def _shared(motion: Motion, request: Request) -> Fitted:
     InputError
         If velocity or acceleration leap, for a point holds one value of each.
     """
-    made = asked(motion, request, DEGREE, MOST_POINTS - 1, points=True)
-    for nu, quantity in ((1, "velocity"), (2, "acceleration")):
-        x = leaping(made.run, nu)
-        if x is not None:
-            raise InputError(
-                f"the {quantity} leaps at x = {x:.9g} {motion.units.master}, and a point of TwinCAT holds one value of "
-                "it: take a smoother law, or a format whose pieces have ends of their own, such as codesys-cambuilder"
-            )
-    if made.run.degree > 5 and leaping(made.run, 3) is not None:
-        return asked(motion, request, 5, MOST_POINTS - 1, points=True)
-    return made
+    fit = polynomials_for(motion, request, DEGREE, MOST_POINTS - 1, points=True)
+    refuse_leaps(motion, fit.run, "a point of TwinCAT", _REMEDY)
+    if fit.run.degree > 5 and leaping(fit.run, 3) is not None:
+        return polynomials_for(motion, request, 5, MOST_POINTS - 1, points=True)
+    return fit
 
 
 def _run(breaks: tuple[float, ...], values: NDArray[np.float64], degrees: list[int]) -> PiecewiseMotion:
@@ -113,11 +114,11 @@ def _write_mc3(motion: Motion, request: Request) -> Written:
 
 
 LIMITS = "one velocity, acceleration and jerk at each point; pieces of degree 7 at most"
-NC2 = declared(
+NC2 = register(
     Format(
         name="twincat-nc2",
         target="TwinCAT NC2 camming, motion function of MC_MotionFunctionPoint",
-        held="PointIndex, FunctionType, PointType, RelIndexNextPoint, MasterPos, SlavePos, SlaveVelo, SlaveAcc, "
+        contents="PointIndex, FunctionType, PointType, RelIndexNextPoint, MasterPos, SlavePos, SlaveVelo, SlaveAcc, "
         "SlaveJerk (LREAL)",
         model="Hermite polynomials of degree 5 or 7, by FunctionType",
         limits=LIMITS,
@@ -125,11 +126,11 @@ NC2 = declared(
         write=_write_nc2,
     )
 )
-MC3 = declared(
+MC3 = register(
     Format(
         name="twincat-mc3",
         target="TwinCAT MC3 camming, MotionFunctionPoint",
-        held="FunctionType, MasterPosition, SlavePosition, SlaveVelocity, SlaveAcceleration, SlaveJerk (LREAL)",
+        contents="FunctionType, MasterPosition, SlavePosition, SlaveVelocity, SlaveAcceleration, SlaveJerk (LREAL)",
         model="Hermite polynomials of degree 5 or 7, by FunctionType",
         limits=LIMITS,
         extension=".st",

@@ -1,4 +1,4 @@
-"""What formats of polynomials have in common: how many are laid for a request, and what their files say of it."""
+"""The polynomials of a request, and the comments, fields and checks that formats of polynomials share."""
 
 from __future__ import annotations
 
@@ -12,16 +12,16 @@ from optlaws.exports.code.error_bounds import SINGLE, error_bounds
 from optlaws.exports.code.heading import Labels, heading, rounded_up
 from optlaws.exports.code.literals import real, safe
 from optlaws.exports.format import BEST, Request
-from optlaws.exports.motion import Motion
 from optlaws.exports.pieces.best_breaks import fitted_best
 from optlaws.exports.pieces.fitting import OFF, Fitted, fitted
-from optlaws.exports.polynomials import PiecewiseMotion
 from optlaws.files.writing import MARK
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
 
 _ROUNDING = 1e-9
 
 
-def asked(
+def polynomials_for(
     motion: Motion, request: Request, degree: int, most: int, *, points: bool = False, near: float = OFF
 ) -> Fitted:
     """Polynomials of at most a degree and a number: so many, the best, or as few as will do.
@@ -57,8 +57,10 @@ def asked(
 def labels_of(motion: Motion, notes: Sequence[str] = ()) -> Labels:
     """Units of a motion, and notes, for comments."""
     rate = motion.units.rate
-    said = [] if rate is None or motion.units.master == "s" else [f"the master goes {rate:.9g} {motion.units.master}/s"]
-    return Labels(motion.units.master, motion.units.slave, (*said, *motion.proof, *notes))
+    speed = (
+        [] if rate is None or motion.units.master == "s" else [f"the master goes {rate:.9g} {motion.units.master}/s"]
+    )
+    return Labels(motion.units.master, motion.units.slave, (*speed, *motion.proof, *notes))
 
 
 def iec_heading(title: str, motion: Motion, run: PiecewiseMotion, notes: Sequence[str]) -> str:
@@ -84,11 +86,11 @@ def leaps_of_single(run: PiecewiseMotion) -> tuple[float, ...]:
     return tuple(2.0 * bound for bound in error_bounds(run, SINGLE)[1:])
 
 
-def said_of_leaps(motion: Motion, leaps: tuple[float, ...]) -> str:
-    """The same in words."""
+def leaps_in_words(motion: Motion, leaps: tuple[float, ...]) -> str:
+    """The jumps of a motion in words."""
     units = labels_of(motion)
-    said = ", ".join(f"{rounded_up(leap)} {units.unit(nu)}" for nu, leap in enumerate(leaps, start=1))
-    return f"leaps at joints by at most {said} are roundings of REAL32"
+    words = ", ".join(f"{rounded_up(leap)} {units.unit(nu)}" for nu, leap in enumerate(leaps, start=1))
+    return f"leaps at joints by at most {words} are roundings of REAL32"
 
 
 class Ends(NamedTuple):
@@ -107,9 +109,9 @@ def ends_of(motion: Motion, run: PiecewiseMotion, orders: int) -> list[Ends]:
     """
     firsts, lasts = [], []
     for nu in range(orders):
-        first, own = run.ends(nu)
+        first, ends_here = run.ends(nu)
         known = np.append(first[1:], motion.ends(nu)[1])
-        lasts.append(np.where(np.abs(known - own) <= rounding(run, nu), known, own).tolist())
+        lasts.append(np.where(np.abs(known - ends_here) <= rounding(run, nu), known, ends_here).tolist())
         firsts.append(first.tolist())
     places = zip(run.breaks, run.breaks[1:], strict=False)
     return [Ends(*joint) for joint in zip(places, zip(*firsts, strict=True), zip(*lasts, strict=True), strict=True)]
@@ -129,3 +131,18 @@ def leaping(run: PiecewiseMotion, nu: int) -> float | None:
         if abs(leap) > small:
             return x
     return None
+
+
+def refuse_leaps(motion: Motion, run: PiecewiseMotion, holder: str, remedy: str) -> None:
+    """Refuse polynomials whose velocity or acceleration leaps, for what holds one value of each at a point.
+
+    Raises
+    ------
+    InputError
+        If one leaps by more than rounding; the error says where, and the remedy.
+    """
+    for nu, quantity in ((1, "velocity"), (2, "acceleration")):
+        x = leaping(run, nu)
+        if x is not None:
+            place = f"x = {x:.9g} {motion.units.master}"
+            raise InputError(f"the {quantity} leaps at {place}, and {holder} holds one value of it: {remedy}")

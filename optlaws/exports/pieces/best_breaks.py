@@ -9,13 +9,13 @@ from functools import lru_cache
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cycles.asked.conversion import Piece
 from optlaws.errors import InputError
-from optlaws.exports.motion import Motion
-from optlaws.exports.pieces.fitting import HIGHER, Fitted, Stretch, fitted
-from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.exports.pieces.fitting import HIGHER, Fitted, LawSection, fitted
 from optlaws.laws.law import MotionLaw
 from optlaws.mechanisms.checks import motion_law
+from optlaws.motion.motion import Motion
+from optlaws.motion.piece import Piece
+from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numbers import whole
 
 Array = NDArray[np.float64]
@@ -102,11 +102,11 @@ def best_breaks(law: MotionLaw, degree: int = 7, most: int = MOST) -> BestBreaks
 @lru_cache(maxsize=32)
 def _best_breaks(law: MotionLaw, orders: int, most: int) -> BestBreaks:
     _refuse_leaps(law, orders)
-    return Search(Stretch(law, (0.0, 1.0)), orders, law.constants.C.value).fewest(most)
+    return BreakSearch(LawSection(law, (0.0, 1.0)), orders, law.constants.C.value).fewest(most)
 
 
 @dataclass(frozen=True)
-class Search:
+class BreakSearch:
     """The search on a stretch of a law.
 
     Parameters
@@ -119,7 +119,7 @@ class Search:
         C of the law.
     """
 
-    stretch: Stretch
+    stretch: LawSection
     orders: int
     peak: float
 
@@ -225,11 +225,11 @@ def fitted_best(motion: Motion, degree: int, most: int) -> Fitted:
 
     Examples
     --------
-    >>> from optlaws.exports.motion import motion_of_law
+    >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_law(smoothstep(6), stroke="35 mm", time="0.1 s")
-    >>> made = fitted_best(motion, degree=7, most=50)
-    >>> made.count, abs(made.run.peak(2).value / motion.peak(2) - 1) <= 1e-3
+    >>> fit = fitted_best(motion, degree=7, most=50)
+    >>> fit.count, abs(fit.run.peak(2).value / motion.peak(2) - 1) <= 1e-3
     (3, True)
     """
 

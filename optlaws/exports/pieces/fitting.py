@@ -12,13 +12,13 @@ from math import ceil
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cycles.asked.conversion import Piece
 from optlaws.errors import InputError
 from optlaws.exports.interpolation import hermite_powers
-from optlaws.exports.motion import Motion
 from optlaws.exports.pieces.law_pieces import is_polynomial, stretches
-from optlaws.exports.polynomials import PiecewiseMotion, from_exact
 from optlaws.laws.law import MotionLaw
+from optlaws.motion.motion import Motion
+from optlaws.motion.piece import Piece
+from optlaws.motion.polynomials import PiecewiseMotion, from_exact
 from optlaws.series import exact
 
 Array = NDArray[np.float64]
@@ -53,7 +53,7 @@ class Fitted:
         """How many polynomials there are."""
         return len(self.run.coefficients)
 
-    def said(self, unit: str) -> str:
+    def in_words(self, unit: str) -> str:
         """How near they are, as headings say it."""
         if self.exact:
             return "exact: the polynomials are the law's own, every number rounded once"
@@ -61,7 +61,7 @@ class Fitted:
 
 
 @dataclass(frozen=True)
-class Stretch:
+class LawSection:
     """A smooth part of a law between k and k: its own polynomial where it is one of low degree.
 
     Parameters
@@ -70,13 +70,13 @@ class Stretch:
         The law.
     ends
         Its first and its last k.
-    own
+    exact_powers
         Powers of k less the first, or None where it is to be approximated.
     """
 
     law: MotionLaw
     ends: tuple[float, float]
-    own: tuple[Fraction, ...] | None = None
+    exact_powers: tuple[Fraction, ...] | None = None
 
     def values(self, k: Array, nu: int) -> Array:
         """The derivative of order nu; at the last k that of this side of it."""
@@ -109,13 +109,13 @@ class Stretch:
 
 
 @dataclass(order=True)
-class _Part:
+class _FittedSection:
     """A stretch with its polynomials; the one that is furthest from what is wanted comes first."""
 
     rank: float
     place: int
     piece: Piece = field(compare=False)
-    stretch: Stretch = field(compare=False)
+    stretch: LawSection = field(compare=False)
     run: PiecewiseMotion | None = field(compare=False, default=None)
 
     def split(self, orders: int, peak: float, near: float) -> None:
@@ -168,11 +168,11 @@ def fitted(
 
     Examples
     --------
-    >>> from optlaws.exports.motion import motion_of_law
+    >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_law(smoothstep(5), stroke="35 mm", time="0.1 s")
-    >>> made = fitted(motion, degree=7, most=50)
-    >>> made.count, made.exact, f"{made.deviation:.1e}"
+    >>> fit = fitted(motion, degree=7, most=50)
+    >>> fit.count, fit.exact, f"{fit.deviation:.1e}"
     (4, False, '4.9e-04')
     >>> fitted(motion, degree=9, most=50).exact
     True
@@ -181,10 +181,10 @@ def fitted(
     pairs = [
         (piece, own_stretch) for piece in motion.pieces for own_stretch in _of(piece, degree, whole=laid is not None)
     ]
-    parts = [_Part(0.0, i, piece, stretch) for i, (piece, stretch) in enumerate(pairs)]
+    parts = [_FittedSection(0.0, i, piece, stretch) for i, (piece, stretch) in enumerate(pairs)]
     if len(parts) > (most if count is None else count):
         raise InputError(f"the motion has {len(parts)} pieces of its own, {_asked(most, count)}: export its parts")
-    open_parts = [part for part in parts if part.stretch.own is None]
+    open_parts = [part for part in parts if part.stretch.exact_powers is None]
     peak = motion.peak(2) if open_parts else 0.0
     if not np.isfinite(peak):
         raise InputError("the acceleration of the motion has no bound, as where the velocity leaps: smooth it first")
@@ -196,10 +196,10 @@ def fitted(
     if laid is None:
         left = (most if count is None else count) - len(parts)
         _divide(open_parts, left, count, lambda part: part.split(orders, peak, near))
-    made = _joined(motion, parts)
-    if made.count > most:
-        raise InputError(f"{made.count} pieces are needed, and the target holds {most}: export the motion in parts")
-    return made
+    joined = _joined(motion, parts)
+    if joined.count > most:
+        raise InputError(f"{joined.count} pieces are needed, and the target holds {most}: export the motion in parts")
+    return joined
 
 
 def exactly(motion: Motion, degree: int) -> Fitted | None:
@@ -210,34 +210,36 @@ def exactly(motion: Motion, degree: int) -> Fitted | None:
 
     Examples
     --------
-    >>> from optlaws.exports.motion import motion_of_law
+    >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
-    >>> made = exactly(motion_of_law(smoothstep(9), stroke="35 mm", time="0.1 s"), 40)
-    >>> made.exact, made.count, made.run.degree
+    >>> fit = exactly(motion_of_law(smoothstep(9), stroke="35 mm", time="0.1 s"), 40)
+    >>> fit.exact, fit.count, fit.run.degree
     (True, 6, 17)
     """
     pairs = [(piece, stretch) for piece in motion.pieces for stretch in _of(piece, degree, whole=False)]
-    if any(stretch.own is None for _, stretch in pairs):
+    if any(stretch.exact_powers is None for _, stretch in pairs):
         return None
     cut = ((piece, part) for piece, stretch in pairs for part in _cut(stretch))
-    return _joined(motion, [_Part(0.0, i, piece, part) for i, (piece, part) in enumerate(cut)])
+    return _joined(motion, [_FittedSection(0.0, i, piece, part) for i, (piece, part) in enumerate(cut)])
 
 
-def _cut(stretch: Stretch) -> Iterator[Stretch]:
+def _cut(stretch: LawSection) -> Iterator[LawSection]:
     """Parts of a stretch, about one for three powers where there are more than nine."""
-    own = list(stretch.own or ())
-    count = 1 if len(own) <= _SHORT else ceil(len(own) / 3)
+    exact_powers = list(stretch.exact_powers or ())
+    count = 1 if len(exact_powers) <= _SHORT else ceil(len(exact_powers) / 3)
     places = np.linspace(*stretch.ends, count + 1).tolist()
     for low, high in pairwise(places):
         by = Fraction(low) - Fraction(stretch.ends[0])
-        yield Stretch(stretch.law, (low, high), tuple(exact.shifted(own, by)))
+        yield LawSection(stretch.law, (low, high), tuple(exact.shifted(exact_powers, by)))
 
 
 def _asked(most: int, count: int | None) -> str:
     return f"and the target holds {most}" if count is None else f"more than the {count} that were asked for"
 
 
-def _divide(open_parts: list[_Part], left: int, count: int | None, split: Callable[[_Part], None]) -> None:
+def _divide(
+    open_parts: list[_FittedSection], left: int, count: int | None, split: Callable[[_FittedSection], None]
+) -> None:
     """Lay further polynomials where what is wanted is furthest, as many as are left or as are needed."""
     heapify(open_parts)
     while open_parts and left and (count is not None or open_parts[0].rank < -1.0):
@@ -252,7 +254,7 @@ def _divide(open_parts: list[_Part], left: int, count: int | None, split: Callab
         )
 
 
-def _joined(motion: Motion, parts: Sequence[_Part]) -> Fitted:
+def _joined(motion: Motion, parts: Sequence[_FittedSection]) -> Fitted:
     breaks: list[Fraction] = []
     rows: list[list[Fraction]] = []
     height = Fraction(0)
@@ -265,29 +267,29 @@ def _joined(motion: Motion, parts: Sequence[_Part]) -> Fitted:
             rows.append([Fraction(piece.stroke) * c / Fraction(piece.duration) ** n for n, c in enumerate(powers)])
             rows[-1][0] += height
     run = from_exact([*breaks, Fraction(motion.stop)], rows)
-    own = all(stretch.run is None for stretch in parts)
+    is_exact = all(stretch.run is None for stretch in parts)
     position, acceleration = (max(stretch.off(nu) for stretch in parts) for nu in (0, 2))
-    return Fitted(run, own, position, acceleration)
+    return Fitted(run, is_exact, position, acceleration)
 
 
-def _pieces(part: _Part) -> Iterator[tuple[Fraction, Sequence[Fraction]]]:
+def _pieces(part: _FittedSection) -> Iterator[tuple[Fraction, Sequence[Fraction]]]:
     """First k and powers of every polynomial of a part, those of a dwell being zero."""
     if part.run is None:
-        yield Fraction(part.stretch.ends[0]), part.stretch.own or (Fraction(0),)
+        yield Fraction(part.stretch.ends[0]), part.stretch.exact_powers or (Fraction(0),)
         return
     for low, row in zip(part.run.breaks, part.run.coefficients, strict=False):
         yield Fraction(low), [Fraction(c) for c in row]
 
 
-def _of(piece: Piece, degree: int, *, whole: bool) -> list[Stretch]:
+def _of(piece: Piece, degree: int, *, whole: bool) -> list[LawSection]:
     """The smooth stretches of a piece's law; the whole of it where that is to be approximated at once."""
     if piece.stroke == 0.0:
-        return [Stretch(piece.law, (0.0, 1.0), (Fraction(0),))]
+        return [LawSection(piece.law, (0.0, 1.0), (Fraction(0),))]
     law = piece.law
     if not is_polynomial(law):
-        return [Stretch(law, ends) for ends in ([(0.0, 1.0)] if whole else pairwise(law.breaks))]
+        return [LawSection(law, ends) for ends in ([(0.0, 1.0)] if whole else pairwise(law.breaks))]
     parts = [
-        Stretch(law, (float(low), float(high)), tuple(powers) if len(powers) <= degree + 1 else None)
+        LawSection(law, (float(low), float(high)), tuple(powers) if len(powers) <= degree + 1 else None)
         for low, high, powers in stretches(law)
     ]
-    return [Stretch(law, (0.0, 1.0))] if whole and any(stretch.own is None for stretch in parts) else parts
+    return [LawSection(law, (0.0, 1.0))] if whole and any(stretch.exact_powers is None for stretch in parts) else parts

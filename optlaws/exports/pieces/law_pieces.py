@@ -8,11 +8,11 @@ from itertools import pairwise
 from math import comb, inf
 
 from optlaws.errors import InputError
-from optlaws.exports.polynomials import PiecewiseMotion, from_exact
 from optlaws.laws.law import MotionLaw
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
+from optlaws.motion.polynomials import PiecewiseMotion, from_exact
 from optlaws.numbers import finite, positive
 from optlaws.series import exact
 

@@ -9,15 +9,13 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cycles.asked.conversion import Piece
-from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
-from optlaws.exporting import exports
-from optlaws.exports.motion import Motion, motion_of_cycle, motion_of_law
-from optlaws.exports.pieces.fitting import Stretch
+from optlaws.exports.pieces.fitting import LawSection
 from optlaws.exports.pieces.law_pieces import is_polynomial, polynomials_of_law
-from optlaws.exports.polynomials import PiecewiseMotion
 from optlaws.laws import MotionLaw
+from optlaws.motion.motion import Motion, motion_of_law
+from optlaws.motion.piece import Piece
+from optlaws.motion.polynomials import PiecewiseMotion
 from optlaws.numbers import positive
 
 Array = NDArray[np.float64]
@@ -59,16 +57,9 @@ def pieces_of_motion(motion: Motion, tolerance: float = TOLERANCE) -> PiecewiseM
     return PiecewiseMotion([*breaks, motion.stop], [row for part in parts for row in part.coefficients])
 
 
-@exports("pieces_of_law")
-def pieces_of_law(law: MotionLaw, tolerance: float = TOLERANCE, **said: Any) -> PiecewiseMotion:  # noqa: ANN401
+def pieces_of_law(law: MotionLaw, tolerance: float = TOLERANCE, **placement: Any) -> PiecewiseMotion:  # noqa: ANN401
     """The polynomials of a law with its stroke, time and master, as `motion_of_law` takes them."""
-    return pieces_of_motion(motion_of_law(law, **said), tolerance)
-
-
-@exports("pieces_of_cycle")
-def pieces_of_cycle(cycle: Cycle, tolerance: float = TOLERANCE, **said: Any) -> PiecewiseMotion:  # noqa: ANN401
-    """The polynomials of a cycle with its master, as `motion_of_cycle` takes it."""
-    return pieces_of_motion(motion_of_cycle(cycle, **said), tolerance)
+    return pieces_of_motion(motion_of_law(law, **placement), tolerance)
 
 
 def _of_piece(piece: Piece, tolerance: float) -> PiecewiseMotion:
@@ -77,7 +68,7 @@ def _of_piece(piece: Piece, tolerance: float) -> PiecewiseMotion:
     if is_polynomial(piece.law):
         cancelled = max(tolerance / (_ROUNDING * abs(piece.stroke)), _LEAST)
         return _moved(polynomials_of_law(piece.law, piece.stroke, piece.duration, cancelled=cancelled), piece)
-    stretches = [Stretch(piece.law, ends) for ends in pairwise(piece.law.breaks)]
+    stretches = [LawSection(piece.law, ends) for ends in pairwise(piece.law.breaks)]
     near = reduce(PiecewiseMotion.then, (_near(stretch, tolerance / abs(piece.stroke)) for stretch in stretches))
     return _moved(near.in_units(piece.duration, piece.stroke), piece)
 
@@ -89,7 +80,7 @@ def _moved(motion: PiecewiseMotion, piece: Piece) -> PiecewiseMotion:
     return PiecewiseMotion([piece.start + x for x in motion.breaks], rows)
 
 
-def _near(stretch: Stretch, tolerance: float) -> PiecewiseMotion:
+def _near(stretch: LawSection, tolerance: float) -> PiecewiseMotion:
     """So many of Hermite's polynomials of degree 7 on a stretch, each time twice as many, that they are near enough."""
     count = 1
     while count <= _MOST:

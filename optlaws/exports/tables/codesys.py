@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from optlaws.errors import InputError
 from optlaws.exports.code.literals import real
-from optlaws.exports.format import Format, Request, Written, declared
+from optlaws.exports.format import Format, Request, Written, register
 from optlaws.exports.identifiers import iec_name
-from optlaws.exports.motion import Motion
 from optlaws.exports.spacing import chosen
-from optlaws.exports.tables.table import Held, Table, by_interpolation, osculated
+from optlaws.exports.tables.table import NumberFormat, PointTable, hermite_table, table_by_interpolation
 from optlaws.exports.tables.text_lines import heading, iec_comment
+from optlaws.motion.motion import Motion
 
 MOST = 32_767  # nElements is an INT
 STANDARD = (128, 256)
@@ -18,7 +17,7 @@ INTERPOLATIONS = {"linear": 1, "cubic": 3}
 
 def _xyva(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "CODESYS")
-    table = chosen(motion, request, lambda count: osculated(motion, count, Held(), 3), least=2, most=MOST)
+    table = chosen(motion, request, lambda count: hermite_table(motion, count, NumberFormat(), 3), least=2, most=MOST)
     rows = [
         f"        (dX := {real(x)}, dY := {real(y)}, dV := {real(v)}, dA := {real(a)})"
         for x, (y, v, a) in zip(table.x.tolist(), table.values.T.tolist(), strict=True)
@@ -40,12 +39,10 @@ def _xyva(motion: Motion, request: Request) -> Written:
 
 def _xy(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "CODESYS")
-    chosen_interpolation = request.interpolation or "cubic"
-    if chosen_interpolation not in INTERPOLATIONS:
-        raise InputError(f"interpolation must be one of {', '.join(INTERPOLATIONS)}, got {chosen_interpolation!r}")
+    interpolation = request.interpolation_among(INTERPOLATIONS)
 
-    def make(count: int) -> Table:
-        return by_interpolation(motion, count, Held(request.counts), chosen_interpolation)
+    def make(count: int) -> PointTable:
+        return table_by_interpolation(motion, count, NumberFormat(request.counts), interpolation)
 
     table = chosen(motion, request, make, least=2, most=STANDARD[-1])
     count = len(table.x)
@@ -58,7 +55,7 @@ def _xy(motion: Motion, request: Request) -> Written:
         for side in ("Editor", "Table")
         for name_of, value in zip(("MasterMin", "MasterMax", "SlaveMin", "SlaveMax"), extent, strict=True)
     )
-    quality = f", byVarType := 6, byInterpolationQuality := {INTERPOLATIONS[chosen_interpolation]}"
+    quality = f", byVarType := 6, byInterpolationQuality := {INTERPOLATIONS[interpolation]}"
     text = "\n".join(
         [
             iec_comment(heading(motion, f"CODESYS SoftMotion, SMC_CAMTable_LREAL_{size}_2")) + "VAR_GLOBAL",
@@ -71,7 +68,7 @@ def _xy(motion: Motion, request: Request) -> Written:
             "",
         ]
     )
-    model = {"linear": "straight lines", "cubic": "clamped C2 cubic spline"}[chosen_interpolation]
+    model = {"linear": "straight lines", "cubic": "clamped C2 cubic spline"}[interpolation]
     return Written(text, table.run, model, count, resolution=table.resolution, bound=table.bound)
 
 
@@ -82,22 +79,22 @@ def _reference(name: str, motion: Motion, kind: str, count: int, more: str = "")
     )
 
 
-XYVA = declared(
+XYVA = register(
     Format(
         name="codesys-xyva",
         target="CODESYS SoftMotion, SMC_CAMXYVA in MC_CAM_REF",
-        held="dX, dY, dV, dA (LREAL)",
+        contents="dX, dY, dV, dA (LREAL)",
         model="quintic Hermite",
         limits=f"at most {MOST} points (nElements is an INT)",
         extension=".st",
         write=_xyva,
     )
 )
-XY = declared(
+XY = register(
     Format(
         name="codesys-xy",
         target="CODESYS SoftMotion, SMC_CAMTable_LREAL_128_2 or _256_2 in MC_CAM_REF",
-        held="x, y (LREAL)",
+        contents="x, y (LREAL)",
         model="clamped C2 cubic spline, or straight lines",
         limits=f"at most {STANDARD[-1]} points, the larger of the library's tables",
         extension=".st",

@@ -2,21 +2,29 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from functools import partial
 from itertools import pairwise
 
 import numpy as np
 
-from optlaws.cycles.asked.quantities import quantity
 from optlaws.errors import InputError
-from optlaws.exports.format import MOST_POINTS, Format, Request, Written, declared
+from optlaws.exports.format import MOST_POINTS, Format, Request, Written, register
 from optlaws.exports.interpolation import linear_powers
-from optlaws.exports.motion import Motion
 from optlaws.exports.spacing import chosen
-from optlaws.exports.tables.table import Held, Table, by_interpolation, osculated, positions, splined, straight
-from optlaws.exports.tables.text_lines import heading, plain
+from optlaws.exports.tables.table import (
+    NumberFormat,
+    PointTable,
+    hermite_table,
+    linear_table,
+    positions,
+    spline_table,
+    table_by_interpolation,
+)
+from optlaws.exports.tables.text_lines import heading, plain, plain_column
 from optlaws.files.writing import MARK
+from optlaws.motion.motion import Motion
+from optlaws.motion.quantities import quantity
 
 MODELS = {
     "linear": "straight lines",
@@ -31,19 +39,12 @@ ISG_STEP, ISG_LINES, ISG_LEAST = 1e-4, 360, 0.1
 TECHNOSOFT_POINTS, TECHNOSOFT_STEPS = 8192, 128
 
 
-def _interpolation(request: Request, known: Sequence[str]) -> str:
-    interpolation = request.interpolation or known[0]
-    if interpolation not in known:
-        raise InputError(f"interpolation must be one of {', '.join(known)}, got {interpolation!r}")
-    return interpolation
-
-
 def _csv(motion: Motion, request: Request) -> Written:
-    interpolation = _interpolation(request, ("cubic", "linear", "akima", "c1", "quintic", "septic"))
-    held = Held(request.counts, request.digits)
+    interpolation = request.interpolation_among(("cubic", "linear", "akima", "c1", "quintic", "septic"))
+    number_format = NumberFormat(request.counts, request.digits)
 
-    def make(count: int) -> Table:
-        return by_interpolation(motion, count, held, interpolation)
+    def make(count: int) -> PointTable:
+        return table_by_interpolation(motion, count, number_format, interpolation)
 
     table = chosen(motion, request, make, least=2, most=MOST_POINTS)
     separator = ";" if request.decimal == "," else ","
@@ -51,41 +52,41 @@ def _csv(motion: Motion, request: Request) -> Written:
     derivatives = [f"{units.slave}/{units.master}{power}" for power in ("", "^2", "^3")]
     columns = [f"x {units.master}", f"y {units.slave}"]
     columns += [f"{letter} {unit}" for letter, unit in zip("VAJ", derivatives, strict=True)]
-    rows = [table.x, *table.values]
+    rows = [table.x.tolist(), *table.values.tolist()]
     lines = [f"# {heading(motion, 'table')[0]}; {MARK}", separator.join(columns[: len(rows)])]
-    lines += [separator.join(_cells(row, request)) for row in np.array(rows).T.tolist()]
+    lines += _rows(rows, request, separator)
     return _written(lines, table, MODELS[interpolation])
 
 
 def _sew(motion: Motion, request: Request) -> Written:
-    interpolation = _interpolation(request, ("c1", "linear"))
-    held = Held(request.counts, request.digits)
+    interpolation = request.interpolation_among(("c1", "linear"), "c1")
+    number_format = NumberFormat(request.counts, request.digits)
 
-    def make(count: int) -> Table:
+    def make(count: int) -> PointTable:
         return (
-            straight(motion, count, held)
+            linear_table(motion, count, number_format)
             if interpolation == "linear"
-            else osculated(motion, count, held, 2, told=False)
+            else hermite_table(motion, count, number_format, 2, with_derivatives=False)
         )
 
     table = chosen(motion, request, make, least=2, most=MOST_POINTS)
-    lines = [str(len(table.x)), *(";".join(_cells(pair, request)) for pair in _pairs(table))]
+    lines = [str(len(table.x)), *_rows(_x_and_y(table), request, ";")]
     model = {"linear": "straight lines", "c1": "cubics whose acceleration leaps at every point, here with the law's V"}
     return _written(lines, table, model[interpolation])
 
 
 def _lenze(motion: Motion, request: Request) -> Written:
-    held = Held(request.counts, request.digits)
-    table = chosen(motion, request, lambda count: splined(motion, count, held), least=2, most=MOST_POINTS)
-    first, *others = (" ".join(_cells(pair, request)) for pair in _pairs(table))
+    number_format = NumberFormat(request.counts, request.digits)
+    table = chosen(motion, request, lambda count: spline_table(motion, count, number_format), least=2, most=MOST_POINTS)
+    first, *others = _rows(_x_and_y(table), request, " ")
     return _written([f"{first} // {heading(motion, 'cam')[0]}; {MARK}", *others], table, MODELS["cubic"])
 
 
 def _kas(motion: Motion, request: Request) -> Written:
-    held = Held(request.counts, request.digits)
-    table = chosen(motion, request, lambda count: splined(motion, count, held), least=5, most=MOST_POINTS)
+    number_format = NumberFormat(request.counts, request.digits)
+    table = chosen(motion, request, lambda count: spline_table(motion, count, number_format), least=5, most=MOST_POINTS)
     lines = ["CYCLIC;YES;" if motion.repeats else "CYCLIC;NO;", "TABLE_BEGIN;;"]
-    lines += [";".join([*_cells(pair, request), "SPLINE"]) for pair in _pairs(table)]
+    lines += [f"{row};SPLINE" for row in _rows(_x_and_y(table), request, ";")]
     top = [plain(float(np.abs(values).max())) for values in (table.x, table.values[0])]
     notes = (f"KAS divides X and Y by their greatest values: set the scales to {top[0]} and {top[1]} in the dialog",)
     return _written([*lines, "TABLE_END;;"], table, MODELS["cubic"], notes)
@@ -96,7 +97,7 @@ def _isg(motion: Motion, request: Request) -> Written:
     y_size = _unit_size(motion.units.slave, "deg" if motion.units.slave in {"deg", "rad", "°"} else "mm", "slave")
     most = min(ISG_LINES, 1 + int(np.floor(motion.length * x_size / ISG_LEAST * (1 + 1e-12))))
 
-    def make(count: int) -> Table:
+    def make(count: int) -> PointTable:
         return _integers(motion, count, ISG_STEP / x_size, ISG_STEP / y_size)
 
     table = chosen(motion, request, make, least=2, most=most)
@@ -118,7 +119,7 @@ def _technosoft(motion: Motion, request: Request) -> Written:
     counts = request.counts or 65_536
     step = motion.stroke / counts
 
-    def make(count: int) -> Table:
+    def make(count: int) -> PointTable:
         return _integers(motion, count, motion.length / (count - 1), step, even=True)
 
     table = chosen(motion, request, make, least=2, most=TECHNOSOFT_POINTS)
@@ -130,59 +131,61 @@ def _technosoft(motion: Motion, request: Request) -> Written:
     return _written([f"{x} {y}" for x, y in rows], table, "straight lines", notes)
 
 
-def _integers(motion: Motion, count: int, x_step: float, y_step: float, *, even: bool = False) -> Table:
+def _integers(motion: Motion, count: int, x_step: float, y_step: float, *, even: bool = False) -> PointTable:
     """Points whose coordinates are whole multiples of steps, in machine units."""
-    exact, _ = positions(motion, count, Held(), even=even)
+    exact, _ = positions(motion, count, NumberFormat(), even=even)
     x = np.rint(exact / x_step) * x_step
     if (np.diff(x) <= 0.0).any():
         raise InputError(f"{count} points of the master are closer than the target's step {x_step:g}: take fewer")
     y = np.rint(np.asarray(motion(exact)) / y_step) * y_step
-    return Table(x, y[None], linear_powers(x, y), y_step, 0.0)
+    return PointTable(x, y[None], linear_powers(x, y), y_step, 0.0)
 
 
-def _whole(table: Table, x_step: float, y_step: float) -> list[tuple[int, int]]:
-    return [(round(x / x_step), round(y / y_step)) for x, y in _pairs(table)]
+def _whole(table: PointTable, x_step: float, y_step: float) -> list[tuple[int, int]]:
+    return [(round(x / x_step), round(y / y_step)) for x, y in zip(*_x_and_y(table), strict=True)]
 
 
-def _unit_size(unit: str, wanted: str, side: str) -> float:
+def _unit_size(unit: str, target_unit: str, side: str) -> float:
     """How many of the wanted unit one of a unit is."""
-    dimension = "angle" if wanted == "deg" else "length"
+    dimension = "angle" if target_unit == "deg" else "length"
     try:
-        return quantity(f"1 {unit}", dimension, side) / quantity(f"1 {wanted}", dimension, side)
+        return quantity(f"1 {unit}", dimension, side) / quantity(f"1 {target_unit}", dimension, side)
     except InputError:
-        example = f"{side}='120 deg'" if dimension == "angle" else f"a stroke such as '35 {wanted}'"
-        refused = f"the {side} must be in {wanted}, which the target counts, got {unit}"
+        example = f"{side}='120 deg'" if dimension == "angle" else f"a stroke such as '35 {target_unit}'"
+        refused = f"the {side} must be in {target_unit}, which the target counts, got {unit}"
         raise InputError(f"{refused}: give {example}") from None
 
 
-def _pairs(table: Table) -> list[list[float]]:
-    return [list(pair) for pair in zip(table.x.tolist(), table.values[0].tolist(), strict=True)]
+def _x_and_y(table: PointTable) -> tuple[list[float], list[float]]:
+    return table.x.tolist(), table.values[0].tolist()
 
 
-def _cells(values: Sequence[float], request: Request) -> list[str]:
-    return [plain(value, request.digits, request.decimal) for value in values]
+def _rows(columns: Sequence[Iterable[float]], request: Request, separator: str) -> list[str]:
+    """Lines of a table whose numbers are given column by column."""
+    texts = (plain_column(column, request.digits, request.decimal) for column in columns)
+    return list(map(separator.join, zip(*texts, strict=True)))
 
 
-def _written(lines: Sequence[str], table: Table, model: str, notes: tuple[str, ...] = ()) -> Written:
+def _written(lines: Sequence[str], table: PointTable, model: str, notes: tuple[str, ...] = ()) -> Written:
     text = "\n".join([*lines, ""])
     return Written(text, table.run, model, len(table.x), resolution=table.resolution, bound=table.bound, notes=notes)
 
 
 _TEXT = ("points", "counts", "digits", "decimal")
-_plain_format = partial(Format, takes=_TEXT, held="x, y as text", limits="no number of points is stated")
+_plain_format = partial(Format, takes=_TEXT, contents="x, y as text", limits="no number of points is stated")
 
-CSV = declared(
+CSV = register(
     _plain_format(
         name="csv",
         target="any, comma-separated values with units in the heading",
-        held="x, y and as many of V, A, J as the interpolation takes",
+        contents="x, y and as many of V, A, J as the interpolation takes",
         model=f"as asked: {', '.join(MODELS)}",
         extension=".csv",
         write=_csv,
         takes=(*_TEXT, "interpolation"),
     )
 )
-SEW = declared(
+SEW = register(
     _plain_format(
         name="sew",
         target="SEW MOVI-C, list of points",
@@ -192,12 +195,12 @@ SEW = declared(
         takes=(*_TEXT, "interpolation"),
     )
 )
-LENZE = declared(
+LENZE = register(
     _plain_format(
         name="lenze", target="Lenze Cam Loader", model="C2 cubic spline (assumed)", extension=".txt", write=_lenze
     )
 )
-KAS = declared(
+KAS = register(
     _plain_format(
         name="kas",
         target="Kollmorgen KAS, cam profile as CSV",
@@ -207,11 +210,11 @@ KAS = declared(
         write=_kas,
     )
 )
-ISG = declared(
+ISG = register(
     _plain_format(
         name="isg",
         target="ISG kernel and TwinCAT CNC, cam table",
-        held="master, slave as integers of 1e-4 deg or 1e-4 mm",
+        contents="master, slave as integers of 1e-4 deg or 1e-4 mm",
         model="straight lines",
         limits=f"at most {ISG_LINES} points, at least {ISG_LEAST} deg apart; the master is an angle",
         extension=".txt",
@@ -219,11 +222,11 @@ ISG = declared(
         takes=("points",),
     )
 )
-TECHNOSOFT = declared(
+TECHNOSOFT = register(
     _plain_format(
         name="technosoft",
         target="Technosoft, cam table",
-        held="x, y as integers",
+        contents="x, y as integers",
         model="straight lines",
         limits=f"at most {TECHNOSOFT_POINTS} points with equal steps of a power of two, 32 bits",
         extension=".txt",

@@ -10,13 +10,13 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.exports.code.literals import real
-from optlaws.exports.format import MOST_POINTS, Format, Request, Written, declared
+from optlaws.exports.format import MOST_POINTS, Format, Request, Written, register
 from optlaws.exports.identifiers import iec_name
-from optlaws.exports.motion import Motion
-from optlaws.exports.polynomials import PiecewiseMotion
 from optlaws.exports.spacing import chosen
-from optlaws.exports.tables.table import Held, Table, splined, straight
+from optlaws.exports.tables.table import NumberFormat, PointTable, table_by_interpolation
 from optlaws.exports.tables.text_lines import heading, iec_comment
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
 
 Array = NDArray[np.float64]
 
@@ -75,29 +75,22 @@ def _values(row: Sequence[int]) -> list[float]:
     return [_DOUBLE.unpack(_HALVES.pack(*numbers[i : i + 2]))[0] for i in range(0, len(numbers), 2)]
 
 
-def _table(motion: Motion, request: Request, *, single: bool) -> Table:
-    interpolation = _interpolation(request)
-    held = Held(request.counts, request.digits, single)
+def _table(motion: Motion, request: Request, *, single: bool) -> PointTable:
+    interpolation = request.interpolation_among(SEGMENT_TYPES)
+    number_format = NumberFormat(request.counts, request.digits, single)
 
-    def make(count: int) -> Table:
-        return straight(motion, count, held) if interpolation == "linear" else splined(motion, count, held)
+    def make(count: int) -> PointTable:
+        return table_by_interpolation(motion, count, number_format, interpolation)
 
     return chosen(motion, request, make, least=2, most=MOST_POINTS)
-
-
-def _interpolation(request: Request) -> str:
-    interpolation = request.interpolation or "cubic"
-    if interpolation not in SEGMENT_TYPES:
-        raise InputError(f"interpolation must be one of {', '.join(SEGMENT_TYPES)}, got {interpolation!r}")
-    return interpolation
 
 
 def _array(motion: Motion, request: Request, *, single: bool) -> Written:
     name = iec_name(request.name, "Logix")
     table = _table(motion, request, single=single)
-    kind = SEGMENT_TYPES[_interpolation(request)]
+    kind = SEGMENT_TYPES[request.interpolation_among(SEGMENT_TYPES)]
     start, end = (
-        real(float(number), single=single) for number in Held(single=single).numbers(np.array(motion.ends(1)))
+        real(float(number), single=single) for number in NumberFormat(single=single).numbers(np.array(motion.ends(1)))
     )
     rows = [
         f"{name}[{i}].Master := {real(x, single=single)}; {name}[{i}].Slave := {real(y, single=single)}; "
@@ -113,14 +106,14 @@ def _array(motion: Motion, request: Request, *, single: bool) -> Written:
 def _profile(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "Logix")
     table = _table(motion, request, single=False)
-    rows = profile_rows(table.run, cubic=_interpolation(request) == "cubic")
+    rows = profile_rows(table.run, cubic=request.interpolation_among(SEGMENT_TYPES) == "cubic")
     data = ",\n".join(f"  [{','.join(map(str, row))}]" for row in rows)
     text = iec_comment(heading(motion, "Rockwell Logix, elements of CAM_PROFILE")) + f"{name} := [\n{data}\n];\n"
     return _written(text, table, request, ())
 
 
-def _written(text: str, table: Table, request: Request, notes: tuple[str, ...]) -> Written:
-    cubic = _interpolation(request) == "cubic"
+def _written(text: str, table: PointTable, request: Request, notes: tuple[str, ...]) -> Written:
+    cubic = request.interpolation_among(SEGMENT_TYPES) == "cubic"
     model = "C2 cubic spline clamped to StartSlope and EndSlope" if cubic else "straight lines"
     count = len(table.x)
     return Written(text, table.run, model, count, resolution=table.resolution, bound=table.bound, notes=notes)
@@ -128,11 +121,11 @@ def _written(text: str, table: Table, request: Request, notes: tuple[str, ...]) 
 
 _OPTIONS = ("points", "counts", "digits", "interpolation")
 _MODEL = "C2 cubic spline clamped to StartSlope and EndSlope, or straight lines"
-CAM = declared(
+CAM = register(
     Format(
         name="rockwell-cam",
         target="Rockwell Logix, array of CAM for MCCP",
-        held="Master, Slave (REAL), SegmentType",
+        contents="Master, Slave (REAL), SegmentType",
         model=_MODEL,
         limits="REAL32; no number of points is stated",
         extension=".st",
@@ -140,11 +133,11 @@ CAM = declared(
         takes=_OPTIONS,
     )
 )
-EXTENDED = declared(
+EXTENDED = register(
     Format(
         name="rockwell-cam-extended",
         target="Rockwell Logix 5380, 5480, 5580, array of CAM_EXTENDED for MCCP",
-        held="Master, Slave (LREAL), SegmentType",
+        contents="Master, Slave (LREAL), SegmentType",
         model=_MODEL,
         limits="no number of points is stated",
         extension=".st",
@@ -152,11 +145,11 @@ EXTENDED = declared(
         takes=_OPTIONS,
     )
 )
-PROFILE = declared(
+PROFILE = register(
     Format(
         name="rockwell-cam-profile",
         target="Rockwell Logix, rows of CAM_PROFILE as in L5K and L5X",
-        held="Status, X, Y, type, C0 to C3 as 14 DINT",
+        contents="Status, X, Y, type, C0 to C3 as 14 DINT",
         model=_MODEL,
         limits="no number of points is stated",
         extension=".txt",

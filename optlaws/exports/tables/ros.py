@@ -6,17 +6,17 @@ from dataclasses import replace
 
 import numpy as np
 
-from optlaws.cycles.asked.quantities import quantity
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.exports.format import MOST_POINTS, Format, Request, Written, declared
+from optlaws.exports.format import MOST_POINTS, Format, Request, Written, register
 from optlaws.exports.interpolation import hermite_powers
-from optlaws.exports.motion import Motion, Units
-from optlaws.exports.polynomials import PiecewiseMotion
 from optlaws.exports.spacing import chosen
-from optlaws.exports.tables.table import DEGREES, Held, Table, osculated
+from optlaws.exports.tables.table import DEGREES, NumberFormat, PointTable, hermite_table
 from optlaws.exports.tables.text_lines import heading
 from optlaws.files.writing import MARK
+from optlaws.motion.motion import Motion, Units
+from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.motion.quantities import quantity
 
 ORDERS = {"quintic": 3, "cubic": 2, "linear": 1}
 FIELDS = ("positions", "velocities", "accelerations")
@@ -27,17 +27,16 @@ def _write(motion: Motion, request: Request) -> Written:
     interpolation = request.interpolation or "quintic"
     if interpolation not in ORDERS:
         raise InputError(f"interpolation must be one of {', '.join(ORDERS)}, got {interpolation!r}")
-    if not request.name.isprintable() or any(sign in request.name for sign in "\"'\\#:"):
-        raise InputError(f"ROS takes no joint called {shortened(request.name)}: letters, digits, _ and / make a name")
+    name = request.name
+    if not name.isprintable() or any(sign in name for sign in "\"'\\#:"):
+        raise InputError(f"ROS takes no joint called {shortened(name)}: letters, digits, _ and / make a name")
     seconds = _in_si(motion.over_time())
 
-    def make(count: int) -> Table:
-        return _timed(osculated(seconds, count, Held(), ORDERS[interpolation]))
+    def make(count: int) -> PointTable:
+        return _timed(hermite_table(seconds, count, NumberFormat(), ORDERS[interpolation]))
 
     table = chosen(seconds, request, make, least=2, most=MOST_POINTS)
-    return Written(
-        _text(seconds, request.name, table), _back(table.run, motion), DEGREES[len(table.values)], len(table.x)
-    )
+    return Written(_text(seconds, name, table), _back(table.run, motion), DEGREES[len(table.values)], len(table.x))
 
 
 def _in_si(motion: Motion) -> Motion:
@@ -56,7 +55,7 @@ def _is_angle(unit: str) -> bool:
     return True
 
 
-def _timed(table: Table) -> Table:
+def _timed(table: PointTable) -> PointTable:
     """The table with its times in whole nanoseconds, as messages hold them."""
     x = np.rint(table.x * _NANO) / _NANO
     if (np.diff(x) <= 0.0).any():
@@ -70,23 +69,23 @@ def _back(run: PiecewiseMotion, motion: Motion) -> PiecewiseMotion:
     return run.in_units(motion.units.rate or 1.0, 1.0 / quantity(f"1 {motion.units.slave}", dimension, "slave"))
 
 
-def _text(motion: Motion, joint: str, table: Table) -> str:
+def _text(motion: Motion, joint: str, table: PointTable) -> str:
     lines = [f"# {heading(motion, 'ROS 2, trajectory_msgs/JointTrajectory')[0]}; {MARK}"]
     lines += ["joint_names:", f'- "{joint}"', "points:"]
     for x, values in zip(table.x.tolist(), table.values.T.tolist(), strict=True):
         nanoseconds = round(x * _NANO)
-        held = (f"  {field}: [{value!r}]" for field, value in zip(FIELDS, values, strict=False))
-        first, *others = (line[2:] for line in held)
+        number_format = (f"  {field}: [{value!r}]" for field, value in zip(FIELDS, values, strict=False))
+        first, *others = (line[2:] for line in number_format)
         lines += [f"- {first}", *(f"  {line}" for line in others)]
         lines.append(f"  time_from_start: {{sec: {nanoseconds // _NANO}, nanosec: {nanoseconds % _NANO}}}")
     return "\n".join([*lines, ""])
 
 
-TRAJECTORY = declared(
+TRAJECTORY = register(
     Format(
         name="ros2",
         target="ROS 2, trajectory_msgs/JointTrajectory as YAML",
-        held="positions, velocities, accelerations (m or rad, double), time in nanoseconds",
+        contents="positions, velocities, accelerations (m or rad, double), time in nanoseconds",
         model="quintic Hermite; cubic without accelerations, straight lines without velocities",
         limits="the master is time",
         extension=".yaml",

@@ -9,10 +9,10 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
-from optlaws.exports.motion import Motion
-from optlaws.exports.polynomials import PiecewiseMotion
 from optlaws.exports.spacing import places
 from optlaws.kept import kept_property
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
 
 Array = NDArray[np.float64]
 
@@ -21,7 +21,7 @@ DEGREES = {1: "linear", 2: "cubic Hermite", 3: "quintic Hermite", 4: "Hermite of
 
 
 @dataclass(frozen=True)
-class Held:
+class NumberFormat:
     """How a target holds numbers.
 
     Parameters
@@ -48,19 +48,19 @@ class Held:
         )
 
     def positions(self, y: Array, motion: Motion) -> Array:
-        """Positions as they are held."""
+        """Positions as the target stores them."""
         step = motion.stroke / self.counts if self.counts else 0.0
         return self.numbers(np.rint(y / step) * step if step else y)
 
     def numbers(self, values: Array) -> Array:
-        """Numbers as they are held."""
+        """Numbers as the target stores them."""
         rounded = values if self.digits is None else np.round(values, self.digits)
         return (rounded.astype(np.float32).astype(np.float64) if self.single else rounded) + 0.0
 
 
 @dataclass(frozen=True, eq=False)
-class Table:
-    """Points as they are held, and what becomes of them.
+class PointTable:
+    """Points as the target stores them, and what becomes of them.
 
     Parameters
     ----------
@@ -89,54 +89,58 @@ class Table:
 
 
 def positions(
-    motion: Motion, count: int, held: Held, *, even: bool = False, lines: bool = False
+    motion: Motion, count: int, number_format: NumberFormat, *, even: bool = False, lines: bool = False
 ) -> tuple[Array, Array]:
-    """x and y of so many points as they are held.
+    """x and y of so many points as the target stores them.
 
     Raises
     ------
     InputError
-        If points are the same as they are held.
+        If points are the same as they are stored.
     """
     exact = np.linspace(motion.start, motion.stop, count) if even else places(motion, count, straight=lines)
-    x = held.numbers(exact)
+    x = number_format.numbers(exact)
     if (np.diff(x) <= 0.0).any():
         raise InputError(
             f"{count} points of the master are closer than they can be held: take fewer points, more digits, "
             "or a unit that is smaller"
         )
-    return x, held.positions(np.asarray(motion(exact)), motion)
+    return x, number_format.positions(np.asarray(motion(exact)), motion)
 
 
-def splined(motion: Motion, count: int, held: Held, *, ends: Ends = "clamped", even: bool = False) -> Table:
+def spline_table(
+    motion: Motion, count: int, number_format: NumberFormat, *, ends: Ends = "clamped", even: bool = False
+) -> PointTable:
     """Positions through which the controller lays the cubic spline; clamped to the velocities of the motion's ends.
 
     A periodic one ends exactly where it begins, as the motion does but for rounding.
     """
-    x, y = positions(motion, count, held, even=even)
-    slopes = held.numbers(np.array(motion.ends(1)))
+    x, y = positions(motion, count, number_format, even=even)
+    slopes = number_format.numbers(np.array(motion.ends(1)))
     if ends == "periodic":
         y[-1] = y[0]
     powers = spline_powers(x, y, ends, (float(slopes[0]), float(slopes[1])))
-    return Table(x, y[None], powers, held.resolution(motion), rounding_bound(motion, x, y, slopes))
+    return PointTable(x, y[None], powers, number_format.resolution(motion), rounding_bound(motion, x, y, slopes))
 
 
-def straight(motion: Motion, count: int, held: Held, *, even: bool = False) -> Table:
+def linear_table(motion: Motion, count: int, number_format: NumberFormat, *, even: bool = False) -> PointTable:
     """Positions between which the controller goes straight."""
-    x, y = positions(motion, count, held, even=even, lines=True)
-    return Table(x, y[None], linear_powers(x, y), held.resolution(motion), 0.0)
+    x, y = positions(motion, count, number_format, even=even, lines=True)
+    return PointTable(x, y[None], linear_powers(x, y), number_format.resolution(motion), 0.0)
 
 
-def by_akima(motion: Motion, count: int, held: Held) -> Table:
+def akima_table(motion: Motion, count: int, number_format: NumberFormat) -> PointTable:
     """Positions through which the controller lays Akima's cubics."""
-    x, y = positions(motion, count, held)
-    return Table(x, y[None], akima_powers(x, y), held.resolution(motion), 0.0)
+    x, y = positions(motion, count, number_format)
+    return PointTable(x, y[None], akima_powers(x, y), number_format.resolution(motion), 0.0)
 
 
-def osculated(motion: Motion, count: int, held: Held, orders: int, *, told: bool = True) -> Table:
+def hermite_table(
+    motion: Motion, count: int, number_format: NumberFormat, orders: int, *, with_derivatives: bool = True
+) -> PointTable:
     """Positions with derivatives, so many in all, from which the controller makes Hermite's polynomials.
 
-    Derivatives that are not told, but found by the controller, are the law's.
+    Where the table has no derivatives the controller computes them, and they are taken as the law's.
 
     Raises
     ------
@@ -149,20 +153,24 @@ def osculated(motion: Motion, count: int, held: Held, orders: int, *, told: bool
         raise InputError(
             "the law's acceleration or jerk is infinite at a point: export positions alone, or another law"
         )
-    x = held.numbers(exact)
-    derivatives = held.numbers(values[1:]) if told else values[1:]
-    held_values = np.vstack([held.positions(values[0], motion)[None], derivatives])
-    return Table(x, held_values, hermite_powers(x, held_values), held.resolution(motion), 0.0)
+    x = number_format.numbers(exact)
+    derivatives = number_format.numbers(values[1:]) if with_derivatives else values[1:]
+    held_values = np.vstack([number_format.positions(values[0], motion)[None], derivatives])
+    return PointTable(x, held_values, hermite_powers(x, held_values), number_format.resolution(motion), 0.0)
 
 
-def by_interpolation(motion: Motion, count: int, held: Held, interpolation: str) -> Table:
+def table_by_interpolation(motion: Motion, count: int, number_format: NumberFormat, interpolation: str) -> PointTable:
     """A table for an interpolation by its name: linear, cubic, akima, c1, quintic, septic."""
     orders = {"c1": 2, "quintic": 3, "septic": 4}
     if interpolation in orders:
-        return osculated(motion, count, held, orders[interpolation])
+        return hermite_table(motion, count, number_format, orders[interpolation])
     if interpolation == "akima":
-        return by_akima(motion, count, held)
-    return straight(motion, count, held) if interpolation == "linear" else splined(motion, count, held)
+        return akima_table(motion, count, number_format)
+    return (
+        linear_table(motion, count, number_format)
+        if interpolation == "linear"
+        else spline_table(motion, count, number_format)
+    )
 
 
 def _without_rounding(values: Array) -> Array:
@@ -178,7 +186,7 @@ def rounding_bound(motion: Motion, x: Array, y: Array, slopes: Array) -> float:
 
     Examples
     --------
-    >>> from optlaws.exports.motion import motion_of_law
+    >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_law(smoothstep(3), stroke="1 m", time="1 s")
     >>> x = np.linspace(0.0, 1.0, 11)

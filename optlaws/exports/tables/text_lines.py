@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
+
 from optlaws.exports.code.literals import safe
-from optlaws.exports.motion import Motion
 from optlaws.files.writing import MARK
+from optlaws.motion.motion import Motion
 
 
 def plain(value: float, digits: int | None = None, decimal: str = ".") -> str:
@@ -15,11 +17,24 @@ def plain(value: float, digits: int | None = None, decimal: str = ".") -> str:
     >>> plain(1e-05), plain(2.5, 3, ","), plain(-1e-9, 3), plain(120.0)
     ('0.00001', '2,500', '0.000', '120')
     """
+    return plain_column([value], digits, decimal)[0]
+
+
+def plain_column(values: Iterable[float], digits: int | None = None, decimal: str = ".") -> list[str]:
+    """Many numbers as `plain` writes one."""
+    if digits is None:
+        texts = [repr(value + 0.0) for value in values]
+        texts = [_positional(text) if "e" in text else text.removesuffix(".0") for text in texts]
+    else:
+        texts = [f"{value:.{digits}f}" for value in values]
+        texts = [text[1:] if text.startswith("-") and not text.strip("-0.") else text for text in texts]
+    return texts if decimal == "." else [text.replace(".", decimal) for text in texts]
+
+
+def _positional(text: str) -> str:
     from numpy import format_float_positional
 
-    text = format_float_positional(value + 0.0, trim="-") if digits is None else f"{value:.{digits}f}"
-    text = text[1:] if text.startswith("-") and not text.strip("-0.") else text
-    return text.replace(".", decimal)
+    return format_float_positional(float(text), trim="-")
 
 
 def heading(motion: Motion, target: str) -> tuple[str, ...]:

@@ -15,10 +15,10 @@ from hypothesis import strategies as st
 from optlaws import Pieces, Problem, smoothstep, synthesize
 from optlaws.errors import InputError
 from optlaws.exports.code.c99 import c_name, header
-from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, error_bounds, held
+from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, as_stored, error_bounds
 from optlaws.exports.code.heading import Labels
 from optlaws.exports.pieces.law_pieces import polynomials_of_law
-from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.motion.polynomials import PiecewiseMotion
 from tests.exports.motions import random_motion
 from tests.sampling import examples
 
@@ -42,7 +42,7 @@ def exact_value(motion: PiecewiseMotion, piece: int, x: Fraction, nu: int) -> Fr
 
 
 def places(motion: PiecewiseMotion, *, single: bool) -> list[float]:
-    breaks = held(motion, SINGLE if single else DOUBLE).breaks
+    breaks = as_stored(motion, SINGLE if single else DOUBLE).breaks
     x = np.concatenate([np.linspace(motion.start, motion.stop, 23), breaks, np.nextafter(breaks, -np.inf)])
     x = np.clip(x.astype(np.float32 if single else np.float64), breaks[0], breaks[-1])
     return [float(one) for one in x]
@@ -111,7 +111,7 @@ def test_outside_the_motion_its_ends_are_held_and_the_header_may_be_included_twi
 def test_the_bound_holds_for_horner_in_floating_point(number: int, degree: int, single: bool) -> None:  # noqa: FBT001
     motion = random_motion(number, pieces=2, degree=degree)
     arithmetic, kind = (SINGLE, np.float32) if single else (DOUBLE, np.float64)
-    run, bounds = held(motion, arithmetic), error_bounds(motion, arithmetic)
+    run, bounds = as_stored(motion, arithmetic), error_bounds(motion, arithmetic)
     for piece, share in ((0, 0.999), (1, 0.37), (1, 1.0)):
         low, high = run.breaks[piece : piece + 2]
         x = min(kind(low + share * (high - low)), kind(high))

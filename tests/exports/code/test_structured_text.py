@@ -8,12 +8,12 @@ import pytest
 
 from optlaws import Pieces, Problem, smoothstep, synthesize
 from optlaws.errors import InputError
-from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, error_bounds, held
+from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, as_stored, error_bounds
 from optlaws.exports.code.heading import Labels
 from optlaws.exports.code.literals import real
 from optlaws.exports.code.structured_text import function_block
 from optlaws.exports.pieces.law_pieces import polynomials_of_law
-from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.motion.polynomials import PiecewiseMotion
 from tests.exports.motions import random_motion
 from tests.exports.structured_text import Block, parsed
 
@@ -37,7 +37,7 @@ def test_evaluated_it_keeps_its_bounds_forwards_backwards_and_beyond(single: boo
     law = synthesize(Problem(B=1.859, order=4, basis=Pieces(6, 7, 3))).law
     for motion in (polynomials_of_law(law, 35.0, 0.12), polynomials_of_law(smoothstep(5)), random_motion(2, degree=3)):
         block, bounds = Block(function_block(motion, "FB_Press", single=single)), error_bounds(motion, arithmetic)
-        breaks = held(motion, arithmetic).breaks
+        breaks = as_stored(motion, arithmetic).breaks
         places = np.concatenate([np.linspace(breaks[0], breaks[-1], 41), breaks, breaks[::-1], breaks[1:2]])
         for x in np.clip(places.astype(np.float32 if single else np.float64), breaks[0], breaks[-1]).tolist():
             found = block(x)

@@ -27,9 +27,9 @@ from optlaws import (
 )
 from optlaws.exports.export import Export, export_motion
 from optlaws.exports.format import FORMATS
-from optlaws.exports.motion import Motion, motion_of_law
-from optlaws.exports.polynomials import PiecewiseMotion
 from optlaws.laws import MotionLaw
+from optlaws.motion.motion import Motion, motion_of_law
+from optlaws.motion.polynomials import PiecewiseMotion
 from tests.exports.controllers import readers
 from tests.exports.samples import repeating
 from tests.exports.structured_text import Block, parsed

@@ -1,8 +1,8 @@
-"""What is exported: one exact motion y(x) of a slave over its master, in machine units, with its derivatives."""
+"""An exact motion y(x) of a slave over its master in machine units, with its derivatives and their extremes."""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import inf
@@ -11,19 +11,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cycles.asked.conversion import Piece, factor
-from optlaws.cycles.asked.named import STROKE
-from optlaws.cycles.asked.quantities import Given, either, given_quantity, quantity
-from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
+from optlaws.motion.named_law import STROKE
+from optlaws.motion.piece import Piece, factor, values_of_pieces
+from optlaws.motion.quantities import Given, either, given_quantity, quantity
 from optlaws.numbers import derivative, real_times
 
 Array = NDArray[np.float64]
 Place = tuple[float, float]
 
-TURN_DEGREES = 360.0
 SLAVES = ("length", "angle")
 MASTERS = ("angle", "length")
 LEAP = 1e-9  # a leap below this share of the derivative's greatest value is rounding
@@ -97,7 +95,12 @@ class Motion:
     @kept_property
     def breaks(self) -> tuple[float, ...]:
         """Where the function is put together, within laws as well, both ends included."""
-        inner = (self._break(piece, k) for piece in self.pieces for k in piece.law.breaks[:-1] if _counts(piece, k))
+        inner = (
+            piece.start + k * piece.duration
+            for piece in self.pieces
+            for k in piece.law.breaks[:-1]
+            if k == 0.0 or piece.stroke != 0.0  # at rest breaks of the law are none of the motion
+        )
         return (*inner, self.stop)
 
     @kept_property
@@ -124,8 +127,7 @@ class Motion:
         if beyond.any():
             wrong = float(places[beyond].flat[0])
             raise InputError(f"x must be from {self.start:g} to {self.stop:g} {self.units.master}, got {wrong!r}")
-        starts = np.array(self.joints[1:-1])
-        values = self._at(places, np.searchsorted(starts, places, side="right"), order)
+        values = values_of_pieces(self.pieces, places, order)
         return values if np.ndim(values) else float(values)
 
     def sides(self, nu: int) -> Iterator[tuple[float, float, float]]:
@@ -178,7 +180,9 @@ class Motion:
             raise InputError("how fast the master goes is not known: say how long the motion takes, time='0.1 s'")
         if self.units.master == "s":
             return self
-        return self._scaled(1.0 / self.units.rate, Units("s", self.units.slave, 1.0))
+        share = 1.0 / self.units.rate
+        pieces = [replace(piece, start=share * piece.start, duration=share * piece.duration) for piece in self.pieces]
+        return replace(self, pieces=tuple(pieces), units=Units("s", self.units.slave, 1.0))
 
     @kept_property
     def _extrema(self) -> dict[int, tuple[Place, Place]]:
@@ -186,22 +190,6 @@ class Motion:
 
     def _size(self, nu: int) -> float:
         return max(abs(value) for value, _ in self.extrema(nu))
-
-    def _scaled(self, share: float, units: Units) -> Motion:
-        pieces = [replace(piece, start=share * piece.start, duration=share * piece.duration) for piece in self.pieces]
-        return replace(self, pieces=tuple(pieces), units=units)
-
-    @staticmethod
-    def _break(piece: Piece, k: float) -> float:
-        return piece.start + k * piece.duration
-
-    def _at(self, x: Array, which: NDArray[np.intp], nu: int) -> Array:
-        values = np.empty(x.shape)
-        for i, piece in enumerate(self.pieces):
-            here = which == i
-            if here.any():
-                values[here] = piece.values(x[here], nu)
-        return values
 
 
 def motion_of_law(
@@ -251,17 +239,29 @@ def motion_of_law(
     return Motion((piece,), Units(span.unit, moved.unit, rate), repeats=False)
 
 
-def motion_of_cycle(cycle: Cycle, *, master: Any = "360 deg", unit: str | None = None) -> Motion:  # noqa: ANN401
-    """The motion of a whole cycle, which repeats.
+def motion_of_pieces(
+    pieces: Sequence[Piece],
+    duration: float,
+    axis: str,
+    *,
+    master: Any = "360 deg",  # noqa: ANN401 - a quantity
+    unit: str | None = None,
+    proof: tuple[str, ...] = (),
+) -> Motion:
+    """The motion of laws in SI units over time, which repeats with a duration, in units of master and slave.
 
     Parameters
     ----------
-    cycle
-        The cycle; its optimal laws are looked for now if they have not been.
+    pieces, duration
+        Laws in their places, and the duration of the cycle, in SI units.
+    axis
+        Whether positions are a "length" or an "angle".
     master
         How far the master goes in a cycle, such as "360 deg"; None for a master that is time in seconds.
     unit
         Of positions; "mm" for lengths and "deg" for angles unless given.
+    proof
+        What is proven of the laws.
 
     Raises
     ------
@@ -270,35 +270,26 @@ def motion_of_cycle(cycle: Cycle, *, master: Any = "360 deg", unit: str | None =
 
     Examples
     --------
-    >>> from optlaws.cycles.asked.segments import Return, Rise
-    >>> cycle = Cycle([Rise("35 mm", "0.1 s", law="cycloidal"), Return(law="cycloidal")], period="0.3 s")
-    >>> motion = motion_of_cycle(cycle)
-    >>> round(float(motion(120.0)), 12), motion.units, round(motion.peak(1), 9)
-    (35.0, Units(master='deg', slave='mm', rate=1200.0), 0.583333333)
+    >>> from optlaws.laws import smoothstep
+    >>> motion = motion_of_pieces([Piece(0.0, 0.1, 0.0, 0.035, smoothstep(3))], 0.1, "length", master="120 deg")
+    >>> motion.units, motion(60.0)
+    (Units(master='deg', slave='mm', rate=1200.0), 17.5)
     """
-    span = _span(master, cycle.duration)
-    chosen = {"length": "mm", "angle": "deg"}[cycle.axis] if unit is None else unit
-    size = 1.0 / quantity(f"1 {chosen}", cycle.axis, "unit")
-    share = span.number / cycle.duration
-    starts = [*(_as_said(share * piece.start) for piece in cycle.pieces), span.number]
-    pieces = tuple(
-        replace(part, start=low, duration=high - low, offset=size * part.offset, stroke=size * part.stroke)
-        for part, (low, high) in zip(cycle.pieces, pairwise(starts), strict=True)
+    span = _span(master, duration)
+    chosen = {"length": "mm", "angle": "deg"}[axis] if unit is None else unit
+    size = 1.0 / quantity(f"1 {chosen}", axis, "unit")
+    share = span.number / duration
+    starts = [*(_without_conversion_rounding(share * piece.start) for piece in pieces), span.number]
+    scaled = tuple(
+        replace(piece, start=low, duration=high - low, offset=size * piece.offset, stroke=size * piece.stroke)
+        for piece, (low, high) in zip(pieces, pairwise(starts), strict=True)
     )
-    return Motion(pieces, Units(span.unit, chosen, share), repeats=True, proof=_proof(cycle))
+    return Motion(scaled, Units(span.unit, chosen, share), repeats=True, proof=proof)
 
 
-def _as_said(x: float) -> float:
+def _without_conversion_rounding(x: float) -> float:
     """A place of the master without the roundings of the way to seconds and back: 120 in place of 119.99..."""
     return float(f"{x:.13g}")
-
-
-def _proof(cycle: Cycle) -> tuple[str, ...]:
-    if not cycle.solutions:
-        return ()
-    bound = "" if cycle.lower_bound is None else f", none below {cycle.lower_bound:.9g} is possible"
-    sought = f"least {cycle.minimise} {cycle.objective:.9g}{bound} (SI units)"
-    return (f"laws looked for: {len(cycle.solutions)}, status {cycle.status.value}; {sought}",)
 
 
 def _span(master: Any, seconds: float | None) -> Given:  # noqa: ANN401 - a quantity
@@ -316,11 +307,6 @@ def _of_stroke_one(law: MotionLaw) -> MotionLaw:
     if abs(stroke - 1.0) > STROKE:
         raise InputError(f"the law must have the stroke 1, which `stroke` multiplies, but it has {stroke:g}")
     return law
-
-
-def _counts(piece: Piece, k: float) -> bool:
-    """Whether a break of a law is one of the motion: at rest it is none."""
-    return k == 0.0 or piece.stroke != 0.0
 
 
 def _positive(number: float, name: str, given: Any) -> float:  # noqa: ANN401

@@ -7,7 +7,7 @@ import pytest
 
 from optlaws import Cycle, Dwell, InputError, Return, Rise, catalogue, smoothstep
 from optlaws.exports.identifiers import iec_name
-from optlaws.exports.motion import Motion, motion_of_cycle, motion_of_law
+from optlaws.motion.motion import Motion, motion_of_law
 
 
 def press(law: str = "cycloidal") -> Cycle:
@@ -19,7 +19,7 @@ def press(law: str = "cycloidal") -> Cycle:
 
 @pytest.fixture
 def cycle() -> Motion:
-    return motion_of_cycle(press())
+    return press().motion()
 
 
 def test_a_law_has_the_values_of_its_formula() -> None:
@@ -52,7 +52,7 @@ def test_time_is_a_master_too(cycle: Motion) -> None:
 
 
 def test_leaps_are_told_at_joints_and_within_laws() -> None:
-    motion = motion_of_cycle(press("parabolic"))
+    motion = press("parabolic").motion()
     size = 4.0 * 35.0 / 120.0**2
     found = {round(x, 9): after - before for x, before, after in motion.sides(2)}
     assert found[60.0] == pytest.approx(-2.0 * size)
@@ -95,7 +95,7 @@ def test_beyond_the_motion_there_are_no_values(cycle: Motion) -> None:
     with pytest.raises(InputError, match=r"how fast the master goes is not known.*time="):
         motion_of_law(smoothstep(3), stroke="1 mm", master="90 deg").over_time()
     with pytest.raises(InputError, match="unit must be a length"):
-        motion_of_cycle(press(), unit="deg")
+        press().motion(unit="deg")
 
 
 @pytest.mark.parametrize("name", ["press 1", "1st", "a__b", "end_if", "IF", "x_", "", "ä", None, 5, "x" * 41])

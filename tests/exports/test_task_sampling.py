@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 
 from optlaws import InputError, smoothstep
-from optlaws.exports.at_task import at_task
 from optlaws.exports.export import export_motion
 from optlaws.exports.interpolation import linear
-from optlaws.exports.motion import motion_of_law
+from optlaws.exports.task_sampling import task_sampling
+from optlaws.motion.motion import motion_of_law
 from tests.exports.samples import one_shot, optimal, press, turning
 
 
@@ -16,7 +16,7 @@ def test_straight_lines_are_heard_as_in_the_table() -> None:
     motion = motion_of_law(optimal(), stroke="1 m", time="1 s")
     for points, ratio in ((37, 26.9), (361, 2.78), (3601, 1.0185)):
         x = np.linspace(0.0, 1.0, points)
-        assert at_task(linear(x, motion(x)), motion, "1 ms").acceleration / motion.peak(2) == pytest.approx(
+        assert task_sampling(linear(x, motion(x)), motion, "1 ms").acceleration / motion.peak(2) == pytest.approx(
             ratio, rel=3e-3
         )
 

@@ -1,4 +1,4 @@
-"""What a drive hears of a run: positions once in a task, between which it goes straight."""
+"""The sampling of a run by the drive's task: positions once in a task cycle, straight lines between them."""
 
 from __future__ import annotations
 
@@ -8,23 +8,23 @@ from typing import Any
 
 import numpy as np
 
-from optlaws.cycles.asked.quantities import quantity
 from optlaws.errors import InputError
-from optlaws.exports.motion import Motion
-from optlaws.exports.polynomials import PiecewiseMotion
+from optlaws.motion.motion import Motion
+from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import MOST_VALUES
 
 
 @dataclass(frozen=True)
-class AtTask:
-    """The run as it is heard: the task's time in seconds, and the greatest second difference of positions over it."""
+class TaskSampling:
+    """The sampled run: the time of a task in seconds, and the greatest second difference of positions over it."""
 
     seconds: float
     acceleration: float
 
 
-def at_task(run: PiecewiseMotion, motion: Motion, task: Any) -> AtTask:  # noqa: ANN401 - a quantity
-    """What is commanded once in a task: second differences of the positions, those at both ends included.
+def task_sampling(run: PiecewiseMotion, motion: Motion, task: Any) -> TaskSampling:  # noqa: ANN401 - a quantity
+    """The run sampled once in a task: second differences of the positions, those at both ends included.
 
     Before and after a motion of one shot there is rest; a cycle goes on with itself.
 
@@ -40,16 +40,16 @@ def at_task(run: PiecewiseMotion, motion: Motion, task: Any) -> AtTask:  # noqa:
     Raises
     ------
     InputError
-        If the time is none, or so long or short that fewer than 4 or too many positions are heard.
+        If the time is none, or so long or short that there are fewer than 4 or too many positions.
 
     Examples
     --------
     >>> from optlaws.exports.interpolation import linear
-    >>> from optlaws.exports.motion import motion_of_law
+    >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", time="0.1 s")
     >>> x = np.linspace(0.0, 0.1, 37)
-    >>> round(at_task(linear(x, motion(x)), motion, "0.1 ms").acceleration / motion.peak(2), 1)
+    >>> round(task_sampling(linear(x, motion(x)), motion, "0.1 ms").acceleration / motion.peak(2), 1)
     27.0
     """
     seconds = quantity(task, "time", "task")
@@ -63,7 +63,7 @@ def at_task(run: PiecewiseMotion, motion: Motion, task: Any) -> AtTask:  # noqa:
     last = float(run.ends(0)[1][-1])
     if motion.repeats:
         again = motion.advance + run(np.clip(step * np.arange(count + 1, count + 3) - motion.length, 0.0, None))
-        heard = np.concatenate([y, again])
+        sampled = np.concatenate([y, again])
     else:
-        heard = np.concatenate([y[:1], y[:1], y, [last, last]])
-    return AtTask(seconds, float(np.abs(np.diff(heard, 2)).max()) / seconds**2)
+        sampled = np.concatenate([y[:1], y[:1], y, [last, last]])
+    return TaskSampling(seconds, float(np.abs(np.diff(sampled, 2)).max()) / seconds**2)

@@ -5,8 +5,8 @@ from __future__ import annotations
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
-from itertools import pairwise
 from math import comb
+from operator import ge
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -15,13 +15,13 @@ from numpy.typing import NDArray
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.numbers import derivative, listed, numbers, real_times
+from optlaws.numbers import MAGNITUDE_LIMIT, derivative, listed, numbers, real_times
 from optlaws.series import bernstein
 from optlaws.series.difference import greatest_difference
 
 Array = NDArray[np.float64]
 #: a motion by its derivatives: of places and of the order nu of the derivative
-Motion = Callable[[Array, int], Array]
+Derivatives = Callable[[Array, int], Array]
 
 _REACH = 1e-3
 _STEPS = 3
@@ -67,14 +67,10 @@ class PiecewiseMotion:
 
     def __init__(self, breaks: Any, coefficients: Any) -> None:  # noqa: ANN401 - rows of numbers, arrays too
         places = numbers(_plain(breaks), "breaks")
-        if len(places) < 2 or any(high <= low for low, high in pairwise(places)):
+        if len(places) < 2 or any(map(ge, places, places[1:])):
             raise InputError(f"breaks must be at least two increasing numbers, got {shortened(places)}")
-        rows = listed(_plain(coefficients), "coefficients", len(places))
-        if len(rows) != len(places) - 1:
-            raise InputError(f"coefficients must be {len(places) - 1} rows, one between breaks, got {len(rows)}")
-        kept = tuple(numbers(_plain(row), f"coefficients[{i}]") or (0.0,) for i, row in enumerate(rows))
         object.__setattr__(self, "breaks", places)
-        object.__setattr__(self, "coefficients", kept)
+        object.__setattr__(self, "coefficients", _rows(coefficients, len(places) - 1))
 
     def __repr__(self) -> str:
         shape = f"{len(self.coefficients)} pieces of degree {self.degree}"
@@ -217,8 +213,11 @@ class PiecewiseMotion:
             raise InputError("two breaks are the same in REAL32: take fewer pieces or let x start at 0")
         return PiecewiseMotion(breaks, [row.tolist() for row in rows])
 
-    def deviation(self, motion: Motion | PiecewiseMotion, nu: int = 0, breaks: Sequence[float] = ()) -> Extreme:
+    def deviation(self, motion: Derivatives | PiecewiseMotion, nu: int = 0, breaks: Sequence[float] = ()) -> Extreme:
         """The greatest magnitude of the difference to another motion, over the whole interval.
+
+        Of two piecewise motions it is that of a polynomial, to rounding. Of a function it is an estimate: where series
+        through its values at places resolve it, nothing is proven of what it does between them.
 
         Parameters
         ----------
@@ -309,10 +308,10 @@ class PiecewiseMotion:
 
     def _with(self, breaks: Sequence[float]) -> Array:
         """The breaks with others between them; what lies as near as rounding is the same break."""
-        own, others = np.array(self.breaks), np.array([x for x in breaks if self.start < x < self.stop])
-        after = np.searchsorted(own, others)
-        apart = np.minimum(own[after] - others, others - own[after - 1])
-        return np.unique(np.concatenate([own, others[apart > _SAME * (self.stop - self.start)]]))
+        breaks_here, others = np.array(self.breaks), np.array([x for x in breaks if self.start < x < self.stop])
+        after = np.searchsorted(breaks_here, others)
+        apart = np.minimum(breaks_here[after] - others, others - breaks_here[after - 1])
+        return np.unique(np.concatenate([breaks_here, others[apart > _SAME * (self.stop - self.start)]]))
 
     def _cut(self, breaks: Array) -> Array:
         """Powers on finer pieces."""
@@ -364,6 +363,17 @@ def _horner(table: Array, x: Any) -> Any:  # noqa: ANN401 - numbers or arrays
     for n in range(table.shape[-1] - 2, -1, -1):
         total = total * x + table[..., n]
     return total
+
+
+def _rows(coefficients: Any, count: int) -> tuple[tuple[float, ...], ...]:  # noqa: ANN401 - rows of numbers, arrays too
+    """Rows of finite floats, one for each piece; those of an array are checked all at once."""
+    rows = listed(_plain(coefficients), "coefficients", count + 1)
+    if len(rows) != count:
+        raise InputError(f"coefficients must be {count} rows, one between breaks, got {len(rows)}")
+    table = coefficients if isinstance(coefficients, np.ndarray) and coefficients.ndim == 2 else np.empty((0, 0))
+    if table.dtype == np.float64 and table.size and (np.abs(table) <= MAGNITUDE_LIMIT).all():
+        return tuple(map(tuple, rows))
+    return tuple(numbers(_plain(row), f"coefficients[{i}]") or (0.0,) for i, row in enumerate(rows))
 
 
 def _plain(values: Any) -> Any:  # noqa: ANN401 - whatever is given; it is checked where it goes

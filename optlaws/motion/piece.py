@@ -1,0 +1,125 @@
+"""A law in its place in a motion: the conversion of dimensionless laws to machine units, and nowhere else.
+
+A law a(k) with the stroke h in the duration T moves the machine by y = y0 + h a(t/T). So
+
+| machine | law |
+|---|---|
+| velocity v | B h/T |
+| acceleration | C h/T² |
+| jerk | J h/T³ |
+| kinetic power per mass | D h²/T³ |
+| root mean square of the acceleration | rms_c h/T² |
+
+and every limit in machine units, divided by the same factor, is one of the law.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+
+Array = NDArray[np.float64]
+
+_LEAPS, _WITHIN = 2, 1e-13
+SAME = 1e-12  # share of a time within which it is another
+
+
+def factor(stroke: float, duration: float, nu: int) -> float:
+    """What turns the derivative of order nu of a law into machine units: h/T^nu.
+
+    Examples
+    --------
+    >>> factor(0.035, 0.1, 2)
+    3.5
+    """
+    return stroke / duration**nu
+
+
+@dataclass(frozen=True)
+class Piece:
+    """A law in its place in a cycle: y = offset + stroke (a(k) - a(0)), k = (t - start)/duration, in SI units.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> piece = Piece(0.1, 0.2, 0.0, 0.04, smoothstep(3))
+    >>> piece.values(np.array([0.2]), 1)
+    array([0.375])
+    """
+
+    start: float
+    duration: float
+    offset: float
+    stroke: float
+    law: MotionLaw
+
+    @property
+    def stop(self) -> float:
+        """When it ends."""
+        return self.start + self.duration
+
+    def places(self, times: Array) -> Array:
+        """The k of times in it."""
+        return np.clip((times - self.start) / self.duration, 0.0, 1.0)
+
+    def values(self, times: Array, nu: int) -> Array:
+        """The derivative of order nu in SI units at times in it."""
+        base = self._origin if nu == 0 else 0.0
+        return base + factor(self.stroke, self.duration, nu) * self.law(self.places(times), nu)
+
+    def end(self, nu: int, side: int) -> float:
+        """The derivative of order nu at its start (side 0) or its end (side 1)."""
+        if nu not in self._ends:
+            first, last = self.values(np.array([self.start, self.stop]), nu).tolist()
+            self._ends[nu] = first, last
+        return self._ends[nu][side]
+
+    def leap(self, time: float, nu: int) -> float:
+        """By how much the derivative of order nu leaps at a time inside."""
+        near = (jump for k, jump in self.law.jumps(nu) if abs(self.start + k * self.duration - time) <= SAME * time)
+        return factor(self.stroke, self.duration, nu) * sum(near)
+
+    def extremes(self, nu: int, first: float, last: float) -> tuple[tuple[float, float], tuple[float, float]]:
+        """Least and greatest value with their times, over the whole of the stretch from `first` to `last`."""
+        low, high = (float(place) for place in self.places(np.array([first, last])))
+        if nu >= _LEAPS:
+            # what leaps where a segment ends has the value of the segment, not of its neighbour
+            low, high = low + _WITHIN * (low > 0.0), high - _WITHIN * (high < 1.0)
+        extremes = self.law.extrema(nu, within=(low, high))
+        base = self._origin if nu == 0 else 0.0
+        sized = [
+            (base + factor(self.stroke, self.duration, nu) * extreme.value if self.stroke else base,
+             self.start + extreme.k * self.duration)
+            for extreme in extremes
+        ]  # fmt: skip
+        return min(sized), max(sized)
+
+    @kept_property
+    def _origin(self) -> float:
+        """Where the law's displacement is 0."""
+        return self.offset - self.stroke * float(self.law.a(0.0))
+
+    @kept_property
+    def _ends(self) -> dict[int, tuple[float, float]]:
+        return {}
+
+    def mean_square(self, nu: int) -> float:
+        """Mean of the square of the derivative of order nu over its duration."""
+        return (factor(self.stroke, self.duration, nu) * self.law.rms(nu)) ** 2 if self.stroke else 0.0
+
+
+def values_of_pieces(pieces: Sequence[Piece], times: Array, nu: int) -> Array:
+    """The derivative of order nu of pieces one after the other; where they meet that of the later one."""
+    which = np.searchsorted([piece.start for piece in pieces[1:]], times, side="right")
+    values = np.empty(times.shape)
+    for i, piece in enumerate(pieces):
+        here = which == i
+        if here.any():
+            values[here] = piece.values(times[here], nu)
+    return values

@@ -1,0 +1,316 @@
+"""Quantities with units, as people write them: one door, which gives floats in SI units (metres, radians, seconds)."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Mapping
+from functools import cache, lru_cache
+from math import isfinite, pi
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.numbers import finite, real
+
+if TYPE_CHECKING:
+    from pint import UnitRegistry
+
+# an angle has a dimension of its own here, so that 45 deg is no bare number and 200 rpm no frequency in Hz
+_DEFINITIONS = """
+nano- = 1e-9 = n-
+micro- = 1e-6 = µ- = u-
+milli- = 1e-3 = m-
+centi- = 1e-2 = c-
+kilo- = 1e3 = k-
+mega- = 1e6 = M-
+giga- = 1e9 = G-
+meter = [length] = m = metre
+gram = [mass] = g
+second = [time] = s = sec
+radian = [angle] = rad
+minute = 60 * second = min
+hour = 60 * minute = h
+inch = 0.0254 * meter = in = inches
+degree = 3.141592653589793 / 180 * radian = deg = °
+revolution = 360 * degree = rev = turn = r = U
+revolutions_per_minute = revolution / minute = rpm
+revolutions_per_second = revolution / second = rps
+newton = kilogram * meter / second ** 2 = N
+newton_meter = newton * meter = Nm
+pascal = newton / meter ** 2 = Pa
+joule = newton * meter = J
+watt = joule / second = W
+hertz = 1 / second = Hz
+standard_gravity = 9.80665 * meter / second ** 2 = g_n
+"""
+
+#: what is asked: the unit of SI in which it is computed, and how an error shows one
+DIMENSIONS = {
+    "length": ("meter", "35 mm"),
+    "angle": ("radian", "45 deg"),
+    "time": ("second", "0.3 s"),
+    "frequency": ("1 / second", "16.7 Hz"),
+    "velocity": ("meter / second", "616 mm/s"),
+    "angular velocity": ("radian / second", "200 rpm"),
+    "acceleration": ("meter / second ** 2", "12 m/s^2"),
+    "angular acceleration": ("radian / second ** 2", "900 rad/s^2"),
+    "jerk": ("meter / second ** 3", "900 m/s^3"),
+    "angular jerk": ("radian / second ** 3", "9000 rad/s^3"),
+    "mass": ("kilogram", "2.5 kg"),
+    "moment of inertia": ("kilogram * meter ** 2", "0.02 kg m^2"),
+    "force": ("newton", "120 N"),
+    "torque": ("newton * meter", "0.4 N m"),
+    "power": ("watt", "500 W"),
+    "pressure": ("newton / meter ** 2", "210 GPa"),
+    "stiffness": ("newton / meter", "3 N/mm"),
+    "torsional stiffness": ("newton * meter / radian", "0.4 N m/deg"),
+    "viscous friction": ("newton * second / meter", "5 N s/m"),
+    "rotary viscous friction": ("newton * meter * second / radian", "0.01 N m s/rad"),
+}
+
+TURN = 2.0 * pi
+
+_NUMBER = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?)(?:/([1-9]\d{0,8})(?!\d))?\s*(.*)")
+_UNIT = re.compile(r"[A-Za-zµ°_]+(?:\s*(?:\^|\*\*)\s*-?[1-4])?")
+_LONGEST = 60
+#: signs of other keyboards and of print, as the others write them
+_SIGNS = str.maketrans({"−": "-", "μ": "µ", "⋅": "·", "²": "^2", "³": "^3", "⁴": "^4", "⁻": "^-", "¹": "1"})
+_POWERS = re.compile(r"\^-\^?(?=[1-4])")
+_SEPARATED = re.compile(r"\s*[+-]?[\d.]*\d[,_'’]\d[\d.,_'’]*")
+
+
+def quantity(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - it is checked here
+    """A quantity such as "616 mm/s" as a float in SI units; `name` is what an error calls it.
+
+    Parameters
+    ----------
+    value
+        Text: a number, with a decimal point, and its unit; or a quantity of pint, of any registry. Angles are no bare
+        numbers: 45 deg, 0.5 rad, 1 turn. An angular velocity in 1/min is one in turns.
+    dimension
+        What is asked, one of `DIMENSIONS`.
+    name
+        What an error calls it.
+
+    Raises
+    ------
+    InputError
+        If there is no unit, it is not known, or it is one of another dimension; the error names both dimensions.
+
+    Examples
+    --------
+    >>> quantity("616 mm/s", "velocity", "limit"), round(quantity("200 rpm", "angular velocity", "speed"), 6)
+    (0.616, 20.943951)
+    >>> quantity("35 mm", "velocity", "limit")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: limit must be a velocity such as '616 mm/s', but '35 mm' is a length
+    """
+    value = written(value)
+    number, unit = _parts(value, dimension, name)
+    factor = _si_factor(unit, dimension)
+    if factor is None:
+        raise InputError(f"{_asks(dimension, name)}, but {shortened(value)} is {_kind(unit)}{_remedy(unit, dimension)}")
+    return finite(number * factor, name)
+
+
+def either(value: Any, dimensions: tuple[str, ...], name: str) -> tuple[str, float]:  # noqa: ANN401
+    """A quantity that may be of several dimensions: which it is, and its value in SI units.
+
+    Raises
+    ------
+    InputError
+        If it is of none of them.
+
+    Examples
+    --------
+    >>> either("0.1 s", ("angle", "time"), "duration")
+    ('time', 0.1)
+    """
+    value = written(value)
+    number, unit = _parts(value, dimensions[0], name)
+    for dimension in dimensions:
+        factor = _si_factor(unit, dimension)
+        if factor is not None:
+            return dimension, finite(number * factor, name)
+    kinds = " or ".join(f"{_article(kind)} such as {DIMENSIONS[kind][1]!r}" for kind in dimensions)
+    raise InputError(f"{name} must be {kinds}, but {shortened(value)} is {_kind(unit)}")
+
+
+def table(entries: Any, name: str, example: str) -> Mapping[str, Any]:  # noqa: ANN401 - it is checked here
+    """Entries by name, as limits and drives are given.
+
+    Raises
+    ------
+    InputError
+        If they are no table.
+
+    Examples
+    --------
+    >>> table(["velocity"], "limits", "{'velocity': '2 m/s'}")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: limits must be a table such as {'velocity': '2 m/s'}, got ['velocity']
+    """
+    if not isinstance(entries, Mapping) or not all(isinstance(key, str) for key in entries):
+        raise InputError(f"{name} must be a table such as {example}, got {shortened(entries)}")
+    return entries
+
+
+def written(value: Any) -> Any:  # noqa: ANN401 - whatever is given
+    """A quantity of pint as the text that says the same, in SI units where its own are not known here; else the value.
+
+    Examples
+    --------
+    >>> from pint import Quantity
+    >>> written(Quantity(35, "mm/s")), written("35 mm")
+    ('35.0 mm/s', '35 mm')
+    """
+    if type(value).__module__.partition(".")[0] != "pint" or not hasattr(value, "units"):
+        return value
+    from pint.errors import PintError
+
+    try:
+        known = value if _known_unit(f"{value.units:~C}") is not None else value.to_base_units()
+        # a magnitude may be any number, or an array, which has no float that is meant
+        return value if getattr(known.magnitude, "ndim", 0) else f"{float(known.magnitude)!r} {known.units:~C}"
+    except (PintError, ArithmeticError, TypeError, ValueError):
+        return value
+
+
+def in_small_units(value: float, axis: str) -> str:
+    """A position in millimetres or degrees."""
+    return f"{value * 1e3:.9g} mm" if axis == "length" else f"{value * 360.0 / TURN:.9g} deg"
+
+
+class Given(NamedTuple):
+    """A quantity in the very unit in which it was given."""
+
+    dimension: str
+    number: float
+    unit: str
+
+    def same_unit(self, value: Any, name: str) -> float:  # noqa: ANN401 - a quantity
+        """Another quantity of the same dimension, as a number of this unit.
+
+        Raises
+        ------
+        InputError
+            If it is wrong, or of another dimension.
+        """
+        return quantity(value, self.dimension, name) / quantity(f"1 {self.unit}", self.dimension, name)
+
+
+def given_quantity(value: Any, dimensions: tuple[str, ...], name: str) -> Given:  # noqa: ANN401 - it is checked here
+    """A quantity of one of several dimensions, in the unit in which it is written: tables of machines are in such.
+
+    Raises
+    ------
+    InputError
+        If it is of none of them.
+
+    Examples
+    --------
+    >>> given_quantity("35 mm", ("length", "angle"), "stroke")
+    Given(dimension='length', number=35.0, unit='mm')
+    """
+    dimension, _ = either(value, dimensions, name)
+    match = _NUMBER.fullmatch(_plain(written(value)))
+    if match is None:
+        raise AssertionError  # it has been read above
+    return Given(dimension, _number(match), match[3].strip())
+
+
+def _parts(value: Any, dimension: str, name: str) -> tuple[float, str]:  # noqa: ANN401
+    """The number of a quantity, and the text of its unit, which is known."""
+    match = _NUMBER.fullmatch(_plain(value)) if isinstance(value, str) and len(value) <= _LONGEST else None
+    if real(value) is not None or (match is not None and not match[3].strip()):
+        example = DIMENSIONS[dimension][1]
+        raise InputError(
+            f"{_asks(dimension, name)}, got {shortened(value)} without a unit: write it as text with its unit, as in "
+            f"{example!r}"
+        )
+    parted = _SEPARATED.match(value) if isinstance(value, str) and len(value) <= _LONGEST else None
+    if parted is not None:
+        raise InputError(f"{_asks(dimension, name)}, got {shortened(value)}: {_with_a_point(value, parted.group())}")
+    if match is None:
+        raise InputError(f"{_asks(dimension, name)}, got {shortened(value)}")
+    number, unit = _number(match), match[3].strip()
+    if not isfinite(number):
+        raise InputError(f"{name} must be finite, got {shortened(value)}")
+    if _known_unit(unit) is None:
+        raise InputError(f"{_asks(dimension, name)}, but the unit of {shortened(value)} is not known")
+    return number, unit
+
+
+def _plain(text: str) -> str:
+    """A text with the signs of print as keyboards have them."""
+    return _POWERS.sub("^-", text.translate(_SIGNS))
+
+
+def _with_a_point(text: str, number: str) -> str:
+    """How a number with a comma or another sign in it is to be written; whether it parts thousands is not guessed."""
+    whole, _, rest = number.partition(",")
+    if not rest.isdigit() or "." in whole or len(rest) == 3:
+        return "write thousands with no sign between them, and decimals behind a point"
+    return f"decimals are behind a point, not a comma: write {text.replace(number, f'{whole}.{rest}').strip()!r}"
+
+
+def _number(match: re.Match[str]) -> float:
+    """A number, or a share such as 1/12."""
+    return float(match[1]) / int(match[2] or 1)
+
+
+@lru_cache(maxsize=256)
+def _si_factor(unit: str, dimension: str) -> float | None:
+    """How many units of SI a known unit is, None where it is of another dimension; 1/min of a speed counts turns."""
+    si, meant = _registry().parse_units(DIMENSIONS[dimension][0]), _known_unit(unit)
+    if dimension == "angular velocity" and meant == _registry().parse_units("1 / minute"):
+        meant *= _registry().parse_units("turn")
+    if meant.dimensionality != si.dimensionality:
+        return None
+    return float(_registry().Quantity(1.0, meant).to(si).magnitude)
+
+
+@lru_cache(maxsize=256)
+def _known_unit(text: str) -> Any:  # noqa: ANN401 - pint's, or None
+    """The unit that a text means; only names, their powers, products and quotients are read, so nothing runs away."""
+    from pint.errors import PintError
+
+    words = re.sub(r"(?<=[\w°])[\s·](?=[A-Za-zµ°])", "*", f"1{text}" if text.startswith("/") else text)
+    if re.fullmatch(rf"(?:1\s*/\s*)?{_UNIT.pattern}(?:\s*[*/]\s*{_UNIT.pattern})*", words) is not None:
+        try:
+            return _registry().parse_units(words.replace("^", "**"))
+        except (PintError, ValueError, TypeError):
+            pass
+    return None
+
+
+def _remedy(unit: str, dimension: str) -> str:
+    """What to write instead of a frequency that may count turns or radians."""
+    frequency = _si_factor(unit, "frequency") is not None
+    return ": write rev/s or rad/s" if dimension == "angular velocity" and frequency else ""
+
+
+def _asks(dimension: str, name: str) -> str:
+    return f"{name} must be {_article(dimension)} such as {DIMENSIONS[dimension][1]!r}"
+
+
+def _article(dimension: str) -> str:
+    return f"{'an' if dimension[0] in 'aeiou' else 'a'} {dimension}"
+
+
+def _kind(unit: str) -> str:
+    """What a unit measures, in words."""
+    known = _known_unit(unit)
+    for dimension, (si, _) in DIMENSIONS.items():
+        if _registry().parse_units(si).dimensionality == known.dimensionality:
+            return _article(dimension)
+    return f"of dimension {known.dimensionality}"
+
+
+@cache
+def _registry() -> UnitRegistry[Any]:
+    from pint import UnitRegistry
+
+    registry: UnitRegistry[Any] = UnitRegistry(None, cache_folder=None)
+    registry.load_definitions(_DEFINITIONS.strip().splitlines())
+    return registry

@@ -1,0 +1,201 @@
+"""Quantities with units: what they are in SI, and what errors say of those that are wrong."""
+
+from collections.abc import Callable
+from math import pi
+from pathlib import Path
+from typing import Any
+
+import pytest
+from pint import UnitRegistry
+
+from optlaws import (
+    Cycle,
+    DiscCam,
+    Dwell,
+    Free,
+    InputError,
+    Machine,
+    Return,
+    Rise,
+    TranslatingRoller,
+    machine_follower,
+    smoothstep,
+)
+from optlaws.files import reading
+from optlaws.jobs.cycle.entries import read
+from optlaws.motion.quantities import DIMENSIONS, either, quantity
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "value"),
+    [
+        ("35 mm", "length", 0.035),
+        ("1 in", "length", 0.0254),
+        ("45 deg", "angle", pi / 4),
+        ("0.5 turn", "angle", pi),
+        ("1/12 turn", "angle", pi / 6),
+        ("-3/4 in", "length", -0.01905),
+        ("500 W", "power", 500.0),
+        ("400 ms", "time", 0.4),
+        ("616 mm/s", "velocity", 0.616),
+        ("200 rpm", "angular velocity", 200 * 2 * pi / 60),
+        ("30deg/s", "angular velocity", pi / 6),
+        ("12 m/s^2", "acceleration", 12.0),
+        ("12 m/s**2", "acceleration", 12.0),
+        ("1 g_n", "acceleration", 9.80665),
+        ("2.5 kg cm^2", "moment of inertia", 2.5e-4),
+        ("0.4 N m", "torque", 0.4),
+        ("0.4 N*m", "torque", 0.4),
+        ("3 N/mm", "stiffness", 3000.0),
+        ("0.01 N m s/rad", "rotary viscous friction", 0.01),
+    ],
+)
+def test_quantities_in_si_units(text: str, dimension: str, value: float) -> None:
+    assert quantity(text, dimension, "it") == pytest.approx(value, rel=1e-14)
+
+
+def test_every_example_of_an_error_is_of_its_dimension() -> None:
+    for dimension, (_, example) in DIMENSIONS.items():
+        assert either(example, (dimension,), "it")[0] == dimension
+
+
+@pytest.mark.parametrize(
+    ("given", "said"),
+    [
+        ("35 mm", "speed must be an angular velocity such as '200 rpm', but '35 mm' is a length"),
+        ("3 Hz", "speed must be an angular velocity such as '200 rpm', but '3 Hz' is a frequency"),
+        ("3 Hz^2", r"speed must be an angular velocity such as '200 rpm', but '3 Hz\^2' is of dimension 1 / \[time\]"),
+        (200, "speed must be an angular velocity such as '200 rpm', got 200 without a unit"),
+        ("200", "got '200' without a unit"),
+        ("200 rmp", "the unit of '200 rmp' is not known"),
+        ("9**9**9 rpm", "not known"),
+        ("1 rpm*9**9**9", "not known"),
+        ("1e400 rpm", "finite"),
+        ("nan rpm", "got 'nan rpm'"),
+        ("fast", "got 'fast'"),
+        (None, "got None"),
+        ("1 " + "rpm*" * 50 + "rpm", "speed must be"),
+    ],
+)
+def test_what_is_wrong_is_said(given: object, said: str) -> None:
+    with pytest.raises(InputError, match=said):
+        quantity(given, "angular velocity", "speed")
+
+
+def test_of_several_dimensions_the_error_names_all() -> None:
+    with pytest.raises(InputError, match=r"duration must be an angle such as '45 deg' or a time such as '0\.3 s', but"):
+        either("3 mm", ("angle", "time"), "duration")
+
+
+def test_quantities_of_pint_are_taken_as_their_texts() -> None:
+    units: UnitRegistry[Any] = UnitRegistry()
+    for given, dimension, expected in (
+        (35 * units.mm, "length", 0.035),
+        (2 * units.ft, "length", 0.6096),
+        (200 * units.rpm, "angular velocity", 200.0 * pi / 30.0),
+        (3 * units.N / units.mm, "stiffness", 3000.0),
+        (9 * units.lbf, "force", 9 * 4.4482216152605),
+        (0.4 * units.N * units.m, "torque", 0.4),
+    ):
+        assert quantity(given, dimension, "it") == pytest.approx(expected, rel=1e-12)
+    for wrong, told in ((35 * units.mm / units.s, "'35.0 mm/s' is a velocity"), (3 * units.K, "'3.0 K' is not known")):
+        with pytest.raises(InputError, match=told):
+            quantity(wrong, "length", "it")
+    asked = [("35 mm", "0.1 s"), (35 * units.mm, 0.1 * units.s)]
+    texts, foreign = (
+        Cycle([Rise(by=by, duration=time), Dwell(time), Return(duration=time)], period=3 * time if i else "0.3 s")
+        for i, (by, time) in enumerate(asked)
+    )
+    assert Cycle.from_json(foreign.to_json()) == foreign
+    assert foreign.peaks == texts.peaks
+
+
+@pytest.mark.parametrize(
+    "text", ["200 1/min", "200/min", "200 min^-1", "200 min⁻¹", "200 r/min", "200 U/min", "200 rev/min"]
+)
+def test_turns_a_minute_are_a_speed_wherever_one_is_asked_for(text: str) -> None:
+    assert quantity(text, "angular velocity", "speed") == pytest.approx(200 * 2 * pi / 60, rel=1e-14)
+    assert either(text, ("velocity", "angular velocity"), "velocity")[0] == "angular velocity"
+    assert Cycle([Rise("35 mm", "120 deg"), Return()], speed=text).duration == pytest.approx(0.3, rel=1e-14)
+    follower = machine_follower(stroke="35 mm", period="60 ms", speed=text, rise="120 deg")
+    assert follower.time == pytest.approx(0.1, rel=1e-14)
+
+
+def test_frequencies_that_may_count_radians_are_refused_as_speeds() -> None:
+    for text in ("3 Hz", "3 1/s"):
+        with pytest.raises(InputError, match="is a frequency: write rev/s or rad/s"):
+            quantity(text, "angular velocity", "speed")
+    assert quantity("200 1/min", "frequency", "frequency") == pytest.approx(200 / 60)
+
+
+@pytest.mark.parametrize(
+    ("text", "dimension", "value"),
+    [
+        ("12 m/s²", "acceleration", 12.0),
+        ("900 m·s⁻³", "jerk", 900.0),
+        ("0.02 kg·m²", "moment of inertia", 0.02),
+        ("5 Nm", "torque", 5.0),
+        ("5 kNm", "torque", 5000.0),
+        ("5 nm", "length", 5e-9),
+        ("5 μm", "length", 5e-6),
+        ("−5 mm", "length", -5e-3),
+        ("5 rps", "angular velocity", 10 * pi),
+    ],
+)
+def test_signs_of_print_are_read_as_those_of_keyboards(text: str, dimension: str, value: float) -> None:
+    assert quantity(text, dimension, "it") == pytest.approx(value, rel=1e-14)
+
+
+@pytest.mark.parametrize(
+    ("text", "remedy"),
+    [
+        ("35,5 mm", "decimals are behind a point, not a comma: write '35.5 mm'"),
+        ("-0,25 mm", "write '-0.25 mm'"),
+        ("1,000 mm", "write thousands with no sign between them, and decimals behind a point"),
+        ("1.000,5 mm", "write thousands with no sign"),
+        ("1'000 mm", "write thousands with no sign"),
+        ("35", "write it as text with its unit, as in '35 mm'"),
+        (35, "write it as text with its unit, as in '35 mm'"),
+    ],
+)
+def test_numbers_that_are_written_otherwise_are_refused_with_the_remedy(text: object, remedy: str) -> None:
+    with pytest.raises(InputError, match=f"it must be a length such as '35 mm', got .*{remedy}"):
+        quantity(text, "length", "it")
+
+
+@pytest.mark.parametrize("magnitude", [2j, 10**400, 10**6000, [1, 2], [5], float("nan"), float("inf")], ids=range(7))
+def test_quantities_of_pint_that_are_no_real_number_are_input_errors_at_every_door(magnitude: Any) -> None:  # noqa: ANN401
+    """Segments, limits, drives, loads, cams, exports, machines."""
+    units: UnitRegistry[Any] = UnitRegistry()
+    quantities: list[Any] = [units.Quantity(magnitude, unit) for unit in ("mm", "mm/s", "kg", "s", "Hz")]
+    length, velocity, mass, time, frequency = quantities
+    moves = [Rise("35 mm", "0.1 s"), Return()]
+    doors: list[Callable[[], Any]] = [
+        lambda: Cycle([Rise(length, "0.1 s"), Return()], period="1 s"),
+        lambda: Cycle([Rise("35 mm", time), Return()], period="1 s"),
+        lambda: Cycle([Free("35 mm", "0.1 s", via=[("0.05 s", length)]), Return()], period="1 s"),
+        lambda: Cycle([Rise("35 mm", "0.1 s", limits={"velocity": velocity}), Return()], period="1 s"),
+        lambda: Cycle(moves, period=time),
+        lambda: Cycle(moves, period="1 s", start=length),
+        lambda: Cycle(moves, period="1 s", drive={"mass": mass}),
+        lambda: Cycle(moves, period="1 s", load={"period": time}).load_motion,
+        lambda: DiscCam(Cycle(moves, period="1 s"), base_radius=length, follower=TranslatingRoller("12 mm")),
+        lambda: DiscCam(Cycle(moves, period="1 s"), base_radius="80 mm", follower=TranslatingRoller(length)),
+        lambda: smoothstep(3).export("csv", stroke=length, time="0.1 s"),
+        lambda: machine_follower(stroke=length, period="60 ms", time="0.1 s"),
+        lambda: Machine.from_modes([(frequency, 0.02)], duration=1.0),
+        lambda: Machine.from_modes([(8.5, 0.02)], duration=time),
+    ]
+    for door in doors:
+        with pytest.raises(InputError):
+            door()
+
+
+def test_bare_numbers_of_problem_files_and_units_of_bare_numbers_are_refused_with_the_remedy(tmp_path: Path) -> None:
+    file = tmp_path / "slide.toml"
+    file.write_text('job = "cycle"\ntitle = "S"\nspeed = "200 rpm"\n[[axis]]\nname = "x"\n[[axis.segment]]\n'
+                    'kind = "rise"\nby = 35\n', "utf-8")  # fmt: skip
+    with pytest.raises(InputError, match=r'by.; a number with a unit is written as text, such as "35 mm"'):
+        read(reading.toml(file), file)
+    with pytest.raises(InputError, match="mode 1 must be a finite real number, got '12 Hz': give the number alone"):
+        Machine.from_modes([("12 Hz", 0.02)], duration=1.0)  # type: ignore[list-item] # on purpose
