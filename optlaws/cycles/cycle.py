@@ -7,16 +7,19 @@ from dataclasses import dataclass, field, replace
 from math import sqrt
 from typing import Any
 
-from optlaws.cycles.asked.conversion import Piece
-from optlaws.cycles.asked.joints import Layout, layout
-from optlaws.cycles.asked.programme import TURN, Programme, is_optimal, period_of, programme
-from optlaws.cycles.asked.quantities import quantity, written
-from optlaws.cycles.asked.segments import CycleSegment
-from optlaws.cycles.best.aims import (
+from optlaws.cycles.drive.drive import Drive, read_drive
+from optlaws.cycles.drive.effort import Effort, effort
+from optlaws.cycles.drive.load import LOAD, Load, read_load
+from optlaws.cycles.export_mixin import ExportMixin
+from optlaws.cycles.kinematics import SegmentPeaks, jumps_at_joints, segment_peaks, values_at
+from optlaws.cycles.optimisation.durations import durations
+from optlaws.cycles.optimisation.joint_limits import check_limits_at_joints
+from optlaws.cycles.optimisation.mean_force import Best, best_of
+from optlaws.cycles.optimisation.objectives import (
     FORCE,
     LOADED,
     POWER,
-    Wanted,
+    CycleObjective,
     check_objective,
     kind_of,
     limits_of_stretch,
@@ -24,26 +27,26 @@ from optlaws.cycles.best.aims import (
     read_load_limits,
     read_mean_force,
 )
-from optlaws.cycles.best.durations import durations
-from optlaws.cycles.best.mean_force import Best, best_of
-from optlaws.cycles.driven.drive import Drive, read_drive
-from optlaws.cycles.driven.effort import Effort, effort
-from optlaws.cycles.driven.load import LOAD, Load, read_load
-from optlaws.cycles.handing_over import Handed
-from optlaws.cycles.moving import SegmentPeaks, leaps, segment_peaks, values_at
-from optlaws.cycles.remade import Made, cam_segments, segments_at
-from optlaws.cycles.stored import Stated
+from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
+from optlaws.cycles.retiming import TimedCycle, cam_segments, segments_at
+from optlaws.cycles.serialisation import SerialisationMixin
+from optlaws.cycles.specification.joints import LawSpan, Layout, layout
+from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
+from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
+from optlaws.motion.piece import Piece
+from optlaws.motion.quantities import TURN, quantity, written
 from optlaws.numbers import MOST_DEGREE, derivative, real_times, whole
+from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution, Status
 
 _MET = 1e-7  # share within which a bound of the whole cycle is met
 
 
 @dataclass(frozen=True, repr=False)
-class Cycle(Handed, Stated):
+class Cycle(ExportMixin, SerialisationMixin):
     """A cycle that repeats: segments, and how fast the master turns; call it for motion in SI units over time.
 
     Positions are lengths or angles, whichever the first displacement is. Laws that are to be optimal are looked for
@@ -56,8 +59,8 @@ class Cycle(Handed, Stated):
     speed, period
         Of the master, "200 rpm", or the duration of the cycle, "0.3 s": one of them.
     minimise
-        "acceleration", "velocity", "jerk", "rms acceleration", "rms jerk" of optimal segments, or of the drive "force",
-        "rms force" (of a table "torque", "rms torque") and "power".
+        "acceleration", "velocity", "jerk", "rms acceleration", "rms jerk", "rms snap" of optimal segments, or of the
+        drive "force", "rms force" (of a table "torque", "rms torque") and "power".
     limits
         Of all optimal segments: `{"velocity": "616 mm/s", "power": "400 W"}`; "rms force" and "rms torque" are of the
         whole cycle, as motors are rated.
@@ -70,19 +73,23 @@ class Cycle(Handed, Stated):
         with inertia in place of mass for tables.
     load
         What the motion drives elastically, over the whole cycle: `{"period": "20 ms", "damping": 0.05, "mass": "2 kg"}`
-        for a follower's mass on its spring, or a `Machine` in seconds and SI units. Its outputs may be minimised and
+        for a follower's mass on its spring, the damping as its ratio to the critical one, between mass and ground; or a
+        `Machine` in seconds and SI units. Its outputs may be minimised and
         bounded: "load acceleration", "rms load deflection", "load force"; the cycle is then one problem.
     order, degree
-        Number of end conditions of optimal laws, and the degree of their Z.
+        Number of end conditions of optimal laws, and the degree of their Z, at least 15 where a velocity is given at an
+        end. They make the laws that are compared: `search_space` says which.
 
     Raises
     ------
     InputError
         If durations do not sum, positions do not close or velocities do not meet; the error says the remedy.
+    InfeasibleProblem
+        If a joint takes more force than a limit allows; limits that no law keeps are told when laws are looked for.
 
     Examples
     --------
-    >>> from optlaws.cycles.asked.segments import Dwell, Return, Rise
+    >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
     >>> rise, back = Rise("35 mm", "120 deg"), Return("35 mm", "100 deg")
     >>> cycle = Cycle([rise, Dwell("90 deg"), back, Dwell()], speed="200 rpm")
     >>> cycle.status.value, round(cycle.objective, 6), round(float(cycle(0.1)), 9)
@@ -108,9 +115,10 @@ class Cycle(Handed, Stated):
         for entry in ("speed", "period", "start", "advance"):
             object.__setattr__(self, entry, written(getattr(self, entry)))
         check_objective(self.minimise, self._load)
+        self.limits_of_segments  # noqa: B018 - limits and drives that are wrong are refused at once
         if all(stretch.fixed for stretch in self.programme.stretches):
-            self._layout  # noqa: B018 - velocities that do not meet are refused at once
-        self.limits_of_segments  # noqa: B018 - and so are limits and drives
+            # and so are velocities that do not meet, and forces at joints beyond their limits
+            check_limits_at_joints(self._layout, self._cycle_objective, self.axis, self.duration)
 
     @kept_property
     def programme(self) -> Programme:
@@ -130,7 +138,7 @@ class Cycle(Handed, Stated):
     @kept_property
     def durations(self) -> tuple[float, ...]:
         """Durations of the segments in seconds; the best ones where they are free."""
-        return durations(self.programme, self._wanted)
+        return durations(self.programme, self._cycle_objective)
 
     @kept_property
     def solutions(self) -> tuple[Solution, ...]:
@@ -169,8 +177,40 @@ class Cycle(Handed, Stated):
 
     @kept_property
     def lower_bound(self) -> float | None:
-        """What no other optimal laws in the same times can beat; with dry friction, that never turn back."""
+        """What no other laws of the `search_space` in the same times can beat; with dry friction, that never turn back.
+
+        Laws that are not in it may: of a higher degree, of a lower order, of more pieces.
+        """
         return self._best.bound
+
+    @property
+    def search_space(self) -> str | None:
+        """Among which laws none is better, where the status is optimal, and none below the `lower_bound`; in words.
+
+        None where no law was looked for. "All motions through the joints" are all whose derivatives before the one that
+        is minimised are continuous.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.specification.segments import Free
+        >>> ways = [Free("30 mm", "0.2 s"), Free("-30 mm")]
+        >>> [Cycle(ways, period="0.5 s", minimise=what).search_space for what in ("rms jerk", "jerk")]
+        ['all motions through the joints', 'splines of degree 3 in 48 pieces']
+        """
+        spaces = [search_space(problem, span, self.order) for span, problem in self._problems]
+        return "; ".join(dict.fromkeys(spaces)) or None
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What was chosen that was not asked for: a degree that was raised, or one of several laws that are best.
+
+        Examples
+        --------
+        >>> from optlaws.cycles.specification.segments import ConstantVelocity, Return
+        >>> Cycle([ConstantVelocity("1.5 m/s", "80 ms"), Return()], period="400 ms").remarks
+        ('segment 2 (Return): Z has the degree 15, not 9, for the velocities at its ends',)
+        """
+        return (*remark_on_degrees(self._problems, self.degree), *self._best.remarks)
 
     @kept_property
     def peaks(self) -> tuple[SegmentPeaks, ...]:
@@ -187,7 +227,7 @@ class Cycle(Handed, Stated):
     @property
     def joints(self) -> tuple[dict[str, Any], ...]:
         """Every joint: its time, and by how much velocity, acceleration and jerk leap there; 0 where they do not."""
-        return leaps(self._layout.starts[:-1], self.pieces, [self.peak(nu) for nu in (1, 2, 3)])
+        return jumps_at_joints(self._layout.starts[:-1], self.pieces, [self.peak(nu) for nu in (1, 2, 3)])
 
     @kept_property
     def load_motion(self) -> RepeatedMotion:
@@ -200,7 +240,7 @@ class Cycle(Handed, Stated):
 
         Examples
         --------
-        >>> from optlaws.cycles.asked.segments import Dwell, Return, Rise
+        >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
         >>> segments = [Rise("30 mm", "120 deg", law="modified sine"), Dwell("60 deg"), Return(law="modified sine")]
         >>> cycle = Cycle(segments, speed="300 rpm", load={"period": "20 ms", "damping": 0.05})
         >>> cycle.load_motion.peak("acceleration").value, cycle.peak(2)
@@ -249,14 +289,14 @@ class Cycle(Handed, Stated):
 
         Examples
         --------
-        >>> from optlaws.cycles.asked.segments import Return, Rise
+        >>> from optlaws.cycles.specification.segments import Return, Rise
         >>> cycle = Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm")
         >>> fast = cycle.at("400 rpm")
         >>> fast.duration, round(fast.peak(2) / cycle.peak(2), 9)
         (0.15, 4.0)
         """
         period = period_of(speed, None)
-        segments = segments_at(self._made, period / self.duration)
+        segments = segments_at(self._timed, period / self.duration)
         # laws that are known leave nothing of a load to look for
         minimise = "acceleration" if kind_of(self.minimise)[0] == LOADED else self.minimise
         return replace(self, segments=segments, speed=None, period=f"{period!r} s", minimise=minimise, limits={})
@@ -276,7 +316,7 @@ class Cycle(Handed, Stated):
         period
             The period T_k of the follower's free vibration, such as "12 ms".
         damping
-            Its damping ratio.
+            Its damping ratio: the share of the critical damping, between mass and ground, as of `Follower`.
 
         Raises
         ------
@@ -285,33 +325,39 @@ class Cycle(Handed, Stated):
 
         Examples
         --------
-        >>> from optlaws.cycles.asked.segments import Dwell, Move
+        >>> from optlaws.cycles.specification.segments import Dwell, Move
         >>> moves = [Move("30 mm", "120 deg", law="III(7.2)"), Dwell("60 deg"), Move("-30 mm", law="III(7.2)")]
         >>> round(Cycle(moves, speed="300 rpm").cam("20 ms", damping=0.05).peak(2), 6)
         39.380514
         """
-        segments = cam_segments(self._made, period, damping)
+        segments = cam_segments(self._timed, period, damping)
         return replace(self, segments=segments, speed=None, period=f"{self.duration!r} s")
 
     @property
     def limits_of_segments(self) -> tuple[dict[int, float], ...]:
         """The limits that each segment was asked to keep, in SI units, by the order of the derivative."""
         return tuple(
-            limits_of_stretch(stretch, self._wanted, self.axis) if is_optimal(stretch.given) else {}
+            limits_of_stretch(stretch, self._cycle_objective, self.axis) if is_optimal(stretch.given) else {}
             for stretch in self.programme.stretches
         )
 
     @property
-    def _made(self) -> Made:
-        return Made(self.segments, self.programme, self._layout.starts, self.pieces)
+    def _problems(self) -> list[tuple[LawSpan, Problem]]:
+        """Each span with the problem whose solution its law is."""
+        laws = zip(self._layout.spans, self._best.laws, strict=True)
+        return [(span, solution.problem) for span, (_, solution) in laws]
+
+    @property
+    def _timed(self) -> TimedCycle:
+        return TimedCycle(self.segments, self.programme, self._layout.starts, self.pieces)
 
     @kept_property
     def _drive(self) -> Drive | None:
         return None if self.drive is None else read_drive(self.drive, self.axis)
 
     @kept_property
-    def _wanted(self) -> Wanted:
-        return Wanted(
+    def _cycle_objective(self) -> CycleObjective:
+        return CycleObjective(
             self.minimise,
             read_limits(self.limits, self.axis, "limits"),
             whole(self.order, "order", least=2, most=10),
@@ -329,8 +375,8 @@ class Cycle(Handed, Stated):
     @kept_property
     def _layout(self) -> Layout:
         absolute = self._load is not None and self._load.absolute
-        return layout(self.programme, self.durations, whole=self._wanted.of_load, absolute=absolute)
+        return layout(self.programme, self.durations, whole=self._cycle_objective.of_load, absolute=absolute)
 
     @kept_property
     def _best(self) -> Best:
-        return best_of(self._layout, self._wanted, self.axis, self.duration)
+        return best_of(self._layout, self._cycle_objective, self.axis, self.duration)

@@ -7,16 +7,15 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from optlaws.cycles.asked.programme import CLOSE, period_of
-from optlaws.cycles.asked.segments import CycleSegment
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.stored import problem_file
+from optlaws.cycles.serialisation import problem_file
+from optlaws.cycles.specification.programme import CLOSE, period_of
+from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.echo import shortened
-from optlaws.errors import InputError
+from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.extras import needed
 from optlaws.files import reading
 from optlaws.kept import kept_property
-from optlaws.plotting import plotted
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.solution import Status
 
@@ -43,7 +42,7 @@ class Axes(Mapping[str, Cycle]):
 
     Examples
     --------
-    >>> from optlaws.cycles.asked.segments import Dwell, Return, Rise
+    >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
     >>> table = {"segments": [Rise("45 deg", "400 ms"), Dwell()], "advance": "45 deg"}
     >>> head = [Dwell("400 ms"), Rise("250 mm", "200 ms"), Dwell("1200 ms"), Return()]
     >>> machine = Axes({"table": table, "weld head": head}, period="2 s")
@@ -117,6 +116,8 @@ class Axes(Mapping[str, Cycle]):
     ) -> dict[str, Any]:
         """Every axis in the format of a controller, or each named axis in its own: an `Export` by the name of the axis.
 
+        Variables and tables are called as the axes are, in letters and digits: `weld_head` for a "weld head".
+
         Parameters
         ----------
         to
@@ -131,24 +132,19 @@ class Axes(Mapping[str, Cycle]):
 
         Examples
         --------
-        >>> from optlaws.cycles.asked.segments import Return, Rise
+        >>> from optlaws.cycles.specification.segments import Return, Rise
         >>> both = Axes(
         ...     {"x": [Rise("35 mm", "0.1 s"), Return()], "y": [Rise("9 deg", "0.1 s"), Return()]}, period="0.3 s"
         ... )
         >>> [(name, made.points) for name, made in both.export("codesys-xyva", points=91).items()]
         [('x', 91), ('y', 91)]
         """
+        from optlaws.exports.export import export_axes
+
         formats = dict(to) if isinstance(to, Mapping) else dict.fromkeys(self, to)
-        asked: dict[str, Any] = {"master": master, "points": points, "counts": counts, "digits": digits}
-        asked |= {"decimal": decimal, "interpolation": interpolation, "task": task}
-        made = {}
-        for name, form in formats.items():
-            cycle = self[name]
-            try:
-                made[name] = cycle.export(form, **asked)
-            except InputError as error:
-                raise InputError(f"axis {name}: {error}") from None
-        return made
+        options: dict[str, Any] = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
+        options |= {"interpolation": interpolation, "task": task}
+        return export_axes(self, formats, {"master": master}, **options)
 
     def to_dict(self) -> dict[str, Any]:
         """What the axes were given, plain and JSON-able."""
@@ -193,7 +189,7 @@ class Axes(Mapping[str, Cycle]):
 
         Examples
         --------
-        >>> from optlaws.cycles.asked.segments import Return, Rise
+        >>> from optlaws.cycles.specification.segments import Return, Rise
         >>> print(Axes({"slide": [Rise("35 mm", "120 deg"), Return()]}, speed="200 rpm").to_toml("Press"))
         job = "cycle"
         title = "Press"
@@ -235,7 +231,9 @@ class Axes(Mapping[str, Cycle]):
         InputError
             If there are neither one nor as many, or nu is none of the four.
         """
-        return plotted("axes", self, ax, nu=nu, **style)
+        from optlaws.plots.axes import draw_axes
+
+        return draw_axes(self, ax, nu=nu, **style)
 
     def __repr__(self) -> str:
         shown = {name: ", ".join(segment.label for segment in cycle.segments) for name, cycle in self.items()}
@@ -258,8 +256,8 @@ class Axes(Mapping[str, Cycle]):
         for name, given in self.axes.items():
             try:
                 cycles[name] = given if isinstance(given, Cycle) else Cycle(**_entries(given), **clock)
-            except InputError as error:
-                raise InputError(f"axis {name}: {error}") from None
+            except (InputError, InfeasibleProblem) as error:
+                raise type(error)(f"axis {name}: {error}") from None
         _check_durations(cycles, period_of(**clock) if clock else next(iter(cycles.values())).duration)
         return cycles
 

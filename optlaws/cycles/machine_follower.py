@@ -6,13 +6,13 @@ from dataclasses import dataclass
 from math import tau
 from typing import Any
 
-from optlaws.cycles.asked.conversion import factor
-from optlaws.cycles.asked.quantities import either, quantity
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.follower.follower import Follower
 from optlaws.mechanisms.follower.response import Response
+from optlaws.motion.piece import factor
+from optlaws.motion.quantities import either, quantity
 from optlaws.numbers import positive
 
 _UNITS = {"length": "m", "angle": "rad"}
@@ -164,7 +164,7 @@ def machine_follower(
     speed, rise
         In place of it: speed of the cam, such as "105 rpm", and its angle during the rise, such as "120 deg".
     damping
-        Ratio zeta of the damping to the critical one (dimensionless).
+        Ratio zeta of the damping to the critical one (dimensionless), between the mass and the ground.
 
     Raises
     ------
@@ -177,7 +177,7 @@ def machine_follower(
     0.190476
     >>> machine_follower(frequency="16.7", time="0.1 s", stroke="35 mm")
     Traceback (most recent call last):
-    optlaws.errors.InputError: frequency must be a frequency such as '16.7 Hz', got '16.7' without a unit
+    optlaws.errors.InputError: frequency must be a frequency such as '16.7 Hz', got '16.7' without a unit: ...
     """
     kind, height = either(stroke, tuple(_UNITS), "stroke")
     duration = _duration(time, speed, rise)

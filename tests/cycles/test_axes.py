@@ -8,12 +8,14 @@ import pytest
 from matplotlib.figure import Figure
 
 from optlaws import Axes, Cycle, Dwell, InputError, Move, Return, Rise
+from optlaws.exports.format import FORMATS
 from optlaws.files import reading
 from optlaws.jobs.cycle.entries import read
 
 TABLE: dict[str, Any] = {"segments": [Rise("45 deg", "400 ms", law="345"), Dwell()], "advance": "45 deg"}
 HEAD = [Dwell("400 ms", name="up"), Rise("250 mm", "200 ms", law="345"), Dwell("1200 ms"), Return(law="345")]
 NO_SEGMENTS: Any = 3
+NAMELESS = {"csv", "kas", "lenze", "sew", "technosoft"}  # rows of numbers
 MACHINE = Axes({"table": TABLE, "weld head": HEAD}, period="2 s")
 
 
@@ -56,6 +58,17 @@ def test_axes_are_tabled_drawn_and_exported_together() -> None:
     made = MACHINE.export({"table": "codesys-xyva", "weld head": "rockwell-cam"}, points=41)
     assert {name: one.points for name, one in made.items()} == {"table": 41, "weld head": 41}
     assert "weld head" in MACHINE._repr_html_()
+
+
+@pytest.mark.sample(6)
+@pytest.mark.parametrize("form", sorted(set(FORMATS) - NAMELESS))
+def test_axes_are_exported_under_their_own_names(form: str) -> None:
+    """In one project of a controller no two variables, tables or functions are called alike."""
+    made = Axes(dict.fromkeys(["Weld head", "weld_head", "switch"], HEAD), period="2 s").export(form, points=21)
+    texts = [export.text for export in made.values()]
+    assert all(name in text for name, text in zip(["Weld_head", "weld_head_2", "Cam_switch"], texts, strict=True))
+    assert "weld_head" not in texts[2].lower()
+    assert len(set(texts)) == 3
 
 
 @pytest.mark.parametrize(

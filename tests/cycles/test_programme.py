@@ -22,7 +22,7 @@ from optlaws import (
     smoothstep,
 )
 from optlaws.cli.app import exit_code
-from optlaws.cycles.asked.programme import TURN
+from optlaws.motion.quantities import TURN
 from tests.documents import ROOT
 
 SINE = "modified sine"

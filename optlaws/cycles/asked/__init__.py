@@ -1,1 +1,0 @@
-"""What is asked of a cycle: quantities with units, segments, a programme in numbers, and what holds at joints."""

@@ -1,0 +1,1 @@
+"""The drive of a motion: forces, torques and power, and elastic loads."""

@@ -1,0 +1,146 @@
+"""Force or torque, and power, that a drive takes over a cycle: peaks, root mean squares, energy."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import asdict, dataclass
+from functools import partial
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cycles.drive.drive import Drive
+from optlaws.motion.piece import Piece, factor
+
+Array = NDArray[np.float64]
+
+_EVEN = 400  # stretches of a piece in which extremes and zeros are looked for, before they are polished
+_GAUSS = 12
+_ROUNDING = 1e-12
+
+
+@dataclass(frozen=True)
+class Effort:
+    """What a drive takes over a cycle, in SI units.
+
+    Attributes
+    ----------
+    peak_force, rms_force
+        Of the force, or of the torque of a table, at the follower.
+    peak_power
+        The greatest magnitude of the power; divided by the master's angular velocity it is the greatest torque that
+        the motion asks of the master's shaft.
+    mean_power
+        What friction takes.
+    """
+
+    peak_force: float
+    rms_force: float
+    peak_power: float
+    mean_power: float
+
+    def to_dict(self) -> dict[str, float]:
+        """Plain JSON-able dict."""
+        return asdict(self)
+
+    def shaft_torque(self, angular_velocity: float) -> float:
+        """The greatest torque at a shaft of constant angular velocity, rad/s."""
+        return self.peak_power / angular_velocity
+
+
+def effort(drive: Drive, pieces: Sequence[Piece], period: float) -> Effort:
+    """What a drive takes over pieces that make a cycle.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> drive = Drive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
+    >>> rise = Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))
+    >>> round(effort(drive, [rise], 1.0).peak_force, 9)
+    12.0
+    """
+    force = square = power = work = 0.0
+    for piece in pieces:
+        forces, powers = partial(drive.along, piece), partial(_power, drive, piece)
+        force, power = max(force, _peak(piece, forces)), max(power, _peak(piece, powers))
+        square += square_of_force(drive, piece)
+        work += _integral(piece, powers)
+    mean = work / period
+    return Effort(force, float(np.sqrt(square / period)), power, mean if abs(mean) > _ROUNDING * power else 0.0)
+
+
+def peak_of(piece: Piece, nu: int, drive: Drive | None) -> float:
+    """The peak of a derivative, or of the force (-1) or power (-3) of a drive, in a piece, in SI units."""
+    if nu > 0 or drive is None:
+        return piece.law.peak(nu).value * abs(factor(piece.stroke, piece.duration, nu)) if piece.stroke else 0.0
+    taken = effort(drive, [piece], piece.duration)
+    return taken.peak_force if nu == -1 else taken.peak_power
+
+
+def square_of_force(drive: Drive, piece: Piece) -> float:
+    """The integral of the square of the force over a piece, in SI units.
+
+    Examples
+    --------
+    >>> from optlaws.laws import smoothstep
+    >>> drive = Drive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
+    >>> round(square_of_force(drive, Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))), 9)
+    48.0
+    """
+    return _integral(piece, partial(_square, drive, piece))
+
+
+def _power(drive: Drive, piece: Piece, times: Array) -> Array:
+    return drive.along(piece, times) * piece.values(times, 1)
+
+
+def _square(drive: Drive, piece: Piece, times: Array) -> Array:
+    return drive.along(piece, times) ** 2
+
+
+def _marks(piece: Piece) -> Array:
+    """Places between which everything is smooth: breaks of the law, standstills, and even ones."""
+    even = piece.start + piece.duration * np.linspace(0.0, 1.0, _EVEN + 1)
+    breaks = piece.start + piece.duration * np.array(piece.law.breaks)
+    return np.unique(np.concatenate([even, breaks, _standstills(piece, even)]))
+
+
+def _standstills(piece: Piece, even: Array) -> Array:
+    from scipy.optimize import brentq
+
+    values = piece.values(even, 1)
+    leaps = np.flatnonzero(values[:-1] * values[1:] < 0.0)
+
+    def velocity(time: float) -> float:
+        return float(piece.values(np.array([time]), 1)[0])
+
+    standstills = [brentq(velocity, even[i], even[i + 1], xtol=1e-15) for i in leaps]
+    return np.array(standstills, dtype=np.float64)
+
+
+def _peak(piece: Piece, values: Callable[[Array], Array]) -> float:
+    """The greatest magnitude: at marks, just beside them, and polished inside the best stretches."""
+    from scipy.optimize import minimize_scalar
+
+    marks = _marks(piece)
+    lengths = np.diff(marks)
+    sides = np.concatenate([marks[:-1] + 1e-9 * lengths, marks[1:] - 1e-9 * lengths, marks])
+    sizes = np.abs(values(sides))
+    best = float(sizes.max())
+    near = np.abs(values(0.5 * (marks[:-1] + marks[1:])))
+    for i in np.argsort(near)[-3:]:
+        low, high = marks[max(i - 1, 0)], marks[min(i + 2, len(marks) - 1)]
+        minimum = minimize_scalar(
+            lambda t: -float(abs(values(np.array([t]))[0])), bounds=(low, high), method="bounded",
+            options={"xatol": 1e-12 * piece.duration},
+        )  # fmt: skip
+        best = max(best, -float(minimum.fun))
+    return best
+
+
+def _integral(piece: Piece, values: Callable[[Array], Array]) -> float:
+    u, weights = np.polynomial.legendre.leggauss(_GAUSS)
+    marks = _marks(piece)
+    middles, halves = 0.5 * (marks[:-1] + marks[1:]), 0.5 * np.diff(marks)
+    at = values((middles[:, None] + halves[:, None] * u).ravel()).reshape(len(halves), -1)
+    return float(halves @ (at @ weights))

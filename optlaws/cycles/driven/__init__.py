@@ -1,1 +1,0 @@
-"""What a motion drives: forces, torques and power, elastic loads."""

@@ -1,0 +1,207 @@
+"""Laws side by side: their constants, their peaks in a machine, the vibration they leave, and what a small C costs."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from math import isfinite
+from typing import Any
+
+from optlaws.errors import InputError
+from optlaws.extras import needed
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.laws.catalogue.reading import read_law
+from optlaws.mechanisms.checks import motion_law
+from optlaws.mechanisms.spectrum.robust import residual
+from optlaws.motion.piece import factor
+from optlaws.motion.quantities import either, quantity
+from optlaws.numbers import bounded, positive
+
+#: what is more than so many times as great is far above
+FAR = 1.5
+_NOTHING = 1e-9
+CONSTANTS = ("B", "C", "D", "J", "rms_c")
+_MACHINE = {1: "velocity, {}/s", 2: "acceleration, {}/s²", 3: "jerk, {}/s³"}
+_UNITS = {"length": "m", "angle": "rad"}
+_PEAKS = {"D": "power", "J": "jerk"}
+
+
+@dataclass(frozen=True)
+class Comparison:
+    """Laws with their numbers, made by `compare`; a row for each law.
+
+    Attributes
+    ----------
+    laws
+        The laws by their names, in the order given.
+    stroke, time
+        Stroke (m or rad) and duration (s) of the machine; None where peaks stay dimensionless.
+    unit
+        That of the stroke, "m" or "rad".
+    nu, damping
+        Of the follower whose residual acceleration is told, in units of a''; nu may be an interval, or None.
+
+    Examples
+    --------
+    >>> from optlaws import compare
+    >>> comparison = compare("modified sine", "cycloidal")
+    >>> [row["law"] for row in comparison.rows], [round(row["C"], 4) for row in comparison.rows]
+    (['modified sine', 'cycloidal'], [5.528, 6.2832])
+    """
+
+    laws: Mapping[str, MotionLaw]
+    stroke: float | None = None
+    time: float | None = None
+    unit: str = "m"
+    nu: float | tuple[float, float] | None = None
+    damping: float = 0.0
+
+    @kept_property
+    def rows(self) -> list[dict[str, float | str]]:
+        """A row for each law, by the names of the columns."""
+        return [{"law": name} | self._row(law) for name, law in self.laws.items()]
+
+    @property
+    def remarks(self) -> tuple[str, ...]:
+        """What laws of smaller C than the first pay for it, where that is more than half as much again."""
+        names = list(self.laws)
+        reference = self.laws[names[0]]
+        return tuple(
+            f"{name}: {cost}"
+            for name in names[1:]
+            for cost in costs(self.laws[name], reference, names[0], nu=self.nu, damping=self.damping)
+        )
+
+    def to_dict(self) -> dict[str, Any]:
+        """Plain JSON-able dict; None where a peak has no bound."""
+        rows = [
+            {key: value if isinstance(value, str) else bounded(value) for key, value in row.items()}
+            for row in self.rows
+        ]
+        return {"rows": rows, "remarks": list(self.remarks)}
+
+    def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported here alone
+        """The rows as a data frame with the laws' names as index; needs the extra `optlaws[studies]`."""
+        needed("pandas", "to_pandas")
+        import pandas as pd
+
+        return pd.DataFrame(self.rows).set_index("law")
+
+    def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        """Draw a, b, c and j of all laws, one over the other, into four axes of matplotlib; the artists."""
+        from optlaws.plots.law import draw_comparison
+
+        return draw_comparison(self, ax, **style)
+
+    def _repr_html_(self) -> str:
+        from optlaws.laws.html import drawings
+        from optlaws.shown.showing import Html, page, table
+
+        rows = [[*row.values(), Html(drawings(law))] for row, law in zip(self.rows, self.laws.values(), strict=True)]
+        return page("Comparison", table((*self.rows[0], "a, b, c, j"), rows))
+
+    def _row(self, law: MotionLaw) -> dict[str, float]:
+        constants = law.constants
+        row = {name: float(getattr(constants, name).value) for name in CONSTANTS[:-1]} | {"rms_c": constants.rms_c}
+        if self.stroke is not None and self.time is not None:
+            row |= {
+                text.format(self.unit): factor(self.stroke, self.time, nu) * law.peak(nu).value
+                for nu, text in _MACHINE.items()
+            }
+        if self.nu is not None:
+            row["residual"] = residual(nu=self.nu, damping=self.damping).value(law)
+        return row
+
+
+def compare(
+    *laws: Any,  # noqa: ANN401 - whatever names or has a law
+    stroke: str | None = None,
+    time: str | None = None,
+    nu: float | tuple[float, float] | None = None,
+    damping: float = 0.0,
+) -> Comparison:
+    """Laws side by side.
+
+    Parameters
+    ----------
+    laws
+        Each a law, what has one (an entry of the catalogue, a solution), or a text that names one: a name of the
+        catalogue, a member such as "III(7.2)", a JSON or CSV file.
+    stroke, time
+        Stroke and duration with their units, such as "35 mm" (or "45 deg") and "0.1 s", for the peaks in the machine:
+        v = B h/T, a = C h/T², j = J h/T³.
+    nu, damping
+        Frequency of an elastic follower (radians of its free vibration in the motion), or an interval (low, high), and
+        its damping ratio: the greatest residual acceleration is told too.
+
+    Raises
+    ------
+    InputError
+        If there is no law, one cannot be read, or a number is out of range.
+
+    Examples
+    --------
+    >>> comparison = compare("modified sine", "cycloidal", stroke="35 mm", time="0.1 s", nu=20)
+    >>> [round(row["acceleration, m/s²"], 3) for row in comparison.rows]
+    [19.348, 21.991]
+    """
+    if not laws:
+        raise InputError("there is nothing to compare: name laws, such as 'modified sine' and 'law.json'")
+    if (stroke is None) != (time is None):
+        raise InputError("stroke and time go together: the peaks in the machine need both")
+    kind, height = ("length", None) if stroke is None else either(stroke, tuple(_UNITS), "stroke")
+    duration = None if time is None else positive(quantity(time, "time", "time"), "time")
+    if height is not None:
+        positive(height, "stroke")
+    if nu is not None:
+        residual(nu=nu, damping=damping)
+    named: dict[str, MotionLaw] = {}
+    for place, given_law in enumerate(laws, 1):
+        name, law = _named(given_law, place)
+        if name in named:
+            raise InputError(f"{name} is given twice")
+        named[name] = law
+    return Comparison(named, height, duration, _UNITS[kind], nu, damping)
+
+
+def costs(
+    law: MotionLaw,
+    reference: MotionLaw,
+    name: str,
+    *,
+    nu: float | tuple[float, float] | None = None,
+    damping: float = 0.0,
+) -> list[str]:
+    """What a law of smaller C than a standard one, whose name is given, has far above it: power, jerk, vibration.
+
+    Examples
+    --------
+    >>> from optlaws.laws.catalogue.catalogue import catalogue
+    >>> costs(catalogue["constant acceleration"].law, catalogue["cycloidal"].law, "cycloidal")
+    ['J = inf, without bound; that of cycloidal is 39.48']
+    """
+    if not law.constants.C.value < reference.constants.C.value:
+        return []
+    values = {
+        f"{letter} = ": (getattr(law.constants, letter).value, getattr(reference.constants, letter).value)
+        for letter in _PEAKS
+    }
+    if nu is not None:
+        of = residual(nu=nu, damping=damping)
+        values["a residual acceleration of "] = of.value(law), of.value(reference)
+    return [_cost(what, value, other, name) for what, (value, other) in values.items() if value > FAR * other]
+
+
+def _cost(what: str, value: float, other: float, name: str) -> str:
+    if not isfinite(value):
+        return f"{what}inf, without bound; that of {name} is {other:.4g}"
+    if other <= _NOTHING * value:
+        return f"{what}{value:.4g}; {name} has none"
+    return f"{what}{value:.4g}, {value / other:.3g} times that of {name}"
+
+
+def _named(given: Any, place: int) -> tuple[str, MotionLaw]:  # noqa: ANN401 - it is checked here
+    if isinstance(given, str):
+        return given, read_law(given)
+    return getattr(given, "name", f"law {place}"), motion_law(given)

@@ -1,0 +1,140 @@
+"""What a drive takes along a span: force and power as formulas of the law, and what dry friction adds to mean squares.
+
+Where a motion never turns back, dry friction is a constant force. Where it may, it is +-d with the sign of the velocity
+v, and F = u + d sgn v with u = m v' + c v. The mean of F² is then that of u² and of what no law changes but by turning:
+
+    the integral of F² is that of u², d² times the time in motion, 2 d m (|v| at the end - |v| at the start) and
+    2 d c times the way that is gone, forth and back, which is at least that between the positions on the way.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from itertools import pairwise
+
+from optlaws.cycles.drive.drive import Drive
+from optlaws.cycles.optimisation.objectives import POWER
+from optlaws.cycles.specification.joints import LawSpan
+from optlaws.cycles.specification.segments import Dwell
+from optlaws.errors import InputError
+from optlaws.motion.piece import factor
+from optlaws.synthesis.functionals.makers import peak, rms
+from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
+
+
+@dataclass(frozen=True)
+class Driven:
+    """A constant of a span's law that measures what its drive takes.
+
+    Parameters
+    ----------
+    constant
+        Of the law, dimensionless.
+    unit
+        What turns it into SI units.
+    friction
+        What dry friction adds to a mean square at least, in SI units.
+    formula
+        The force in its unit, of a mean square.
+    """
+
+    constant: Functional
+    unit: float
+    friction: float = 0.0
+    formula: str = ""
+
+
+def may_turn(span: LawSpan) -> bool:
+    """Whether a span's law may go back on its way."""
+    if span.turns or len(span.stretches) > 1 or span.via or not span.displacement:
+        return True
+    return any(state.velocity * span.displacement < 0.0 for state in (span.first, span.last))
+
+
+def driven_peak(span: LawSpan, drive: Drive | None, stroke: float, nu: int) -> Driven:
+    """Peak of the force (nu -1) or the power (nu -3) along a span's law.
+
+    Raises
+    ------
+    InputError
+        If there is no drive, nothing resists, or dry friction turns with the motion.
+    """
+    known = _known(drive)
+    if nu == POWER and known.inertia > 0.0 and known == Drive(known.inertia, 0.0, 0.0, 0.0, 0.0):
+        return Driven(FUNCTIONALS["D"], known.inertia * stroke**2 / span.duration**3)
+    formula, unit = driven_formula(span, drive, stroke, nu)
+    return Driven(peak(formula), unit)
+
+
+def driven_formula(span: LawSpan, drive: Drive | None, stroke: float, nu: int) -> tuple[str, float]:
+    """Force or power along a span's law as a formula, and its unit.
+
+    Raises
+    ------
+    InputError
+        If there is no drive, nothing resists, or dry friction turns with the motion.
+    """
+    known = _known(drive)
+    if known.dry > 0.0 and may_turn(span):
+        raise InputError(
+            f"drive: dry: {span.where} may turn back, where dry friction leaps and a peak of force or power is not "
+            "proven: leave it out of what is minimised or bounded, take moves between rests, or minimise or bound the "
+            "rms force"
+        )
+    unit = _unit(span, known, stroke)
+    formula = known.formula(stroke, span.duration, span.origin, 1.0 if span.displacement > 0.0 else -1.0, unit)
+    if nu == POWER:
+        return f"({formula})*b", unit * abs(factor(stroke, span.duration, 1))
+    return formula, unit
+
+
+def driven_mean(span: LawSpan, drive: Drive | None, stroke: float) -> Driven:
+    """Root mean square of the force along a span's law.
+
+    Raises
+    ------
+    InputError
+        If there is no drive, nothing resists, or dry friction turns with the motion against a spring or a weight.
+    """
+    known = _known(drive)
+    unit = _unit(span, known, stroke)
+    if known.dry == 0.0 or not may_turn(span):
+        direction = 1.0 if span.displacement > 0.0 else -1.0
+        formula = known.formula(stroke, span.duration, span.origin, direction, unit)
+        return Driven(rms(formula), unit, formula=formula)
+    if known.stiffness or known.constant or not (known.inertia or known.viscous):
+        raise InputError(
+            f"drive: dry: {span.where} may turn back: with dry friction the rms force of such a motion is convex only "
+            "without stiffness, preload and gravity: leave these out, or take moves between rests"
+        )
+    formula = known.formula(stroke, span.duration, span.origin, 0.0, unit)
+    return Driven(rms(formula), unit, _friction(span, known), formula)
+
+
+def force_unit(span: LawSpan, drive: Drive, stroke: float) -> float:
+    """About how great the force along a span is: a unit in which it is near 1."""
+    return drive.size(stroke, span.duration, span.origin)
+
+
+def _unit(span: LawSpan, drive: Drive, stroke: float) -> float:
+    unit = force_unit(span, drive, stroke)
+    if unit == 0.0:
+        raise InputError("drive: nothing resists the motion: give it a mass, an inertia, a spring or friction")
+    return unit
+
+
+def _known(drive: Drive | None) -> Drive:
+    if drive is None:
+        raise InputError("force, torque and power are of a drive: give one, such as drive={'mass': '2 kg'}")
+    return drive
+
+
+def _friction(span: LawSpan, drive: Drive) -> float:
+    """What dry friction adds to the mean square of the force of a motion that may turn back, at least."""
+    times = zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True)
+    moving = sum(stop - start for segment, start, stop in times if not isinstance(segment.given, Dwell))
+    gained = 0.0 if span.turns else abs(span.last.velocity) - abs(span.first.velocity)
+    positions = [span.offset, *(position for _, position in span.via), span.offset + span.displacement]
+    way = sum(abs(after - before) for before, after in pairwise(positions))
+    added = drive.dry * moving + 2.0 * (drive.inertia * gained + drive.viscous * way)
+    return drive.dry * added / span.duration

@@ -1,0 +1,123 @@
+"""Velocities and forces at joints where the motion is known: no law changes them, so that limits must allow them."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from itertools import accumulate
+from operator import itemgetter
+
+from optlaws.cycles.drive.effort import peak_of
+from optlaws.cycles.optimisation.drive_formulas import may_turn
+from optlaws.cycles.optimisation.objectives import FORCE, CycleObjective, in_units, kind_of, limits_of_stretch
+from optlaws.cycles.optimisation.optimal import solve
+from optlaws.cycles.specification.joints import LawSpan, Layout, State
+from optlaws.cycles.specification.programme import TimedSegment, is_optimal
+from optlaws.errors import InfeasibleProblem, SolverFailure
+from optlaws.motion.piece import Piece
+from optlaws.motion.quantities import in_small_units
+from optlaws.synthesis.solution import Solution
+
+_VELOCITY, _ACCELERATION_KNOWN = 1, 3
+_SAME = 1e-9  # share within which peaks are the same
+
+Solved = tuple[tuple[Piece, Solution], ...]
+
+
+@dataclass(frozen=True)
+class SegmentEnd:
+    """An end of a stretch whose law is looked for, where velocity and acceleration are known."""
+
+    stretch: TimedSegment
+    name: str
+    time: float
+    position: float
+    state: State
+    direction: float
+
+    def demand(self, objective: CycleObjective, nu: int) -> float:
+        """The velocity (nu 1) or the force (-1) there, in SI units; 0 where it is not known."""
+        if nu == _VELOCITY:
+            return abs(self.state.velocity)
+        drive = objective.drive
+        if nu != FORCE or drive is None or (drive.inertia and objective.order < _ACCELERATION_KNOWN):
+            return 0.0
+        moved = drive.inertia * self.state.acceleration + drive.viscous * self.state.velocity
+        static = drive.stiffness * self.position + drive.constant
+        return abs(moved + static + drive.dry * self.direction)
+
+
+def check_limits_at_joints(layout: Layout, objective: CycleObjective, axis: str, period: float) -> None:
+    """Refuse a limit of the force that is less than what the drive takes at a joint, whatever the law.
+
+    Raises
+    ------
+    InfeasibleProblem
+        If there is one; the error says how much it takes, and where.
+    """
+    for span in layout.spans:
+        for edge in _edges(span):
+            limits = limits_of_stretch(edge.stretch, objective, axis)
+            needed = edge.demand(objective, FORCE)
+            most = limits.get(FORCE, needed)
+            if needed > most * (1.0 + _SAME):
+                taken, allowed = (in_units(FORCE, force, axis) for force in (needed, most))
+                raise InfeasibleProblem(
+                    f"{edge.stretch.where}: at its {edge.name}, at {in_small_units(edge.position, axis)} and "
+                    f"{360.0 * edge.time / period:.6g} deg of the master, every law takes {taken}, but its limit is "
+                    f"{allowed}: allow more, or change the drive's spring, preload, gravity or friction"
+                )
+
+
+def _edges(span: LawSpan) -> Iterator[SegmentEnd]:
+    """The ends of stretches of a span at which its motion is known."""
+    states = (*span.states, span.states[0]) if span.turns else _ends_of(span)
+    positions = list(accumulate((stretch.displacement for stretch in span.stretches), initial=span.offset))
+    times = (*span.starts, span.stop)
+    direction = 0.0 if may_turn(span) else 1.0 if span.displacement > 0.0 else -1.0
+    for i, stretch in enumerate(span.stretches):
+        for j, name in ((i, "start"), (i + 1, "end")) if is_optimal(stretch.given) else ():
+            state = states[j]
+            if state is not None:
+                yield SegmentEnd(stretch, name, times[j], positions[j], state, direction)
+
+
+def _ends_of(span: LawSpan) -> tuple[State | None, ...]:
+    return (span.first, *(None for _ in span.stretches[1:]), span.last)
+
+
+def ties_broken(
+    layout: Layout, objective: CycleObjective, axis: str, laws: Solved, period: float
+) -> tuple[Solved, tuple[str, ...]]:
+    """The laws of least acceleration among those of least peak, where it is at a joint or in a segment that is given.
+
+    There no law changes the peak of the velocity or force, so that many take no more elsewhere. Beside the laws: a
+    remark that says so.
+    """
+    nu, mean = kind_of(objective.minimise)
+    if mean or nu not in {_VELOCITY, FORCE} or not laws:
+        return laws, ()
+    known = [(peak_of(piece, nu, objective.drive), piece.start) for piece in layout.pieces]
+    known += [(edge.demand(objective, nu), edge.time) for span in layout.spans for edge in _edges(span)]
+    greatest, time = max(known, key=itemgetter(0), default=(0.0, 0.0))
+    if max(peak_of(piece, nu, objective.drive) for piece, _ in laws) > greatest * (1.0 + _SAME):
+        return laws, ()
+    calm = replace(
+        objective, minimise="acceleration", limits={**objective.limits, nu: min(greatest, _limit(objective, nu))}
+    )
+    remark = (
+        f"the {objective.minimise} is greatest at {360.0 * time / period:.6g} deg of the master, where no law changes "
+        "it: of the laws that take no more elsewhere, those of least acceleration"
+    )
+    return tuple(_calmer(span, calm, axis, law) for span, law in zip(layout.spans, laws, strict=True)), (remark,)
+
+
+def _limit(objective: CycleObjective, nu: int) -> float:
+    return objective.limits.get(nu, float("inf"))
+
+
+def _calmer(span: LawSpan, calm: CycleObjective, axis: str, law: tuple[Piece, Solution]) -> tuple[Piece, Solution]:
+    try:
+        return solve(span, calm, axis)
+    except (InfeasibleProblem, SolverFailure):
+        return law

@@ -1,0 +1,262 @@
+"""A limit of the root mean square of the force over a whole cycle, as motors are rated by it: its motions share it.
+
+Each motion by itself is a convex problem; the limit joins them. Where a peak is least, the least sum of squares of laws
+that keep a peak falls with the peak and is convex in it: the least peak is where that sum meets the limit, and no less
+is possible where even the lower bounds of the squares sum to more. Where a root mean square is least, a multiplier of
+the limit parts the motions: what the laws have at least with it, less what the limit is worth, no law can beat.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from math import exp, inf, log, sqrt
+
+from optlaws.cycles.drive.drive import Drive
+from optlaws.cycles.drive.effort import peak_of, square_of_force
+from optlaws.cycles.optimisation.cycle_bound import bound_of, span_bound
+from optlaws.cycles.optimisation.drive_formulas import driven_mean
+from optlaws.cycles.optimisation.joint_limits import ties_broken
+from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of
+from optlaws.cycles.optimisation.optimal import (
+    scale,
+    solve,
+    solved,
+    span_problem,
+    with_least_limit,
+    with_mean_square,
+)
+from optlaws.cycles.specification.joints import LawSpan, Layout
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.kept import kept_property
+from optlaws.motion.piece import Piece, factor
+from optlaws.synthesis.functionals.makers import integral
+from optlaws.synthesis.solution import Solution
+
+_ROUNDS = 8
+_FARTHEST = 30.0  # logarithm of what a limit may be worth
+_NONE = 1.0  # by how much a limit counts as missed where there is no law
+_ROOM = 1e-6  # share of a least peak that is given to problems that are not convex
+_KEPT = 1e-10  # share of a limit by which a law may miss it
+_SHARP = 1e-11  # share within which the peak is found at which the limit is met
+#: shares of a peak below which it is tried whether none is possible
+_BELOW = (2e-9, 1e-8, 1e-7, 1e-6, 1e-5, 1e-4, 1e-3, 1e-2)
+
+
+@dataclass(frozen=True)
+class Best:
+    """The best laws of a cycle with their solutions, why these of equals, and what no others of their spaces beat."""
+
+    laws: tuple[tuple[Piece, Solution], ...]
+    remarks: tuple[str, ...]
+    bound: float | None
+
+
+def best_of(layout: Layout, objective: CycleObjective, axis: str, period: float) -> Best:
+    """The best laws of all spans.
+
+    Raises
+    ------
+    InputError
+        If a limit is of a drive that is not given.
+    InfeasibleProblem
+        If no laws keep the limits.
+    """
+    if objective.mean_force is None or not layout.spans:
+        laws = tuple(_solved(span, objective, axis) for span in layout.spans)
+        bound = bound_of(layout, laws, objective, period)
+        return Best(*ties_broken(layout, objective, axis, laws, period), bound)
+    if objective.drive is None:
+        raise InputError("limits: an rms force or torque is of a drive: give one, such as drive={'mass': '2 kg'}")
+    return _SharedForceLimit(layout, objective, objective.drive, objective.mean_force, axis, period).best()
+
+
+def _solved(span: LawSpan, objective: CycleObjective, axis: str) -> tuple[Piece, Solution]:
+    try:
+        return solve(span, objective, axis)
+    except InfeasibleProblem as error:
+        raise with_least_limit(error, span, objective, axis) from None
+
+
+@dataclass(frozen=True)
+class _SharedForceLimit:
+    """Spans that share a limit."""
+
+    layout: Layout
+    objective: CycleObjective
+    drive: Drive
+    most: float
+    axis: str
+    period: float
+
+    def best(self) -> Best:
+        """The best laws of all spans."""
+        if self.left <= 0.0:
+            raise self._too_much(self._given, "what is given takes")
+        if len(self.layout.spans) == 1:
+            return self._alone()
+        laws = tuple(solve(span, self.objective, self.axis) for span in self.layout.spans)
+        bound = bound_of(self.layout, laws, self.objective, self.period)
+        if self._squares(laws) <= self.left * (1.0 + _KEPT):
+            return Best(laws, (), bound)
+        least = tuple(self._least(span, inf) for span in self.layout.spans)
+        if self._least_squares(least) > self.left:
+            raise self._too_much(self._given + self._least_squares(least), "no law takes less than")
+        _, mean = kind_of(self.objective.minimise)
+        return self._by_multiplier(laws) if mean else self._by_peak(laws, least, bound or 0.0)
+
+    @property
+    def left(self) -> float:
+        """What the limit leaves for the square of the force of what is looked for, integrated."""
+        return self.most**2 * self.period - self._given
+
+    @kept_property
+    def _given(self) -> float:
+        """What dwells and given laws take of it."""
+        return sum(square_of_force(self.drive, piece) for piece in self.layout.pieces)
+
+    def _too_much(self, square: float, why: str) -> InfeasibleProblem:
+        return InfeasibleProblem(
+            f"limits: the rms {'force' if self.axis == 'length' else 'torque'} over the cycle is to be at most "
+            f"{self.most:.9g}, but {why} {sqrt(square / self.period):.9g}: allow more, or give the cycle more time"
+        )
+
+    def _alone(self) -> Best:
+        """The only span takes all that is left; where friction takes more than is known of it, it is told so."""
+        (span,) = self.layout.spans
+        allowed, bound = self.left / span.duration, inf
+        for _ in range(_ROUNDS):
+            piece, solution = self._within(span, allowed)
+            bound = min(bound, bound_of(self.layout, ((piece, solution),), self.objective, self.period) or 0.0)
+            over = (self._squares(((piece, solution),)) - self.left) / span.duration
+            if over <= _KEPT * self.left / span.duration:
+                return Best(((piece, solution),), (), bound)
+            allowed -= over
+        raise SolverFailure(f"{span.where}: no law was found whose rms force with dry friction keeps its limit")
+
+    def _within(self, span: LawSpan, allowed: float) -> tuple[Piece, Solution]:
+        try:
+            return solve(span, self.objective, self.axis, allowed)
+        except InfeasibleProblem:
+            least = (self._least(span, inf),)
+            if self._least_squares(least) > self.left:
+                raise self._too_much(self._given + self._least_squares(least), "no law takes less than") from None
+            raise
+
+    def _squares(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
+        return sum(square_of_force(self.drive, piece) for piece, _ in laws)
+
+    def _least_squares(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
+        """What no other laws than these, of least root mean squares, can take less."""
+        of_force = self._of_force()
+        bounds = (span_bound(span, *law, of_force) for span, law in zip(self.layout.spans, laws, strict=True))
+        return sum(stretch.duration * bound**2 for stretch, bound in zip(self.layout.spans, bounds, strict=True))
+
+    def _of_force(self, peak: float = inf) -> CycleObjective:
+        """The least root mean square of the force, where what is minimised is at most a peak."""
+        nu, mean = kind_of(self.objective.minimise)
+        limits = dict(self.objective.limits)
+        if not mean and peak < inf:
+            limits[nu] = min(peak, limits.get(nu, inf))
+        return replace(self.objective, minimise="rms force", limits=limits)
+
+    def _least(self, span: LawSpan, peak: float) -> tuple[Piece, Solution]:
+        return solve(span, self._of_force(peak), self.axis)
+
+    def _by_peak(
+        self, laws: Sequence[tuple[Piece, Solution]], least: Sequence[tuple[Piece, Solution]], bound: float
+    ) -> Best:
+        """The least peak at which laws keep the limit, and one below it at which none do."""
+        from scipy.optimize import brentq
+
+        tried: dict[float, tuple[tuple[Piece, Solution], ...]] = {}
+
+        def over(peak: float) -> float:
+            try:
+                tried[peak] = tuple(self._least(span, peak) for span in self.layout.spans)
+            except (InfeasibleProblem, SolverFailure):
+                # so near the least peak that no law is found any more
+                return _NONE
+            return log(self._squares(tried[peak]) / self.left)
+
+        convex = all(solution.problem.convex for _, solution in laws)
+        low = self._greatest(laws) * (1.0 + (_BELOW[0] if convex else _ROOM))
+        high = self._greatest(least)
+        if over(low) > 0.0:
+            brentq(over, low, high, xtol=_SHARP * high, rtol=_SHARP)
+            tried.setdefault(high, tuple(least))
+        least_peak = min(peak for peak, laws in tried.items() if self._squares(laws) <= self.left * (1.0 + _KEPT))
+        return Best(tried[least_peak], (), max(bound, self._impossible(least_peak, bound)))
+
+    def _impossible(self, peak: float, bound: float) -> float:
+        """A peak, as near below one as can be, that no laws keep with the limit."""
+        for share in _BELOW:
+            lower = peak * (1.0 - share)
+            if lower <= bound:
+                return bound
+            try:
+                laws = [self._least(span, lower) for span in self.layout.spans]
+            except InfeasibleProblem:
+                return lower
+            except SolverFailure:
+                continue
+            if self._least_squares(laws) > self.left:
+                return lower
+        return bound
+
+    def _greatest(self, laws: Sequence[tuple[Piece, Solution]]) -> float:
+        """The greatest of what is minimised over the whole cycle, whatever the laws were sought for."""
+        nu, _ = kind_of(self.objective.minimise)
+        pieces = [*(piece for piece, _ in laws), *self.layout.pieces]
+        return max(peak_of(piece, nu, self.drive) for piece in pieces)
+
+    def _by_multiplier(self, laws: Sequence[tuple[Piece, Solution]]) -> Best:
+        """The least root mean square, by what the limit is worth."""
+        from scipy.optimize import brentq
+
+        tried: dict[float, tuple[tuple[Piece, Solution], ...]] = {}
+
+        def over(worth: float) -> float:
+            tried[worth] = tuple(self._with_worth(span, exp(worth)) for span in self.layout.spans)
+            return log(self._squares(tried[worth]) / self.left)
+
+        nu, _ = kind_of(self.objective.minimise)
+        first = log(sum(piece.duration * piece.mean_square(nu) for piece, _ in laws) / self._squares(laws))
+        low, high = first - 2.0, first + 2.0
+        while over(low) < 0.0:
+            low -= 4.0
+        while over(high) > 0.0:
+            if high > first + _FARTHEST:
+                raise SolverFailure(
+                    "limits: the rms force cannot be met as near as it is possible: allow a little more"
+                )
+            high += 4.0
+        brentq(over, low, high, xtol=_SHARP, rtol=_SHARP)
+        least = min(worth for worth, laws in tried.items() if self._squares(laws) <= self.left * (1.0 + _KEPT))
+        pieces = [*self.layout.pieces, *(piece for piece, _ in tried[least])]
+        attained = sqrt(sum(piece.duration * piece.mean_square(nu) for piece in pieces) / self.period)
+        # the laws may miss the limit by a rounding, the bound is of those that keep it: it is no better than they are
+        return Best(tried[least], (), min(self._with_worth_at_least(tried[least], exp(least)), attained))
+
+    def _with_worth(self, span: LawSpan, worth: float) -> tuple[Piece, Solution]:
+        """The law of a span of least square and, so many times, least square of its force."""
+        stroke = scale(span)
+        driven = driven_mean(span, self.drive, stroke)
+        nu, _ = kind_of(self.objective.minimise)
+        weight = worth * (driven.unit / factor(stroke, span.duration, nu)) ** 2
+        formula = f"{'abcj'[nu]}^2 + ({weight!r})*({driven.formula})^2"
+        plain = replace(span_problem(span, self.objective, self.axis, stroke), minimise=integral(formula))
+        # the limit as if the others took nothing: it only says how great laws may be
+        problem = with_mean_square(plain, span, self.objective, stroke, self.left / span.duration)
+        solution = solved(problem, span)
+        return Piece(span.start, span.duration, span.offset, stroke, solution.law), solution
+
+    def _with_worth_at_least(self, laws: Sequence[tuple[Piece, Solution]], worth: float) -> float:
+        """What no laws that keep the limit can beat: what they have at least with its worth, less what it is worth."""
+        nu, _ = kind_of(self.objective.minimise)
+        total = -worth * self.left + sum(piece.duration * piece.mean_square(nu) for piece in self.layout.pieces)
+        for span, (piece, solution) in zip(self.layout.spans, laws, strict=True):
+            unit = factor(piece.stroke, piece.duration, nu)
+            friction = driven_mean(span, self.drive, piece.stroke).friction
+            total += span.duration * (unit**2 * solution.lower_bound + worth * friction)
+        return sqrt(max(total, 0.0) / self.period)

@@ -1,0 +1,201 @@
+"""The objective of a cycle with the limits of the whole and of its segments, and the degree of its laws."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Any
+
+from optlaws.cycles.drive.drive import Drive
+from optlaws.cycles.drive.load import LOAD, Load, load_output
+from optlaws.cycles.specification.programme import AXES, TimedSegment
+from optlaws.cycles.specification.segments import Free, Move
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.motion.quantities import in_small_units, quantity, table
+from optlaws.suggest import unknown_key
+
+FORCE, LOADED, POWER = -1, -2, -3
+#: what may be least over a cycle: the order of the derivative, and whether it is its root mean square
+OBJECTIVES = {
+    "velocity": (1, False),
+    "acceleration": (2, False),
+    "jerk": (3, False),
+    "rms acceleration": (2, True),
+    "rms jerk": (3, True),
+    "rms snap": (4, True),
+    "force": (FORCE, False),
+    "torque": (FORCE, False),
+    "power": (POWER, False),
+    "rms force": (FORCE, True),
+    "rms torque": (FORCE, True),
+}
+LIMITS = {"velocity": 1, "acceleration": 2, "jerk": 3, "force": FORCE, "torque": FORCE, "power": POWER}
+#: limits of the whole cycle alone
+MEANS = ("rms force", "rms torque")
+_FORCES = {"length": "force", "angle": "torque"}
+
+
+@dataclass(frozen=True)
+class CycleObjective:
+    """What is least over a cycle, the limits of the whole of it, and how rich laws are.
+
+    Parameters
+    ----------
+    minimise
+        One of `OBJECTIVES`.
+    limits
+        Greatest velocity, acceleration and jerk, in SI units, by order; of force or torque by -1, of power by -3.
+    order, degree
+        End conditions of laws, and the degree of Z.
+    drive
+        What the force is of, where it is minimised or bounded.
+    load
+        What is driven elastically.
+    loaded
+        Greatest values of the load's outputs, in SI units, by output and whether they are root mean squares.
+    mean_force
+        Greatest root mean square of the force or torque over the whole cycle, in SI units.
+    """
+
+    minimise: str
+    limits: Mapping[int, float]
+    order: int
+    degree: int
+    drive: Drive | None
+    load: Load | None = None
+    loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
+    mean_force: float | None = None
+
+    @property
+    def of_load(self) -> bool:
+        """Whether the load is spoken of, so that the cycle is one problem."""
+        return bool(self.loaded) or kind_of(self.minimise)[0] == LOADED
+
+
+def kind_of(minimise: str) -> tuple[int, bool]:
+    """The order of what is minimised (-1 a force, -2 of the load, -3 the power), and whether its root mean square.
+
+    Examples
+    --------
+    >>> kind_of("rms jerk"), kind_of("load acceleration")
+    ((3, True), (-2, False))
+    """
+    return OBJECTIVES.get(minimise, (LOADED, minimise.startswith("rms ")))
+
+
+def check_objective(minimise: Any, load: Load | None) -> None:  # noqa: ANN401 - it is checked here
+    """Refuse what cannot be minimised.
+
+    Raises
+    ------
+    InputError
+        If it is no objective, or the load has no such output.
+    """
+    if not isinstance(minimise, str) or (minimise not in OBJECTIVES and load_output(minimise, load) is None):
+        raise InputError(f"minimise: {unknown_key(minimise, (*OBJECTIVES, 'load acceleration'), 'objective')}")
+
+
+def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tuple[str, bool], float]:
+    """Limits of the load in SI units, by output and whether they are of root mean squares.
+
+    Raises
+    ------
+    InputError
+        If the load has no such output, or a limit is not above 0 or of another dimension.
+
+    Examples
+    --------
+    >>> from optlaws.cycles.drive.load import read_load
+    >>> read_load_limits({"load deflection": "2 mm"}, read_load({"period": "20 ms"}, "length"))
+    {('deflection', False): 0.002}
+    """
+    limits = {}
+    for name, value in entries.items():
+        output = load_output(name, load)
+        if output is not None and load is not None:
+            limits[output] = load.limit(value, output[0], f"limits, {name}")
+    return limits
+
+
+def read_limits(entries: Mapping[str, Any], axis: str, where: str) -> dict[int, float]:
+    """Limits in SI units by the order of the derivative.
+
+    Raises
+    ------
+    InputError
+        If a name is unknown, or a limit is not above 0 or of another dimension.
+
+    Examples
+    --------
+    >>> read_limits({"velocity": "616 mm/s"}, "length", "limits")
+    {1: 0.616}
+    """
+    limits = {}
+    for name, value in table(entries, where, "{'velocity': '2 m/s'}").items():
+        if name in LIMITS:
+            limits[LIMITS[name]] = _above_zero(value, _dimension(LIMITS[name], axis), f"{where}, {name}")
+            continue
+        if where != "limits" and name in MEANS:
+            raise InputError(f"{where}, {name} is of the whole cycle: give it among the limits of the Cycle")
+        if name not in MEANS and (where != "limits" or not name.removeprefix("rms ").startswith(LOAD)):
+            raise InputError(f"{where}: {unknown_key(name, (*LIMITS, *MEANS), 'limit')}")
+    return limits
+
+
+def read_mean_force(entries: Mapping[str, Any], axis: str) -> float | None:
+    """The limit of the root mean square of the force or torque over the cycle, in SI units; None if there is none.
+
+    Raises
+    ------
+    InputError
+        If it is not above 0 or of another dimension, or given twice.
+
+    Examples
+    --------
+    >>> read_mean_force({"rms torque": "2.4 N m"}, "angle")
+    2.4
+    """
+    given = [name for name in MEANS if name in entries]
+    if len(given) > 1:
+        raise InputError(f"limits: {' and '.join(given)} are the same: give one of them")
+    if not given:
+        return None
+    return _above_zero(entries[given[0]], _FORCES[axis], f"limits, {given[0]}")
+
+
+def in_units(nu: int, value: float, axis: str) -> str:
+    """A limit as text, in the unit that machines have it in.
+
+    Examples
+    --------
+    >>> in_units(1, 0.616, "length"), in_units(FORCE, 120.0, "length"), in_units(3, 900.0, "angle")
+    ('the velocity 616 mm/s', 'the force 120 N', 'the jerk 900 rad/s^3')
+    """
+    if nu in {FORCE, POWER}:
+        name, unit = ("power", "W") if nu == POWER else (_FORCES[axis], "N" if axis == "length" else "N m")
+        return f"the {name} {value:.6g} {unit}"
+    name = next(name for name, order in LIMITS.items() if order == nu)
+    if nu == 1:
+        return f"the {name} {in_small_units(value, axis)}/s"
+    return f"the {name} {value:.6g} {'m' if axis == 'length' else 'rad'}/s^{nu}"
+
+
+def _dimension(nu: int, axis: str) -> str:
+    return AXES[axis][nu] if nu > 0 else {FORCE: _FORCES[axis], POWER: "power"}[nu]
+
+
+def _above_zero(value: Any, dimension: str, name: str) -> float:  # noqa: ANN401 - it is checked here
+    rating = quantity(value, dimension, name)
+    if rating <= 0.0:
+        raise InputError(f"{name} must be above 0, got {shortened(value)}")
+    return rating
+
+
+def limits_of_stretch(stretch: TimedSegment, objective: CycleObjective, axis: str) -> dict[int, float]:
+    """Limits of a segment by order: its own and those of the whole cycle, whichever is less."""
+    entries = stretch.given.limits if isinstance(stretch.given, Move | Free) else {}
+    given = read_limits(entries, axis, f"{stretch.where}: limits")
+    orders = {*objective.limits, *given}
+    infinite = float("inf")
+    return {nu: min(objective.limits.get(nu, infinite), given.get(nu, infinite)) for nu in sorted(orders)}

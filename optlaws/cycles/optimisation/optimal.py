@@ -1,0 +1,332 @@
+"""The best laws of a cycle with given durations: one problem for each span, each with its status and its proof.
+
+Where durations are fixed and spans are parted by joints that are known, the cycle decouples: the greatest of the least
+peaks is the least of the greatest ones, and the least sum of squares is the sum of the least ones.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Sequence
+from dataclasses import replace
+from itertools import groupby
+from math import inf, sqrt
+from operator import itemgetter
+from typing import Any
+
+from optlaws.cycles.drive.load import load_output
+from optlaws.cycles.optimisation.drive_formulas import driven_formula, driven_mean, driven_peak, may_turn
+from optlaws.cycles.optimisation.joined import halved, joined_basis, joint_windows, place
+from optlaws.cycles.optimisation.objectives import (
+    FORCE,
+    LOADED,
+    POWER,
+    CycleObjective,
+    in_units,
+    kind_of,
+    limits_of_stretch,
+)
+from optlaws.cycles.optimisation.search_spaces import minimised_rms, search_space, splines_of_least_rms
+from optlaws.cycles.specification.joints import LawSpan, State
+from optlaws.cycles.specification.programme import is_optimal
+from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.motion.piece import Piece, factor
+from optlaws.motion.quantities import in_small_units
+from optlaws.synthesis.problem.constants import FUNCTIONALS, Functional
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.problem.ranges import Range
+from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.solution import Solution, Status
+from optlaws.synthesis.solve import synthesize
+from optlaws.synthesis.spaces.bases import Chebyshev, Pieces
+from optlaws.synthesis.spaces.end_conditions import BoundaryConditions
+
+_DRIVEN = (FORCE, POWER)
+_PEAKS = {1: "B", 2: "C", 3: "J"}
+_MET = 1e-9  # share within which limits do not hinder
+_ROUGH = 15  # degree of Z where points on the way or velocities bend the law
+
+
+def solve(span: LawSpan, objective: CycleObjective, axis: str, mean_square: float = inf) -> tuple[Piece, Solution]:
+    """The best law of a span, in its place, with its proof; the mean square of its force is at most what is said.
+
+    Raises
+    ------
+    InfeasibleProblem
+        If no law keeps the limits; the error names the segment.
+    """
+    stroke = scale(span)
+    problem = span_problem(span, objective, axis, stroke)
+    if mean_square < inf:
+        problem = with_mean_square(problem, span, objective, stroke, mean_square)
+    solution = _unhindered(problem, span, objective, stroke)
+    if solution is None:
+        solution = solved(problem, span)
+        if isinstance(problem.basis, Pieces) and (solution.status == Status.INACCURATE or objective.of_load):
+            finer = _with_more_pieces(problem, problem.basis, span)
+            if finer is not None and (solution.status == Status.INACCURATE or finer.objective < solution.objective):
+                solution = finer
+    return Piece(span.start, span.duration, span.offset, stroke, solution.law), solution
+
+
+def _unhindered(problem: Problem, span: LawSpan, objective: CycleObjective, stroke: float) -> Solution | None:
+    """The solution with the least RMS of all motions, where it is known in what space that lies and limits allow it."""
+    nu = minimised_rms(problem) if isinstance(problem.basis, Pieces) else None
+    splines = None if nu is None else splines_of_least_rms(span, objective.order, nu)
+    if splines is None:
+        return None
+    limited = replace(problem, basis=splines)
+    windows = tuple(joint_windows(span, objective.order, stroke))
+    free = replace(limited, windows=windows, bounds={}, B=None, C=None, D=None, J=None)
+    try:
+        least = synthesize(free)
+        best = least if limited == free else synthesize(limited)
+    except (InfeasibleProblem, SolverFailure):
+        return None
+    return best if best.objective <= least.objective * (1.0 + _MET) else None
+
+
+def _with_more_pieces(problem: Problem, basis: Pieces, span: LawSpan) -> Solution | None:
+    """The solution among splines with every piece but straight ones halved, if it is proven: few pieces meet badly.
+
+    Peaks inside of pieces, as velocities have them, may lie so near each other that no more digits can be had. What a
+    load does follows its own period, for which few pieces may be too long.
+    """
+    finer = halved(basis)
+    if finer is None:
+        return None
+    try:
+        solution = solved(replace(problem, basis=finer), span)
+    except SolverFailure:
+        return None
+    return solution if solution.status == Status.OPTIMAL else None
+
+
+def solved(problem: Problem, span: LawSpan) -> Solution:
+    """The solution of a span's problem.
+
+    Raises
+    ------
+    InfeasibleProblem
+        If no law keeps the limits; the error names the segment.
+    """
+    try:
+        return synthesize(problem)
+    except InfeasibleProblem as error:
+        # of many pieces no one would read each
+        why = "" if isinstance(problem.basis, Pieces) else f" {error.args[0]}"
+        raise InfeasibleProblem(
+            f"{span.where}: no law keeps its limits in {span.duration:.9g} s: give it more time or wider limits.{why}",
+            problem=problem,
+            tried=error.tried,
+            proof=error.proof,
+        ) from None
+
+
+def with_least_limit(
+    error: InfeasibleProblem, span: LawSpan, objective: CycleObjective, axis: str
+) -> InfeasibleProblem:
+    """The error of a span without a law, saying in units of the machine what one limit would have to allow at least."""
+    stroke = scale(span)
+    problem = span_problem(span, objective, axis, stroke)
+    for nu, most in limits_of_stretch(span.stretches[0], objective, axis).items():
+        constant = driven_peak(span, objective.drive, stroke, nu).constant if nu in _DRIVEN else FUNCTIONALS[_PEAKS[nu]]
+        limit = problem.range(constant.name)
+        others = {other: best for other, best in problem.bounded if other != constant}
+        free = replace(problem, minimise=constant, bounds={}, B=None, C=None, D=None, J=None)
+        try:
+            least = synthesize(replace(free, bounds=others)).lower_bound
+        except (InfeasibleProblem, SolverFailure):
+            continue
+        if limit is not None and least > limit.high:
+            allowed, needed = (in_units(nu, value, axis) for value in (most, least / limit.high * most))
+            space = search_space(problem, span, objective.order)
+            return InfeasibleProblem(
+                f"{span.where}: no law keeps its limits in {span.duration:.9g} s: among {space} the least is {needed}, "
+                f"but its limit is {allowed}: give it more time, a wider limit or a higher degree",
+                problem=problem,
+                tried=error.tried,
+                proof=error.proof,
+            )
+    return error
+
+
+def with_mean_square(problem: Problem, span: LawSpan, objective: CycleObjective, stroke: float, most: float) -> Problem:
+    """The problem of a span whose force has no greater mean square than is said, in SI units.
+
+    Raises
+    ------
+    InfeasibleProblem
+        If dry friction alone takes more.
+    """
+    driven = driven_mean(span, objective.drive, stroke)
+    if most <= driven.friction:
+        raise InfeasibleProblem(
+            f"{span.where}: dry friction alone takes an rms force of {sqrt(driven.friction):.9g}, more than what is "
+            f"left for it, {sqrt(max(most, 0.0)):.9g}: allow more, or give the cycle more time"
+        )
+    bounds = {**problem.bounds, driven.constant: Range(0.0, sqrt(most - driven.friction) / driven.unit)}
+    return replace(problem, bounds=bounds, monotone=problem.monotone or never_back(span, objective), symmetric=False)
+
+
+def never_back(span: LawSpan, objective: CycleObjective) -> bool:
+    """Whether dry friction asks that a span's law never goes back, so that it is a constant force."""
+    return objective.drive is not None and objective.drive.dry > 0.0 and not may_turn(span)
+
+
+def scale(span: LawSpan) -> float:
+    """What a span's law is measured by: its displacement, or where it has none how far it gets on the way."""
+    if span.displacement:
+        return span.displacement
+    ways = [abs(position - span.offset) for _, position in span.via]
+    known = (edge_state for edge_state in (span.first, span.last, *span.states) if edge_state is not None)
+    ways += [abs(state.velocity) * span.duration for state in known]
+    return max(ways, default=0.0)
+
+
+def span_problem(span: LawSpan, objective: CycleObjective, axis: str, stroke: float) -> Problem:
+    """The dimensionless problem of a span.
+
+    Raises
+    ------
+    InputError
+        If nothing moves, or a limit is less than what the ends ask.
+    """
+    if stroke == 0.0:
+        raise InputError(f"{span.where} has nothing to move: take a Dwell")
+    if span.turns or len(span.stretches) > 1 or span.via:
+        return _problem_of_several(span, objective, axis, stroke)
+    ends = _ends(span, stroke, objective.order)
+    plain = not any(any(end[1:]) for end in (ends.start, ends.end))
+    bounds, parts = _limits(span, objective, axis, stroke)
+    forced = kind_of(objective.minimise)[0] in _DRIVEN or any(constant not in _PEAKS.values() for constant in bounds)
+    return Problem(
+        order=objective.order,
+        basis=Chebyshev(objective.degree if plain else max(objective.degree, _ROUGH)),
+        minimise=_objective(span, objective, stroke),
+        monotone=forced and never_back(span, objective),
+        symmetric=plain and not forced and not parts,
+        boundary=ends,
+        windows=parts,
+        bounds=bounds,
+    )
+
+
+def _problem_of_several(span: LawSpan, objective: CycleObjective, axis: str, stroke: float) -> Problem:
+    """One law for several stretches, or through points on the way."""
+    bounds, parts = _limits(span, objective, axis, stroke)
+    minimised = max(kind_of(objective.minimise)[0], 3 if 3 in objective.limits else 0)
+    minimised = POWER if POWER in objective.limits else minimised
+    minimised = LOADED if objective.of_load else minimised
+    bounds |= {
+        _of_load(objective, *output, span): Range(0.0, most / abs(stroke)) for output, most in objective.loaded.items()
+    }
+    first = (span.offset - span.origin) / stroke
+    plain = BoundaryConditions((first,), (first + span.displacement / stroke,))
+    return Problem(
+        order=1 if span.turns else objective.order,
+        basis=joined_basis(span, objective.order, objective.degree, minimised),
+        minimise=_objective(span, objective, stroke),
+        symmetric=False,
+        boundary=plain if span.turns else _ends(span, stroke, objective.order),
+        windows=(*joint_windows(span, objective.order, stroke), *parts),
+        bounds=bounds,
+    )
+
+
+def _ends(span: LawSpan, stroke: float, order: int) -> BoundaryConditions:
+    first, last = (_end(state, span.duration, stroke, order) for state in (span.first, span.last))
+    return BoundaryConditions((0.0, *first), (span.displacement / stroke, *last))
+
+
+def _end(state: State, duration: float, stroke: float, order: int) -> tuple[float, ...]:
+    values = [value / factor(stroke, duration, nu) + 0.0 for nu, value in enumerate(state, start=1)]
+    return tuple((values + [0.0] * order)[: order - 1])
+
+
+def _limits(
+    span: LawSpan, objective: CycleObjective, axis: str, stroke: float
+) -> tuple[dict[Any, Range], tuple[Window, ...]]:
+    """Limits of the whole span as bounds of its constants, those of parts of it as windows."""
+    _check_mean(span, objective, axis)
+    of_each = [
+        limits_of_stretch(stretch, objective, axis) if is_optimal(stretch.given) else None for stretch in span.stretches
+    ]
+    sought = [limits for limits in of_each if limits is not None]
+    if all(limits == sought[0] for limits in sought) and _straight_within(span, sought[0].get(1, inf)):
+        return dict(_bound(span, objective, stroke, nu, most) for nu, most in sought[0].items()), ()
+    windows = []
+    for limits, start, stop in _alike(of_each, (*span.starts, span.stop)):
+        for nu, most in limits.items():
+            name, high = _quantity(span, objective, stroke, nu, most)
+            windows.append(Window(name, -high, high, place(span, start), place(span, stop)))
+    return {}, tuple(windows)
+
+
+def _bound(span: LawSpan, objective: CycleObjective, stroke: float, nu: int, most: float) -> tuple[Any, Range]:
+    """A limit of a whole span as a bound of one of its constants."""
+    if nu in _DRIVEN:
+        driven = driven_peak(span, objective.drive, stroke, nu)
+        return driven.constant, Range(0.0, most / driven.unit)
+    return _PEAKS[nu], Range(0.0, _law_limit(span, stroke, nu, most))
+
+
+def _quantity(span: LawSpan, objective: CycleObjective, stroke: float, nu: int, most: float) -> tuple[str, float]:
+    """What is limited in a part of a span, as a quantity of its law, and its limit."""
+    if nu in _DRIVEN:
+        formula, unit = driven_formula(span, objective.drive, stroke, nu)
+        return formula, most / unit
+    return "abcj"[nu], _law_limit(span, stroke, nu, most)
+
+
+def _of_load(objective: CycleObjective, output: str, mean: bool, span: LawSpan) -> Functional:  # noqa: FBT001 - the second of a pair
+    if objective.load is None:
+        raise AssertionError  # what is asked of a load is read with it
+    return objective.load.constant(output, span.duration, mean=mean)
+
+
+def _straight_within(span: LawSpan, most: float) -> bool:
+    """Whether uniform motions keep a limit of the velocity."""
+    times = zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True)
+    return all(
+        is_optimal(stretch.given) or abs(stretch.displacement) <= most * (stop - start)
+        for stretch, start, stop in times
+    )
+
+
+def _alike(
+    of_each: Sequence[dict[int, float] | None], times: Sequence[float]
+) -> Iterator[tuple[dict[int, float], float, float]]:
+    """Limits of stretches from where to where they are the same."""
+    for limits, several in groupby(zip(of_each, times, times[1:], strict=False), key=itemgetter(0)):
+        parts = list(several)
+        if limits is not None:
+            yield limits, parts[0][1], parts[-1][2]
+
+
+def _check_mean(span: LawSpan, objective: CycleObjective, axis: str) -> None:
+    """Refuse a limit of the velocity that is no more than the mean velocity: such a law cannot even start from rest."""
+    for stretch, start, stop in zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True):
+        most = limits_of_stretch(stretch, objective, axis).get(1) if is_optimal(stretch.given) else None
+        mean = abs(stretch.displacement) / (stop - start)
+        if most is not None and mean >= most:
+            raise InfeasibleProblem(
+                f"{stretch.where}: {in_small_units(abs(stretch.displacement), axis)} in {stop - start:.9g} s are "
+                f"{in_small_units(mean, axis)}/s on average, but its velocity is to be at most "
+                f"{in_small_units(most, axis)}/s: give it more time or a wider limit"
+            )
+
+
+def _law_limit(span: LawSpan, stroke: float, nu: int, most: float) -> float:
+    return most / abs(factor(stroke, span.duration, nu))
+
+
+def _objective(span: LawSpan, objective: CycleObjective, stroke: float) -> Any:  # noqa: ANN401 - a name or a constant
+    nu, mean = kind_of(objective.minimise)
+    if nu > 0:
+        return {2: "rms_c", 3: "rms_j", 4: "rms_jounce"}[nu] if mean else _PEAKS[nu]
+    output = load_output(objective.minimise, objective.load) if nu == LOADED else None
+    if output is not None:
+        return _of_load(objective, *output, span)
+    if mean:
+        return driven_mean(span, objective.drive, stroke).constant
+    return driven_peak(span, objective.drive, stroke, nu).constant

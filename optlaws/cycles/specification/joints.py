@@ -1,0 +1,258 @@
+"""The states where segments meet, and the spans between known joints whose law is optimised."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from itertools import accumulate
+from typing import NamedTuple
+
+from optlaws.cycles.specification.programme import AXES, CLOSE, Programme, TimedSegment, is_optimal, time_of
+from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free, Move
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.laws import smoothstep
+from optlaws.motion.named_law import named_law
+from optlaws.motion.piece import Piece
+from optlaws.motion.quantities import quantity
+
+UNIFORM = smoothstep(1)
+
+
+class State(NamedTuple):
+    """Velocity and acceleration at a joint, in SI units."""
+
+    velocity: float
+    acceleration: float
+
+
+@dataclass(frozen=True)
+class LawSpan:
+    """The segments that one optimal law covers: their times, the states at both ends, and points on the way.
+
+    Parameters
+    ----------
+    stretches
+        One, or free ones that follow each other.
+    starts, stop
+        When each begins, and when the last one ends.
+    offset, displacement
+        Position at the start, and how far it moves.
+    first, last
+        Velocity and acceleration at both ends.
+    via
+        Pairs of time and position on the way.
+    states
+        What is known where each stretch begins, of a whole cycle in one; None where nothing is.
+    absolute
+        Whether its law is to be one of positions, not of displacements.
+    """
+
+    stretches: tuple[TimedSegment, ...]
+    starts: tuple[float, ...]
+    stop: float
+    offset: float
+    displacement: float
+    first: State
+    last: State
+    via: tuple[tuple[float, float], ...]
+    states: tuple[State | None, ...] = ()
+    absolute: bool = False
+
+    @property
+    def origin(self) -> float:
+        """The position at which its law is 0: its start, unless the law of a whole cycle is to be one of positions."""
+        return 0.0 if self.absolute else self.offset
+
+    @property
+    def turns(self) -> bool:
+        """Whether it is a whole cycle, which ends as it begins."""
+        return bool(self.states)
+
+    @property
+    def start(self) -> float:
+        """When it begins."""
+        return self.starts[0]
+
+    @property
+    def duration(self) -> float:
+        """How long it takes."""
+        return self.stop - self.start
+
+    @property
+    def where(self) -> str:
+        """What errors call it."""
+        return " and ".join(stretch.where for stretch in self.stretches)
+
+
+@dataclass(frozen=True)
+class Layout:
+    """A cycle with known durations: pieces whose law is known, and spans whose law is looked for."""
+
+    starts: tuple[float, ...]
+    pieces: tuple[Piece, ...]
+    spans: tuple[LawSpan, ...]
+
+
+def layout(programme: Programme, durations: Sequence[float], *, whole: bool = False, absolute: bool = False) -> Layout:
+    """Which laws are known and which are looked for.
+
+    Where nothing is known at the start of the cycle, or `whole` asks for it, its motions are one law that repeats; of
+    positions if it is to be `absolute`.
+
+    Raises
+    ------
+    InputError
+        If velocities do not meet at a joint, or a law is given in a cycle that is one.
+    """
+    starts = tuple(accumulate(durations, initial=0.0))
+    offsets = tuple(accumulate((stretch.displacement for stretch in programme.stretches), initial=programme.start))
+    pieces = {
+        i: _piece(stretch, starts[i], durations[i], offsets[i])
+        for i, stretch in enumerate(programme.stretches)
+        if not is_optimal(stretch.given)
+    }
+    joints = [_joint(programme, pieces, i) for i in range(len(programme.stretches))]
+    if whole or joints[0] is None:
+        return Layout(starts, (), (replace(_whole(programme, starts, offsets, joints), absolute=absolute),))
+    return Layout(starts, tuple(pieces.values()), _spans(programme, starts, offsets, joints))
+
+
+def _piece(stretch: TimedSegment, start: float, duration: float, offset: float) -> Piece:
+    if isinstance(stretch.given, Dwell):
+        return Piece(start, duration, offset, 0.0, UNIFORM)
+    if isinstance(stretch.given, Move):
+        return Piece(start, duration, offset, stretch.displacement, named_law(stretch.given.law, stretch.where))
+    return Piece(start, duration, offset, stretch.displacement, UNIFORM)
+
+
+def _joint(programme: Programme, pieces: dict[int, Piece], i: int) -> State | None:
+    """What is known where stretch i begins; None where it and the one before are free."""
+    before, after = (i - 1) % len(programme.stretches), i
+    ended, begun = _known(programme, pieces, before, 1), _known(programme, pieces, after, 0)
+    if ended is not None and begun is not None:
+        _check_velocities(programme, before, after, ended, begun)
+        return ended if before in pieces else begun
+    if ended is not None or begun is not None:
+        return ended if begun is None else begun
+    both = isinstance(programme.stretches[before].given, Free) and isinstance(programme.stretches[after].given, Free)
+    return None if both else State(0.0, 0.0)
+
+
+def _known(programme: Programme, pieces: dict[int, Piece], i: int, side: int) -> State | None:
+    if i in pieces:
+        return State(pieces[i].end(1, side), pieces[i].end(2, side))
+    stretch = programme.stretches[i].given
+    given = (stretch.start_velocity, stretch.end_velocity)[side] if isinstance(stretch, Move) else None
+    if given is None:
+        return None
+    name = f"{programme.stretches[i].where}: {('start', 'end')[side]}_velocity"
+    return State(quantity(given, AXES[programme.axis][1], name), 0.0)
+
+
+def _check_velocities(programme: Programme, before: int, after: int, ended: State, begun: State) -> None:
+    size = max((abs(stretch.displacement) for stretch in programme.stretches), default=0.0) / programme.period
+    if abs(ended.velocity - begun.velocity) <= CLOSE * max(size, abs(ended.velocity), abs(begun.velocity)):
+        return
+    first, second = programme.stretches[before], programme.stretches[after]
+    unit = "mm/s" if programme.axis == "length" else "deg/s"
+    shown = [_shown(state.velocity, programme.axis) for state in (ended, begun)]
+    meant = second if not isinstance(second.given, Dwell | ConstantVelocity) else first
+    raise InputError(
+        f"{first.where} ends with {shown[0]} {unit} and {second.where} starts with {shown[1]} {unit}: put a motion "
+        f"between them, or give {meant.where} law='optimal', which takes the velocities of its neighbours"
+    )
+
+
+def _shown(velocity: float, axis: str) -> str:
+    return f"{velocity * (1e3 if axis == 'length' else 57.29577951308232):.9g}"
+
+
+def _whole(
+    programme: Programme, starts: Sequence[float], offsets: Sequence[float], joints: Sequence[State | None]
+) -> LawSpan:
+    """The cycle as one span; of its stretches those whose law is not looked for must be straight."""
+    for stretch in programme.stretches:
+        if isinstance(stretch.given, Move) and not is_optimal(stretch.given):
+            raise InputError(
+                f"{stretch.where}: give it law='optimal': the cycle is sought as one law; or begin it where velocity "
+                "and acceleration are known, after a Dwell, a ConstantVelocity or a Move"
+            )
+    last = len(programme.stretches) - 1
+    passed = [
+        (starts[j], offsets[j])
+        for j in range(1, last + 1)
+        # what is straight brings its position on, and the last stretch ends where the cycle does
+        if is_optimal(programme.stretches[j - 1].given) and (j < last or is_optimal(programme.stretches[j].given))
+    ]
+    inside = [point for j in range(last + 1) for point in _via(programme, j, starts[j], starts[j + 1])]
+    rest = State(0.0, 0.0)
+    via = tuple(sorted(passed + inside))
+    return LawSpan(programme.stretches, tuple(starts[:-1]), starts[-1], offsets[0], _forward(offsets), rest, rest, via,
+                tuple(joints))  # fmt: skip
+
+
+def _forward(offsets: Sequence[float]) -> float:
+    """How far a cycle, or a span of it, goes on: positions are sums, which come back but for rounding."""
+    moved = offsets[-1] - offsets[0]
+    return moved if abs(moved) > CLOSE * max(abs(offset - offsets[0]) for offset in offsets) else 0.0
+
+
+def _spans(
+    programme: Programme, starts: Sequence[float], offsets: Sequence[float], joints: Sequence[State | None]
+) -> tuple[LawSpan, ...]:
+    spans: list[LawSpan] = []
+    i = 0
+    while i < len(programme.stretches):
+        stop = i + 1
+        if is_optimal(programme.stretches[i].given):
+            while stop < len(joints) and joints[stop] is None:
+                stop += 1
+            spans.append(_span(programme, starts, offsets, joints, i=i, stop=stop))
+        i = stop
+    return tuple(spans)
+
+
+def _span(
+    programme: Programme,
+    starts: Sequence[float],
+    offsets: Sequence[float],
+    joints: Sequence[State | None],
+    *,
+    i: int,
+    stop: int,
+) -> LawSpan:
+    first, last = joints[i], joints[stop % len(joints)]
+    if first is None or last is None:
+        raise AssertionError  # spans begin and end where joints are known
+    inner = [(starts[j], offsets[j]) for j in range(i + 1, stop)]
+    inside = [point for j in range(i, stop) for point in _via(programme, j, starts[j], starts[j + 1])]
+    return LawSpan(
+        programme.stretches[i:stop],
+        tuple(starts[i:stop]),
+        starts[stop],
+        offsets[i],
+        _forward(offsets[i : stop + 1]),
+        first,
+        last,
+        tuple(sorted(inner + inside)),
+    )
+
+
+def _via(programme: Programme, j: int, start: float, stop: float) -> list[tuple[float, float]]:
+    stretch = programme.stretches[j]
+    points = []
+    given = stretch.given.via if isinstance(stretch.given, Free) else ()
+    if not isinstance(given, list | tuple):
+        raise InputError(f"{stretch.where}: via is a list of pairs such as ('0.1 s', '50 mm'), got {shortened(given)}")
+    for i, point in enumerate(given):
+        name = f"{stretch.where}: via[{i}]"
+        if not isinstance(point, list | tuple) or len(point) != 2:
+            raise InputError(f"{name} must be a pair of a time or angle and a position, got {shortened(point)}")
+        place = start + time_of(point[0], programme.period, f"{name}, when")
+        if not start < place < stop:
+            raise InputError(
+                f"{name} must be within the segment, which takes {stop - start:.9g} s, got {shortened(point[0])}"
+            )
+        points.append((place, quantity(point[1], programme.axis, f"{name}, position")))
+    return points

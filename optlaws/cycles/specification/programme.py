@@ -1,0 +1,226 @@
+"""A cycle as numbers: durations that sum, positions that close, velocities that meet; errors that say the remedy."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from math import inf, isclose
+from typing import Any
+
+from optlaws.cycles.specification.segments import (
+    OPTIMAL,
+    ConstantVelocity,
+    CycleSegment,
+    Dwell,
+    Free,
+    Move,
+    Return,
+    Rise,
+)
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.motion.quantities import TURN, either, in_small_units, quantity
+
+CLOSE = 1e-9
+
+#: dimensions of the derivatives of a position, for slides and for tables
+AXES = {
+    "length": ("length", "velocity", "acceleration", "jerk"),
+    "angle": ("angle", "angular velocity", "angular acceleration", "angular jerk"),
+}
+
+
+@dataclass(frozen=True)
+class TimedSegment:
+    """A segment in SI units: the least and greatest duration, the displacement, and what it was given as."""
+
+    number: int
+    given: CycleSegment
+    least: float
+    most: float
+    displacement: float
+
+    @property
+    def fixed(self) -> bool:
+        """Whether its duration is one value."""
+        return self.least == self.most
+
+    @property
+    def where(self) -> str:
+        """What errors call it."""
+        return f"segment {self.number} ({self.given.label})"
+
+
+@dataclass(frozen=True)
+class Programme:
+    """A cycle as numbers in SI units: its period, its stretches, and the position at its start."""
+
+    period: float
+    axis: str
+    stretches: tuple[TimedSegment, ...]
+    start: float
+
+
+def period_of(speed: Any, period: Any) -> float:  # noqa: ANN401 - it is checked here
+    """Duration of a cycle in seconds, from the master's speed or given.
+
+    Raises
+    ------
+    InputError
+        If both or neither are given, or it is not positive.
+
+    Examples
+    --------
+    >>> round(period_of("200 rpm", None), 12)
+    0.3
+    """
+    if (speed is None) == (period is None):
+        raise InputError('a cycle has either a speed such as "200 rpm" or a period such as "0.3 s"')
+    if speed is None:
+        return _positive(quantity(period, "time", "period"), "period", period)
+    return TURN / _positive(quantity(speed, "angular velocity", "speed"), "speed", speed)
+
+
+def axis_of(segments: Sequence[CycleSegment]) -> str:
+    """Whether positions are lengths or angles, by the first that is given; lengths if none is."""
+    for segment in segments:
+        for value in (getattr(segment, "by", None), getattr(segment, "to", None)):
+            if value is not None:
+                return either(value, ("length", "angle"), f"{segment.label}: displacement")[0]
+        if isinstance(segment, ConstantVelocity):
+            kind = either(segment.velocity, ("velocity", "angular velocity"), f"{segment.label}: velocity")[0]
+            return "length" if kind == "velocity" else "angle"
+    return "length"
+
+
+def programme(segments: Sequence[CycleSegment], period: float, start: Any, advance: Any) -> Programme:  # noqa: ANN401
+    """A cycle as numbers.
+
+    Raises
+    ------
+    InputError
+        If durations do not sum, or positions do not close.
+    """
+    axis = axis_of(segments)
+    first = 0.0 if start is None else quantity(start, axis, "start")
+    forward = 0.0 if advance is None else quantity(advance, axis, "advance")
+    durations = _durations(segments, period)
+    stretches: list[TimedSegment] = []
+    position = first
+    for i, (segment, (least, most)) in enumerate(zip(segments, durations, strict=True)):
+        moved = _displacement(
+            segment, axis, f"segment {i + 1} ({segment.label})", here=position, last=first + forward, duration=least
+        )
+        stretches.append(TimedSegment(i + 1, segment, least, most, moved))
+        position += moved
+    _check_closed(position - first, forward, stretches, axis)
+    return Programme(period, axis, tuple(stretches), first)
+
+
+def time_of(value: Any, period: float, name: str) -> float:  # noqa: ANN401 - it is checked here
+    """A time, or an angle of the master as a time.
+
+    Raises
+    ------
+    InputError
+        If it is neither.
+
+    Examples
+    --------
+    >>> round(time_of("120 deg", 0.3, "duration"), 12)
+    0.1
+    """
+    kind, number = either(value, ("angle", "time"), name)
+    return number / TURN * period if kind == "angle" else number
+
+
+def _durations(segments: Sequence[CycleSegment], period: float) -> list[tuple[float, float]]:
+    bounds = [
+        _bounds(segment, period, f"segment {i + 1} ({segment.label}): duration") for i, segment in enumerate(segments)
+    ]
+    low, high = (sum(side) for side in zip(*bounds, strict=True))
+    free = [i for i, (least, most) in enumerate(bounds) if least != most]
+    if low > period * (1.0 + CLOSE) or high < period * (1.0 - CLOSE):
+        total = low if low > period else high
+        share = 360.0 * total / period
+        raise InputError(
+            f"the durations sum to {share:.9g} deg ({total:.9g} s), not to 360 deg ({period:.9g} s): "
+            f"{'shorten' if total > period else 'lengthen'} segments by {abs(share - 360.0):.9g} deg in all, "
+            "or leave the duration of one of them out: it takes what is left"
+        )
+    if len(free) == 1:
+        left = period - (low - bounds[free[0]][0])
+        if left <= CLOSE * period:
+            raise InputError(f"segment {free[0] + 1} ({segments[free[0]].label}): nothing is left for it")
+        bounds[free[0]] = (left, left)
+    for i in free if len(free) > 1 else ():
+        if not isinstance(segments[i], Move):
+            raise InputError(
+                f"segment {i + 1} ({segments[i].label}): give it a duration; with several free ones only moves share"
+                " what is left"
+            )
+    return bounds
+
+
+def _bounds(segment: CycleSegment, period: float, name: str) -> tuple[float, float]:
+    if segment.duration is None:
+        return 0.0, inf
+    if isinstance(segment.duration, list | tuple):
+        if len(segment.duration) != 2:
+            raise InputError(
+                f"{name} must be one quantity, or two between which it is free, not {len(segment.duration)}"
+            )
+        least, most = (time_of(value, period, name) for value in segment.duration)
+    else:
+        least = most = time_of(segment.duration, period, name)
+    if not 0.0 < least <= most and not (least == 0.0 < most):
+        raise InputError(f"{name} must be above 0, the least first, got {shortened(segment.duration)}")
+    return least, most
+
+
+def _displacement(segment: CycleSegment, axis: str, where: str, *, here: float, last: float, duration: float) -> float:
+    if isinstance(segment, ConstantVelocity):
+        return quantity(segment.velocity, AXES[axis][1], f"{where}: velocity") * duration
+    if isinstance(segment, Dwell):
+        return 0.0
+    if not isinstance(segment, Move | Free):
+        raise InputError(
+            f"{where} must be a Dwell, ConstantVelocity, Move, Rise, Return or Free, got {shortened(segment)}"
+        )
+    if (segment.by is None) == (segment.to is None):
+        if segment.by is None and isinstance(segment, Return):
+            return last - here
+        raise InputError(f"{where}: give it either a displacement `by` or a position `to`")
+    if segment.to is not None:
+        return quantity(segment.to, axis, f"{where}: to") - here
+    moved = quantity(segment.by, axis, f"{where}: by")
+    if isinstance(segment, Rise | Return) and moved <= 0.0:
+        raise InputError(
+            f"{where}: `by` is given as a positive displacement, got {shortened(segment.by)}; or take a Move"
+        )
+    return -moved if isinstance(segment, Return) else moved
+
+
+def _check_closed(moved: float, forward: float, stretches: Sequence[TimedSegment], axis: str) -> None:
+    size = max((abs(stretch.displacement) for stretch in stretches), default=0.0)
+    if abs(moved - forward) <= CLOSE * max(size, abs(forward)):
+        return
+    shown, due = (in_small_units(angle, axis) for angle in (moved, forward))
+    raise InputError(
+        f"the positions do not close: the cycle ends {shown} from its start, not {due}: change a displacement by "
+        f"{in_small_units(forward - moved, axis)}, end with Return(duration=...), or give advance={shown!r} if each"
+        " cycle goes on from there"
+    )
+
+
+def is_optimal(segment: CycleSegment) -> bool:
+    """Whether its law is looked for."""
+    return isinstance(segment, Free) or (
+        isinstance(segment, Move) and isinstance(segment.law, str) and segment.law == OPTIMAL
+    )
+
+
+def _positive(value: float, name: str, given: Any) -> float:  # noqa: ANN401
+    if not value > 0.0 or isclose(value, 0.0, abs_tol=1e-300):
+        raise InputError(f"{name} must be above 0, got {shortened(given)}")
+    return value

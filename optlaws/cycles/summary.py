@@ -1,0 +1,137 @@
+"""Rows that summarise a cycle: what is proven of it, its peaks, its drive, its joints; and its page in a notebook."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from optlaws.cycles.drive.load import LOAD, read_load
+from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, kind_of
+from optlaws.errors import OptlawsError
+from optlaws.shown.showing import drawing, facts, page, table
+from optlaws.shown.summary import Row, Summary
+
+if TYPE_CHECKING:
+    from optlaws.cycles.cycle import Cycle
+
+_SAMPLES = 241
+_NAMES = ("position", "velocity", "acceleration", "jerk")
+_LOAD_UNITS = {
+    "length": "m",
+    "angle": "rad",
+    "acceleration": "m/s²",
+    "angular acceleration": "rad/s²",
+    "force": "N",
+    "torque": "N m",
+}
+
+
+def unit_of(axis: str, nu: int) -> str:
+    """The SI unit of a derivative by time of a length or an angle.
+
+    Examples
+    --------
+    >>> unit_of("length", 0), unit_of("angle", 2)
+    ('m', 'rad/s²')
+    """
+    return {"length": "m", "angle": "rad"}[axis] + ("", "/s", "/s²", "/s³", "/s⁴")[nu]
+
+
+def objective_unit(cycle: Cycle) -> str:
+    """The SI unit of what a cycle minimises."""
+    nu, _ = kind_of(cycle.minimise)
+    if nu == LOADED:
+        return _load_unit(cycle, cycle.minimise.removeprefix("rms ").removeprefix(LOAD))
+    if nu == POWER:
+        return "W"
+    return force_unit(cycle) if nu == FORCE else unit_of(cycle.axis, nu)
+
+
+def force_unit(cycle: Cycle) -> str:
+    """The unit of the force, or of the torque, of a cycle's drive."""
+    return "N" if cycle.axis == "length" else "N m"
+
+
+def proof_rows(cycle: Cycle) -> list[Row]:
+    """What is least, and how it is proven; nothing where no law was looked for."""
+    if not cycle.solutions:
+        return []
+    unit = objective_unit(cycle)
+    rows = [Row("status", cycle.status.value), Row(f"least {cycle.minimise}", cycle.objective, unit)]
+    if cycle.lower_bound is not None:
+        rows.append(Row("proven lower bound", cycle.lower_bound, unit))
+    return [*rows, Row("found among", cycle.search_space), *(Row("remark", remark) for remark in cycle.remarks)]
+
+
+def peak_rows(cycle: Cycle) -> list[Row]:
+    """Peak velocity, acceleration and jerk, each with its time in seconds."""
+    rows = []
+    for nu, name in enumerate(_NAMES[1:], 1):
+        extremes = (extreme for peaks in cycle.peaks for extreme in peaks.extremes[nu])
+        value, time = max(extremes, key=lambda extreme: abs(extreme[0]))
+        rows.append(Row(f"peak {name}", abs(value), unit_of(cycle.axis, nu), time))
+    return rows
+
+
+def drive_rows(cycle: Cycle) -> list[Row]:
+    """What the drive gives and what the load on it does; nothing where there is no drive."""
+    rows = []
+    if cycle.drive is not None:
+        effort, force = cycle.effort, force_unit(cycle)
+        rows = [
+            Row("peak of force" if cycle.axis == "length" else "peak of torque", effort.peak_force, force),
+            Row("RMS of it", effort.rms_force, force),
+            Row("peak of power", effort.peak_power, "W"),
+            Row("mean of power", effort.mean_power, "W"),
+            Row("peak torque at the master's shaft", effort.shaft_torque(2.0 * pi / cycle.duration), "N m"),
+        ]
+    if cycle.load is not None:
+        for name in cycle.load_motion.machine.outputs:
+            peak = cycle.load_motion.peak(name).value
+            rows.append(Row(f"peak of the load's {name}", peak, _load_unit(cycle, name)))
+    return rows
+
+
+def joint_rows(cycle: Cycle) -> list[Row]:
+    """The greatest jumps of velocity and acceleration where segments meet."""
+    return [
+        Row(
+            f"greatest leap of the {name} at a joint",
+            max(abs(joint[name]) for joint in cycle.joints),
+            unit_of(cycle.axis, nu),
+        )
+        for nu, name in enumerate(_NAMES[1:3], 1)
+    ]
+
+
+def summary(cycle: Cycle) -> Summary:
+    """All of these rows; places are times in seconds."""
+    return Summary([*proof_rows(cycle), *peak_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)], at="s")
+
+
+def cycle_page(cycle: Cycle) -> str:
+    """A cycle as HTML; where its laws cannot be had, the error in their place.
+
+    Examples
+    --------
+    >>> from optlaws import Cycle, Return, Rise
+    >>> shown = cycle_page(Cycle([Rise("35 mm", "120 deg"), Return()], speed="200 rpm"))
+    >>> shown.count("<svg"), "acceleration, m/s²" in shown
+    (4, True)
+    """
+    try:
+        known = summary(cycle)
+    except OptlawsError as error:
+        return page("Cycle", facts({"turn, s": cycle.duration, "error": error}))
+    names = [f"{name}, {unit_of(cycle.axis, nu)}" for nu, name in enumerate(_NAMES)]
+    rows = [(peak.name, peak.duration, *(peak.peak(nu) for nu in (1, 2, 3))) for peak in cycle.peaks]
+    times = np.linspace(0.0, cycle.duration, _SAMPLES)
+    drawings = [drawing(name, times.tolist(), cycle(times, nu).tolist()) for nu, name in enumerate(names)]
+    return page("Cycle", known._repr_html_(), table(("segment", "duration, s", *names[1:]), rows), *drawings)
+
+
+def _load_unit(cycle: Cycle, output: str) -> str:
+    """The unit of an output of the load; of one whose dimension is not known, that it is one of SI."""
+    return _LOAD_UNITS.get(read_load(cycle.load, cycle.axis).dimensions.get(output, ""), "SI")

@@ -1,0 +1,171 @@
+"""Motors by their ratings: limits of RMS torque and peak power over a cycle, and dry friction where motions turn."""
+
+import re
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from optlaws import (
+    Chebyshev,
+    Cycle,
+    Dwell,
+    Free,
+    InfeasibleProblem,
+    InputError,
+    Problem,
+    Return,
+    Rise,
+    at_most,
+    smoothstep,
+    synthesize,
+)
+from optlaws.cycles.drive.drive import read_drive
+from optlaws.cycles.drive.effort import peak_of
+from optlaws.cycles.optimisation.objectives import FORCE, POWER
+from optlaws.motion.piece import Piece
+from tests.sampling import sampled
+
+INERTIA: dict[str, Any] = {"inertia": "0.02 kg m^2"}
+MOTOR: dict[str, Any] = INERTIA | {"viscous": "0.01 N m s/rad", "dry": "0.3 N m"}
+MOVES = (Rise("90 deg", "0.2 s"), Dwell("0.3 s"), Return(duration="0.3 s"), Dwell())
+WAYS = (Free("90 deg", "0.2 s"), Free("30 deg", "0.2 s"), Free("-120 deg"))
+
+
+def cycle(segments: Any = MOVES, **others: Any) -> Cycle:  # noqa: ANN401 - whatever a cycle takes
+    given: dict[str, Any] = {"period": "1 s", "drive": MOTOR, "degree": 7} | others
+    return Cycle(list(segments), **given)
+
+
+@pytest.mark.parametrize(("minimise", "constant", "nu"), sampled([("jerk", "J", 3), ("rms jerk", "rms_j", 3)], each=2))
+def test_equal_moves_share_the_limit_equally(minimise: str, constant: str, nu: int) -> None:
+    """A single law under its own bound is the oracle."""
+    stroke, duration, most = np.deg2rad(60.0), 0.2, 1.192
+    single = synthesize(Problem(order=3, basis=Chebyshev(7), minimise=constant, symmetric=False, bounds={
+        "rms_c": at_most(most / np.sqrt(2 * duration) / (0.02 * stroke / duration**2))
+    }))  # fmt: skip
+    both = [Rise("60 deg", "0.2 s"), Dwell("0.3 s"), Return(duration="0.2 s"), Dwell()]
+    shared = cycle(both, minimise=minimise, drive=INERTIA, limits={"rms torque": f"{most} N m"})
+    size = stroke / duration**nu * (np.sqrt(2 * duration) if minimise.startswith("rms") else 1.0)
+    assert shared.status == "optimal"
+    assert shared.objective == pytest.approx(size * single.objective, rel=1e-7)
+    assert shared.effort.rms_force == pytest.approx(most, rel=1e-9)
+
+
+@pytest.mark.parametrize("minimise", sampled(["torque", "velocity", "acceleration", "rms jerk"], each=4))
+def test_unequal_moves_are_proven_together(minimise: str) -> None:
+    free = cycle(minimise=minimise)
+    most = 0.5 * (free.effort.rms_force + cycle(minimise="rms torque").objective)
+    kept = cycle(minimise=minimise, limits={"rms torque": f"{most!r} N m"})
+    assert kept.status == "optimal"
+    assert kept.effort.rms_force == pytest.approx(most, rel=1e-9)
+    assert free.objective < kept.objective
+    assert kept.lower_bound == pytest.approx(kept.objective, rel=1e-7)
+    assert kept.lower_bound <= kept.objective  # type: ignore[operator] # a number
+
+
+def test_a_limit_that_does_not_bind_changes_nothing() -> None:
+    assert cycle(limits={"rms torque": "5 N m"}).objective == cycle().objective
+
+
+def test_dry_friction_adds_its_square_where_motions_turn() -> None:
+    """The work of inertia over a cycle is 0, so that without viscous friction the squares add up."""
+    drive = INERTIA | {"dry": "0.3 N m"}
+    smooth, rough = (cycle(WAYS, minimise="rms torque", drive=one) for one in (INERTIA, drive))
+    assert rough.status == "optimal"
+    assert rough.objective == pytest.approx(np.hypot(smooth.objective, 0.3), rel=1e-9)
+    assert rough.lower_bound == pytest.approx(rough.objective, rel=1e-7)
+
+
+def test_viscous_and_dry_friction_are_bounded_by_the_way_that_must_be_gone() -> None:
+    course = cycle(WAYS, minimise="rms torque")
+    assert course.status == "local"
+    assert course.lower_bound is not None
+    assert 0.99 * course.objective < course.lower_bound < course.objective
+    kept = cycle(WAYS, limits={"rms torque": "0.8 N m"})
+    assert kept.effort.rms_force <= 0.8 * (1 + 1e-9)
+    assert kept.lower_bound is not None
+    assert 0.98 * kept.objective < kept.lower_bound < kept.objective
+
+
+def test_power_is_bounded_as_d_is() -> None:
+    least = cycle([Rise("60 deg", "0.2 s"), Dwell()], minimise="power", drive=INERTIA, advance="60 deg")
+    single = synthesize(Problem(order=3, basis=Chebyshev(7), minimise="D", symmetric=False))
+    size = 0.02 * np.deg2rad(60.0) ** 2 / 0.2**3
+    assert least.status == "local"
+    assert least.objective == pytest.approx(size * single.objective, rel=1e-7)
+    assert least.lower_bound == pytest.approx(size * single.lower_bound, rel=1e-9)
+    assert least.effort.peak_power == pytest.approx(least.objective, rel=1e-9)
+
+
+def test_limits_of_the_power_are_kept_with_friction() -> None:
+    most = 0.8 * cycle().effort.peak_power
+    kept = cycle(limits={"power": f"{most!r} W"})
+    assert kept.effort.peak_power <= most * (1 + 1e-9)
+    assert kept.status == "local"
+    assert kept.lower_bound == pytest.approx(cycle().objective, rel=1e-7)
+
+
+@pytest.mark.parametrize("drive", [MOTOR, INERTIA | {"stiffness": "0.3 N m/rad"}], ids=["friction", "spring"])
+def test_the_bound_of_the_power_by_energy_is_below_what_any_law_takes(drive: dict[str, Any]) -> None:
+    def moves(law: str) -> list[Any]:
+        return [Rise("90 deg", "0.2 s", law=law), Dwell("0.3 s"), Return(duration="0.3 s", law=law), Dwell()]
+
+    least = cycle(moves("optimal"), minimise="power", drive=drive)
+    assert least.lower_bound is not None
+    assert 0.7 * least.objective < least.lower_bound < least.objective
+    for law in ("constant acceleration", "modified sine", "345", "cubic"):
+        assert cycle(moves(law), drive=drive).effort.peak_power > least.lower_bound
+
+
+@pytest.mark.parametrize(
+    ("others", "error", "says"),
+    [
+        ({"limits": {"rms torque": "1 N m"}}, InfeasibleProblem, "at most 1, but no law takes less than 1.436"),
+        ({"segments": WAYS, "limits": {"rms torque": "0.5 N m"}}, InfeasibleProblem, "no law takes less than 0.7752"),
+        ({"drive": INERTIA | {"gravity": "2 N m"}, "limits": {"rms torque": "1 N m"}}, InfeasibleProblem,
+         "what is given takes 1.41421356"),
+        ({"limits": {"rms torque": "1 N"}}, InputError, "limits, rms torque must be a torque"),
+        ({"limits": {"power": "1 N m/rad"}}, InputError, "limits, power must be a power such as '500 W'"),
+        ({"limits": {"rms torque": "1 N m", "rms force": "1 N m"}}, InputError, "are the same: give one"),
+        ({"segments": [Rise("9 deg", limits={"rms torque": "1 N m"}), Return()]}, InputError, "is of the whole cycle"),
+        ({"drive": None, "limits": {"rms torque": "1 N m"}}, InputError, "is of a drive: give one"),
+        ({"drive": None, "minimise": "power"}, InputError, "are of a drive: give one"),
+        ({"segments": WAYS, "minimise": "power"}, InputError, "may turn back, where dry friction leaps"),
+        ({"segments": WAYS, "minimise": "rms torque", "drive": MOTOR | {"gravity": "1 N m"}}, InputError,
+         "without stiffness, preload and gravity"),
+    ],
+)  # fmt: skip
+def test_what_is_wrong_is_said(others: dict[str, Any], error: type[Exception], says: str) -> None:
+    with pytest.raises(error, match=says):
+        cycle(**others).status  # noqa: B018 - laws are looked for when they are asked for
+
+
+def test_what_is_too_little_is_told_with_what_it_takes() -> None:
+    table = [Rise("90 deg", "0.2 s"), Dwell("0.3 s"), Return(duration="0.3 s"), Dwell()]
+    slide = [Rise("30 mm", "0.2 s"), Dwell("0.3 s"), Return(duration="0.3 s"), Dwell()]
+    for moves, drive, kind, unit in ((table, INERTIA, "torque", "N m"), (slide, {"mass": "2 kg"}, "force", "N")):
+        least = cycle(moves, drive=drive, minimise=f"rms {kind}").lower_bound
+        assert least is not None
+        with pytest.raises(InfeasibleProblem, match=f"the rms {kind} over the cycle is to be at most") as error:
+            assert cycle(moves, drive=drive, limits={f"rms {kind}": f"{0.9 * least!r} {unit}"}).status
+        told = re.search(r"at most ([\d.e-]+), but no law takes less than ([\d.e-]+)", str(error.value))
+        assert told is not None
+        assert [float(text) for text in told.groups()] == pytest.approx([0.9 * least, least], rel=1e-7)
+    given = [Rise("90 deg", "0.2 s", law="cycloidal"), Dwell("0.3 s"), Return(duration="0.3 s"), Dwell()]
+    with pytest.raises(InfeasibleProblem, match=r"what is given takes \d"):
+        assert cycle(given, drive=INERTIA, limits={"rms torque": "0.5 N m"}).status
+
+
+def test_peaks_of_pieces_are_in_units_of_the_machine() -> None:
+    rise = Piece(0.0, 0.2, 0.0, 0.03, smoothstep(3))
+    drive = read_drive({"mass": "2 kg"}, "length")
+    constants = smoothstep(3).constants
+    assert peak_of(rise, 1, drive) == pytest.approx(constants.B.value * 0.03 / 0.2)
+    assert peak_of(rise, 2, drive) == pytest.approx(constants.C.value * 0.03 / 0.2**2)
+    assert peak_of(rise, 3, drive) == pytest.approx(constants.J.value * 0.03 / 0.2**3)
+    assert peak_of(rise, FORCE, drive) == pytest.approx(2.0 * constants.C.value * 0.03 / 0.2**2)
+    assert peak_of(rise, POWER, drive) == pytest.approx(2.0 * constants.D.value * 0.03**2 / 0.2**3)
+    assert peak_of(replace(rise, stroke=-0.03), 2, drive) == peak_of(rise, 2, drive)
+    assert peak_of(replace(rise, stroke=0.0), 2, drive) == 0.0
