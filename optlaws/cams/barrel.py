@@ -13,16 +13,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.jets import Jet, variable
+from optlaws.cams.curves.extremes import FREE, UNDECIDED, UNDERCUT, Extreme, angle_of_tangent, enclosed_extremes
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
-from optlaws.cams.disc import TURNINGS
-from optlaws.cams.extremes.bounding import Extreme, enclosed_extremes
-from optlaws.cams.extremes.of_cam import FREE, UNDECIDED, UNDERCUT, angle_of_tangent
+from optlaws.cams.disc import sense
 from optlaws.cams.followers.follower import positive, shown
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import derivative, real_times
+from optlaws.series.enclosures.jets import Jet, variable
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
@@ -66,8 +65,7 @@ class BarrelCam:
     turning: str = field(default="counterclockwise", kw_only=True)
 
     def __post_init__(self) -> None:
-        if self.turning not in tuple(TURNINGS):
-            raise InputError(unknown_key(self.turning, TURNINGS, "turning"))
+        sense(self.turning)
         outer, inner = self.radii
         if inner <= 0.0:
             raise InputError(
@@ -100,7 +98,7 @@ class BarrelCam:
     @property
     def pitch_curve(self) -> SpaceCurve:
         """The way of the roller's axis on the cylinder."""
-        return SpaceCurve(self.displacement, self.radii[0], 0.0, TURNINGS[self.turning])
+        return SpaceCurve(self.displacement, self.radii[0], 0.0, sense(self.turning))
 
     def flank(self, side: str, radius: float | None = None) -> SpaceCurve:
         """Where the roller touches a flank, at a distance along its axis from the shaft's.
@@ -119,7 +117,7 @@ class BarrelCam:
         """
         if side not in tuple(SIDES):
             raise InputError(unknown_key(side, SIDES, "side"))
-        return SpaceCurve(self.displacement, self._within(radius), SIDES[side] * self.roller, TURNINGS[self.turning])
+        return SpaceCurve(self.displacement, self._within(radius), SIDES[side] * self.roller, sense(self.turning))
 
     def cutter_path(self, cutter_radius: Any, side: str = "upper", radius: float | None = None) -> SpaceCurve:  # noqa: ANN401
         """The way of the axis of a cutter, radial as the roller's, that makes a flank; exact at one radius.

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import hypot, sqrt, tan
+from math import sqrt, tan
 from typing import Any, NamedTuple, TypeAlias
 
 import numpy as np
@@ -18,18 +18,16 @@ from numpy.typing import NDArray
 
 from optlaws.cams.curved_limits import RollerCurvature, bound_under, curvature_of
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
-from optlaws.cams.disc import TURNINGS, DiscCam
+from optlaws.cams.disc import DiscCam, sense
 from optlaws.cams.followers.contact import Contact
 from optlaws.cams.followers.follower import Follower, Place, shown
-from optlaws.cams.followers.oscillating_roller import SwingingRoller
-from optlaws.cams.followers.translating_flat import SlidingFace, TranslatingFlat
-from optlaws.cams.followers.translating_roller import SlidingRoller, TranslatingRoller
-from optlaws.cams.law_lines import walls_of
-from optlaws.cams.least_sizes import CURVATURE, PRESSURE, LeastBaseCircle, least_base_circle, read_cam_limits
-from optlaws.cycles.asked.conversion import Piece
-from optlaws.cycles.best.aims import OBJECTIVES
+from optlaws.cams.followers.linear_limit import CURVATURE, PRESSURE, LinearLimit
+from optlaws.cams.least_sizes import LeastBaseCircle, least_base_circle, read_cam_limits
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
+from optlaws.motion.piece import Piece
+from optlaws.motion.quantities import TURN
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -40,7 +38,7 @@ from optlaws.synthesis.solve import synthesize
 Array = NDArray[np.float64]
 
 
-class Found(NamedTuple):
+class SolvedPiece(NamedTuple):
     """A piece of a cycle with its law.
 
     Attributes
@@ -58,10 +56,10 @@ class Found(NamedTuple):
     bound: float | None = None
 
 
-Solved: TypeAlias = list[Found]
+Solved: TypeAlias = list[SolvedPiece]
 
 _ROUNDS, _GAIN = 8, 1e-4
-_KEPT = 1e-7  # by how much limits of the cam may be broken by the law's rounding, relative
+_ROUNDING = 1e-7  # by how much limits of the cam may be broken by the law's rounding, relative
 
 
 @dataclass(frozen=True)
@@ -75,7 +73,7 @@ class BestCam:
     objective
         What is minimised over the whole cycle, as the cycle says; SI units.
     lower_bound
-        What no other laws of the kind in the same times can beat.
+        What no other laws of this order and degree in the same times that keep the limits can beat.
     status
         "optimal" where the two meet.
     solutions
@@ -98,7 +96,7 @@ class BestBaseCircle:
     least
         The least base circle of the laws found, proven for them.
     lower_bound
-        What no laws of the kind in the same times can beat, m.
+        What no laws of this order and degree in the same times can beat, m.
     solutions
         The solutions of the single motions, with their proofs.
     """
@@ -144,7 +142,7 @@ def best_cam(
     Examples
     --------
     >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
-    >>> from optlaws.cycles.asked.segments import Dwell, Return, Rise
+    >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
     >>> cycle = Cycle([Rise("35 mm", "120 deg"), Dwell("90 deg"), Return("35 mm", "100 deg"), Dwell()], speed="200 rpm")
     >>> free = best_cam(cycle, "50 mm", TranslatingRoller("12 mm"), pressure_angle="60 deg")
     >>> bound = best_cam(cycle, "50 mm", TranslatingRoller("12 mm"), pressure_angle="26 deg")
@@ -154,15 +152,15 @@ def best_cam(
     limits = read_cam_limits(pressure_angle, radius_of_curvature)
     given = DiscCam(cycle, base_radius, follower, turning=turning)
     known = _with_solutions(cycle)
-    if _kept(given, limits):  # the best laws without the limits keep them
+    if _are_met(given, limits):  # the best laws without the limits keep them
         bound = _bound(cycle, known)
         return BestCam(given, cycle.objective, bound, cycle.status, cycle.solutions)
     inner = _solved(cycle, given, limits, below=True)
-    outer = _solved(cycle, given, limits, below=False) if isinstance(given.contact, SwingingRoller) else inner
-    inner, outer = _bent(cycle, given, limits, inner, outer)
+    outer = _solved(cycle, given, limits, below=False) if not given.contact.linear else inner
+    inner, outer = _with_curvature(cycle, given, limits, inner, outer)
     pieces = tuple(solved.piece for solved in inner)
     cam = replace(given, motion=CamMotion.of_pieces(pieces, cycle.duration, cycle.axis))
-    _check_kept(cam, limits)
+    _check_met(cam, limits)
     objective, bound = _objective(cycle, inner), _bound(cycle, outer)
     solutions = tuple(best.solution for best in inner if best.solution is not None)
     proven = objective - bound <= 1e-6 * objective
@@ -200,26 +198,27 @@ def best_base_circle(
     Examples
     --------
     >>> from optlaws.cams.followers.translating_flat import TranslatingFlat
-    >>> from optlaws.cycles.asked.segments import Dwell, Return, Rise
+    >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
     >>> cycle = Cycle([Rise("10 mm", "70 deg"), Return("10 mm", "70 deg"), Dwell()], speed="3000 rpm")
     >>> best = best_base_circle(cycle, TranslatingFlat(), radius_of_curvature="3 mm")
     >>> round(1e3 * best.least.radius, 4), round(1e3 * best.lower_bound, 4)
     (10.1341, 10.1341)
     """
     limits = read_cam_limits(pressure_angle, radius_of_curvature)
-    contact = _unit_contact(cycle, follower, TURNINGS[turning])
-    limit = PRESSURE if isinstance(contact, SlidingRoller) else CURVATURE
+    limit = follower.sizing_limit
+    if limit is None:
+        raise InputError("follower: the least base circle of all laws is known of rollers and flat faces on slides")
+    contact = _unit_contact(cycle, follower, sense(turning))
     if set(limits) != {limit}:
         raise InputError(f"the least base circle of all laws under this follower takes one limit: {_NAMED[limit]}")
     needs, solutions, pieces = [], [], []
     for piece, solution, _ in _with_solutions(cycle):
-        walls = walls_of(piece, contact, limits, cycle.duration, below=True)
+        excesses = [limit.excess() for limit in linear_limits(piece, contact, limits, cycle.duration, below=True)]
         if solution is None:
-            needs += [abs(piece.stroke) * wall.needed().value(piece.law) for wall in walls]
+            needs += [abs(piece.stroke) * excess.value(piece.law) for excess in excesses]
             pieces.append(piece)
             continue
-        wanted = [wall.needed() for wall in walls]
-        optimum = synthesize(_problem(solution.problem, (), wanted))
+        optimum = synthesize(_problem(solution.problem, (), excesses))
         needs.append(abs(piece.stroke) * optimum.lower_bound)
         solutions.append(optimum)
         pieces.append(replace(piece, law=optimum.law))
@@ -228,22 +227,25 @@ def best_base_circle(
         motion, follower, pressure_angle=pressure_angle, radius_of_curvature=radius_of_curvature, turning=turning
     )
     # the unit contact is 1 m high, and what is needed goes beyond that
-    height = 1.0 + max(needs)
-    bound = hypot(height, contact.offset) if isinstance(contact, SlidingRoller) else height
-    return BestBaseCircle(least, bound, tuple(solutions))
+    return BestBaseCircle(least, follower.base_radius(1.0 + max(needs)), tuple(solutions))
 
 
 _NAMED = {PRESSURE: "pressure_angle='30 deg'", CURVATURE: "radius_of_curvature='5 mm'"}
 
 
-def _unit_contact(cycle: Cycle, follower: Follower, turning: float) -> SlidingRoller | SlidingFace:
+def _unit_contact(cycle: Cycle, follower: Follower, turning: float) -> Contact:
     """The contact of a follower 1 m above the cam's centre."""
-    if not isinstance(follower, TranslatingRoller | TranslatingFlat):
-        raise InputError("follower: the least base circle of all laws is known of rollers and flat faces on slides")
     motion = as_motion(cycle, follower.axis)
-    contact = follower.contact(Place(1.0, *motion.range, motion.slopes, turning))
-    assert isinstance(contact, SlidingRoller | SlidingFace)  # noqa: S101 - these followers have them
-    return replace(contact, height=1.0)
+    return follower.contact(Place(follower.base_radius(1.0), *motion.range, motion.slopes, turning))
+
+
+def linear_limits(
+    piece: Piece, contact: Contact, limits: dict[str, float], period: float, *, below: bool
+) -> list[LinearLimit]:
+    """What the limits of a cam ask of a piece's law, in a turn of a period; nothing of a dwell."""
+    if piece.stroke == 0.0:
+        return []
+    return contact.linear_limits(piece, limits, TURN * piece.duration / period, below=below)
 
 
 def _with_solutions(cycle: Cycle) -> Solved:
@@ -253,7 +255,7 @@ def _with_solutions(cycle: Cycle) -> Solved:
     if OBJECTIVES[cycle.minimise][0] < 0:
         raise InputError(f"cycle: minimise a peak or a root mean square of the motion, not the {cycle.minimise}")
     known = {id(solution.law): solution for solution in cycle.solutions}
-    return [Found(piece, known.get(id(piece.law))) for piece in cycle.pieces]
+    return [SolvedPiece(piece, known.get(id(piece.law))) for piece in cycle.pieces]
 
 
 def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool) -> Solved:
@@ -261,36 +263,38 @@ def _solved(cycle: Cycle, cam: DiscCam, limits: dict[str, float], *, below: bool
     solved: Solved = []
     for piece, solution, _ in _with_solutions(cycle):
         if solution is None:
-            solved.append(Found(piece, None))
+            solved.append(SolvedPiece(piece, None))
             continue
         best = _best(piece, solution.problem, cam.contact, limits, cycle.duration, below=below)
-        for _ in range(_ROUNDS if below and isinstance(cam.contact, SwingingRoller) else 0):
+        for _ in range(_ROUNDS if below and not cam.contact.linear else 0):
             guide, last = replace(piece, law=best.law), best.objective
             best = _best(guide, solution.problem, cam.contact, limits, cycle.duration, below=True)
             if best.objective > last * (1.0 - _GAIN):
                 break
-        solved.append(Found(replace(piece, law=best.law), best))
+        solved.append(SolvedPiece(replace(piece, law=best.law), best))
     return solved
 
 
-def _bent(cycle: Cycle, cam: DiscCam, limits: dict[str, float], inner: Solved, outer: Solved) -> tuple[Solved, Solved]:
+def _with_curvature(
+    cycle: Cycle, cam: DiscCam, limits: dict[str, float], inner: Solved, outer: Solved
+) -> tuple[Solved, Solved]:
     """The pieces with laws whose curvature under a roller keeps its limit, and with what it costs at least."""
     if CURVATURE not in limits:
         return inner, outer
-    kept, bounded = [], []
+    met, bounded = [], []
     for within, beyond in zip(inner, outer, strict=True):
         curvature = curvature_of(within.piece, cam.contact, limits[CURVATURE], cycle.duration)
         if within.solution is None or beyond.solution is None or curvature is None or not curvature.broken():
-            kept.append(within)
+            met.append(within)
             bounded.append(beyond)
             continue
-        best = _curved(within.solution.problem, curvature)
-        kept.append(Found(replace(within.piece, law=best.law), best))
+        best = _solved_with_curvature(within.solution.problem, curvature)
+        met.append(SolvedPiece(replace(within.piece, law=best.law), best))
         bounded.append(beyond._replace(bound=bound_under(curvature, beyond.solution.problem, best.objective)))
-    return kept, bounded
+    return met, bounded
 
 
-def _curved(problem: Problem, curvature: RollerCurvature) -> Solution:
+def _solved_with_curvature(problem: Problem, curvature: RollerCurvature) -> Solution:
     try:
         return synthesize(replace(problem, windows=(*problem.windows, curvature.window())))
     except (InfeasibleProblem, SolverFailure):
@@ -308,13 +312,13 @@ def _best(
     guide: Piece, problem: Problem, contact: Contact, limits: dict[str, float], period: float, *, below: bool
 ) -> Solution:
     """The best law between lines, which touch the limits where a guiding law is."""
-    windows = [wall.window() for wall in walls_of(guide, contact, limits, period, below=below)]
+    windows = [limit.window() for limit in linear_limits(guide, contact, limits, period, below=below)]
     try:
         return synthesize(_problem(problem, windows, ()))
     except InfeasibleProblem as error:
         where = f"from {guide.start:.6g} s on"
         remedy = "make the base circle larger, the limits wider, or the motion longer"
-        if below and isinstance(contact, SwingingRoller):
+        if below and not contact.linear:
             raise SolverFailure(f"no law was found {where} that keeps the limits of the cam: {remedy}") from None
         raise InfeasibleProblem(
             f"no law {where} keeps the limits of the cam: {remedy}. {error.args[0]}",
@@ -324,34 +328,34 @@ def _best(
         ) from None
 
 
-def _problem(problem: Problem, windows: Sequence[Window], wanted: Sequence[Functional]) -> Problem:
+def _problem(problem: Problem, windows: Sequence[Window], objectives: Sequence[Functional]) -> Problem:
     """A problem with the limits of a cam, whose law stays between its ends, or with an objective of its cam."""
     minimise: Any = problem.minimise
-    if wanted:
-        minimise = maximum(*wanted) if len(wanted) > 1 else wanted[0]
+    if objectives:
+        minimise = maximum(*objectives) if len(objectives) > 1 else objectives[0]
     inside = Window("a", 0.0, 1.0)
     return replace(problem, symmetric=False, minimise=minimise, windows=(*problem.windows, *windows, inside))
 
 
-def _kept(cam: DiscCam, limits: dict[str, float]) -> bool:
+def _are_met(cam: DiscCam, limits: dict[str, float]) -> bool:
     """Whether limits are proven to be kept."""
     extremes = cam.extremes
     return (PRESSURE not in limits or tan(extremes.greatest_pressure_angle.high) <= limits[PRESSURE]) and (
-        CURVATURE not in limits or extremes.bulging_radius.low >= limits[CURVATURE]
+        CURVATURE not in limits or extremes.least_convex_radius.low >= limits[CURVATURE]
     )
 
 
-def _check_kept(cam: DiscCam, limits: dict[str, float]) -> None:
+def _check_met(cam: DiscCam, limits: dict[str, float]) -> None:
     """Refuse laws that break a limit which is not convex in them."""
     extremes = cam.extremes
-    if PRESSURE in limits and tan(extremes.greatest_pressure_angle.low) > limits[PRESSURE] * (1.0 + _KEPT):
+    if PRESSURE in limits and tan(extremes.greatest_pressure_angle.low) > limits[PRESSURE] * (1.0 + _ROUNDING):
         raise SolverFailure(
             f"the best laws have a pressure angle of {np.degrees(extremes.greatest_pressure_angle.value):.6g} deg"
         )
-    if CURVATURE in limits and extremes.bulging_radius.high < limits[CURVATURE] * (1.0 - _KEPT):
+    if CURVATURE in limits and extremes.least_convex_radius.high < limits[CURVATURE] * (1.0 - _ROUNDING):
         raise SolverFailure(
             f"the best laws under the other limits have a radius of curvature of "
-            f"{shown(extremes.bulging_radius.value)}, and what a dwell or a given law has no other "
+            f"{shown(extremes.least_convex_radius.value)}, and what a dwell or a given law has no other "
             "law can mend: make the base circle larger or drop the limit"
         )
 
@@ -374,7 +378,7 @@ def _bound(cycle: Cycle, solved: Solved) -> float:
     return max(size for _, size in sizes)
 
 
-def _least(best: Found, nu: int, *, mean: bool) -> float:
+def _least(best: SolvedPiece, nu: int, *, mean: bool) -> float:
     """What the constant of a piece's law is at least; what it is where the law is given."""
     if best.solution is not None:
         return best.solution.lower_bound if best.bound is None else best.bound

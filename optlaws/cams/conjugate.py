@@ -2,25 +2,15 @@
 
 from __future__ import annotations
 
-from dataclasses import replace
-from math import cos, degrees, hypot, pi, sin, sqrt
+from math import degrees, pi
 from typing import Any
 
 from optlaws.cams.disc import TURNINGS, DiscCam
 from optlaws.cams.followers.follower import Follower, positive, shown
-from optlaws.cams.followers.oscillating_flat import OscillatingFlat, SwingingFace
-from optlaws.cams.followers.oscillating_roller import OscillatingRoller, SwingingRoller
-from optlaws.cams.followers.translating_flat import SlidingFace, TranslatingFlat
-from optlaws.cams.followers.translating_roller import SlidingRoller, TranslatingRoller
-from optlaws.cycles.asked.quantities import quantity
 from optlaws.errors import InputError
+from optlaws.motion.quantities import quantity
 
-_KINDS = {
-    TranslatingRoller: "distance",
-    TranslatingFlat: "distance",
-    OscillatingRoller: "angle",
-    OscillatingFlat: "angle",
-}
+_ENTRIES = {"length": ("distance", "distance='170 mm'"), "angle": ("angle", "angle='110 deg'")}
 
 
 def conjugate_cam(
@@ -55,6 +45,7 @@ def conjugate_cam(
     --------
     >>> from optlaws.cams.curves.motion_by_angle import CamMotion
     >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
     >>> first = DiscCam(rise, "60 mm", TranslatingRoller("12 mm"))
     >>> second = conjugate_cam(first, distance="160 mm")
     >>> round(float((first.pitch_curve(1.0) - second.pitch_curve(1.0)) @ [0.0, 1.0]) / 0.16, 9)
@@ -63,56 +54,43 @@ def conjugate_cam(
     second = cam.follower if follower is None else follower
     if type(second) is not type(cam.follower):
         raise InputError(f"follower: the second one of a pair must be a {type(cam.follower).__name__}, as the first")
-    if getattr(second, "pivot_distance", None) != getattr(cam.follower, "pivot_distance", None):
+    if second.pivot != cam.follower.pivot:
         raise InputError("follower: the second one of a pair is on the pivot of the first: give it its pivot_distance")
-    asked = _KINDS[type(second)]
+    entry, example = _ENTRIES[second.axis]
     given = {"distance": distance, "angle": angle}
-    if given[asked] is None or sum(value is not None for value in given.values()) != 1:
-        raise InputError(f"a pair of {type(second).__name__} is given by its {asked} alone, such as {_EXAMPLES[asked]}")
-    if asked == "distance":
+    if given[entry] is None or sum(value is not None for value in given.values()) != 1:
+        raise InputError(f"a pair of {type(second).__name__} is given by its {entry} alone, such as {example}")
+    if entry == "distance":
         return _on_slide(cam, second, positive(distance, "distance"))
     return _on_pivot(cam, second, quantity(angle, "angle", "angle"))
 
 
-_EXAMPLES = {"distance": "distance='170 mm'", "angle": "angle='110 deg'"}
-
-
 def _on_slide(cam: DiscCam, follower: Follower, distance: float) -> DiscCam:
-    """Beneath the shaft: as seen there the cam is turned by half a turn, and offsets are on the other side."""
-    contact, motion = cam.contact, cam.displacement
-    assert isinstance(contact, SlidingRoller | SlidingFace)  # noqa: S101 - such followers slide
-    least = distance - contact.height - (motion.range[1] - motion.range[0])
+    """The second cam of a slide, beneath the shaft: as seen there the cam is turned by half a turn."""
+    motion = cam.displacement
+    least = distance - cam.contact.level - (motion.range[1] - motion.range[0])
     if least <= 0.0:
         raise InputError(
             f"distance {shown(distance)} is too short: the first follower is up to {shown(distance - least)} above the"
             " shaft, and the second must be beneath it: make it longer"
         )
-    radius = least
-    if isinstance(follower, TranslatingRoller):
-        offset = quantity(follower.offset, "length", "roller: offset")
-        radius = hypot(least, offset)
-        follower = replace(follower, offset=f"{-offset!r} m")
+    radius = follower.base_radius(least)
     phase = quantity(cam.phase, "angle", "phase") + pi
-    return DiscCam(motion.reversed(), f"{radius!r} m", follower, turning=cam.turning, phase=f"{phase!r} rad")
+    beneath = follower.from_beneath()
+    return DiscCam(motion.reversed(), f"{radius!r} m", beneath, turning=cam.turning, phase=f"{phase!r} rad")
 
 
 def _on_pivot(cam: DiscCam, follower: Follower, angle: float) -> DiscCam:
-    """On the other side of the line to the pivot: as seen in a mirror it is a cam that turns the other way."""
-    contact, motion = cam.contact, cam.displacement
-    assert isinstance(contact, SwingingRoller | SwingingFace)  # noqa: S101 - such followers swing
-    least = angle - contact.first - (motion.range[1] - motion.range[0])
+    """The second cam on the other side of the line to the pivot: seen in a mirror it turns the other way."""
+    motion = cam.displacement
+    least = angle - cam.contact.level - (motion.range[1] - motion.range[0])
     if not 0.0 < least < pi:
         raise InputError(
             f"angle {degrees(angle):.6g} deg leaves {degrees(least):.6g} deg between the second arm and the line to the"
             f" cam's centre: give more than {degrees(angle - least):.6g} deg and less than half a turn beyond"
         )
-    if isinstance(follower, OscillatingRoller):
-        arm, pivot = positive(follower.arm, "roller: arm"), contact.distance
-        radius = sqrt(arm**2 + pivot**2 - 2.0 * arm * pivot * cos(least))
-    else:
-        assert isinstance(follower, OscillatingFlat)  # noqa: S101 - there are no others
-        radius = contact.distance * sin(least) + quantity(follower.face_offset, "length", "face: face_offset")
-    other = next(name for name, turning in TURNINGS.items() if turning == -contact.turning)
+    radius = follower.base_radius(least)
+    other = next(name for name, turning in TURNINGS.items() if turning == -cam.contact.turning)
     phase = quantity(cam.phase, "angle", "phase")
     return DiscCam(
         motion.reversed(), f"{radius!r} m", follower, turning=other, phase=f"{-phase!r} rad", mirrored=not cam.mirrored

@@ -15,12 +15,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.jets import Jet
 from optlaws.cams.followers.contact import Contact
-from optlaws.cams.followers.oscillating_roller import SwingingRoller
-from optlaws.cams.followers.translating_roller import SlidingRoller
-from optlaws.cycles.asked.conversion import Piece
-from optlaws.cycles.asked.programme import TURN
 from optlaws.errors import InfeasibleProblem, OptlawsError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.intervals import Interval, enclosed
@@ -28,6 +23,9 @@ from optlaws.formulas.reading import read
 from optlaws.formulas.slopes import derivative
 from optlaws.formulas.tree import Formula
 from optlaws.kept import kept_property
+from optlaws.motion.piece import Piece
+from optlaws.motion.quantities import TURN
+from optlaws.series.enclosures.jets import Jet
 from optlaws.synthesis.functionals.makers import value
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import at_most
@@ -53,7 +51,7 @@ class RollerCurvature:
     piece
         With its displacement.
     contact
-        The roller, on a slide or an arm.
+        The roller.
     radius
         The least radius of curvature of the pitch curve where it bulges, m.
     period
@@ -61,7 +59,7 @@ class RollerCurvature:
     """
 
     piece: Piece
-    contact: SlidingRoller | SwingingRoller
+    contact: Contact
     radius: float
     period: float
 
@@ -85,13 +83,11 @@ class RollerCurvature:
         """G as a text in a and b, in strokes."""
         slope = f"({self._slope!r}*b)"
         moved = f"({self.piece.offset - self.contact.lowest!r} + ({self.piece.stroke!r})*a)"
-        contact = self.contact
-        parts = (
-            _on_slide(contact, moved, slope) if isinstance(contact, SlidingRoller) else _on_arm(contact, moved, slope)
-        )
-        along, across, turned, held = parts
+        terms = self.contact.curvature_terms(moved, slope)
+        assert terms is not None  # noqa: S101 - it has a roller
+        along, across, turned, factor = terms
         square = f"({along}^2 + {across}^2)"
-        return f"({turned} - {square}^1.5/{self.radius!r})/({held}*{abs(self.piece.stroke)!r})"
+        return f"({turned} - {square}^1.5/{self.radius!r})/({factor}*{abs(self.piece.stroke)!r})"
 
     def window(self) -> Window:
         """The limit as a window of a problem that is not convex."""
@@ -111,9 +107,9 @@ class RollerCurvature:
             if abs(float(law.b(k))) + abs(float(law.c(k))) > _ROOM:
                 continue
             s = self.piece.offset + self.piece.stroke * float(law.a(k))
-            bent = float(self.contact.curvature(Jet((np.array(s), 0.0, 0.0))).terms[0])
-            if bent * self.radius > 1.0 + _ROOM:
-                return 1.0 / bent
+            radius = float(self.contact.radius_of_curvature(Jet((np.array(s), 0.0, 0.0)))) + self.contact.roller
+            if 0.0 < radius * (1.0 + _ROOM) < self.radius:
+                return radius
         return None
 
     def planes(self, k: Sequence[float], a: Sequence[Pair], b: Sequence[Pair]) -> list[Window]:
@@ -153,30 +149,9 @@ class RollerCurvature:
         return [derivative(self._formula, name) for name in "ab"]
 
 
-Parts = tuple[str, str, str, str]
-
-
-def _on_slide(contact: SlidingRoller, moved: str, slope: str) -> Parts:
-    """Along, across, the cubed speed times the curvature where s'' is 0, and what s'' takes off that for each 1."""
-    along = f"({slope} - ({contact.turning * contact.offset!r}))"
-    across = f"({contact.height!r} + {moved})"
-    return along, across, f"{along}^2 + {across}^2 + {along}*{slope}", across
-
-
-def _on_arm(contact: SwingingRoller, moved: str, slope: str) -> Parts:
-    """The same of an arm."""
-    arm, distance, turning = contact.arm, contact.distance, contact.turning
-    psi = f"({contact.first!r} + {moved})"
-    along = f"({arm!r}*({slope} + ({turning!r})) - ({turning * distance!r})*cos({psi}))"
-    across = f"({distance!r}*sin({psi}))"
-    turned = f"(1 + ({turning!r})*{slope})*({along}^2 + {across}^2)"
-    swung = f"({distance!r}*{along}*cos({psi}) - ({turning * distance!r})*sin({psi})*{across})*{slope}"
-    return along, across, f"{turned} + {swung}", f"({arm!r}*{across})"
-
-
 def curvature_of(piece: Piece, contact: Contact, least: float, period: float) -> RollerCurvature | None:
     """The limit of a piece's law where the profile is to have a least radius of curvature in m; None under a face."""
-    if not isinstance(contact, SlidingRoller | SwingingRoller) or piece.stroke == 0.0:
+    if not contact.roller or piece.stroke == 0.0:
         return None
     return RollerCurvature(piece, contact, least + contact.roller, period)
 
@@ -220,9 +195,9 @@ def _light(problem: Problem) -> Problem:
 
 
 def _most_acceleration(problem: Problem, most: float) -> float | None:
-    asked = problem.range("C")
+    limit = problem.range("C")
     levels = [most] if problem.minimise == "C" else []
-    levels += [asked.high] if asked is not None and isfinite(asked.high) else []
+    levels += [limit.high] if limit is not None and isfinite(limit.high) else []
     return min(levels) * (1.0 + _ROOM) if levels else None
 
 

@@ -10,25 +10,44 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.jets import Pair, turned, variable
+from optlaws.cams.curves.extremes import CamExtremes
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.curves.plane_curve import PlaneCurve
-from optlaws.cams.extremes.of_cam import CamExtremes, cam_extremes
-from optlaws.cams.followers.contact import Contact, FaceContact, RollerContact
+from optlaws.cams.followers.contact import Contact
 from optlaws.cams.followers.follower import Follower, Place, positive
-from optlaws.cycles.asked.quantities import quantity
+from optlaws.cams.followers.registry import follower_names
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.exporting import exported
 from optlaws.kept import kept_property
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import derivative, real_times
-from optlaws.plotting import plotted
+from optlaws.series.enclosures.interval_arrays import Interval
+from optlaws.series.enclosures.jets import Pair, turned, variable
+from optlaws.shown.summary import Summary
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
 
 TURNINGS = {"counterclockwise": 1.0, "clockwise": -1.0}
+
+
+def sense(turning: object) -> float:
+    """The sense in which a cam turns, 1 for counterclockwise and -1 for clockwise.
+
+    Raises
+    ------
+    InputError
+        If it is neither of the two words.
+
+    Examples
+    --------
+    >>> sense("clockwise")
+    -1.0
+    """
+    if turning not in tuple(TURNINGS):
+        raise InputError(unknown_key(turning, TURNINGS, "turning"))
+    return TURNINGS[str(turning)]
 
 
 @dataclass(frozen=True)
@@ -43,7 +62,7 @@ class DiscCam:
         Distance of the roller's centre, or of the flat face, from the cam's centre where the follower is lowest: the
         radius of the base circle of the pitch curve, such as "80 mm".
     follower
-        `TranslatingRoller`, `TranslatingFlat`, `OscillatingRoller` or `OscillatingFlat`.
+        Such as `TranslatingRoller("12 mm")`: a roller or a flat face on a slide or an arm.
     turning
         "counterclockwise" or "clockwise", seen with a slide's way pointing up or a pivot to the right of the cam.
     phase
@@ -60,7 +79,7 @@ class DiscCam:
     Examples
     --------
     >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
-    >>> from optlaws.cycles.asked.segments import Dwell, Return, Rise
+    >>> from optlaws.cycles.specification.segments import Dwell, Return, Rise
     >>> segments = [Rise("40 mm", "120 deg", law="cycloidal"), Dwell("60 deg"), Return(law="cycloidal")]
     >>> cam = DiscCam(Cycle(segments, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
     >>> round(float(np.degrees(cam.pressure_angle(1.0))), 6), cam.profile(1.0).shape
@@ -76,12 +95,8 @@ class DiscCam:
 
     def __post_init__(self) -> None:
         if not isinstance(self.follower, Follower):
-            raise InputError(
-                "follower must be a TranslatingRoller, TranslatingFlat, OscillatingRoller or OscillatingFlat, got "
-                f"{shortened(self.follower)}"
-            )
-        if self.turning not in tuple(TURNINGS):
-            raise InputError(unknown_key(self.turning, TURNINGS, "turning"))
+            raise InputError(f"follower must be a {follower_names()}, got {shortened(self.follower)}")
+        sense(self.turning)
         quantity(self.phase, "angle", "phase")
         self.contact  # noqa: B018 - what cannot be built is refused at once
 
@@ -96,12 +111,12 @@ class DiscCam:
     def contact(self) -> Contact:
         """How the follower touches the cam, in numbers."""
         radius, motion = positive(self.base_radius, "base_radius"), self.displacement
-        return self.follower.contact(Place(radius, *motion.range, motion.slopes, TURNINGS[self.turning]))
+        return self.follower.contact(Place(radius, *motion.range, motion.slopes, sense(self.turning)))
 
     @kept_property
     def extremes(self) -> CamExtremes:
         """Enclosed extremes over the whole turn: pressure angles, radii of curvature, undercut."""
-        return cam_extremes(self.displacement, self.contact)
+        return self.contact.extremes(self.displacement)
 
     @kept_property
     def pitch_curve(self) -> PlaneCurve:
@@ -166,7 +181,9 @@ class DiscCam:
         InputError
             If an entry is unknown or out of its range, the motion is no whole turn, or the file cannot be written.
         """
-        asked = {
+        from optlaws.cams.cutting.cam_files import export_cam
+
+        entries: dict[str, Any] = {
             "curve": curve,
             "cutter_radius": cutter_radius,
             "tolerance": tolerance,
@@ -176,9 +193,26 @@ class DiscCam:
             "feed": feed,
             "about": about,
         }
-        given = {name: value for name, value in asked.items() if value is not None}
-        written: Path = exported("cam", self, file, as_, **given)
-        return written
+        given = {name: value for name, value in entries.items() if value is not None}
+        return export_cam(self, file, as_, **given)
+
+    def summary(self) -> Summary:
+        """What is proven of the cam's undercut, pressure angles and radii, and its forces if it has a drive, as rows.
+
+        Examples
+        --------
+        >>> from optlaws import Cycle, DiscCam, Return, Rise, TranslatingRoller
+        >>> lift = Cycle([Rise("25 mm", "150 deg", law="3-4-5"), Return(law="3-4-5")], speed="300 rpm")
+        >>> cam = DiscCam(lift, "50 mm", TranslatingRoller("10 mm"))
+        >>> [(row.name, row.text(6), row.unit, row.place is None) for row in cam.summary()][:2]
+        [('undercut', 'free', '', True), ('greatest pressure angle', '16.2598', 'deg', False)]
+        """
+        from optlaws.cams.loads.summary import summary
+
+        return summary(self)
+
+    def _repr_html_(self) -> str:
+        return self.summary()._repr_html_()
 
     def plot(self, ax: Any = None, **style: Any) -> list[Any]:  # noqa: ANN401 - matplotlib's
         """Draw the cam with its follower, pressure angle, curvature and displacement, by matplotlib.
@@ -194,7 +228,9 @@ class DiscCam:
         -------
         The artists; `[0].figure` is the figure.
         """
-        return plotted("cam", self, ax, **style)
+        from optlaws.plots.cam import draw_cam
+
+        return draw_cam(self, ax, **style)
 
     def pressure_angle(self, angle: Any, nu: int = 0) -> Any:  # noqa: ANN401 - a number for a number, arrays for arrays
         """The angle between the force on the follower and its way, rad, or a derivative of it by the cam's angle.
@@ -217,11 +253,7 @@ class DiscCam:
             If an angle is no finite number.
         """
         s = self.displacement.jet(real_times(angle), 2)
-        if isinstance(self.contact, RollerContact):
-            with np.errstate(divide="ignore"):
-                return _plain(1.0 / self.contact.curvature(s).terms[0] - self.contact.roller)
-        assert isinstance(self.contact, FaceContact)  # noqa: S101 - there are no others
-        return _plain(self.contact.radius(s).terms[0])
+        return _plain(self.contact.radius_of_curvature(s))
 
 
 @dataclass(frozen=True)
@@ -235,31 +267,32 @@ class FollowerCurve(PlaneCurve):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Those of the motion."""
+        """Breaks of the motion, by the cam's angle."""
         return self.motion.breaks
 
     @property
     def closed(self) -> bool:
-        """As the motion."""
+        """Whether the motion is that of a whole turn."""
         return self.motion.closed
 
     @property
     def turning(self) -> float:
-        """As the cam."""
+        """How the cam turns."""
         return -self.contact.turning if self.mirrored else self.contact.turning
 
-    def jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+    def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:  # noqa: D102
         s = self.motion.jet(angle, order + self.contact.lost, before=before)
         return self._in_cam(self.contact.point(s), angle, order)
 
-    def normal_jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+    def normal_jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:  # noqa: D102
         normal = self.contact.normal(self.motion.jet(angle, order, before=before))
         return (
             super().normal_jets(angle, order, before=before) if normal is None else self._in_cam(normal, angle, order)
         )
 
-    def _in_cam(self, pair: Pair, angle: Array, order: int) -> Pair:
-        x, y = turned(pair, variable(self.motion.within(angle), order) * -self.contact.turning + self.phase)
+    def _in_cam(self, pair: Pair, angle: Array | Interval, order: int) -> Pair:
+        at = angle if isinstance(angle, Interval) else self.motion.within(angle)
+        x, y = turned(pair, variable(at, order) * -self.contact.turning + self.phase)
         return (x, -y) if self.mirrored else (x, y)
 
 

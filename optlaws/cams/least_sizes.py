@@ -14,23 +14,22 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from optlaws.cams.curves.jets import Jet
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
-from optlaws.cams.disc import TURNINGS, DiscCam
-from optlaws.cams.extremes.enclosure import ROUNDING, Enclosure, exact
-from optlaws.cams.extremes.of_cam import bulging_radius, pitch_curvatures, pressure_angles
-from optlaws.cams.followers.contact import Contact, FaceContact, RollerContact
+from optlaws.cams.disc import DiscCam, sense
+from optlaws.cams.followers.contact import Contact
 from optlaws.cams.followers.follower import Follower, Place, shown
-from optlaws.cycles.asked.quantities import quantity
+from optlaws.cams.followers.linear_limit import CURVATURE, PRESSURE
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.motion.quantities import quantity
+from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval, exact
+from optlaws.series.enclosures.jets import Jet
 
 Kind = TypeVar("Kind", bound=Contact)
 
-PRESSURE, CURVATURE = "pressure angle", "radius of curvature"
 WIDTH = 1e-8  # of the bracket, relative
-_KEPT = 1e-10  # by how much more than needed the radius grows at last
+_MARGIN = 1e-10  # by how much more than needed the radius grows at last
 _NUDGES, _NUDGE = 6, 1e-9
 _STEPS, _LOOKS, _DEPTH = 60, 150, 60
 _LEAST, _LARGEST = 1e-6, 1e3  # of base circles that are looked at, times the greatest length of the mechanism
@@ -107,7 +106,7 @@ def least_base_circle(
     (36.32799, True, 'radius of curvature')
     """
     limits = read_cam_limits(pressure_angle, radius_of_curvature)
-    sizes = _Sizes(as_motion(motion, follower.axis), follower, TURNINGS[turning], limits)
+    sizes = _Sizes(as_motion(motion, follower.axis), follower, sense(turning), limits)
     radius = start = sizes.least
     witnesses: list[Witness] = []
     for _ in range(_STEPS):
@@ -115,13 +114,13 @@ def least_base_circle(
         if not broken:
             break
         witnesses += broken
-        radius = max(radius, *(sizes.kept_from(witness, radius) for witness in broken)) * (1.0 + _KEPT)
+        radius = max(radius, *(sizes.least_meeting(witness, radius) for witness in broken)) * (1.0 + _MARGIN)
     for _ in range(_NUDGES):  # to where it is not only not broken but proven to be kept
         if not sizes.witnesses(radius, proven=True):
             break
         radius *= 1.0 + _NUDGE
     else:
-        raise InfeasibleProblem(f"no base circle was found that keeps {_told(limits)}: give wider limits")
+        raise InfeasibleProblem(f"no base circle was found that keeps {_in_words(limits)}: give wider limits")
     cam = DiscCam(motion, f"{radius!r} m", follower, turning=turning)
     last = witnesses[-1] if witnesses else Witness("mechanism", 0.0, 1.0, before=False)
     below = radius * (1.0 - WIDTH)
@@ -170,9 +169,7 @@ def greatest_roller(cam: DiscCam, *, radius_of_curvature: Any = "0 mm") -> Great
     (55.0, True)
     """
     least = quantity(radius_of_curvature, "length", "radius_of_curvature")
-    if not isinstance(cam.contact, RollerContact):
-        raise InputError("follower: a flat face has no roller: take a TranslatingRoller or an OscillatingRoller")
-    greatest = pitch_curvatures(cam.displacement, cam.contact)[1]
+    greatest = cam.contact.pitch_curvatures(cam.displacement)[1]
     low, high = (1.0 / value - least for value in (greatest.high, greatest.low))
     if low <= 0.0:
         raise InputError(
@@ -211,7 +208,7 @@ def read_cam_limits(pressure_angle: Any, radius: Any) -> dict[str, float]:  # no
     return limits
 
 
-def _told(limits: dict[str, float]) -> str:
+def _in_words(limits: dict[str, float]) -> str:
     texts = {
         PRESSURE: lambda value: f"a pressure angle of {degrees(np.arctan(value)):.6g} deg",
         CURVATURE: lambda value: f"a radius of curvature of {shown(value)}",
@@ -248,11 +245,7 @@ class _Sizes:
     @property
     def _scale(self) -> float:
         low, high = self.motion.range
-        sizes = [high - low] if self.motion.axis == "length" else []
-        for name in ("radius", "arm", "pivot_distance", "offset"):
-            given = getattr(self.follower, name, None)
-            sizes += [abs(quantity(given, "length", name))] if given is not None else []
-        return max(sizes)
+        return max(high - low if self.motion.axis == "length" else 0.0, self.follower.size)
 
     def _fits(self, radius: float) -> bool:
         try:
@@ -269,13 +262,13 @@ class _Sizes:
         """Where limits are broken worst; with `proven`, where they are not proven to be kept."""
         contact, broken = self.contact(radius), []
         if PRESSURE in self.limits:
-            least, greatest = pressure_angles(self.motion, contact)
+            least, greatest = contact.pressure_angles(self.motion)
             most = float(np.arctan(self.limits[PRESSURE]))
             for side, sign in ((greatest, 1.0), (-least, -1.0)):
                 if (side.high if proven else side.low) > most:
                     broken.append(self._seen(PRESSURE, side.angle, sign, radius))
         if CURVATURE in self.limits:
-            margin, least_radius = bulging_radius(self.motion, contact), self.limits[CURVATURE]
+            margin, least_radius = contact.least_convex_radius(self.motion), self.limits[CURVATURE]
             if (margin.low if proven else margin.high) < least_radius:
                 broken.append(self._seen(CURVATURE, margin.angle, 1.0, radius))
         return broken
@@ -287,7 +280,7 @@ class _Sizes:
             sides, key=lambda witness: float(self._excess(self.contact(radius), witness, self._jet(witness)).middle)
         )
 
-    def kept_from(self, witness: Witness, radius: float) -> float:
+    def least_meeting(self, witness: Witness, radius: float) -> float:
         """The least radius from one on with which a limit is kept at a witness's angle."""
         from scipy.optimize import brentq
 
@@ -306,7 +299,7 @@ class _Sizes:
                 return float(brentq(excess, last, float(size), xtol=1e-16, rtol=1e-14))
             last = float(size)
         raise InfeasibleProblem(
-            f"no base circle keeps {_told(self.limits)}: at {degrees(witness.angle):.6g} deg of the cam the "
+            f"no base circle keeps {_in_words(self.limits)}: at {degrees(witness.angle):.6g} deg of the cam the "
             f"{witness.limit} breaks it with every one up to {shown(last)}: give wider limits, or spread the motion"
         )
 
@@ -326,20 +319,14 @@ class _Sizes:
         return True
 
     def _jet(self, witness: Witness) -> Jet:
-        jet = self.motion.jet(np.array(witness.angle), 2, before=witness.before)
-        return Jet(tuple(exact(term) for term in jet.terms))
+        return self.motion.jet(exact(witness.angle), 2, before=witness.before)
 
-    def _excess(self, contact: Contact, witness: Witness, s: Jet) -> Enclosure:
+    def _excess(self, contact: Contact, witness: Witness, s: Jet) -> Interval:
         """By how much a limit is broken, above 0; all of it multiplied out, so that nothing is divided by."""
         limit = self.limits[witness.limit]
-        excess: Enclosure
-        if witness.limit == PRESSURE:
-            excess = contact.pressure(s).terms[0] * witness.sign - limit
-        elif isinstance(contact, FaceContact):
-            excess = -contact.radius(s).terms[0] + limit
-        else:
-            assert isinstance(contact, RollerContact)  # noqa: S101 - there are no others
-            excess = contact.curvature(s).terms[0] - 1.0 / (limit + contact.roller)
+        if witness.limit == CURVATURE:
+            return contact.curvature_excess(s, limit)
+        excess: Interval = contact.pressure(s).terms[0] * witness.sign - limit
         return excess
 
 
@@ -351,7 +338,7 @@ def _spanning(one: Kind, two: Kind) -> Kind:
         if first != last:
             middle = 0.5 * (first + last)
             radius = 0.5 * abs(last - first) + 16.0 * ROUNDING * (abs(first) + abs(last))
-            changed[name] = Enclosure(np.array(middle), np.array(radius))
+            changed[name] = Interval(np.array(middle), np.array(radius))
     return replace(one, **changed)
 
 

@@ -6,6 +6,10 @@ from math import pi, tau
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.cams.curves.plane_curve import derivatives
+from optlaws.series.enclosures.interval_arrays import Interval
+from optlaws.series.enclosures.jets import Pair, variable
+
 Array = NDArray[np.float64]
 
 
@@ -20,3 +24,27 @@ class Ellipse:
     def __call__(self, angle: Array, nu: int = 0) -> Array:
         turned = np.asarray(angle) + 0.5 * pi * nu
         return np.stack([self.a * np.cos(turned), self.b * np.sin(turned)], axis=-1)
+
+    def jets(self, angle: Array | Interval, order: int) -> Pair:
+        sine, cosine = variable(angle, order).waves()
+        return cosine * self.a, sine * self.b
+
+
+@dataclass(frozen=True)
+class Bumped:
+    """A circle with a bump height/(1 + ((angle - centre)/width)²) upon it, counterclockwise; metres and radians."""
+
+    radius: float
+    height: float
+    centre: float
+    width: float
+    breaks: tuple[float, ...] = (0.0, tau)
+
+    def __call__(self, angle: Array, nu: int = 0) -> Array:
+        return derivatives(self, angle, nu)
+
+    def jets(self, angle: Array | Interval, order: int) -> Pair:
+        at = variable(angle, order)
+        away = (at - self.centre) / self.width
+        out, (sine, cosine) = self.height / (away * away + 1.0) + self.radius, at.waves()
+        return cosine * out, sine * out

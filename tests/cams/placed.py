@@ -9,13 +9,14 @@ from numpy.typing import NDArray
 
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import Follower
+from optlaws.cams.followers.inclined_flat import InclinedFlat
 from optlaws.cams.followers.oscillating_flat import OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat
 from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cycles.asked.quantities import either
-from optlaws.cycles.asked.segments import Dwell, Return, Rise
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.segments import Dwell, Return, Rise
+from optlaws.motion.quantities import either
 
 Array = NDArray[np.float64]
 Points = NDArray[np.complex128]
@@ -23,6 +24,7 @@ Points = NDArray[np.complex128]
 FOLLOWERS: dict[str, tuple[Follower, str, str]] = {
     "translating roller": (TranslatingRoller("12 mm", offset="9 mm"), "30 mm", "70 mm"),
     "translating flat": (TranslatingFlat(), "12 mm", "70 mm"),
+    "inclined flat": (InclinedFlat(inclination="10 deg"), "12 mm", "70 mm"),
     "oscillating roller": (OscillatingRoller("12 mm", arm="90 mm", pivot_distance="120 mm"), "20 deg", "60 mm"),
     "oscillating flat": (OscillatingFlat(pivot_distance="150 mm", face_offset="6 mm"), "6 deg", "60 mm"),
 }
@@ -67,6 +69,9 @@ def face_lines(cam: DiscCam, angles: Array) -> tuple[Points, Array]:
     radius, s = length(cam.base_radius), cam.displacement(angles)
     if isinstance(cam.follower, TranslatingFlat):
         normal, far = np.full(len(angles), 1j), radius + s
+    elif isinstance(cam.follower, InclinedFlat):
+        normal = np.full(len(angles), 1j * np.exp(1j * length(cam.follower.inclination)))
+        far = radius + s * normal[0].imag
     else:
         assert isinstance(cam.follower, OscillatingFlat)
         distance, offset = length(cam.follower.pivot_distance), length(cam.follower.face_offset)

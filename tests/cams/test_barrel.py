@@ -7,10 +7,10 @@ import pytest
 from numpy.typing import NDArray
 
 from optlaws.cams.barrel import BarrelCam
+from optlaws.cams.curves.extremes import FREE, UNDERCUT
 from optlaws.cams.curves.motion_by_angle import CamMotion
-from optlaws.cams.extremes.of_cam import FREE, UNDERCUT
-from optlaws.cycles.asked.segments import Dwell, Return, Rise
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.segments import Dwell, Return, Rise
 from optlaws.errors import InputError
 from tests.cams.placed import TURNINGS, cycle_of
 

@@ -8,22 +8,21 @@ from numpy.typing import NDArray
 from scipy.optimize import linprog
 
 from optlaws.cams import curved_limits
-from optlaws.cams.best_laws import best_base_circle, best_cam
+from optlaws.cams.best_laws import best_base_circle, best_cam, linear_limits
 from optlaws.cams.curved_limits import curvature_of
-from optlaws.cams.curves.jets import Jet
 from optlaws.cams.disc import DiscCam
+from optlaws.cams.followers.linear_limit import PRESSURE
 from optlaws.cams.followers.oscillating_flat import OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller, SwingingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat
 from optlaws.cams.followers.translating_roller import SlidingRoller, TranslatingRoller
-from optlaws.cams.law_lines import walls_of
-from optlaws.cams.least_sizes import PRESSURE
-from optlaws.cycles.asked.conversion import Piece
-from optlaws.cycles.asked.segments import Dwell, Return, Rise
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.segments import Dwell, Return, Rise
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.laws import smoothstep
+from optlaws.motion.piece import Piece
+from optlaws.series.enclosures.jets import Jet
 from optlaws.synthesis.solution import Status
 
 Array = NDArray[np.float64]
@@ -86,7 +85,7 @@ def test_a_flat_face_keeps_its_radius_by_a_law_made_for_it() -> None:
     assert best.least.radius == pytest.approx(best.lower_bound, rel=1e-7)
     cam = best_cam(VALVE, "20 mm", TranslatingFlat(), radius_of_curvature="3 mm")
     assert cam.status is Status.OPTIMAL
-    assert cam.cam.extremes.bulging_radius.value == pytest.approx(0.003, rel=1e-6)
+    assert cam.cam.extremes.least_convex_radius.value == pytest.approx(0.003, rel=1e-6)
 
 
 def test_an_arm_with_a_wide_limit_has_the_laws_without_it() -> None:
@@ -140,10 +139,10 @@ def test_curvature_under_a_roller_is_imposed_and_bounded(monkeypatch: pytest.Mon
     cycle, base, follower, limits = BENT[case]
     best = best_cam(cycle, base, follower, **limits)
     wanted = 1e-3 * float(limits["radius_of_curvature"].split()[0])
-    assert best.cam.extremes.bulging_radius.low == pytest.approx(wanted, rel=1e-7)
+    assert best.cam.extremes.least_convex_radius.low == pytest.approx(wanted, rel=1e-7)
     if "pressure_angle" in limits:
         assert np.degrees(best.cam.extremes.greatest_pressure_angle.high) <= 27.0 + 1e-6
-    assert DiscCam(cycle, base, follower).extremes.bulging_radius.high < 0.999 * wanted
+    assert DiscCam(cycle, base, follower).extremes.least_convex_radius.high < 0.999 * wanted
     assert cycle.objective * 1.0001 < best.lower_bound <= best.objective < 1.02 * best.lower_bound
     assert best.status is Status.LOCAL
 
@@ -210,8 +209,8 @@ def test_lines_lie_where_an_arm_keeps_its_limit_or_breaks_it(share: float, sign:
     psi = 0.5 + 0.4 * a
     allowed = contact.distance / contact.arm * (share * np.sin(psi) + sign * np.cos(psi)) - sign
     for below in (True, False):
-        walls = walls_of(piece, contact, {PRESSURE: share}, 1.0, below=below)
-        seen = [wall for wall in walls if wall.factors[1] * sign > 0]
+        limits = linear_limits(piece, contact, {PRESSURE: share}, 1.0, below=below)
+        seen = [limit for limit in limits if limit.factors[1] * sign > 0]
         # the greatest sign s' that each line allows at a place
         lines = np.array([(one.most - one.factors[0] * a) / abs(one.factors[1]) for one in seen]) * 0.4 / angle
         most = lines.min(axis=0)

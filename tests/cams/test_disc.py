@@ -14,8 +14,8 @@ from optlaws.cams.followers.oscillating_flat import OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat
 from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cycles.asked.segments import Return, Rise
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.segments import Return, Rise
 from optlaws.errors import InputError
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment
@@ -157,6 +157,6 @@ def test_a_textbooks_harmonic_cam_is_an_eccentric_circle() -> None:
     moves = [kind("50 mm", "180 deg", law="simple harmonic") for kind in (Rise, Return)]
     cam = DiscCam(Cycle(moves, period="1 s"), "25 mm", TranslatingFlat())
     assert np.allclose(np.abs(points(cam.profile(ANGLES)) + 0.025j), 0.05, atol=1e-15)
-    assert cam.extremes.bulging_radius.low <= 0.05 <= cam.extremes.bulging_radius.high
+    assert cam.extremes.least_convex_radius.low <= 0.05 <= cam.extremes.least_convex_radius.high
     assert cam.extremes.undercut.simple
     assert cam.displacement.slopes == pytest.approx((-0.025, 0.025), rel=1e-12)

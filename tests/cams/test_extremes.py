@@ -12,23 +12,23 @@ import pytest
 from numpy.typing import NDArray
 from scipy.optimize import minimize_scalar
 
+from optlaws.cams.curves.extremes import FREE, UNDERCUT, Extreme, enclosed_extremes
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.extremes.bounding import Extreme, enclosed_extremes
-from optlaws.cams.extremes.displacements import enclosed_jet
-from optlaws.cams.extremes.of_cam import FREE, UNDERCUT
-from optlaws.cams.followers.contact import FaceContact, RollerContact
+from optlaws.cams.followers.faces import FaceContact
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
+from optlaws.cams.followers.rollers import RollerContact
 from optlaws.cams.followers.translating_flat import TranslatingFlat
 from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cycles.asked.segments import Dwell, Return, Rise
 from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.segments import Dwell, Return, Rise
 from optlaws.errors import InputError
 from optlaws.laws.polynomial import PolynomialLaw
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.fractional import FractionalSegment
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.series import chebyshev
+from optlaws.series.enclosures.interval_arrays import Interval
 from tests.cams.placed import FOLLOWERS, cam_of, cycle_of, face_lines, points, roller_centres
 
 Array = NDArray[np.float64]
@@ -65,14 +65,15 @@ def test_extremes_are_those_that_a_search_finds(kind: str, law: str) -> None:
         assert shown.high - shown.low <= 1e-9
     bulging = searched(lambda x: np.asarray(cam.profile.curvature(x)), cam.profile.breaks)
     before = float(np.max(cam.profile.curvature(np.array(cam.profile.breaks), before=True)))
-    assert 1.0 / max(bulging, before) == pytest.approx(cam.extremes.bulging_radius.value, rel=1e-8)
+    assert 1.0 / max(bulging, before) == pytest.approx(cam.extremes.least_convex_radius.value, rel=1e-8)
 
 
 @pytest.mark.parametrize("law", LAWS)
 def test_enclosed_jets_hold_the_displacement_in_every_cell(law: str) -> None:
     for stretch in CamMotion.of_law(law, "40 mm", "120 deg").stretches:
+        span = stretch.stop - stretch.start
         middle, half = np.array([0.0, 0.3, 0.71, 1.0]), np.array([0.0, 0.05, 0.002, 0.0])
-        jet = enclosed_jet(stretch, middle, half, 4)
+        jet = stretch.jet(Interval(stretch.start + middle * span, half * span), 4)
         for share in (-1.0, -0.4, 0.0, 0.6, 1.0):
             angles = stretch.start + (middle + share * half) * (stretch.stop - stretch.start)
             held = stretch.jet(angles, 4)
@@ -94,8 +95,8 @@ def test_a_circle_about_another_centre_has_the_closed_forms() -> None:
     )
     extremes = cam.extremes
     assert extremes.greatest_pressure_angle.value == pytest.approx(np.arcsin(1.0 / 3.0), rel=1e-11)
-    assert extremes.bulging_radius.value == pytest.approx(radius - 0.015, rel=1e-7)
-    assert extremes.hollow_radius is None
+    assert extremes.least_convex_radius.value == pytest.approx(radius - 0.015, rel=1e-7)
+    assert extremes.least_concave_radius is None
     assert extremes.undercut.free
 
 
@@ -103,7 +104,7 @@ def test_a_roller_just_too_large_is_proven_to_undercut_and_one_just_smaller_is_n
     segments = [Rise("30 mm", "80 deg", law="cycloidal"), Dwell("40 deg"), Return(law="cycloidal")]
     cycle = Cycle(segments, period="1 s")
     pitch = DiscCam(cycle, "35 mm", TranslatingRoller("1 mm"))
-    largest = 0.001 + pitch.extremes.bulging_radius.value
+    largest = 0.001 + pitch.extremes.least_convex_radius.value
     verdicts = [
         DiscCam(cycle, "35 mm", TranslatingRoller(f"{share * largest!r} m")).extremes.undercut
         for share in (1.0 - 1e-7, 1.0 + 1e-7)
@@ -114,7 +115,7 @@ def test_a_roller_just_too_large_is_proven_to_undercut_and_one_just_smaller_is_n
 
 def test_a_hollow_profile_tells_how_small_its_cutter_must_be() -> None:
     cam = DiscCam(cycle_of("40 mm"), "45 mm", TranslatingRoller("8 mm"))
-    hollow = cam.extremes.hollow_radius
+    hollow = cam.extremes.least_concave_radius
     assert hollow is not None
     assert -1.0 / hollow.value == pytest.approx(
         -searched(lambda x: -cam.profile.curvature(x), cam.profile.breaks), rel=1e-8

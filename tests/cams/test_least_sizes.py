@@ -56,11 +56,11 @@ def test_the_least_base_circle_is_that_of_a_bisection(
     assert high == pytest.approx(least.radius, rel=2e-5)
     smaller = DiscCam(cycle, f"{least.too_small!r} m", follower).extremes
     assert (pressure is not None and np.degrees(smaller.greatest_pressure_angle.low) > pressure) or (
-        radius is not None and 1e3 * smaller.bulging_radius.high < radius
+        radius is not None and 1e3 * smaller.least_convex_radius.high < radius
     )
     extremes = least.cam.extremes
     assert pressure is None or np.degrees(extremes.greatest_pressure_angle.high) <= pressure
-    assert radius is None or 1e3 * extremes.bulging_radius.low >= radius
+    assert radius is None or 1e3 * extremes.least_convex_radius.low >= radius
 
 
 def test_a_flat_face_has_its_closed_form() -> None:
@@ -84,7 +84,7 @@ def test_the_greatest_roller_keeps_the_radius_and_a_greater_one_breaks_it(offset
     found = greatest_roller(cam, radius_of_curvature="4 mm")
     assert 0.0 < found.too_large - found.radius < 1e-9
     rollers = [TranslatingRoller(f"{found.radius + step!r} m", offset) for step in (-1e-8, 1e-8)]
-    margins = [DiscCam(cycle_of("60 mm"), "40 mm", roller).extremes.bulging_radius for roller in rollers]
+    margins = [DiscCam(cycle_of("60 mm"), "40 mm", roller).extremes.least_convex_radius for roller in rollers]
     assert margins[0].low >= 0.004 > margins[1].high
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import factorial
@@ -11,11 +11,7 @@ from typing import Any, Self
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.jets import Jet
-from optlaws.cycles.asked.conversion import Piece, factor
-from optlaws.cycles.asked.named import named_law
-from optlaws.cycles.asked.programme import TURN, in_small_units
-from optlaws.cycles.asked.quantities import either, quantity
+from optlaws.cams.curves.enclosed_segments import enclosed_derivatives, enclosed_power
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -23,8 +19,13 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
+from optlaws.motion.named_law import named_law
+from optlaws.motion.piece import Piece, factor
+from optlaws.motion.quantities import TURN, either, in_small_units, quantity
 from optlaws.numbers import derivative, real_times
 from optlaws.series import chebyshev
+from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval, exact, hull
+from optlaws.series.enclosures.jets import Jet
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
@@ -67,9 +68,42 @@ class Stretch:
         values = factor(self.stroke, self.duration, nu) * self.segment.derivative(u, self.length, nu)
         return self.offset + values if nu == 0 else values
 
-    def jet(self, angle: Array, order: int) -> Jet:
-        """The displacement with its derivatives."""
-        return Jet(tuple(self.values(angle, nu) / factorial(nu) for nu in range(order + 1)))
+    def jet(self, angle: Array | Interval, order: int) -> Jet:
+        """The displacement with its derivatives; in intervals of angles all that they may be."""
+        if not isinstance(angle, Interval):
+            return Jet(tuple(self.values(angle, nu) / factorial(nu) for nu in range(order + 1)))
+        if self.stroke == 0.0:
+            still = exact(np.zeros(angle.middle.shape))
+            return Jet((still + self.offset, *(still,) * order))
+        values = enclosed_derivatives(self.segment, self.length, *self._cells(angle), order)
+        factors = [self.stroke / self.duration**nu / factorial(nu) for nu in range(order + 1)]
+        terms = [
+            value * Interval(np.array(by), np.array(abs(by) * (nu + 3) * ROUNDING))
+            for nu, (value, by) in enumerate(zip(values, factors, strict=True))
+        ]
+        return Jet((terms[0] + self.offset, *terms[1:]))
+
+    def power(self, angle: Interval, order: int) -> Jet:
+        """The velocity times the acceleration, by the angle, in intervals of angles: finite where d of the law is."""
+        if self.stroke == 0.0:
+            return Jet((exact(np.zeros(angle.middle.shape)),) * (order + 1))
+        power = enclosed_power(self.segment, self.length, *self._cells(angle), order)
+        by = self.stroke**2 / self.duration**3
+        return Jet(
+            tuple(
+                term
+                * Interval(np.array(by / self.duration**nu), np.array(by / self.duration**nu * (nu + 6) * ROUNDING))
+                for nu, term in enumerate(power.terms)
+            )
+        )
+
+    def _cells(self, angle: Interval) -> tuple[Array, Array]:
+        """Middles and half lengths of intervals as shares of the stretch, and of no more than it."""
+        span = self.stop - self.start
+        middle, half = (angle.middle - self.start) / span, angle.radius / span
+        half = np.where(np.isfinite(half), half * (1.0 + 4.0 * ROUNDING), np.inf)
+        low, high = (np.clip(middle + side * half, 0.0, 1.0) for side in (-1.0, 1.0))
+        return 0.5 * (low + high), 0.5 * (high - low) + 8.0 * ROUNDING
 
     def extremes(self, nu: int) -> tuple[float, float]:
         """Least and greatest derivative of order nu."""
@@ -202,17 +236,65 @@ class CamMotion:
         values = self.jet(real_times(angle), order).derivative(order)
         return values if np.ndim(values) else float(values)
 
-    def jet(self, angle: Array, order: int, *, before: bool = False) -> Jet:
-        """The displacement with its derivatives up to an order; at a break those just after it, or just before it."""
-        at = self.within(angle)
-        inner = [stretch.start for stretch in self.stretches[1:]]
-        which = np.searchsorted(inner, at, side="left" if before else "right")
-        terms = tuple(np.empty(at.shape) for _ in range(order + 1))
-        for i in np.unique(which):
-            here = which == i
-            for kept, term in zip(terms, self.stretches[i].jet(at[here], order).terms, strict=True):
-                kept[here] = term
-        return Jet(terms)
+    def jet(self, angle: Array | Interval, order: int, *, before: bool = False) -> Jet:
+        """The displacement with its derivatives up to an order; at a break those just after it, or just before it.
+
+        In an interval of angles they are those of the stretch in which its middle lies, which it must not leave.
+        """
+        at = angle if isinstance(angle, Interval) else self.within(angle)
+        return self._by_stretch(lambda stretch, some: stretch.jet(some, order), at, before=before)
+
+    def power(self, angle: Interval, order: int) -> Jet:
+        """The velocity times the acceleration by the angle, in intervals each within a stretch."""
+        return self._by_stretch(lambda stretch, some: stretch.power(some, order), angle)
+
+    def _by_stretch(self, jet: Callable[[Stretch, Any], Jet], at: Array | Interval, *, before: bool = False) -> Jet:
+        middle = at.middle if isinstance(at, Interval) else at
+        which = np.searchsorted(self.breaks[1:-1], middle, side="left" if before else "right")
+        pieces = [(which == i, jet(self.stretches[i], at[which == i]).terms) for i in np.unique(which)]
+        order = len(pieces[0][1]) - 1
+        return Jet(
+            tuple(_joined(middle.shape, [(here, terms[nu]) for here, terms in pieces]) for nu in range(order + 1))
+        )
+
+    def along(self, angle: Jet) -> Jet:
+        """The displacement where the cam's angle is itself a function, up to its second Taylor term.
+
+        Intervals of angles may hold breaks, as their acceleration may leap there: then all that it is on both sides.
+        """
+        s = self._over(angle.terms[0], angle.order).terms
+        if angle.order == 0:
+            return Jet(s)
+        first, *rest = (angle.terms[1], *angle.terms[2:3])
+        return Jet((s[0], s[1] * first, *(s[1] * term + s[2] * (first * first) for term in rest)))
+
+    def _over(self, angle: Array | Interval, order: int) -> Jet:
+        if not isinstance(angle, Interval):
+            return self.jet(angle, order)
+        start, stop = self.interval
+        known_at = np.isfinite(angle.radius)
+        turns = np.floor((angle.middle - start) / (stop - start)) if self.closed else 0.0 * angle.middle
+        at = angle - turns * Interval(np.array(stop - start), np.array(2.0 * ROUNDING * (stop - start)))
+        known = self.jet(at, order)
+        for way in (-1.0, 1.0):
+            # what an interval has beyond an end of its stretch belongs to the next one
+            known = self._with_next(known, at, order, way)
+        return Jet(tuple(Interval(term.middle, np.where(known_at, term.radius, np.inf)) for term in known.terms))
+
+    def _with_next(self, known: Jet, at: Interval, order: int, way: float) -> Jet:
+        which = np.searchsorted(self.breaks[1:-1], at.middle, side="right")
+        ends, (start, stop) = np.array(self.breaks)[which + (way > 0.0)], self.interval
+        beyond = np.flatnonzero(at.high > ends if way > 0.0 else at.low < ends)
+        terms = [Interval(term.middle.copy(), term.radius.copy()) for term in known.terms]
+        for i in np.unique(which[beyond]):
+            here, wrapped = beyond[which[beyond] == i], (i + int(way)) // len(self.stretches)
+            stretch = self.stretches[(i + int(way)) % len(self.stretches)]
+            moved = at[here] - wrapped * (stop - start)
+            wide = moved.radius > 0.5 * (stretch.stop - stretch.start)
+            for term, more in zip(terms, stretch.jet(moved, order).terms, strict=True):
+                both = hull(term[here], more)
+                term.middle[here], term.radius[here] = both.middle, np.where(wide, np.inf, both.radius)
+        return Jet(tuple(terms))
 
     def within(self, angle: Array) -> Array:
         """Angles of the interval that mean the same."""
@@ -281,6 +363,17 @@ def _segments(law: MotionLaw) -> Sequence[Segment]:
     if isinstance(law, PolynomialLaw):
         return (PolynomialSegment(law.acceleration, law.b0),)
     return [_interpolated(law, start, stop) for start, stop in pairwise(law.breaks)]
+
+
+def _joined(shape: tuple[int, ...], pieces: Sequence[tuple[Any, Any]]) -> Any:  # noqa: ANN401 - an array or intervals
+    """Values that are known place by place."""
+    if isinstance(pieces[0][1], Interval):
+        parts = ([(here, getattr(one, name)) for here, one in pieces] for name in ("middle", "radius"))
+        return Interval(*(_joined(shape, part) for part in parts))
+    values = np.empty(shape)
+    for here, part in pieces:
+        values[here] = part
+    return values
 
 
 def _interpolated(law: MotionLaw, start: float, stop: float) -> Segment:

@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.jets import Pair
 from optlaws.numbers import derivative, finite, real_times, whole
+from optlaws.series.enclosures.interval_arrays import Interval
+from optlaws.series.enclosures.jets import Pair
 
 Array = NDArray[np.float64]
 
@@ -50,8 +51,8 @@ class PlaneCurve(ABC):
         """1 where it is run through clockwise as the angle grows, under a cam that turns counterclockwise; else -1."""
 
     @abstractmethod
-    def jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:
-        """Both coordinates with their derivatives up to an order."""
+    def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:
+        """Both coordinates with their derivatives up to an order, in intervals between two breaks all they may be."""
 
     @property
     def interval(self) -> tuple[float, float]:
@@ -136,7 +137,7 @@ class PlaneCurve(ABC):
         angles = np.unique(np.concatenate([even, self.breaks]))
         return angles, self(angles)
 
-    def normal_jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:
+    def normal_jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:
         """The unit normal away from the cam with its derivatives up to an order."""
         x, y = (jet.slope() for jet in self.jets(angle, order + 1, before=before))
         length = (x * x + y * y).root()
@@ -144,36 +145,48 @@ class PlaneCurve(ABC):
 
 
 @dataclass(frozen=True)
-class OffsetCurve(PlaneCurve):
-    """The curve at a distance from another, along its normals; outward where the distance is above 0, m."""
+class CurveAlongNormals(PlaneCurve):
+    """A curve that is off another along its normals."""
 
     base: PlaneCurve
-    distance: float
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Those of the other."""
+        """Breaks of the other curve."""
         return self.base.breaks
 
     @property
     def closed(self) -> bool:
-        """As the other."""
+        """Whether the other curve is closed."""
         return self.base.closed
 
     @property
     def turning(self) -> float:
-        """As the other."""
+        """How the other curve turns."""
         return self.base.turning
 
-    def jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+
+@dataclass(frozen=True)
+class OffsetCurve(CurveAlongNormals):
+    """The curve at a distance from another, along its normals; outward where the distance is above 0, m."""
+
+    distance: float
+
+    def jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:  # noqa: D102
         x, y = self.base.jets(angle, order, before=before)
         if self.distance == 0.0:
             return x, y
         along_x, along_y = self.normal_jets(angle, order, before=before)
         return x + along_x * self.distance, y + along_y * self.distance
 
-    def normal_jets(self, angle: Array, order: int, *, before: bool = False) -> Pair:  # noqa: D102
+    def normal_jets(self, angle: Array | Interval, order: int, *, before: bool = False) -> Pair:  # noqa: D102
         return self.base.normal_jets(angle, order, before=before)
 
     def offset(self, distance: float) -> OffsetCurve:  # noqa: D102
         return OffsetCurve(self.base, self.distance + finite(distance, "distance"))
+
+
+def derivatives(curve: Any, places: Array, nu: int) -> Array:  # noqa: ANN401 - whatever has jets
+    """Points of a curve, or derivatives by its parameter, shape of `places` and two more."""
+    x, y = curve.jets(np.asarray(places, dtype=np.float64), nu)
+    return np.stack([x.derivative(nu), y.derivative(nu)], axis=-1)

@@ -8,14 +8,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.cams.cutting.chords import FEWEST, GROWTH
-from optlaws.cams.cutting.outline import Outline, curvature, divided, speed
-from optlaws.series.enclosed import bounds
+from optlaws.cams.cutting.outline import Outline, curvature, divided, greatest_deviation, speed
+from optlaws.series.enclosures.interval_arrays import Interval, middle
+from optlaws.series.enclosures.jets import Jet
 
 Array = NDArray[np.float64]
 
 STRAIGHT = 1e3  # radius in metres from which an arc is a line
-_HALVINGS = 30
+_STEPS = 5
 _CUBED = 192.0  # a pair of arcs over the length s is s³ dκ/ds / 192 off, or nearly
+_NEAR = 1e-2  # how near deviations are enclosed
+_SMALL = 0.9
 _ROUNDING = 1e-12  # metres; what arcs of a circle are off by themselves
 
 
@@ -75,22 +78,21 @@ def arcs(outline: Outline, tolerance: float) -> Arcs:
         if len(angles) <= FEWEST:
             factor *= GROWTH
             continue
-        made = _chain(outline, angles)
-        if made.deviation <= tolerance + _ROUNDING:
-            return made
-        factor *= max(GROWTH, float(np.cbrt(made.deviation / tolerance)))
+        chain = _chain(outline, angles, tolerance)
+        if chain.deviation <= tolerance + _ROUNDING:
+            return chain
+        factor *= max(GROWTH, float(np.cbrt(chain.deviation / tolerance)))
 
 
-def _chain(outline: Outline, angles: Array) -> Arcs:
+def _chain(outline: Outline, angles: Array, tolerance: float) -> Arcs:
     points, tangents = outline(angles), _directions(outline, angles)
     joints = _joints(points[:-1], points[1:], tangents[:-1], tangents[1:])
     corners = np.stack([points[:-1], joints], axis=1).reshape(-1, 2)
-    ends = np.roll(corners, -1, axis=0)
     bulges = np.empty(len(corners))
     bulges[0::2] = _bulges(points[:-1], joints, tangents[:-1])
     bulges[1::2] = -_bulges(points[1:], joints, -tangents[1:])
     places = np.append(np.stack([angles[:-1], _beside(outline, angles, joints)], axis=1).ravel(), angles[-1])
-    return Arcs(corners, bulges, float(_deviations(outline, places, corners, ends, bulges).max()))
+    return Arcs(corners, bulges, _deviation(outline, places, Arcs(corners, bulges, 0.0), tolerance))
 
 
 def _directions(outline: Outline, angles: Array) -> Array:
@@ -123,12 +125,13 @@ def _bulges(starts: Array, ends: Array, tangents: Array) -> Array:
 
 def _beside(outline: Outline, angles: Array, joints: Array) -> Array:
     """Angles at which the outline passes the joints: where they are straight beside it."""
-    low, high = angles[:-1].copy(), angles[1:].copy()
-    for _ in range(_HALVINGS):
-        middle = 0.5 * (low + high)
-        behind = np.einsum("ij,ij->i", joints - outline(middle), outline(middle, 1)) > 0.0
-        low, high = np.where(behind, middle, low), np.where(behind, high, middle)
-    return 0.5 * (low + high)
+    at = 0.5 * (angles[:-1] + angles[1:])
+    for _ in range(_STEPS):
+        x, y = outline.jets(at, 1)
+        (along, up), (beyond, above) = ((jet.terms[1] for jet in (x, y)), (joints.T - [x.terms[0], y.terms[0]]))
+        step = (beyond * along + above * up) / (along * along + up * up)
+        at = np.clip(at + step, angles[:-1], angles[1:])
+    return at
 
 
 def _centres(starts: Array, ends: Array, bulges: Array) -> Array:
@@ -138,23 +141,24 @@ def _centres(starts: Array, ends: Array, bulges: Array) -> Array:
         return 0.5 * (starts + ends) + ((1.0 - bulges**2) / (4.0 * bulges))[:, None] * left
 
 
-def _deviations(outline: Outline, places: Array, starts: Array, ends: Array, bulges: Array) -> Array:
-    """Of each arc, the greatest distance of its part of the outline from it, as it is proven."""
-    chords = ends - starts
+def _deviation(outline: Outline, places: Array, chain: Arcs, tolerance: float) -> float:
+    """The greatest distance of the outline from its arcs, as it is proven; one that is met where that is too far."""
+    starts, bulges, chords = chain.points, chain.bulges, chain.ends - chain.points
     lengths = np.linalg.norm(chords, axis=1)
     along = chords / lengths[:, None]
-    across = np.stack([-along[:, 1], along[:, 0]], axis=1)
     bends = 4.0 * bulges / ((1.0 + bulges**2) * lengths)
     height = 0.5 * lengths * bulges  # of the arc over the middle of its chord, to the right
 
-    def off(at: Array) -> Array:
+    def off(angle: Array | Interval, order: int) -> Jet:
         # distance from the circle, up to second order in it: exact at 0, and finite for lines
-        out = outline(at) - starts[:, None, :]
-        x = np.einsum("nij,nj->ni", out, along) - 0.5 * lengths[:, None]
-        y = np.einsum("nij,nj->ni", out, across) + height[:, None]
-        return np.asarray(y - 0.5 * bends[:, None] * (x * x + y * y))
+        i = np.searchsorted(places[1:-1], middle(angle))
+        x, y = outline.jets(angle, order)
+        x, y = x - starts[i, 0], y - starts[i, 1]
+        x, y = x * along[i, 0] + y * along[i, 1] - 0.5 * lengths[i], y * along[i, 0] - x * along[i, 1] + height[i]
+        distance: Jet = y - (x * x + y * y) * (0.5 * bends[i])
+        return distance
 
-    low, high = bounds(off, places[:-1], places[1:])
+    most = greatest_deviation(off, places, tolerance + _ROUNDING, share=_NEAR)
     # e = d + bend d²/2 for the distance d to the right: |d| <= |e| / (1 - |bend e|) where bend e is small
-    most = np.maximum(np.abs(low), np.abs(high))
-    return np.asarray(most / np.maximum(1.0 - np.abs(bends) * most, 0.1))
+    share = float(np.abs(bends).max()) * most
+    return most / (1.0 - share) if share < _SMALL else np.inf

@@ -9,13 +9,11 @@ from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.cutting.formats import export, format_of
 from optlaws.cams.disc import DiscCam
 from optlaws.errors import InputError
-from optlaws.exporting import exports
 from optlaws.suggest import unknown_key
 
 CURVES = ("profile", "pitch", "cutter")
 
 
-@exports("cam")
 def export_cam(
     cam: DiscCam,
     file: str | Path,
@@ -23,7 +21,7 @@ def export_cam(
     *,
     curve: str | None = None,
     cutter_radius: str | None = None,
-    **asked: Any,  # noqa: ANN401 - entries of Cutting
+    **options: Any,  # noqa: ANN401 - entries of Cutting
 ) -> Path:
     """Write a cam to a file, whole or not at all, and return its path.
 
@@ -49,7 +47,7 @@ def export_cam(
         If something is unknown or out of its range, the cam's motion is no whole turn, or the file cannot be written.
     """
     format_of(Path(file), as_)
-    return export(curve_of(cam, curve, cutter_radius), file, as_, **asked)
+    return export(curve_of(cam, curve, cutter_radius), file, as_, **options)
 
 
 def curve_of(cam: DiscCam, curve: str | None, cutter_radius: str | None) -> PlaneCurve:
@@ -60,11 +58,11 @@ def curve_of(cam: DiscCam, curve: str | None, cutter_radius: str | None) -> Plan
     InputError
         If it is unknown, or a cutter has no radius.
     """
-    wanted = curve or ("profile" if cutter_radius is None else "cutter")
-    if wanted not in CURVES:
-        raise InputError(unknown_key(wanted, CURVES, "curve"))
-    if (wanted == "cutter") != (cutter_radius is not None):
+    chosen = curve or ("profile" if cutter_radius is None else "cutter")
+    if chosen not in CURVES:
+        raise InputError(unknown_key(chosen, CURVES, "curve"))
+    if (chosen == "cutter") != (cutter_radius is not None):
         raise InputError("cutter_radius and curve='cutter' go together: give the radius, such as cutter_radius='10 mm'")
-    if wanted == "cutter":
+    if chosen == "cutter":
         return cam.cutter_path(cutter_radius)
-    return cam.profile if wanted == "profile" else cam.pitch_curve
+    return cam.profile if chosen == "profile" else cam.pitch_curve

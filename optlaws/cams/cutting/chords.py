@@ -7,13 +7,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.cutting.outline import Outline, curvature, divided, speed
-from optlaws.series.enclosed import bounds
+from optlaws.cams.cutting.outline import Outline, curvature, divided, greatest_deviation, speed
+from optlaws.series.enclosures.interval_arrays import Interval, middle
+from optlaws.series.enclosures.jets import Jet
 
 Array = NDArray[np.float64]
 
 GROWTH = 1.06
 FEWEST = 3
+_NEAR = 1e-3  # how near deviations are enclosed
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,20 +47,22 @@ def polygon(outline: Outline, tolerance: float) -> Polygon:
     factor = 1.0
     while True:
         angles = divided(outline, density, factor)
-        deviation = float(_deviations(outline, angles).max()) if len(angles) > FEWEST else np.inf
+        deviation = _deviation(outline, angles, tolerance) if len(angles) > FEWEST else np.inf
         if deviation <= tolerance:
             return Polygon(outline(angles[:-1]), angles[:-1], deviation)
         factor *= GROWTH
 
 
-def _deviations(outline: Outline, angles: Array) -> Array:
-    """Of each chord, the greatest distance of the outline from it, as it is proven."""
+def _deviation(outline: Outline, angles: Array, tolerance: float) -> float:
+    """The greatest distance of the outline from its chords, as it is proven; one that is met where that is too far."""
     ends = outline(angles)
     chords = np.diff(ends, axis=0)
     normals = np.stack([-chords[:, 1], chords[:, 0]], axis=1) / np.linalg.norm(chords, axis=1)[:, None]
 
-    def off(places: Array) -> Array:
-        return np.asarray(np.einsum("nij,nj->ni", outline(places) - ends[:-1, None, :], normals))
+    def off(angle: Array | Interval, order: int) -> Jet:
+        which = np.searchsorted(angles[1:-1], middle(angle))
+        x, y = outline.jets(angle, order)
+        distance: Jet = (x - ends[which, 0]) * normals[which, 0] + (y - ends[which, 1]) * normals[which, 1]
+        return distance
 
-    low, high = bounds(off, angles[:-1], angles[1:])
-    return np.maximum(np.abs(low), np.abs(high))
+    return greatest_deviation(off, angles, tolerance, share=_NEAR)

@@ -7,11 +7,11 @@ from pathlib import Path
 from typing import Any
 
 from optlaws.cams.cutting.dxf import as_arcs, as_polyline, as_spline
+from optlaws.cams.cutting.file_options import Cutting
 from optlaws.cams.cutting.moves import as_arc_moves, as_line_moves
 from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.point_tables import as_points, as_polar
 from optlaws.cams.cutting.svg import as_svg
-from optlaws.cams.cutting.wanted import Cutting
 from optlaws.errors import InputError
 from optlaws.files import writing
 from optlaws.suggest import unknown_key
@@ -70,12 +70,12 @@ def format_of(file: Path, name: str | None = None) -> str:
     return known
 
 
-def text(outline: Outline, name: str, asked: Cutting) -> str:
+def text(outline: Outline, name: str, options: Cutting) -> str:
     """What a file of a format holds."""
-    return FORMATS[name](outline, asked)
+    return FORMATS[name](outline, options)
 
 
-def export(outline: Outline, file: str | Path, as_: str | None = None, **asked: Any) -> Path:  # noqa: ANN401
+def export(outline: Outline, file: str | Path, as_: str | None = None, **options: Any) -> Path:  # noqa: ANN401
     """Write a closed curve to a file, whole or not at all, and return its path.
 
     Parameters
@@ -96,9 +96,9 @@ def export(outline: Outline, file: str | Path, as_: str | None = None, **asked: 
     """
     place = Path(file)
     name = format_of(place, as_)
-    for key in asked:
+    for key in options:
         if key not in Cutting.__dataclass_fields__:
             raise InputError(unknown_key(key, Cutting.__dataclass_fields__, "entry"))
-    cutting = Cutting(**asked)
+    cutting = Cutting(**options)
     writing.check_place(place)
     return writing.write(place, text(outline, name, cutting), exact=True)

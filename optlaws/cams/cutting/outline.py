@@ -5,12 +5,15 @@ from __future__ import annotations
 from collections.abc import Callable
 from itertools import pairwise
 from math import ceil, tau
-from typing import Protocol
+from typing import Any, Protocol
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.series.enclosures.branch_and_bound import extremes
+from optlaws.series.enclosures.interval_arrays import Interval
+from optlaws.series.enclosures.jets import Jet, Pair
 
 Array = NDArray[np.float64]
 Density = Callable[[Array], Array]
@@ -25,7 +28,8 @@ class Outline(Protocol):
     """A closed plane curve over the cam's angle.
 
     Called with angles in radians, shape (...), and the order of the derivative, it gives metres (per radian to that
-    order), shape (..., 2). Between `breaks`, angles that increase from 0 to 2 pi, it is smooth.
+    order), shape (..., 2). Between `breaks`, angles that increase from 0 to 2 pi, it is smooth. In intervals of angles
+    `jets` encloses it: what is said of deviations rests on that.
     """
 
     @property
@@ -34,6 +38,9 @@ class Outline(Protocol):
 
     def __call__(self, angle: Array, /, nu: int = 0) -> Array:
         """Points, or derivatives by the angle."""
+
+    def jets(self, angle: Array | Interval, order: int, /) -> Pair:
+        """Both coordinates with their Taylor terms, at places or in intervals of places between breaks."""
 
 
 def stretches(outline: Outline) -> list[tuple[float, float]]:
@@ -69,11 +76,11 @@ def divided(outline: Outline, density: Density, factor: float = 1.0) -> Array:
     parts = factor * sum(float(sums[-1]) for _, sums in shares)
     if parts > MOST_PARTS:
         raise InputError(f"tolerance asks for {parts:.3g} parts, more than {MOST_PARTS}: give a wider one")
-    made = [np.zeros(1)]
+    cuts = [np.zeros(1)]
     for places, sums in shares:
         count = max(1, ceil(factor * float(sums[-1])))
-        made.append(np.interp(np.linspace(0.0, float(sums[-1]), count + 1)[1:], sums, places))
-    return np.concatenate(made)
+        cuts.append(np.interp(np.linspace(0.0, float(sums[-1]), count + 1)[1:], sums, places))
+    return np.concatenate(cuts)
 
 
 def _accumulated(density: Density, start: float, stop: float) -> tuple[Array, Array]:
@@ -95,3 +102,24 @@ def speed(outline: Outline, angles: Array) -> Array:
     """Metres per radian along the outline."""
     first = outline(angles, 1)
     return np.hypot(first[..., 0], first[..., 1])
+
+
+def greatest_deviation(
+    off: Callable[[Any, int], Jet], places: Array, tolerance: float, *, share: float, order: int = 2
+) -> float:
+    """The greatest magnitude of a deviation, as it is proven; one that it has where that is above a tolerance.
+
+    Parameters
+    ----------
+    off
+        The deviation, as `extremes` takes functions, of arrays of places as well.
+    places
+        Between which it is smooth.
+    share, order
+        As for `extremes`.
+    """
+    met = float(np.abs(off(0.5 * (places[1:] + places[:-1]), 0).terms[0]).max())
+    if met > tolerance:
+        return met
+    known = extremes(off, places, share=share, order=order, enough=tolerance, magnitude=True)
+    return known.peak if known.peak > tolerance else known.bound

@@ -7,8 +7,8 @@ from math import tau
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.cams.cutting.file_options import Cutting
 from optlaws.cams.cutting.outline import Outline
-from optlaws.cams.cutting.wanted import Cutting
 from optlaws.errors import InputError
 from optlaws.files.writing import MARK
 
@@ -18,14 +18,16 @@ _SAMPLES = 7201
 _HALVINGS = 60
 
 
-def as_points(outline: Outline, asked: Cutting) -> str:
+def as_points(outline: Outline, options: Cutting) -> str:
     """Angle of the cam in degrees, x and y in millimetres; the angles are even."""
-    angles = np.linspace(0.0, tau, asked.points)
+    angles = np.linspace(0.0, tau, options.points)
     rows = zip(np.degrees(angles), *(1e3 * outline(angles)).T, strict=True)
-    return _table("cam angle (deg),x (mm),y (mm)", [[_decimal(t), *map(asked.rounded, xy)] for t, *xy in rows], asked)
+    return _table(
+        "cam angle (deg),x (mm),y (mm)", [[_decimal(t), *map(options.rounded, xy)] for t, *xy in rows], options
+    )
 
 
-def as_polar(outline: Outline, asked: Cutting) -> str:
+def as_polar(outline: Outline, options: Cutting) -> str:
     """Angle around the centre in degrees, counterclockwise, and the radius in millimetres; the angles are even.
 
     Raises
@@ -33,8 +35,8 @@ def as_polar(outline: Outline, asked: Cutting) -> str:
     InputError
         If the curve turns back as seen from the centre, so that a ray meets it more than once.
     """
-    rows = zip(np.linspace(0.0, 360.0, asked.points), 1e3 * polar(outline, asked.points), strict=True)
-    return _table("polar angle (deg),radius (mm)", [[_decimal(t), asked.rounded(r)] for t, r in rows], asked)
+    rows = zip(np.linspace(0.0, 360.0, options.points), 1e3 * polar(outline, options.points), strict=True)
+    return _table("polar angle (deg),radius (mm)", [[_decimal(t), options.rounded(r)] for t, r in rows], options)
 
 
 def polar(outline: Outline, points: int) -> Array:
@@ -51,8 +53,8 @@ def polar(outline: Outline, points: int) -> Array:
     return np.append(radii, radii[0])
 
 
-def _table(heading: str, rows: list[list[str]], asked: Cutting) -> str:
-    return "\n".join([f"# {asked.line}; {MARK}", heading, *(",".join(row) for row in rows), ""])
+def _table(heading: str, rows: list[list[str]], options: Cutting) -> str:
+    return "\n".join([f"# {options.line}; {MARK}", heading, *(",".join(row) for row in rows), ""])
 
 
 def _decimal(angle: float) -> str:
@@ -72,8 +74,8 @@ def _met(outline: Outline, bearings: Array) -> Array:
             "table of x and y"
         )
     first = float(np.arctan2(points[0, 1], points[0, 0]))
-    wanted = np.mod(sign * (bearings - first), tau)
-    which = np.clip(np.searchsorted(swept, wanted, side="right") - 1, 0, _SAMPLES - 2)
+    turns = np.mod(sign * (bearings - first), tau)
+    which = np.clip(np.searchsorted(swept, turns, side="right") - 1, 0, _SAMPLES - 2)
     return _halved(outline, angles[which], angles[which + 1], bearings, sign)
 
 

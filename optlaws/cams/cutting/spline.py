@@ -3,20 +3,25 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import tau
+from math import inf, sqrt, tau
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.cutting.outline import MOST_PARTS, Outline, stretches
+from optlaws.cams.curves.piecewise_curve import PiecewiseCurve
+from optlaws.cams.curves.plane_curve import derivatives
+from optlaws.cams.cutting.outline import MOST_PARTS, Outline, greatest_deviation, stretches
 from optlaws.errors import InputError
-from optlaws.series.enclosed import bounds
+from optlaws.kept import kept_property
+from optlaws.series.enclosures.interval_arrays import Interval
+from optlaws.series.enclosures.jets import Jet, Pair
 
 Array = NDArray[np.float64]
 
 DEGREES = (3, 5)
 _FIRST = 48
 _GROWTH = 1.25
+_NEAR = 0.1  # how near the square of the deviation is enclosed
 _BEFORE = 1e-9  # of a piece: at a break an outline has the derivatives of what follows
 
 
@@ -41,11 +46,23 @@ class Spline:
     controls: Array
     deviation: float
 
+    @kept_property
+    def _pieces(self) -> PiecewiseCurve:
+        return PiecewiseCurve.of_spline(self.knots, self.controls, self.degree)
+
+    @property
+    def blur(self) -> float:
+        """How far the polynomials that are enclosed may be from the spline for rounding, m."""
+        return self._pieces.blur
+
+    def jets(self, angles: Array | Interval, order: int) -> Pair:
+        """Both coordinates with their Taylor terms by the angle."""
+        x, y = self._pieces.jets(angles, order)
+        return x, y
+
     def __call__(self, angles: Array, nu: int = 0) -> Array:
         """Points, or derivatives by the angle, shape (..., 2)."""
-        from scipy.interpolate import BSpline
-
-        return np.asarray(BSpline(self.knots, self.controls, self.degree)(angles, nu))
+        return derivatives(self, angles, nu)
 
     @property
     def breaks(self) -> tuple[float, ...]:
@@ -68,25 +85,28 @@ def spline(outline: Outline, tolerance: float, degree: int = 3) -> Spline:
         raise InputError(f"degree of a spline must be 3 or 5, got {degree}")
     parts = _FIRST
     while parts <= MOST_PARTS:
-        made = through(outline, even(outline, parts), degree)
-        if made.deviation <= tolerance:
-            return made
+        fitted = through(outline, even(outline, parts), degree, tolerance)
+        if fitted.deviation <= tolerance:
+            return fitted
         # the error of an interpolating spline falls with the power degree + 1 of the distance of its knots
-        parts = int(parts * max(_GROWTH, 1.02 * (made.deviation / tolerance) ** (1.0 / (degree + 1)))) + 1
+        parts = int(parts * max(_GROWTH, 1.02 * (fitted.deviation / tolerance) ** (1.0 / (degree + 1)))) + 1
     raise InputError(f"tolerance asks for more than {MOST_PARTS} pieces of degree {degree}: give a wider one")
 
 
 def even(outline: Outline, parts: int) -> Array:
     """Angles from 0 to a whole turn, breaks among them, nowhere farther apart than a share of the turn."""
-    made = [np.zeros(1)]
+    fitted = [np.zeros(1)]
     for start, stop in stretches(outline):
         count = max(1, round(parts * (stop - start) / tau))
-        made.append(np.linspace(start, stop, count + 1)[1:])
-    return np.concatenate(made)
+        fitted.append(np.linspace(start, stop, count + 1)[1:])
+    return np.concatenate(fitted)
 
 
-def through(outline: Outline, angles: Array, degree: int) -> Spline:
-    """The spline through the places of an outline at angles from 0 to a whole turn, its breaks among them."""
+def through(outline: Outline, angles: Array, degree: int, tolerance: float = inf) -> Spline:
+    """The spline through the places of an outline at angles from 0 to a whole turn, its breaks among them.
+
+    Where it is farther off than a tolerance, its deviation is one that it has, and not proven to be the greatest.
+    """
     runs = [(0.0, float(angles[-1]))] if degree == 3 else stretches(outline)
     knots, controls = [np.zeros(1)], [outline(np.zeros(1))]
     for start, stop in runs:
@@ -96,8 +116,8 @@ def through(outline: Outline, angles: Array, degree: int) -> Spline:
         knots.append(np.full(degree, stop))
         controls.append(own_controls[1:])
     whole = np.append(np.concatenate(knots), angles[-1])
-    made = Spline(degree, whole, np.concatenate(controls), 0.0)
-    return Spline(degree, made.knots, made.controls, _deviation(outline, made))
+    fitted = Spline(degree, whole, np.concatenate(controls), 0.0)
+    return Spline(degree, fitted.knots, fitted.controls, _deviation(outline, fitted, tolerance))
 
 
 def _clamped(outline: Outline, angles: Array, degree: int) -> tuple[Array, Array]:
@@ -123,10 +143,12 @@ def _derivatives(outline: Outline, angle: float) -> list[tuple[int, Array]]:
     return [(nu, outline(np.array([angle]), nu)[0]) for nu in (1, 2)]
 
 
-def _deviation(outline: Outline, made: Spline) -> float:
-    def off(angles: Array) -> Array:
-        return made(angles) - outline(angles)
+def _deviation(outline: Outline, fitted: Spline, tolerance: float) -> float:
+    """The greatest distance between places of one angle, as it is proven; one that is met where that is too far."""
 
-    places = np.array(made.breaks)
-    low, high = bounds(off, places[:-1], places[1:])
-    return float(np.linalg.norm(np.maximum(np.abs(low), np.abs(high)), axis=1).max())
+    def square(angle: Array | Interval, order: int) -> Jet:
+        (x, y), (along, up) = fitted.jets(angle, order), outline.jets(angle, order)
+        return (x - along) * (x - along) + (y - up) * (y - up)
+
+    farthest = greatest_deviation(square, np.array(fitted.breaks), tolerance**2, share=_NEAR, order=fitted.degree + 1)
+    return sqrt(farthest) + 2.0 * fitted.blur

@@ -4,12 +4,12 @@ from __future__ import annotations
 
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, ClassVar
 
 from optlaws.cams.followers.contact import Contact
-from optlaws.cycles.asked.quantities import quantity
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.motion.quantities import quantity
 
 
 @dataclass(frozen=True)
@@ -36,12 +36,24 @@ class Place:
 
 
 class Follower(ABC):
-    """A follower of a disc cam, as a person gives it."""
+    """A follower of a disc cam, as a person gives it.
 
-    @property
-    @abstractmethod
-    def axis(self) -> str:
-        """Whether it moves by a "length" or an "angle"."""
+    A kind is a frozen dataclass of this class in a module of this folder, and named in its head: nothing else names it.
+    """
+
+    #: kinds by their names in problem files; those of this folder are there once `follower_kinds` was called
+    kinds: ClassVar[dict[str, type[Follower]]] = {}
+    kind: ClassVar[str]
+    #: whether it moves by a "length" or an "angle"
+    axis: ClassVar[str]
+    #: its entries, as errors and the explorer show them
+    examples: ClassVar[dict[str, str]]
+    #: the limit that is linear in the law and says the least base circle of all laws; None where none is
+    sizing_limit: ClassVar[str | None] = None
+
+    def __init_subclass__(cls, *, kind: str) -> None:
+        cls.kind = kind
+        Follower.kinds[kind] = cls
 
     @abstractmethod
     def contact(self, place: Place) -> Contact:
@@ -52,6 +64,24 @@ class Follower(ABC):
         InputError
             If there is no such mechanism; the error says the remedy.
         """
+
+    @abstractmethod
+    def base_radius(self, level: float) -> float:
+        """The base circle on which the follower's contact is at a `level` when lowest, m."""
+
+    @property
+    def size(self) -> float:
+        """Its greatest length, m."""
+        return 0.0
+
+    @property
+    def pivot(self) -> Any:  # noqa: ANN401 - a quantity
+        """From the cam's centre to the pivot; None on a slide."""
+        return None
+
+    def from_beneath(self) -> Follower:
+        """The same follower on its slide, seen from beneath the shaft."""
+        return self
 
 
 def positive(value: Any, name: str) -> float:  # noqa: ANN401 - it is checked here

@@ -3,18 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from math import asin, degrees, pi
-from typing import Any
+from math import asin, degrees, pi, sin
+from typing import Any, ClassVar
 
-from optlaws.cams.curves.jets import Jet, Pair
-from optlaws.cams.followers.contact import FaceContact
+from optlaws.cams.followers.contact import ContactState, bearing, other_leg
+from optlaws.cams.followers.faces import FaceContact, sign
 from optlaws.cams.followers.follower import Follower, Place, positive, shown
-from optlaws.cycles.asked.quantities import quantity
+from optlaws.cams.followers.transmission import Drag, Transmission
 from optlaws.errors import InputError
+from optlaws.motion.quantities import quantity
+from optlaws.series.enclosures.jets import Jet, Pair
 
 
 @dataclass(frozen=True)
-class OscillatingFlat(Follower):
+class OscillatingFlat(Follower, kind="oscillating flat"):
     """A follower that swings and has a flat face.
 
     Parameters
@@ -32,11 +34,8 @@ class OscillatingFlat(Follower):
 
     pivot_distance: Any
     face_offset: Any = "0 mm"
-
-    @property
-    def axis(self) -> str:
-        """It swings."""
-        return "angle"
+    axis: ClassVar[str] = "angle"
+    examples: ClassVar[dict[str, str]] = {"pivot_distance": "120 mm", "face_offset": "0 mm"}
 
     def contact(self, place: Place) -> FaceContact:  # noqa: D102
         distance = positive(self.pivot_distance, "face: pivot_distance")
@@ -61,6 +60,21 @@ class OscillatingFlat(Follower):
             )
         return SwingingFace(place.turning, place.lowest, first, distance, offset)
 
+    def base_radius(self, level: float) -> float:
+        """The distance of the face at an angle."""
+        offset = quantity(self.face_offset, "length", "face: face_offset")
+        return positive(self.pivot_distance, "face: pivot_distance") * sin(level) + offset
+
+    @property
+    def pivot(self) -> Any:  # noqa: ANN401 - a quantity
+        """From the cam's centre to the pivot."""
+        return self.pivot_distance
+
+    @property
+    def size(self) -> float:
+        """The distance of the pivot."""
+        return abs(quantity(self.pivot_distance, "length", "pivot_distance"))
+
 
 @dataclass(frozen=True)
 class SwingingFace(FaceContact):
@@ -77,14 +91,13 @@ class SwingingFace(FaceContact):
     0.04
     """
 
-    first: float
     distance: float
     offset: float
 
     @property
-    def lost(self) -> int:
-        """One: the place on the face is a derivative."""
-        return 1
+    def pivot(self) -> float:
+        """The distance of the pivot."""
+        return self.distance
 
     def point(self, s: Jet) -> Pair:  # noqa: D102
         sine, cosine = self._waves(s)
@@ -109,8 +122,20 @@ class SwingingFace(FaceContact):
         _, cosine = self._waves(s)
         return cosine * self.distance / self._rate(s)
 
+    def state(self, point: Pair, normal: Pair) -> ContactState:  # noqa: D102
+        sine = (point[0] * normal[0] + point[1] * normal[1] - self.offset) / self.distance
+        phi = (sine / other_leg(sine)).arctangent()
+        return ContactState(phi + (self.lowest - self.level), phi * -1.0 + 0.5 * pi, bearing(*normal))
+
+    def transmission(self, s: Jet) -> Transmission:  # noqa: D102
+        lever = self.reach(s).magnitude()
+        (x, y), (nx, ny) = self.point(s), self.normal(s)
+        sliding = (x * nx + y * ny) * self.turning + s.slope() * self.offset
+        none = lever * 0.0
+        return Transmission(lever, sliding.magnitude(), none, none, Drag(sign(sliding) * -self.offset))
+
     def _waves(self, s: Jet) -> Pair:
-        return (s + (self.first - self.lowest)).waves()
+        return (s + (self.level - self.lowest)).waves()
 
     def _rate(self, s: Jet) -> Jet:
         return s.slope() * self.turning + 1.0

@@ -2,18 +2,32 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from dataclasses import dataclass
-from math import acos, degrees
-from typing import Any
+from itertools import pairwise
+from math import acos, cos, degrees, hypot, pi, sqrt
+from typing import Any, ClassVar
 
-from optlaws.cams.curves.jets import Jet, Pair
-from optlaws.cams.followers.contact import RollerContact, half_turn
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.followers.contact import ContactState, CurvatureTerms, other_leg
 from optlaws.cams.followers.follower import Follower, Place, positive, roller_radius, shown
+from optlaws.cams.followers.linear_limit import LinearLimit
+from optlaws.cams.followers.rollers import RollerContact, half_turn
+from optlaws.cams.followers.transmission import Transmission
 from optlaws.errors import InputError
+from optlaws.motion.piece import Piece
+from optlaws.motion.quantities import quantity
+from optlaws.series.enclosures.jets import Jet, Pair
+
+Array = NDArray[np.float64]
+
+_LINES, _PARTS, _LOOKS = 16, 24, 2001
 
 
 @dataclass(frozen=True)
-class OscillatingRoller(Follower):
+class OscillatingRoller(Follower, kind="oscillating roller"):
     """A follower that swings and has a roller.
 
     Parameters
@@ -34,11 +48,8 @@ class OscillatingRoller(Follower):
     radius: Any
     arm: Any
     pivot_distance: Any
-
-    @property
-    def axis(self) -> str:
-        """It swings."""
-        return "angle"
+    axis: ClassVar[str] = "angle"
+    examples: ClassVar[dict[str, str]] = {"radius": "14 mm", "arm": "110 mm", "pivot_distance": "140 mm"}
 
     def contact(self, place: Place) -> RollerContact:  # noqa: D102
         radius, arm = roller_radius(self.radius, place), positive(self.arm, "roller: arm")
@@ -62,6 +73,22 @@ class OscillatingRoller(Follower):
             )
         return SwingingRoller(place.turning, place.lowest, first, arm, distance, radius)
 
+    def base_radius(self, level: float) -> float:
+        """The way from the cam's centre to the roller's at an angle of the arm."""
+        arm, pivot = positive(self.arm, "roller: arm"), positive(self.pivot_distance, "roller: pivot_distance")
+        return sqrt(arm**2 + pivot**2 - 2.0 * arm * pivot * cos(level))
+
+    @property
+    def pivot(self) -> Any:  # noqa: ANN401 - a quantity
+        """From the cam's centre to the pivot."""
+        return self.pivot_distance
+
+    @property
+    def size(self) -> float:
+        """The greatest of its three lengths."""
+        given = {"radius": self.radius, "arm": self.arm, "pivot_distance": self.pivot_distance}
+        return max(abs(quantity(value, "length", name)) for name, value in given.items())
+
 
 @dataclass(frozen=True)
 class SwingingRoller(RollerContact):
@@ -75,7 +102,6 @@ class SwingingRoller(RollerContact):
     0.249204
     """
 
-    first: float
     arm: float
     distance: float
     radius: float
@@ -84,6 +110,16 @@ class SwingingRoller(RollerContact):
     def roller(self) -> float:
         """The roller's radius."""
         return self.radius
+
+    @property
+    def pivot(self) -> float:
+        """The distance of the pivot."""
+        return self.distance
+
+    @property
+    def linear(self) -> bool:
+        """False: what the pressure angle allows is a sine of the arm's angle, with lines below and above it."""
+        return False
 
     def point(self, s: Jet) -> Pair:  # noqa: D102
         sine, cosine = self._psi(s).waves()
@@ -97,5 +133,95 @@ class SwingingRoller(RollerContact):
     def rate(self, s: Jet) -> Jet:  # noqa: D102
         return s.slope() * self.turning + 1.0
 
+    def curvature_terms(self, displacement: str, slope: str) -> CurvatureTerms:  # noqa: D102
+        arm, distance, turning = self.arm, self.distance, self.turning
+        psi = f"({self.level!r} + {displacement})"
+        along = f"({arm!r}*({slope} + ({turning!r})) - ({turning * distance!r})*cos({psi}))"
+        across = f"({distance!r}*sin({psi}))"
+        turned = f"(1 + ({turning!r})*{slope})*({along}^2 + {across}^2)"
+        swung = f"({distance!r}*{along}*cos({psi}) - ({turning * distance!r})*sin({psi})*{across})*{slope}"
+        return CurvatureTerms(along, across, f"{turned} + {swung}", f"({arm!r}*{across})")
+
+    def state(self, point: Pair, normal: Pair) -> ContactState:  # noqa: D102
+        square = self.square_of_centre(point, normal)
+        cosine = (square - (self.distance**2 + self.arm**2)) / (-2.0 * self.distance * self.arm)
+        psi = (cosine / other_leg(cosine)).arctangent() * -1.0 + 0.5 * pi
+        return self.state_at(psi + (self.lowest - self.level), point, normal)
+
+    def transmission(self, s: Jet) -> Transmission:  # noqa: D102
+        tangent = self.pressure(s)
+        lever = self.arm / (tangent * tangent + 1.0).root()
+        return Transmission(lever, self.rolling(s), lever * 0.0, lever * 0.0)
+
+    def pressure_limits(self, piece: Piece, limit: float, angle: float, *, below: bool) -> list[LinearLimit]:  # noqa: D102
+        return [line for sign in (1.0, -1.0) for line in self._lines(piece, limit, angle, sign=sign, below=below)]
+
+    def _lines(self, piece: Piece, limit: float, angle: float, *, sign: float, below: bool) -> Iterator[LinearLimit]:
+        """Lines below or above what the pressure angle allows, sign s' <= G(psi), over the piece's swing.
+
+        Where G is hollow its chords are as good as it is. Where it bulges, a line below it is good at one psi, and
+        there is one for every part of the time, at the psi that the piece's law has then; a single one is above it.
+        """
+        start, size = self.level - self.lowest + piece.offset, abs(piece.stroke)
+        sine = _Sine(limit * self.distance / self.arm, sign * self.turning * self.distance / self.arm)
+        low, high = sorted((start, start + piece.stroke))
+        times = np.linspace(0.0, 1.0, _PARTS + 1).tolist()
+        if sine.hollow(low, high):
+            lines = [(*line, 0.0, 1.0) for line in sine.chords(low, high, below=below)]
+        elif below:
+            psi = [start + piece.stroke * float(piece.law.a(0.5 * sum(pair))) for pair in pairwise(times)]
+            slopes = [sine.slope(at) for at in psi]
+            shifts = [sine.shift(slope, low, high, below=True) for slope in slopes]
+            lines = list(zip(slopes, shifts, times, times[1:], strict=False))
+        else:
+            slope = sine.chord(low, high)
+            lines = [(slope, sine.shift(slope, low, high, below=False), 0.0, 1.0)]
+        for slope, shift, first, last in lines:
+            # sign stroke b / angle - slope stroke a <= slope start + shift - sign turning
+            factors = (-slope * piece.stroke / size, sign * piece.stroke / (angle * size), 0.0)
+            yield LinearLimit(factors, (slope * start + shift - sign * self.turning) / size, first, last)
+
     def _psi(self, s: Jet) -> Jet:
-        return s + (self.first - self.lowest)
+        return s + (self.level - self.lowest)
+
+
+@dataclass(frozen=True)
+class _Sine:
+    """G = sine sin psi + cosine cos psi."""
+
+    sine: float
+    cosine: float
+
+    def value(self, psi: Array) -> Array:
+        """G."""
+        return np.asarray(self.sine * np.sin(psi) + self.cosine * np.cos(psi))
+
+    def slope(self, psi: float) -> float:
+        """G'."""
+        return float(self.sine * np.cos(psi) - self.cosine * np.sin(psi))
+
+    def chord(self, first: float, last: float) -> float:
+        """The slope of a chord."""
+        ends = self.value(np.array([first, last]))
+        return float((ends[1] - ends[0]) / (last - first))
+
+    def hollow(self, low: float, high: float) -> bool:
+        """Whether it lies above its chords between two angles less than half a turn apart."""
+        return bool((self.value(np.linspace(low, high, _LOOKS)) >= 0.0).all())
+
+    def shift(self, slope: float, low: float, high: float, *, below: bool) -> float:
+        """What makes a line of a slope lie below it, or above it, between two angles."""
+        looks = np.linspace(low, high, _LOOKS)
+        off = self.value(looks) - slope * looks
+        # between two looks it goes beyond these by less than this
+        slack = hypot(self.sine, self.cosine) * float(looks[1] - looks[0]) ** 2
+        return float(off.min()) - slack if below else float(off.max()) + slack
+
+    def chords(self, low: float, high: float, *, below: bool) -> list[tuple[float, float]]:
+        """Slopes and shifts of lines of which the least is near it where it is hollow, on one side of it."""
+        lines = []
+        for first, last in pairwise(np.linspace(low, high, _LINES + 1).tolist()):
+            slope = self.chord(first, last)
+            under = float(self.value(np.array(first))) - slope * first
+            lines.append((slope, under if below else self.shift(slope, low, high, below=False)))
+        return lines

@@ -3,14 +3,20 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from math import pi
+from typing import ClassVar
 
-from optlaws.cams.curves.jets import Jet, Pair
-from optlaws.cams.followers.contact import FaceContact
+from optlaws.cams.followers.contact import ContactState, bearing
+from optlaws.cams.followers.faces import FaceContact
 from optlaws.cams.followers.follower import Follower, Place
+from optlaws.cams.followers.linear_limit import CURVATURE, LinearLimit
+from optlaws.cams.followers.transmission import Drag, Transmission
+from optlaws.motion.piece import Piece
+from optlaws.series.enclosures.jets import Jet, Pair
 
 
 @dataclass(frozen=True)
-class TranslatingFlat(Follower):
+class TranslatingFlat(Follower, kind="translating flat"):
     """A follower that slides and has a flat face square to its way.
 
     Examples
@@ -19,13 +25,16 @@ class TranslatingFlat(Follower):
     'length'
     """
 
-    @property
-    def axis(self) -> str:
-        """It slides."""
-        return "length"
+    axis: ClassVar[str] = "length"
+    examples: ClassVar[dict[str, str]] = {}
+    sizing_limit: ClassVar[str | None] = CURVATURE
 
     def contact(self, place: Place) -> FaceContact:  # noqa: D102
         return SlidingFace(place.turning, place.lowest, place.radius)
+
+    def base_radius(self, level: float) -> float:
+        """The height of the face."""
+        return level
 
 
 @dataclass(frozen=True)
@@ -38,26 +47,33 @@ class SlidingFace(FaceContact):
     0.03
     """
 
-    height: float
-
-    @property
-    def lost(self) -> int:
-        """One: the place on the face is a derivative."""
-        return 1
-
     def point(self, s: Jet) -> Pair:  # noqa: D102
-        return s.slope() * self.turning, s + (self.height - self.lowest)
+        return s.slope() * self.turning, s + (self.level - self.lowest)
 
     def normal(self, s: Jet) -> Pair:  # noqa: D102
         return s * 0.0, s * 0.0 + 1.0
 
     def pressure(self, s: Jet) -> Jet:
-        """None."""
+        """Zero: the contact force of a face square to its way has no component across it."""
         return s.slope() * 0.0
 
     def radius(self, s: Jet) -> Jet:  # noqa: D102
-        return s.slope().slope() + s + (self.height - self.lowest)
+        return s.slope().slope() + s + (self.level - self.lowest)
 
     def reach(self, s: Jet) -> Jet:
         """From the way of the slide, to the side to which the cam turns away from it."""
         return s.slope() * self.turning
+
+    def state(self, point: Pair, normal: Pair) -> ContactState:  # noqa: D102
+        height = point[0] * normal[0] + point[1] * normal[1]
+        return ContactState(height + (self.lowest - self.level), height * 0.0 + 0.5 * pi, bearing(*normal))
+
+    def transmission(self, s: Jet) -> Transmission:  # noqa: D102
+        aside, height = self.point(s)
+        none = height * 0.0
+        return Transmission(none + 1.0, height.magnitude(), none, aside, Drag(none, -self.turning))
+
+    def radius_limits(self, piece: Piece, limit: float, angle: float) -> list[LinearLimit]:  # noqa: D102
+        stroke, size = piece.stroke, abs(piece.stroke)
+        high = (self.level - self.lowest + piece.offset - limit) / size
+        return [LinearLimit((-stroke / size, 0.0, -stroke / (size * angle**2)), high)]

@@ -2,18 +2,23 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass
-from typing import Any
+from dataclasses import dataclass, replace
+from math import hypot
+from typing import Any, ClassVar
 
-from optlaws.cams.curves.jets import Jet, Pair
-from optlaws.cams.followers.contact import RollerContact, side_of
+from optlaws.cams.followers.contact import ContactState, CurvatureTerms
 from optlaws.cams.followers.follower import Follower, Place, roller_radius, shown
-from optlaws.cycles.asked.quantities import quantity
+from optlaws.cams.followers.linear_limit import PRESSURE, LinearLimit
+from optlaws.cams.followers.rollers import RollerContact, side_of
+from optlaws.cams.followers.transmission import Transmission
 from optlaws.errors import InputError
+from optlaws.motion.piece import Piece
+from optlaws.motion.quantities import quantity
+from optlaws.series.enclosures.jets import Jet, Pair
 
 
 @dataclass(frozen=True)
-class TranslatingRoller(Follower):
+class TranslatingRoller(Follower, kind="translating roller"):
     """A follower that slides and has a roller.
 
     Parameters
@@ -32,11 +37,9 @@ class TranslatingRoller(Follower):
 
     radius: Any
     offset: Any = "0 mm"
-
-    @property
-    def axis(self) -> str:
-        """It slides."""
-        return "length"
+    axis: ClassVar[str] = "length"
+    examples: ClassVar[dict[str, str]] = {"radius": "12 mm", "offset": "0 mm"}
+    sizing_limit: ClassVar[str | None] = PRESSURE
 
     def contact(self, place: Place) -> RollerContact:  # noqa: D102
         radius, offset = roller_radius(self.radius, place), quantity(self.offset, "length", "roller: offset")
@@ -46,6 +49,20 @@ class TranslatingRoller(Follower):
                 " cannot touch it: make the offset less or the base circle larger"
             )
         return SlidingRoller(place.turning, place.lowest, side_of(place.radius, abs(offset)), offset, radius)
+
+    def base_radius(self, level: float) -> float:
+        """The way from the cam's centre to the roller's at a height."""
+        return hypot(level, quantity(self.offset, "length", "roller: offset"))
+
+    @property
+    def size(self) -> float:
+        """The radius of the roller, or the offset."""
+        given = {"radius": self.radius, "offset": self.offset}
+        return max(abs(quantity(value, "length", name)) for name, value in given.items())
+
+    def from_beneath(self) -> TranslatingRoller:
+        """The same with its offset on the other side."""
+        return replace(self, offset=f"{-quantity(self.offset, 'length', 'roller: offset')!r} m")
 
 
 @dataclass(frozen=True)
@@ -59,7 +76,6 @@ class SlidingRoller(RollerContact):
     0.5
     """
 
-    height: float
     offset: float
     radius: float
 
@@ -69,11 +85,39 @@ class SlidingRoller(RollerContact):
         return self.radius
 
     def point(self, s: Jet) -> Pair:  # noqa: D102
-        y = s + (self.height - self.lowest)
+        y = s + (self.level - self.lowest)
         return y * 0.0 + self.offset, y
 
     def components(self, s: Jet) -> Pair:  # noqa: D102
-        return s.slope() - self.turning * self.offset, s + (self.height - self.lowest)
+        return s.slope() - self.turning * self.offset, s + (self.level - self.lowest)
 
     def rate(self, s: Jet) -> float:  # noqa: ARG002, D102
         return 1.0
+
+    def curvature_terms(self, displacement: str, slope: str) -> CurvatureTerms:  # noqa: D102
+        along = f"({slope} - ({self.turning * self.offset!r}))"
+        across = f"({self.level!r} + {displacement})"
+        return CurvatureTerms(along, across, f"{along}^2 + {across}^2 + {along}*{slope}", across)
+
+    def state(self, point: Pair, normal: Pair) -> ContactState:  # noqa: D102
+        height = (self.square_of_centre(point, normal) - self.offset**2).root()
+        return self.state_at(height + (self.lowest - self.level), point, normal)
+
+    def transmission(self, s: Jet) -> Transmission:  # noqa: D102
+        tangent = self.pressure(s)
+        cosine = 1.0 / (tangent * tangent + 1.0).root()
+        return Transmission(cosine, self.rolling(s), tangent * cosine * self.turning, cosine * 0.0)
+
+    def pressure_limits(  # noqa: D102
+        self,
+        piece: Piece,
+        limit: float,
+        angle: float,
+        *,
+        below: bool,  # noqa: ARG002 - they are exact
+    ) -> list[LinearLimit]:
+        stroke, size = piece.stroke, abs(piece.stroke)
+        high = (self.level - self.lowest + piece.offset) / size
+        offset = self.turning * self.offset / (limit * size)
+        slope = stroke / (angle * limit * size)
+        return [LinearLimit((-stroke / size, sign * slope, 0.0), high + sign * offset) for sign in (1.0, -1.0)]

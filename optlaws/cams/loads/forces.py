@@ -10,24 +10,27 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.contact import FaceContact
+from optlaws.cams.followers.transmission import Friction, Transmission
 from optlaws.cams.loads.hertz import LineContact, line_contact
-from optlaws.cams.loads.transmission import Friction, Transmission, transmission
-from optlaws.cycles.asked.programme import TURN
-from optlaws.cycles.asked.quantities import quantity
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.driven.drive import Drive, read_drive
+from optlaws.cycles.drive.drive import Drive, read_drive
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.motion.quantities import TURN, quantity
 from optlaws.numbers import finite, real_times
-from optlaws.series.enclosed import Enclosure, enclosed, integrated
+from optlaws.series.enclosures.branch_and_bound import Extremes, Function, extremes
+from optlaws.series.enclosures.enclosed_integral import integral
+from optlaws.series.enclosures.interval_arrays import Interval, highest, middle
+from optlaws.series.enclosures.jets import Jet
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
 
 _SHARE = 1e-8
+_PARTS = 12
 _FRICTION = ("contact", "guide", "overhang", "length")
 
 
@@ -129,10 +132,12 @@ class CamForces:
         InputError
             If no width was given.
         """
-        return self._given(self._pressure, angle)
+        squared = self._given(self._squared_pressure, angle)
+        values = np.sqrt(np.maximum(squared, 0.0))
+        return values if np.ndim(values) else float(values)
 
     @kept_property
-    def contact(self) -> Enclosure:
+    def contact(self) -> Extremes:
         """Least and greatest contact force, enclosed over the turn."""
         return self._enclosed(self._contact_force)
 
@@ -142,12 +147,12 @@ class CamForces:
         return self.contact.low < 0.0
 
     @kept_property
-    def torque(self) -> Enclosure:
+    def torque(self) -> Extremes:
         """Least and greatest torque at the shaft, enclosed over the turn."""
         return self._enclosed(self._torque)
 
     @kept_property
-    def pressure(self) -> Enclosure:
+    def pressure(self) -> Extremes:
         """Least and greatest of Hertz's pressure, enclosed over the turn; 0 where the follower lifts off."""
         square = self._enclosed(self._squared_pressure)
         sizes = {name: sqrt(max(getattr(square, name), 0.0)) for name in ("least", "low", "most", "high")}
@@ -156,13 +161,13 @@ class CamForces:
     @kept_property
     def mean_torque(self) -> tuple[float, float]:
         """Between which values the mean of the torque lies: 0 over a turn without friction."""
-        low, high = integrated(self._torque, self.edges, share=_SHARE)
+        low, high = integral(self._torque, self.edges, share=_SHARE)
         return low / self._angle, high / self._angle
 
     @kept_property
     def rms_torque(self) -> tuple[float, float]:
         """Between which values the root mean square of the torque lies."""
-        low, high = integrated(lambda angle: self._torque(angle) ** 2, self.edges, share=_SHARE)
+        low, high = integral(lambda angle, order: _square(self._torque(angle, order)), self.edges, share=_SHARE)
         return sqrt(max(low, 0.0) / self._angle), sqrt(max(high, 0.0) / self._angle)
 
     def to_dict(self) -> dict[str, Any]:
@@ -208,60 +213,70 @@ class CamForces:
         slopes = np.asarray(self.cam.displacement(middles, 1))
         return np.where(np.abs(slopes) > 1e-12 * np.abs(slopes).max(), np.sign(slopes), 0.0)
 
-    def direction(self, angle: Array) -> Array:
+    def direction(self, angle: Array | Interval) -> Array:
         """1 where the follower goes up, -1 where it goes down, 0 where it rests."""
-        which = np.searchsorted(self.edges[1:-1], self.cam.displacement.within(angle), side="right")
+        which = np.searchsorted(self.edges[1:-1], self.cam.displacement.within(middle(angle)), side="right")
         return np.asarray(self._directions[which])
 
-    def _given(self, function: Callable[[Array], Array], angle: Any) -> Any:  # noqa: ANN401
-        values = function(real_times(angle))
+    def _given(self, function: Callable[[Any, int], Jet], angle: Any) -> Any:  # noqa: ANN401
+        values = np.asarray(function(real_times(angle), 0).terms[0])
         return values if np.ndim(values) else float(values)
 
-    def _enclosed(self, function: Callable[[Array], Array]) -> Enclosure:
-        return enclosed(function, self.edges, share=_SHARE)
+    def _enclosed(self, function: Function) -> Extremes:
+        return extremes(function, self.edges, share=_SHARE, parts=_PARTS)
 
-    def _follower_force(self, angle: Array) -> Array:
-        motion, rate, load = self.cam.displacement, self.rate, self.load
-        moved = load.inertia * rate**2 * motion(angle, 2) + load.viscous * rate * motion(angle, 1)
-        held = load.stiffness * motion(angle) + load.constant
-        return np.asarray(moved + held + load.dry * self.direction(angle))
+    def _follower_force(self, angle: Array | Interval, order: int) -> Jet:
+        return self._taken(self.cam.displacement.jet(angle, order + 2), angle)
 
-    def _transmission(self, angle: Array) -> Transmission:
-        return transmission(self.cam.contact, self.cam.displacement.jet(angle, 2))
+    def _taken(self, s: Jet, angle: Array | Interval) -> Jet:
+        rate, load, slope = self.rate, self.load, s.slope()
+        moved = slope.slope() * (load.inertia * rate**2) + slope * (load.viscous * rate) + s * load.stiffness
+        return moved + (load.constant + load.dry * self.direction(angle))
 
-    def _contact_force(self, angle: Array) -> Array:
-        transmission = self._transmission(angle)
-        faced = isinstance(self.cam.contact, FaceContact)
-        held = self._friction.held_back(transmission, self.cam.contact.turning, faced=faced)
-        lever = self._lever(transmission) - self.direction(angle) * held
-        if np.any(lever <= 0.0):
-            place = degrees(float(angle.flat[int(np.argmin(lever))]))
+    def _contact_force(self, angle: Array | Interval, order: int) -> Jet:
+        return self._pressed(angle, order)[-1]
+
+    def _pressed(self, angle: Array | Interval, order: int) -> tuple[Jet, Transmission, Jet]:
+        """The displacement, what a force of 1 N does, and the contact force."""
+        s = self.cam.displacement.jet(angle, order + 2)
+        unit = self.cam.contact.transmission(s)
+        lever = unit.lever_with(self._friction.contact)
+        if self._friction.guide:
+            lever = lever - self._friction.in_guide(unit) * self.direction(angle)
+        sure = highest(lever.terms[0])
+        if np.any(sure <= 0.0):
+            place = degrees(float(middle(angle).flat[int(np.argmin(sure))]))
             raise InputError(
                 f"the follower jams in its guide at {place:.6g} deg of the cam: lessen the pressure angle, the "
                 "friction of the guide or its overhang, or make the guide longer"
             )
-        return np.asarray(self._follower_force(angle) / lever)
+        return s, unit, self._taken(s, angle) / lever
 
-    def _lever(self, transmission: Transmission) -> Array:
-        """What drives the follower for a normal force of 1 N, a roller or a face that is dragged along."""
-        faced = isinstance(self.cam.contact, FaceContact)
-        return transmission.lever + self._friction.contact * transmission.dragged if faced else transmission.lever
+    def _torque(self, angle: Array | Interval, order: int) -> Jet:
+        s, unit, force = self._pressed(angle, order)
+        driven = force * unit.lever_with(self._friction.contact) * s.slope()
+        if not self._friction.contact:
+            return driven
+        return driven + unit.sliding * force.maximum(0.0) * self._friction.contact
 
-    def _torque(self, angle: Array) -> Array:
-        transmission, force = self._transmission(angle), self._contact_force(angle)
-        driven = force * self._lever(transmission) * np.asarray(self.cam.displacement(angle, 1))
-        return np.asarray(driven + self._friction.contact * transmission.sliding * np.maximum(force, 0.0))
-
-    def _pressure(self, angle: Array) -> Array:
-        return np.sqrt(np.maximum(self._squared_pressure(angle), 0.0))
-
-    def _squared_pressure(self, angle: Array) -> Array:
+    def _squared_pressure(self, angle: Array | Interval, order: int) -> Jet:
         if self._line is None:
             raise InputError("the pressure needs the width of the contact: give one, such as width='20 mm'")
-        return self._line.squared(self._contact_force(angle), np.asarray(self.cam.radius_of_curvature(angle)))
+        s, _, force = self._pressed(angle, order)
+        try:
+            return self._line.squared(force, self.cam.contact.profile_curvature(s))
+        except InputError:
+            undercut = self.cam.extremes.undercut
+            if undercut.status != UNDERCUT:
+                raise
+            raise InputError(f"the follower cannot follow the cam, so that there is no pressure: {undercut}") from None
 
 
-def _plain(enclosure: Enclosure) -> dict[str, float]:
+def _square(jet: Jet) -> Jet:
+    return jet * jet
+
+
+def _plain(enclosure: Extremes) -> dict[str, float]:
     return {
         "least": enclosure.least,
         "least_at": degrees(enclosure.least_at),

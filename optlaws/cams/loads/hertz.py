@@ -10,10 +10,12 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cycles.asked.quantities import quantity
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import finite
+from optlaws.series.enclosures.interval_arrays import highest
+from optlaws.series.enclosures.jets import Jet
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
@@ -64,21 +66,22 @@ class LineContact:
         InputError
             If a hollow of the cam is narrower than the roller.
         """
-        return np.sqrt(np.maximum(self.squared(force, radius), 0.0))
+        with np.errstate(divide="ignore"):
+            squared = self.squared(Jet((np.asarray(force),)), Jet((1.0 / np.asarray(radius),)))
+        return np.asarray(np.sqrt(np.maximum(squared.terms[0], 0.0)))
 
-    def squared(self, force: Array, radius: Array) -> Array:
-        """The square of it, which is smooth where the follower lifts off, and below 0 beyond.
+    def squared(self, force: Jet, curvature: Jet) -> Jet:
+        """The square of it where the cam has a curvature: smooth where the follower lifts off, and below 0 beyond.
 
         Raises
         ------
         InputError
             As for `pressure`.
         """
-        with np.errstate(divide="ignore"):
-            curvature = self.roller_curvature + 1.0 / radius
-        if np.any(curvature < 0.0):
+        both = curvature + self.roller_curvature
+        if np.any(highest(both.terms[0]) < 0.0):
             raise InputError("the cam is hollow where a flat face or a roller that is wider would touch it elsewhere")
-        return np.asarray(force * self.modulus * curvature / (pi * self.width))
+        return force * both * (self.modulus / (pi * self.width))
 
 
 def line_contact(width: Any, materials: Any, roller: float) -> LineContact:  # noqa: ANN401 - they are checked here

@@ -12,15 +12,18 @@ from numpy.typing import NDArray
 
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.loads.forces import CamForces
-from optlaws.cycles.asked.quantities import quantity
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
-from optlaws.series.enclosed import Enclosure, enclosed
+from optlaws.motion.quantities import quantity
+from optlaws.series.enclosures.branch_and_bound import Extremes, Function, extremes
+from optlaws.series.enclosures.interval_arrays import Interval
+from optlaws.series.enclosures.jets import Jet
 
 Array = NDArray[np.float64]
 
 _FIRST = 97
 _STEPS = 40
+_PARTS = 12
 _NEAR = 1e-9  # how near extremes are enclosed, as a share of the forces
 _KEPT = 1e-7  # to what a linear program keeps its rows; what is missing then is added to the spring
 _RAISED = 1e-3  # of the stroke: so far up more stiffness is more force
@@ -40,7 +43,8 @@ class Spring:
     objective
         What was sought: "preload", "stiffness" or "greatest".
     lower_bound
-        What it cannot be below: the least of springs that do at the angles that bind.
+        What it cannot be below, to the accuracy of a linear program: the least of springs that do at the angles that
+        bind.
     margin
         Proven: along the follower's way the cam presses with at least this force at every angle and speed.
     critical
@@ -113,17 +117,17 @@ def least_spring(
     >>> cam = DiscCam(Cycle(moves, speed="200 rpm"), base_radius="80 mm", follower=TranslatingRoller("12 mm"))
     >>> spring = least_spring(cam, drive={"mass": "2 kg"}, speeds=("0 rpm", "300 rpm"), preload="20 N")
     >>> round(spring.stiffness, 3), round(spring.margin, 6) + 0.0, round(spring.critical[0], 3)
-    (2273.443, 0.0, 91.666)
+    (2273.443, 0.0, 91.667)
     """
-    asked = _asked(cam, drive, speeds, force)
+    task = _task(cam, drive, speeds, force)
     force_unit, stiffness_unit = _UNITS[cam.displacement.axis]
-    return _sought(
-        asked, _Given(_known(preload, force_unit, "preload"), _known(stiffness, stiffness_unit, "stiffness"))
+    return _exchange(
+        task, _KnownSpring(_known(preload, force_unit, "preload"), _known(stiffness, stiffness_unit, "stiffness"))
     )
 
 
 @dataclass(frozen=True)
-class _Given:
+class _KnownSpring:
     """What is known of the spring."""
 
     preload: float | None
@@ -137,7 +141,7 @@ class _Given:
 
 
 @dataclass(frozen=True)
-class _Asked:
+class _SpringTask:
     """A cam, what its follower moves, between which speeds, and what the cam shall press with."""
 
     forces: CamForces
@@ -148,24 +152,32 @@ class _Asked:
     def displacement(self, angle: Array) -> Array:
         return np.asarray(self.forces.cam.displacement(angle))
 
-    def rate(self, angle: Array, side: float) -> Array:
+    def rate(self, angle: float, side: float) -> float:
         """The speed at which the force is least (side 1) or greatest (-1): an end of the range, or between."""
-        square, linear = (side * part for part in self._moved(angle))
-        inner = np.clip(-0.5 * linear / np.where(square > 0.0, square, 1.0), self.slow, self.fast)
-        rates = np.stack([np.full(square.shape, self.slow), np.full(square.shape, self.fast), inner])
-        return np.asarray(np.take_along_axis(rates, np.argmin(square * rates**2 + linear * rates, axis=0)[None], 0)[0])
+        square, linear = (side * float(part.terms[0]) for part in self._moved(np.array(angle), 0))
+        inner = min(max(-0.5 * linear / square, self.slow), self.fast) if square > 0.0 else self.slow
+        return min((self.slow, self.fast, inner), key=lambda rate: square * rate**2 + linear * rate)
 
-    def without_spring(self, angle: Array, side: float) -> Array:
+    def without_spring(self, angle: Array | Interval, side: float, order: int = 0) -> Jet:
         """The least (side 1) or greatest (-1) force on the follower at any speed, but for the spring's."""
-        (square, linear), rate, load = self._moved(angle), self.rate(angle, side), self.forces.load
-        return np.asarray(square * rate**2 + linear * rate + load.constant + load.dry * self.forces.direction(angle))
+        square, linear = (part * side for part in self._moved(angle, order))
+        forces = [square * rate**2 + linear * rate for rate in (self.slow, self.fast)]
+        if self.forces.load.viscous:
+            # where the force bends up with the speed it is least where its slope vanishes, or at an end
+            with np.errstate(divide="ignore", invalid="ignore"):
+                rate = (linear / square * -0.5).clipped(self.slow, self.fast)
+            forces.append((square * rate + linear) * rate)
+        load, least = self.forces.load, forces[0]
+        for force in forces[1:]:
+            least = -(-least).maximum(-force)
+        return least * side + (load.constant + load.dry * self.forces.direction(angle))
 
-    def _moved(self, angle: Array) -> tuple[Array, Array]:
-        motion, load = self.forces.cam.displacement, self.forces.load
-        return load.inertia * np.asarray(motion(angle, 2)), load.viscous * np.asarray(motion(angle, 1))
+    def _moved(self, angle: Array | Interval, order: int) -> tuple[Jet, Jet]:
+        s, load = self.forces.cam.displacement.jet(angle, order + 2), self.forces.load
+        return s.slope().slope() * load.inertia, s.slope() * load.viscous
 
 
-def _asked(cam: DiscCam, drive: Mapping[str, Any], speeds: Sequence[Any], force: str | None) -> _Asked:
+def _task(cam: DiscCam, drive: Mapping[str, Any], speeds: Sequence[Any], force: str | None) -> _SpringTask:
     if not isinstance(speeds, tuple | list) or len(speeds) != 2:
         raise InputError(f"speeds must be two, the least and the greatest, got {shortened(speeds)}")
     for key in ("stiffness", "preload"):
@@ -175,7 +187,7 @@ def _asked(cam: DiscCam, drive: Mapping[str, Any], speeds: Sequence[Any], force:
     if not 0.0 <= slow <= fast or fast == 0.0:
         raise InputError(f"speeds must rise from at least 0, got {shortened(speeds)}")
     least = 0.0 if force is None else quantity(force, _UNITS[cam.displacement.axis][0], "force")
-    return _Asked(CamForces(cam, speed=speeds[1], drive=drive), slow, fast, least)
+    return _SpringTask(CamForces(cam, speed=speeds[1], drive=drive), slow, fast, least)
 
 
 def _known(value: str | None, dimension: str, name: str) -> float | None:
@@ -187,72 +199,76 @@ def _known(value: str | None, dimension: str, name: str) -> float | None:
     return known
 
 
-def _sought(asked: _Asked, given: _Given) -> Spring:
+def _exchange(task: _SpringTask, given: _KnownSpring) -> Spring:
     """By exchange: the best spring for some angles, then those at which it is wrong, until it is so nowhere."""
-    edges = asked.forces.edges
+    edges = task.forces.edges
     angles = np.linspace(edges[0], edges[-1], _FIRST)
     for _ in range(_STEPS):
-        best = _program(asked, angles, given)
-        force, pushed = _extremes(asked, best)
-        slack = _KEPT * max(pushed.peak, asked.least)
-        if force.low >= asked.least - slack and (given.objective != "greatest" or pushed.high <= best[2] + slack):
+        best = _program(task, angles, given)
+        force, pushed = _extremes(task, best)
+        slack = _KEPT * max(pushed.peak, task.least)
+        if force.low >= task.least - slack and (given.objective != "greatest" or pushed.high <= best[2] + slack):
             break
         angles = np.append(angles, [force.least_at, pushed.most_at])
-    return _stronger(asked, given, best, force)
+    return _strengthened(task, given, best, force)
 
 
-def _extremes(asked: _Asked, spring: tuple[float, float, float]) -> tuple[Enclosure, Enclosure]:
+def _extremes(task: _SpringTask, spring: tuple[float, float, float]) -> tuple[Extremes, Extremes]:
     """The least and the greatest force on the follower at any speed, each enclosed over the turn."""
 
-    def along(angle: Array, side: float) -> Array:
-        return spring[0] + spring[1] * asked.displacement(angle) + asked.without_spring(angle, side)
+    def along(side: float) -> Function:
+        def force(angle: Interval, order: int) -> Jet:
+            spring_force = task.forces.cam.displacement.jet(angle, order) * spring[1] + spring[0]
+            return task.without_spring(angle, side, order) + spring_force
 
-    edges = asked.forces.edges
-    least = enclosed(lambda angle: along(angle, 1.0), edges, share=_NEAR)
-    return least, enclosed(lambda angle: along(angle, -1.0), edges, share=_NEAR)
+        return force
+
+    edges = task.forces.edges
+    least, greatest = (extremes(along(side), edges, share=_NEAR, parts=_PARTS) for side in (1.0, -1.0))
+    return least, greatest
 
 
-def _program(asked: _Asked, angles: Array, given: _Given) -> tuple[float, float, float]:
+def _program(task: _SpringTask, angles: Array, given: _KnownSpring) -> tuple[float, float, float]:
     """The best preload and stiffness for some angles, and the greatest force there: a linear program."""
     from scipy.optimize import linprog
 
-    y, low, high = asked.displacement(angles), asked.without_spring(angles, 1.0), asked.without_spring(angles, -1.0)
-    unit = float(np.abs([low, high]).max() + abs(asked.least)) or 1.0
+    y = task.displacement(angles)
+    low, high = (np.asarray(task.without_spring(angles, side).terms[0]) for side in (1.0, -1.0))
+    unit = float(np.abs([low, high]).max() + abs(task.least)) or 1.0
     scale = float(np.abs(y).max())
     units = (unit, unit / scale)
     ones, y = np.ones_like(y), y / scale
     rows = np.concatenate([np.stack([-ones, -y, 0.0 * ones], axis=1), np.stack([ones, y, -ones], axis=1)])
-    sides = np.concatenate([low - asked.least, -high]) / unit
+    sides = np.concatenate([low - task.least, -high]) / unit
     known = (given.preload, given.stiffness)
     bounds = [(0.0, None) if value is None else (value / by,) * 2 for value, by in zip(known, units, strict=True)]
     weights = {"preload": (1.0, 0.0, 0.0), "stiffness": (0.0, 1.0, 0.0), "greatest": (0.0, 0.0, 1.0)}[given.objective]
     optimum = linprog(weights, A_ub=rows, b_ub=sides, bounds=[*bounds, (None, None)], method="highs")
     if optimum.status != 0 or optimum.x is None:
-        _refuse(asked, angles, given)
+        _refuse(task, angles, given)
     preload, stiffness, greatest = (float(number) for number in optimum.x)
     return max(preload, 0.0) * unit, max(stiffness, 0.0) * units[1], greatest * unit
 
 
-def _refuse(asked: _Asked, angles: Array, given: _Given) -> NoReturn:
-    missing = asked.least - asked.without_spring(angles, 1.0) - (given.preload or 0.0)
-    worst = int(np.argmax(np.where(asked.displacement(angles) <= 0.0, missing, -np.inf)))
+def _refuse(task: _SpringTask, angles: Array, given: _KnownSpring) -> NoReturn:
+    missing = task.least - np.asarray(task.without_spring(angles, 1.0).terms[0]) - (given.preload or 0.0)
+    worst = int(np.argmax(np.where(task.displacement(angles) <= 0.0, missing, -np.inf)))
     raise InfeasibleProblem(
         f"no stiffness keeps the follower on the cam: at {degrees(angles[worst]):.6g} deg of the cam, where the "
         f"displacement is not above 0, {missing[worst]:.6g} N (or N m) are missing; give so much more preload"
     )
 
 
-def _stronger(asked: _Asked, given: _Given, best: tuple[float, float, float], force: Enclosure) -> Spring:
+def _strengthened(task: _SpringTask, given: _KnownSpring, best: tuple[float, float, float], force: Extremes) -> Spring:
     """The spring made stronger by what it may miss, and what is then left everywhere."""
     preload, stiffness, greatest = best
     bound = {"preload": preload, "stiffness": stiffness, "greatest": greatest}[given.objective]
-    missing = max(asked.least - force.low, 0.0)
+    missing = max(task.least - force.low, 0.0)
     if given.preload is None:
         preload += missing
-    elif (up := float(asked.displacement(np.array(force.least_at)))) > _RAISED * asked.forces.cam.displacement.range[1]:
+    elif (up := float(task.displacement(np.array(force.least_at)))) > _RAISED * task.forces.cam.displacement.range[1]:
         stiffness += missing / up
-    least, pushed = _extremes(asked, (preload, stiffness, greatest))
-    rate = float(asked.rate(np.array([least.least_at]), 1.0)[0])
+    least, pushed = _extremes(task, (preload, stiffness, greatest))
     return Spring(
         stiffness=stiffness,
         preload=preload,
@@ -260,5 +276,5 @@ def _stronger(asked: _Asked, given: _Given, best: tuple[float, float, float], fo
         objective=given.objective,
         lower_bound=bound,
         margin=least.low,
-        critical=(degrees(least.least_at), rate),
+        critical=(degrees(least.least_at), task.rate(least.least_at, 1.0)),
     )

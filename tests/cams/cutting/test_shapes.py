@@ -1,11 +1,14 @@
 import numpy as np
 import pytest
+from numpy.typing import NDArray
 
-from optlaws.cams.cutting.biarcs import arcs
+from optlaws.cams.cutting.biarcs import Arcs, arcs
 from optlaws.cams.cutting.chords import polygon
 from optlaws.cams.cutting.spline import even, spline, through
 from optlaws.errors import InputError
-from tests.cams.outlines import Ellipse
+from tests.cams.outlines import Bumped, Ellipse
+
+Array = NDArray[np.float64]
 
 CIRCLE, ELLIPSE = Ellipse(0.05, 0.05), Ellipse(0.06, 0.03, (0.0, 1.0, 2 * np.pi))
 ANGLES = np.linspace(0.0, 2 * np.pi, 7001)
@@ -48,6 +51,37 @@ def test_arcs_touch_each_other_and_stay_within_their_tolerance() -> None:
     assert made.deviation <= 1e-6
     # as few as the cube root says: a hundredth of the tolerance takes 4.6 times as many
     assert 4.0 < len(arcs(ELLIPSE, 1e-8).points) / len(made.points) < 5.2
+
+
+def crossed(first: Array, second: Array) -> Array:
+    return np.asarray(first[..., 0] * second[..., 1] - first[..., 1] * second[..., 0])
+
+
+def off_chain(made: Arcs, points: Array) -> Array:
+    """How far points are from the nearest arc of a chain that they are in the sector of."""
+    towards = points[:, None, :] - made.centres[None]
+    off = np.abs(np.linalg.norm(towards, axis=2) - made.radii)
+    turned = np.stack([crossed(made.points - made.centres, towards), crossed(towards, made.ends - made.centres)])
+    within = (turned * np.sign(made.bulges) >= -1e-9 * made.radii**2).all(axis=0)
+    return np.asarray(np.where(within, off, np.inf).min(axis=1))
+
+
+@pytest.mark.parametrize("outline", [ELLIPSE, Bumped(0.05, 9e-7, 2.0, 1e-4), Bumped(0.05, 9e-7, 0.3137, 3e-5)])
+def test_what_is_proven_holds_at_a_bump_that_no_grid_sees(outline: Ellipse | Bumped) -> None:
+    centre = outline.centre if isinstance(outline, Bumped) else 1.0
+    angles = np.sort(np.concatenate([np.linspace(0.0, 6.28, 3001), centre + 2e-4 * np.linspace(-1.0, 1.0, 2001)]))
+    points = outline(angles)
+    chords = polygon(outline, 1e-6)
+    ends = np.append(chords.corners, chords.corners[:1], axis=0)
+    which = np.searchsorted(chords.angles, angles, side="right") - 1
+    along = np.diff(ends, axis=0)[which]
+    seen = float(np.abs(crossed(along, points - ends[which]) / np.linalg.norm(along, axis=1)).max())
+    assert 0.9 * chords.deviation < seen <= chords.deviation <= 1e-6
+    chain = arcs(outline, 1e-6)
+    assert 0.5 * chain.deviation < off_chain(chain, points).max() <= chain.deviation <= 1e-6 + 1e-12
+    curve = spline(outline, 1e-6)
+    seen = float(np.linalg.norm(curve(angles) - points, axis=1).max())
+    assert 0.9 * curve.deviation < seen <= curve.deviation <= 1e-6
 
 
 @pytest.mark.parametrize("degree", [3, 5])

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from numpy.typing import NDArray
 
-from optlaws import Cycle
+from optlaws import Cycle, Dwell, OscillatingFlat, Return, Rise
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.translating_roller import TranslatingRoller
@@ -46,7 +46,7 @@ def test_the_torque_is_that_of_the_contact_force_around_the_centre(kind: str, tu
     assert forces_of_cam.shaft_torque(ANGLES) == pytest.approx(moment(forces_of_cam), abs=1e-9)
 
 
-@pytest.mark.parametrize("kind", ["translating flat", "oscillating flat"])
+@pytest.mark.parametrize("kind", ["translating flat", "inclined flat", "oscillating flat"])
 def test_a_face_that_is_dragged_along_takes_its_torque_from_the_cam(kind: str) -> None:
     forces_of_cam = forces(kind, friction={"contact": 0.1})
     assert forces_of_cam.shaft_torque(ANGLES) == pytest.approx(moment(forces_of_cam, 0.1), abs=1e-9)
@@ -87,6 +87,28 @@ def test_extremes_are_enclosed_over_the_turn(kind: str) -> None:
         assert found.high - found.most < 1e-6 * found.peak
     squares = np.trapezoid(np.asarray(forces_of_cam.shaft_torque(ANGLES)) ** 2, ANGLES) / (2 * pi)
     assert forces_of_cam.rms_torque[0] == pytest.approx(np.sqrt(squares), rel=1e-3)
+
+
+@pytest.mark.sample(2)
+@pytest.mark.parametrize("kind", sorted(FOLLOWERS))
+def test_extremes_with_friction_are_enclosed_and_near(kind: str) -> None:
+    slides = cam_of(kind).displacement.axis == "length"
+    friction = {"contact": 0.06} | ({"guide": 0.05, "overhang": "20 mm", "length": "60 mm"} if slides else {})
+    drive = (SLIDES if slides else TABLES) | {"dry": "3 N" if slides else "0.4 N m"}
+    forces_of_cam = forces(kind, friction=friction, drive=drive, speed="300 rpm", width="20 mm")
+    angles = np.linspace(0.0, 2 * pi, 200_001)
+    for found, values in (
+        (forces_of_cam.contact, forces_of_cam.contact_force(angles)),
+        (forces_of_cam.torque, forces_of_cam.shaft_torque(angles)),
+        (forces_of_cam.pressure, forces_of_cam.contact_pressure(angles)),
+    ):
+        slack = 1e-12 * found.peak
+        assert found.low - slack <= np.min(values) <= found.low + 1e-4 * found.peak
+        assert found.high - 1e-4 * found.peak <= np.max(values) <= found.high + slack
+        assert max(found.high - found.most, found.least - found.low) < 2e-8 * found.peak
+    torque = np.asarray(forces_of_cam.shaft_torque(0.5 * (angles[1:] + angles[:-1])))
+    assert forces_of_cam.mean_torque == pytest.approx([torque.mean()] * 2, rel=1e-4)
+    assert forces_of_cam.rms_torque == pytest.approx([np.sqrt((torque**2).mean())] * 2, rel=1e-4)
 
 
 def test_a_guide_with_friction_needs_more_and_jams_in_the_end() -> None:
@@ -163,3 +185,24 @@ def test_the_pressure_is_told_where_the_follower_lifts_off() -> None:
     assert pressed.max() <= lifted.pressure.high
     assert lifted.pressure.most == pytest.approx(pressed.max(), rel=1e-6)
     assert lifted.pressure.high == pytest.approx(lifted.pressure.most, rel=1e-7)
+
+
+@pytest.mark.parametrize("turning", sorted(TURNINGS))
+def test_an_arm_is_dragged_as_the_surfaces_slide(turning: str) -> None:
+    """Where the face is touched beyond the line from the pivot to the shaft, the cam drags it the other way."""
+    moves = [Rise("20 deg", "60 deg", law="cycloidal"), Return(None, "60 deg", law="cycloidal"), Dwell()]
+    motion = Cycle(moves, period="1 s")
+    cam = DiscCam(motion, "40 mm", OscillatingFlat("200 mm", face_offset="-100 mm"), turning=turning)
+    forces_of_cam = CamForces(cam, drive=TABLES | {"preload": "90 N m"}, friction={"contact": 0.1})
+    side, s = TURNINGS[turning], np.asarray(cam.displacement(ANGLES))
+    touched = (cam.profile(ANGLES) @ np.array([1.0, 1j])) * np.exp(1j * side * ANGLES)
+    normal, arm = 1j * np.exp(-1j * (np.arcsin(0.7) + s)), touched - 0.2
+    along = normal / 1j
+    slip = ((1j * side * touched + 1j * np.asarray(cam.displacement(ANGLES, 1)) * arm) * along.conj()).real
+    assert slip.min() < 0.0 < slip.max()
+    pushed = normal + 0.1 * np.sign(slip) * along
+    driven = -(arm.conj() * pushed).imag
+    force = np.asarray(forces_of_cam.contact_force(ANGLES))
+    assert force * driven == pytest.approx(np.asarray(forces_of_cam.follower_force(ANGLES)), rel=1e-9)
+    assert forces_of_cam.contact.low <= force.min()
+    assert force.max() <= forces_of_cam.contact.high

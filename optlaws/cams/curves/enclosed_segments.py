@@ -1,4 +1,4 @@
-"""Displacements between two angles with every derivative enclosed, by Taylor's formula with its remainder.
+"""Segments of laws with every derivative enclosed in cells, by Taylor's formula with its remainder.
 
 What is known of a segment's derivatives everywhere bounds the remainder: of a Chebyshev series the sum of its
 coefficients' sizes, of a sine its amplitude times a power of its frequency. Sums of real powers are monotone term by
@@ -13,61 +13,64 @@ from math import factorial
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.jets import Jet
-from optlaws.cams.curves.motion_by_angle import Stretch
-from optlaws.cams.extremes.enclosure import ROUNDING, Enclosure, exact
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.fractional import FractionalSegment
 from optlaws.laws.segments.segment import Segment, Waves
-from optlaws.series import chebyshev
+from optlaws.series import chebyshev, real_powers
+from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval, between, exact
+from optlaws.series.enclosures.jets import Jet
 
 Array = NDArray[np.float64]
 
 _MORE = 4  # derivatives that Taylor's formula takes beyond those that are asked
 
 
-def enclosed_jet(stretch: Stretch, middle: Array, half: Array, order: int) -> Jet:
-    """The jet of the displacement by the cam's angle, anywhere in cells of a stretch.
+def enclosed_derivatives(segment: Segment, length: float, middle: Array, half: Array, order: int) -> list[Interval]:
+    """The derivatives of a segment's displacement by k, from order 0 to one given, anywhere in cells.
 
     Parameters
     ----------
-    stretch
-        A smooth part of a motion.
+    segment, length
+        A smooth part of a law.
     middle, half
-        The cells' middles and half lengths, as shares of the stretch; 0 long for single places.
-    order
-        How many derivatives.
+        The cells' middles and half lengths, as shares of it; 0 long for single places.
 
     Examples
     --------
-    >>> from optlaws.cams.curves.motion_by_angle import CamMotion
-    >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg").stretches[0]
-    >>> slope = enclosed_jet(rise, np.array([0.5]), np.array([0.01]), 1).terms[1]
-    >>> bool(slope.low[0] < rise.values(np.array([1.05]), 1)[0] < slope.high[0])
+    >>> from optlaws.laws.segments import SineSegment
+    >>> slope = enclosed_derivatives(SineSegment(1.0, 3.0), 0.5, np.array([0.5]), np.array([0.01]), 1)[1]
+    >>> bool(slope.low[0] < SineSegment(1.0, 3.0).derivative(np.array([0.505]), 0.5, 1)[0] < slope.high[0])
     True
     """
-    if stretch.stroke == 0.0:
-        return Jet((exact(np.full(middle.shape, stretch.offset)), *(exact(np.zeros(middle.shape)),) * order))
-    values = _of_segment(stretch.segment, stretch.length, middle, half, order)
-    terms = [
-        _scaled(value, stretch.stroke / stretch.duration**nu / factorial(nu), (nu + 3) * ROUNDING)
-        for nu, value in enumerate(values)
-    ]
-    return Jet((terms[0] + stretch.offset, *terms[1:]))
-
-
-def _scaled(enclosure: Enclosure, factor: float, rounding: float) -> Enclosure:
-    return enclosure * Enclosure(np.array(factor), np.array(abs(factor) * rounding))
-
-
-def _of_segment(segment: Segment, length: float, middle: Array, half: Array, order: int) -> list[Enclosure]:
     if isinstance(segment, PowerSegment) and segment.b0 != segment.b1:
         segment = segment.fractional(length)
     if isinstance(segment, FractionalSegment):
         return _of_powers(segment, length, middle, half, order)
-    waves = segment.waves(length)
-    known = segment if waves is not None else _interpolated(segment, length)
+    known = segment if segment.waves(length) is not None else _interpolated(segment, length)
     return _by_taylor(known, length, middle, half, order)
+
+
+def enclosed_power(segment: Segment, length: float, middle: Array, half: Array, order: int) -> Jet:
+    """The Taylor terms by k of the kinetic power d = b c anywhere in cells, finite where c is not.
+
+    Examples
+    --------
+    >>> power = enclosed_power(PowerSegment(0.0, 2.0), 0.5, np.array([0.0]), np.array([0.0]), 0).terms[0]
+    >>> bool(power.low[0] <= 4.0 <= power.high[0]), bool(power.radius[0] < 1e-12)
+    (True, True)
+    """
+    if isinstance(segment, PowerSegment) and segment.b0 != segment.b1:
+        segment = segment.fractional(length)
+    if not isinstance(segment, FractionalSegment):
+        values = enclosed_derivatives(segment, length, middle, half, order + 2)
+        terms = [value / factorial(nu) for nu, value in enumerate(values[1:])]
+        velocity = Jet(tuple(terms))
+        return velocity * velocity.slope()
+    powers, rate, values = segment.power_powers(length), (segment.last - segment.first) / length, []
+    for _ in range(order + 1):
+        values.append(_power_sum(powers, *_inside(segment, middle, half)))
+        powers = {exponent: rate * factor for exponent, factor in real_powers.derivative(powers).items()}
+    return Jet(tuple(value / factorial(nu) for nu, value in enumerate(values)))
 
 
 @lru_cache(maxsize=256)
@@ -75,7 +78,7 @@ def _interpolated(segment: Segment, length: float) -> Segment:
     return segment.interpolated(length)
 
 
-def _by_taylor(segment: Segment, length: float, middle: Array, half: Array, order: int) -> list[Enclosure]:
+def _by_taylor(segment: Segment, length: float, middle: Array, half: Array, order: int) -> list[Interval]:
     last = order + _MORE
     sizes, share = _sizes(segment, length, last)
     with np.errstate(over="ignore"):
@@ -87,7 +90,7 @@ def _by_taylor(segment: Segment, length: float, middle: Array, half: Array, orde
         radius = sizes[last] * steps ** (last - nu) / factorial(last - nu)
         for i in range(last - nu - 1, 0, -1):
             radius = radius + (np.abs(values[nu + i]) + errors[nu + i]) * steps**i / factorial(i)
-        enclosures.append(Enclosure(values[nu], (radius + errors[nu]) * (1.0 + 64.0 * ROUNDING)))
+        enclosures.append(Interval(values[nu], (radius + errors[nu]) * (1.0 + 64.0 * ROUNDING)))
     return enclosures
 
 
@@ -116,25 +119,29 @@ def _size(waves: Waves, length: float, nu: int) -> float:
     return velocity if nu else velocity * length + swings
 
 
-def _of_powers(segment: FractionalSegment, length: float, middle: Array, half: Array, order: int) -> list[Enclosure]:
+def _of_powers(segment: FractionalSegment, length: float, middle: Array, half: Array, order: int) -> list[Interval]:
     """Sums of real powers, each monotone."""
-    ends = [segment.first * (1.0 - u) + segment.last * u for u in (middle - half, middle + half)]
-    low, high = np.maximum(np.minimum(*ends), 0.0), np.maximum(*ends)
-    slack = 4.0 * ROUNDING * max(segment.first, segment.last)
-    inside = np.maximum(low - np.where(low > 0.0, slack, 0.0), 0.0), high + np.where(half > 0.0, slack, 0.0)
+    inside = _inside(segment, middle, half)
     derivatives = [_power_sum(segment.powers(length, nu), *inside) for nu in range(1, order + 1)]
     at = np.asarray(segment.derivative(middle, length, 0))
     size = abs(segment.steady) * length + float(np.abs(segment.derivative(np.array([0.0, 1.0]), length, 0)).max())
     swiftest = np.abs(derivatives[0].middle) + derivatives[0].radius if order else np.asarray(0.0)
-    return [Enclosure(at, swiftest * half * length * (1.0 + 16.0 * ROUNDING) + 64.0 * ROUNDING * size), *derivatives]
+    return [Interval(at, swiftest * half * length * (1.0 + 16.0 * ROUNDING) + 64.0 * ROUNDING * size), *derivatives]
 
 
-def _power_sum(powers: dict[float, float], low: Array, high: Array) -> Enclosure:
+def _inside(segment: FractionalSegment, middle: Array, half: Array) -> tuple[Array, Array]:
+    """Between which values v is in cells."""
+    ends = [segment.first * (1.0 - u) + segment.last * u for u in (middle - half, middle + half)]
+    low, high = np.maximum(np.minimum(*ends), 0.0), np.maximum(*ends)
+    slack = 4.0 * ROUNDING * max(segment.first, segment.last)
+    return np.maximum(low - np.where(low > 0.0, slack, 0.0), 0.0), high + np.where(half > 0.0, slack, 0.0)
+
+
+def _power_sum(powers: dict[float, float], low: Array, high: Array) -> Interval:
     total = exact(np.zeros(low.shape))
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         for exponent, factor in powers.items():
             one, two = factor * low**exponent, factor * high**exponent
-            middle, radius = 0.5 * (one + two), 0.5 * np.abs(two - one) + 8.0 * ROUNDING * (np.abs(one) + np.abs(two))
-            known = np.isfinite(middle) & np.isfinite(radius)
-            total = total + Enclosure(np.where(known, middle, 0.0), np.where(known, radius, np.inf))
+            blurred = 8.0 * ROUNDING * (np.abs(one) + np.abs(two))
+            total = total + between(np.minimum(one, two) - blurred, np.maximum(one, two) + blurred)
     return total

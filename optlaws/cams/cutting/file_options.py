@@ -5,9 +5,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 from typing import Any
 
-from optlaws.cycles.asked.quantities import quantity
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import whole
 
 MOST_POINTS = 100_000
@@ -46,7 +46,7 @@ class Cutting:
     (5e-06, '1.235')
     >>> Cutting(tolerance=5)
     Traceback (most recent call last):
-    optlaws.errors.InputError: tolerance must be a length such as '35 mm', got 5 without a unit
+    optlaws.errors.InputError: tolerance must be a length such as '35 mm', got 5 without a unit: write...
     """
 
     tolerance: Any = "1 um"
@@ -81,10 +81,10 @@ class Cutting:
     @property
     def line(self) -> str:
         """What the file says of itself, on one line of plain characters."""
-        kept = "".join(
+        printable = "".join(
             character if " " <= character <= "~" and character not in "()<>&" else " " for character in self.about
         )
-        return " ".join(kept.split())[:200] or "cam"
+        return " ".join(printable.split())[:200] or "cam"
 
     def rounded(self, value: float) -> str:
         """A number of millimetres with the decimals asked for; 0 has no sign."""

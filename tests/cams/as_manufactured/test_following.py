@@ -1,23 +1,40 @@
+from collections.abc import Callable
+from math import tau
 from typing import Any
 
 import numpy as np
 import pytest
 
 from optlaws import Cycle, Dwell, Return, Rise
+from optlaws.cams.as_manufactured.contact_state import Following
+from optlaws.cams.as_manufactured.curves import ArcChain, PointSpline, PolarSpline
+from optlaws.cams.as_manufactured.peaks import run_against
+from optlaws.cams.curves.plane_curve import PlaneCurve
+from optlaws.cams.cutting.biarcs import arcs
+from optlaws.cams.cutting.outline import Outline
+from optlaws.cams.cutting.point_tables import polar
+from optlaws.cams.cutting.spline import spline
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.follower import Follower
+from optlaws.cams.followers.inclined_flat import InclinedFlat
 from optlaws.cams.followers.oscillating_flat import OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat
 from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cams.made.following import Following
 
 FOLLOWERS: list[tuple[Follower, str]] = [
     (TranslatingRoller("12 mm", offset="10 mm"), "40 mm"),
     (TranslatingFlat(), "20 mm"),
+    (InclinedFlat("-20 deg"), "20 mm"),
     (OscillatingRoller("12 mm", arm="90 mm", pivot_distance="120 mm"), "20 deg"),
     (OscillatingFlat(pivot_distance="120 mm", face_offset="8 mm"), "10 deg"),
 ]
+CURVES: dict[str, Callable[[PlaneCurve], Outline]] = {
+    "csv": lambda profile: PointSpline(np.round(profile(np.linspace(0.0, tau, 181) % tau), 6)),
+    "csv polar": lambda profile: PolarSpline(np.round(polar(profile, 181), 6)),
+    "dxf spline": lambda profile: spline(profile, 1e-6),
+    "dxf arcs": lambda profile: ArcChain(arcs(profile, 1e-6)),
+}
 PLACES = np.linspace(0.01, 6.27, 301)
 
 
@@ -37,3 +54,20 @@ def test_a_follower_does_on_its_profile_what_was_meant(follower: Follower, strok
             angle, values = following.at(PLACES, nu)
             assert np.abs(np.angle(np.exp(1j * (angle - PLACES)))).max() < 1e-12
             assert values == pytest.approx(disc.displacement(PLACES, nu), abs=1e-11)
+
+
+@pytest.mark.sample(2)
+@pytest.mark.parametrize("form", ["csv", "csv polar", "dxf spline", "dxf arcs"])
+@pytest.mark.parametrize(("follower", "stroke"), FOLLOWERS)
+def test_peaks_as_made_are_enclosed_and_near(follower: Follower, stroke: str, form: str) -> None:
+    disc = cam(follower, stroke)
+    curve = CURVES[form](disc.profile)
+    made, following = run_against(disc, curve, leaps=False), Following(disc.contact, curve)
+    edges = np.array(curve.breaks)
+    places = (edges[:-1] + np.diff(edges) * np.linspace(1e-9, 1.0 - 1e-9, 101)[:, None]).ravel()
+    angle, displacement = following.at(places, 0)
+    off = float(np.abs(displacement - disc.displacement(angle)).max())
+    assert off * (1.0 - 1e-9) <= made.deviation < 1.01 * off + 1e-14
+    for nu, bound in ((2, made.acceleration), (3, made.jerk)):
+        seen = float(np.abs(following.at(places, nu)[1]).max())
+        assert seen * (1.0 - 1e-9) <= bound < (1.0 + 1e-4) * seen

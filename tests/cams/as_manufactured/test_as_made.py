@@ -3,17 +3,17 @@ from pathlib import Path
 import numpy as np
 import pytest
 from numpy.typing import NDArray
-from scipy.interpolate import BSpline, CubicSpline
+from scipy.interpolate import CubicSpline
 
 from optlaws import Chebyshev, Cycle, Dwell, Problem, Return, Rise, synthesize
+from optlaws.cams.as_manufactured.curves import ArcChain, PointSpline
+from optlaws.cams.as_manufactured.peaks import as_made, rounding_bound, run_against, with_error
 from optlaws.cams.cutting.formats import export
+from optlaws.cams.cutting.spline import Spline
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.translating_flat import TranslatingFlat
 from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cams.made.as_made import as_made, rounding_bound, run_against, with_error
-from optlaws.cams.made.curves import Chain, Splined
 from optlaws.errors import InputError
-from optlaws.kept import kept_property
 from tests.cams.cutting import readers
 
 Array = NDArray[np.float64]
@@ -56,23 +56,10 @@ def test_digits_of_x_and_y_count_more(cam: DiscCam) -> None:
 
 
 def test_a_dxf_gives_the_motion_back_to_its_digits(cam: DiscCam, tmp_path: Path) -> None:
-    class Read:
-        """What the file says, in metres."""
-
-        def __init__(self, curve: BSpline) -> None:
-            self.curve = curve
-
-        @kept_property
-        def breaks(self) -> tuple[float, ...]:
-            return tuple(np.unique(self.curve.t).tolist())
-
-        def __call__(self, places: Array, nu: int = 0) -> Array:
-            return np.asarray(1e-3 * self.curve(places, nu))
-
     for degree, near in ((3, 2e-3), (5, 5e-4)):
         asked = {"tolerance": "0.01 um", "degree": degree}
         curve = readers.dxf_spline(export(cam.profile, tmp_path / f"{degree}.dxf", "dxf spline", **asked))
-        made = run_against(cam, Read(curve))
+        made = run_against(cam, Spline(degree, curve.t, 1e-3 * curve.c, 0.0))
         assert made.deviation < 1.2e-8
         assert made.leap == 0.0
         assert made.acceleration_ratio == pytest.approx(1.0, abs=near)
@@ -81,7 +68,7 @@ def test_a_dxf_gives_the_motion_back_to_its_digits(cam: DiscCam, tmp_path: Path)
 
 def test_a_table_read_back_moves_the_follower_as_was_foretold(cam: DiscCam, tmp_path: Path) -> None:
     rows = readers.table(export(cam.profile, tmp_path / "p.csv", points=361, decimals=4))
-    made = run_against(cam, Splined(1e-3 * rows[:, 1:]))
+    made = run_against(cam, PointSpline(1e-3 * rows[:, 1:]))
     assert made.acceleration == pytest.approx(as_made(cam, points=361, decimals=4).acceleration, rel=1e-9)
 
 
@@ -127,6 +114,6 @@ def test_what_cannot_be_run_says_why(cam: DiscCam) -> None:
 def test_a_chain_of_arcs_and_lines_is_a_curve() -> None:
     from optlaws.cams.cutting.biarcs import Arcs
 
-    stadium = Chain(Arcs(np.array([[1.0, -1], [1, 1], [-1, 1], [-1, -1]]), np.array([0.0, 1.0, 0.0, 1.0]), 0.0))
+    stadium = ArcChain(Arcs(np.array([[1.0, -1], [1, 1], [-1, 1], [-1, -1]]), np.array([0.0, 1.0, 0.0, 1.0]), 0.0))
     assert stadium(np.array([0.5, 1.5, 3.5])) == pytest.approx(np.array([[1.0, 0], [0, 2], [0, -2]]))
     assert stadium(np.array([0.5, 1.5]), 2) == pytest.approx(np.array([[0.0, 0], [0, -(np.pi**2)]]), abs=1e-12)

@@ -10,28 +10,35 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.cams.as_manufactured.contact_state import Following
+from optlaws.cams.as_manufactured.curves import ArcChain, PointSpline, PolarSpline, WavyCurve
 from optlaws.cams.cutting.biarcs import Arcs, arcs
+from optlaws.cams.cutting.file_options import Cutting
 from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.point_tables import polar
 from optlaws.cams.cutting.spline import spline
-from optlaws.cams.cutting.wanted import Cutting
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.made.curves import Chain, PolarSplined, Splined, Wavy
-from optlaws.cams.made.following import Following
-from optlaws.cycles.asked.quantities import quantity
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.motion.quantities import quantity
 from optlaws.numbers import bounded, whole
-from optlaws.series.enclosed import enclosed
+from optlaws.series.enclosures.branch_and_bound import Function, extremes
+from optlaws.series.enclosures.interval_arrays import Interval
+from optlaws.series.enclosures.jets import Jet
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
 
 CURVES = ("profile", "pitch")
 _SHARE, _NEAR = 1e-3, 1e-6  # how near deviations and peaks are enclosed
+_CELLS = 128
 _LEAP = 1e-6
 _SHIFTS = (0.0, 0.5 * pi, pi, 1.5 * pi)
 _MOST_WAVES = 100_000
+_UNREACHED = (
+    "the follower does not reach all of the cam as made: it has corners or hollows narrower than the roller; "
+    "ask for more decimals, fewer points or waves, or a lesser error"
+)
 
 
 class UnreachedProfileError(InputError):
@@ -41,6 +48,9 @@ class UnreachedProfileError(InputError):
 @dataclass(frozen=True)
 class AsMade:
     """What a follower does on a cam as it is made, over the whole turn.
+
+    Deviation, acceleration and jerk are enclosed, and no less than the greatest: by 1e-3 of it the first, by 1e-6 the
+    others. Splines are taken as the polynomials between their knots; a leap is what it is next to where parts meet.
 
     Attributes
     ----------
@@ -97,12 +107,12 @@ def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, leaps: bo
     following = Following(cam.contact, curve, quantity(cam.phase, "angle", "phase"), outside)
     edges = np.array(curve.breaks)
 
-    def off(places: Array) -> Array:
-        angle, displacement = following.at(places, 0)
-        return np.asarray(displacement - cam.displacement(angle))
+    def off(places: Interval, order: int) -> Jet:
+        angle, displacement = following.derivative(places, 0, order)
+        return displacement - cam.displacement.along(angle)
 
     _check_hollows(following, edges)
-    deviation = enclosed(off, edges, share=_SHARE).peak
+    deviation = _bound(off, edges, _SHARE)
     acceleration = _peak(following, edges, 2)
     leap = _leap(following, edges, acceleration)
     jerk = inf if leap and leaps else _peak(following, edges, 3)
@@ -114,14 +124,19 @@ def _check_hollows(following: Following, edges: Array) -> None:
     places = edges[:-1, None] + np.multiply.outer(np.diff(edges), np.linspace(0.1, 0.9, 5))
     rates = np.asarray(following.jets(places, 1)[0].terms[1])
     if rates.min() * rates.max() <= 0.0:
-        raise UnreachedProfileError(
-            "the follower does not reach all of the cam as made: it has corners or hollows narrower than the roller; "
-            "ask for more decimals, fewer points or waves, or a lesser error"
-        )
+        raise UnreachedProfileError(_UNREACHED)
 
 
 def _peak(following: Following, edges: Array, nu: int) -> float:
-    return enclosed(lambda places: following.at(places, nu)[1], edges, share=_NEAR).peak
+    return _bound(lambda places, order: following.derivative(places, nu, order)[1], edges, _NEAR)
+
+
+def _bound(function: Function, edges: Array, share: float) -> float:
+    """The greatest magnitude, as it is proven."""
+    bound = extremes(function, edges, share=share, parts=max(1, _CELLS // len(edges)), magnitude=True).bound
+    if bound == inf:
+        raise UnreachedProfileError(_UNREACHED)
+    return bound
 
 
 def _leap(following: Following, edges: Array, size: float) -> float:
@@ -181,13 +196,13 @@ def as_made(
     """
     if curve not in CURVES:
         raise InputError(unknown_key(curve, CURVES, "curve"))
-    if form not in _MADE:
+    if form not in _CURVES_OF:
         raise InputError(
-            f"{unknown_key(form, _MADE, 'format')}; polygons have corners, where the follower's velocity leaps"
+            f"{unknown_key(form, _CURVES_OF, 'format')}; polygons have corners, where the follower's velocity leaps"
         )
     outline = cam.profile if curve == "profile" else cam.pitch_curve
     outside = 0.0 if curve == "profile" else cam.contact.roller
-    return run_against(cam, _MADE[form](outline, Cutting(tolerance, decimals, points, degree)), outside)
+    return run_against(cam, _CURVES_OF[form](outline, Cutting(tolerance, decimals, points, degree)), outside)
 
 
 def with_error(cam: DiscCam, error: Any, waves: Any) -> AsMade:  # noqa: ANN401 - a quantity and a number
@@ -223,8 +238,8 @@ def with_error(cam: DiscCam, error: Any, waves: Any) -> AsMade:  # noqa: ANN401 
     amplitude, count = quantity(error, "length", "error"), whole(waves, "waves", least=1, most=_MOST_WAVES)
     if amplitude <= 0.0:
         raise InputError(f"error must be above 0, got {shortened(error)}")
-    made = [run_against(cam, Wavy(cam.profile, amplitude, count, shift), leaps=False) for shift in _SHIFTS]
-    return AsMade(*(max(getattr(peaks_made, name) for peaks_made in made) for name in AsMade.__dataclass_fields__))
+    cases = [run_against(cam, WavyCurve(cam.profile, amplitude, count, shift), leaps=False) for shift in _SHIFTS]
+    return AsMade(*(max(getattr(case, name) for case in cases) for name in AsMade.__dataclass_fields__))
 
 
 def rounding_bound(resolution: float, step: float) -> float:
@@ -245,31 +260,31 @@ def rounding_bound(resolution: float, step: float) -> float:
     return 6.0 * resolution / step**2
 
 
-def _points(outline: Outline, asked: Cutting) -> Outline:
-    return Splined(_rounded(outline(np.linspace(0.0, tau, asked.points)), asked, closed=True))
+def _points(outline: Outline, options: Cutting) -> Outline:
+    return PointSpline(_rounded(outline(np.linspace(0.0, tau, options.points)), options, closed=True))
 
 
-def _radii(outline: Outline, asked: Cutting) -> Outline:
-    return PolarSplined(_rounded(polar(outline, asked.points), asked, closed=True))
+def _radii(outline: Outline, options: Cutting) -> Outline:
+    return PolarSpline(_rounded(polar(outline, options.points), options, closed=True))
 
 
-def _splined(outline: Outline, asked: Cutting) -> Outline:
-    return spline(outline, asked.metres, asked.degree)
+def _splined(outline: Outline, options: Cutting) -> Outline:
+    return spline(outline, options.metres, options.degree)
 
 
-def _chain(outline: Outline, asked: Cutting) -> Outline:
-    made = arcs(outline, asked.metres)
-    return Chain(Arcs(made.points, made.bulges, made.deviation))
+def _chain(outline: Outline, options: Cutting) -> Outline:
+    cases = arcs(outline, options.metres)
+    return ArcChain(Arcs(cases.points, cases.bulges, cases.deviation))
 
 
-def _rounded(values: Array, asked: Cutting, *, closed: bool) -> Array:
-    rounded = 1e-3 * np.round(1e3 * values, asked.decimals)
+def _rounded(values: Array, options: Cutting, *, closed: bool) -> Array:
+    rounded = 1e-3 * np.round(1e3 * values, options.decimals)
     if closed:
         rounded[-1] = rounded[0]
     return rounded
 
 
-_MADE: dict[str, Callable[[Outline, Cutting], Outline]] = {
+_CURVES_OF: dict[str, Callable[[Outline, Cutting], Outline]] = {
     "csv": _points,
     "csv polar": _radii,
     "dxf spline": _splined,

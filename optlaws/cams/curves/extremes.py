@@ -1,0 +1,169 @@
+"""Extremes of a cam over its whole motion: pressure angles, radii of curvature and undercut, all proven."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from math import atan, degrees, inf, nextafter
+from typing import TypeAlias
+
+from optlaws.cams.curves.motion_by_angle import CamMotion
+from optlaws.series.enclosures.branch_and_bound import extremes
+from optlaws.series.enclosures.interval_arrays import ROUNDING
+from optlaws.series.enclosures.jets import Jet
+
+#: of the displacement's jet; shorter than it by as many orders as the function takes derivatives
+Function: TypeAlias = Callable[[Jet], Jet]
+
+_PARTS = 12
+TOLERANCE = 1e-10  # relative to the greatest magnitude
+
+FREE, UNDERCUT, UNDECIDED = "free", "undercut", "undecided"
+
+
+@dataclass(frozen=True)
+class Extreme:
+    """An extreme value, between `low` and `high`, and an angle in rad at which it is reached to within these.
+
+    Examples
+    --------
+    >>> Extreme(0.999999, 1.000001, 0.5).value
+    1.0
+    """
+
+    low: float
+    high: float
+    angle: float
+
+    @property
+    def value(self) -> float:
+        """The middle of the enclosure."""
+        return 0.5 * (self.low + self.high)
+
+    def __neg__(self) -> Extreme:
+        return Extreme(-self.high, -self.low, self.angle)
+
+
+def enclosed_extremes(
+    motion: CamMotion, function: Function, lost: int, tolerance: float = TOLERANCE
+) -> tuple[Extreme, Extreme]:
+    """The least and the greatest value of a function of a motion.
+
+    Parameters
+    ----------
+    motion
+        The displacement.
+    function
+        Of its jet, such as that of the pressure angle's tangent.
+    lost
+        By how many orders the function's jet is shorter.
+    tolerance
+        Relative width of the enclosures that is aimed at.
+
+    Raises
+    ------
+    SolverFailure
+        If the function has no finite value at any place looked at.
+
+    Examples
+    --------
+    >>> from math import pi
+    >>> rise = CamMotion.of_law("cycloidal", "40 mm", "120 deg")
+    >>> least, greatest = enclosed_extremes(rise, lambda s: s.slope(), 1)
+    >>> bool(greatest.low <= 0.12 / pi <= greatest.high), round(greatest.angle, 9)
+    (True, 1.047197551)
+    """
+    known = extremes(
+        lambda angle, order: function(motion.jet(angle, order + lost)), motion.breaks, share=tolerance, parts=_PARTS
+    )
+    return Extreme(known.low, known.least, known.least_at), Extreme(known.most, known.high, known.most_at)
+
+
+@dataclass(frozen=True)
+class Undercut:
+    """Whether a follower undercuts its cam, and what is proven of it.
+
+    Attributes
+    ----------
+    status
+        "free" where the profile is proven to have a radius of curvature above 0 wherever it bulges, so that it has no
+        cusp and no loop; "undercut" where it is proven not to; "undecided" where the enclosure holds the limit.
+    simple
+        Whether it is proven besides that the profile does not cross itself and that the follower, where it touches,
+        cuts it nowhere else; never of a motion over a part of the turn.
+    margin
+        The least radius of curvature of the profile where it bulges, m; below 0 by how much the roller is too large.
+    """
+
+    status: str
+    simple: bool
+    margin: Extreme
+
+    @classmethod
+    def of(cls, margin: Extreme, *, simple: bool) -> Undercut:
+        """What the least radius of curvature proves; `simple` counts where there is no undercut."""
+        status = FREE if margin.low > 0.0 else UNDERCUT if margin.high < 0.0 else UNDECIDED
+        return cls(status, simple and status == FREE, margin)
+
+    @property
+    def free(self) -> bool:
+        """Whether it is proven that there is no undercut."""
+        return self.status == FREE
+
+    def __str__(self) -> str:
+        if self.status == UNDERCUT:
+            return (
+                f"undercut at {degrees(self.margin.angle):.6g} deg: the radius of curvature of the profile would be "
+                f"{1e3 * self.margin.value:.6g} mm there: make the base circle larger"
+                " or a roller smaller, or spread the motion over more of the turn"
+            )
+        if self.status == UNDECIDED:
+            width = 1e3 * (self.margin.high - self.margin.low)
+            return f"undecided: the least radius of curvature is 0 to within {width:.3g} mm"
+        return "no undercut" + (", and the profile does not cross itself" if self.simple else ", locally")
+
+
+@dataclass(frozen=True)
+class CamExtremes:
+    """Enclosed extremes over the whole interval of a cam's motion; radians and metres.
+
+    Attributes
+    ----------
+    pressure_angles
+        The least and the greatest pressure angle, with their signs.
+    least_convex_radius
+        The least radius of curvature of the profile where it bulges.
+    least_concave_radius
+        The least radius where it is hollow, as a positive number; None where it is proven to be hollow nowhere. A
+        cutter must be smaller.
+    undercut
+        What is proven of undercut.
+    """
+
+    pressure_angles: tuple[Extreme, Extreme]
+    least_convex_radius: Extreme
+    least_concave_radius: Extreme | None
+    undercut: Undercut
+
+    @property
+    def greatest_pressure_angle(self) -> Extreme:
+        """The greatest magnitude of the pressure angle."""
+        least, greatest = self.pressure_angles
+        return greatest if greatest.value >= -least.value else -least
+
+
+def angle_of_tangent(tangent: Extreme) -> Extreme:
+    """The enclosed angle of an enclosed tangent, rad.
+
+    Examples
+    --------
+    >>> round(angle_of_tangent(Extreme(1.0, 1.0, 0.0)).value, 9)
+    0.785398163
+    """
+    return widened(atan(tangent.low), atan(tangent.high), tangent.angle, 1.0)
+
+
+def widened(low: float, high: float, angle: float, size: float) -> Extreme:
+    """An enclosure, a little wider for the roundings of a few operations on numbers up to a size."""
+    slack = 8.0 * ROUNDING * abs(size)
+    return Extreme(nextafter(low - slack, -inf), nextafter(high + slack, inf), angle)

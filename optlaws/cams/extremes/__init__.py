@@ -1,1 +1,0 @@
-"""Enclosed extremes over the whole turn: pressure angles, radii of curvature, proof of no undercut."""

@@ -1,0 +1,233 @@
+"""The inclined flat face: the square one's cam of a shorter stroke turned by the inclination, and statics by hand."""
+
+import json
+from math import cos, radians, tan
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+import pytest
+from numpy.typing import NDArray
+from scipy.optimize import brentq
+
+from optlaws import (
+    CamForces,
+    Cycle,
+    DiscCam,
+    Dwell,
+    InclinedFlat,
+    Return,
+    Rise,
+    TranslatingFlat,
+    as_made,
+    best_base_circle,
+    best_cam,
+    conjugate_cam,
+    least_base_circle,
+    least_spring,
+)
+from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.jobs import job
+from tests.cams.placed import TURNINGS, face_lines, points
+
+Array = NDArray[np.float64]
+
+ANGLES = np.linspace(0.0, 2.0 * np.pi, 241)[:-1] + 0.003
+DRIVE = {"mass": "2 kg", "stiffness": "3 N/mm", "preload": "150 N"}
+FRICTION = {"contact": 0.1, "guide": 0.15, "overhang": "20 mm", "length": "80 mm"}
+VALVE = Cycle([Rise("10 mm", "70 deg"), Return("10 mm", "70 deg"), Dwell()], speed="3000 rpm", degree=5)
+
+
+def cycle_of(stroke: float) -> Cycle:
+    moves = [Rise(f"{stroke!r} mm", "140 deg", law="cycloidal"), Dwell("40 deg"), Return(None, "120 deg", law="3-4-5")]
+    return Cycle([*moves, Dwell()], speed="240 rpm")
+
+
+def cam_of(inclination: float, turning: str = "counterclockwise", stroke: float = 12.0) -> DiscCam:
+    return DiscCam(cycle_of(stroke), "70 mm", InclinedFlat(f"{inclination!r} deg"), turning=turning)
+
+
+@pytest.mark.parametrize("turning", TURNINGS)
+def test_without_inclination_it_is_the_square_face(turning: str) -> None:
+    cam = cam_of(0.0, turning)
+    square = DiscCam(cam.motion, "70 mm", TranslatingFlat(), turning=turning)
+    for nu in range(4):
+        assert np.abs(cam.profile(ANGLES, nu) - square.profile(ANGLES, nu)).max() < 1e-12
+    assert np.abs(cam.pressure_angle(ANGLES)).max() == 0.0
+    assert np.abs(np.asarray(cam.radius_of_curvature(ANGLES)) - square.radius_of_curvature(ANGLES)).max() < 1e-12
+    assert cam.extremes.least_convex_radius.value == pytest.approx(square.extremes.least_convex_radius.value, rel=1e-12)
+    one, two = (CamForces(disc, drive=DRIVE, friction=FRICTION, width="20 mm") for disc in (cam, square))
+    for curve in ("contact_force", "shaft_torque", "contact_pressure"):
+        assert getattr(one, curve)(ANGLES) == pytest.approx(getattr(two, curve)(ANGLES), rel=1e-12, abs=1e-12)
+    assert one.rms_torque == pytest.approx(two.rms_torque, rel=1e-9)
+    pairs = [conjugate_cam(disc, distance="170 mm").profile(ANGLES) for disc in (cam, square)]
+    assert np.abs(pairs[0] - pairs[1]).max() < 1e-12
+    assert as_made(cam, points=91).to_dict() == pytest.approx(as_made(square, points=91).to_dict(), rel=1e-6)
+
+
+@pytest.mark.parametrize("turning", TURNINGS)
+@pytest.mark.parametrize("inclination", [-35.0, 10.0])
+def test_its_cam_is_that_of_a_square_face_with_a_shorter_stroke(inclination: float, turning: str) -> None:
+    cosine, cam = cos(radians(inclination)), cam_of(inclination, turning)
+    square = DiscCam(cycle_of(12.0 * cosine), "70 mm", TranslatingFlat(), turning=turning)
+    turned = points(square.profile(ANGLES)) * np.exp(1j * radians(inclination))
+    assert np.abs(points(cam.profile(ANGLES)) - turned).max() < 1e-15
+    assert cam.pressure_angle(ANGLES) == pytest.approx(TURNINGS[turning] * radians(inclination), abs=1e-15)
+    worst = cam.extremes.greatest_pressure_angle
+    assert worst.low <= abs(radians(inclination)) <= worst.high
+    least, other = cam.extremes.least_convex_radius, square.extremes.least_convex_radius
+    assert least.low <= other.high
+    assert other.low <= least.high
+    assert cam.extremes.undercut.simple
+
+
+@pytest.mark.parametrize("turning", TURNINGS)
+@pytest.mark.parametrize("inclination", [-25.0, 15.0])
+def test_forces_are_those_of_statics(inclination: float, turning: str) -> None:
+    """Cam, guide at two places, and inertia in balance, with the contact where the dense profile meets the face."""
+    cam = cam_of(inclination, turning)
+    forces = CamForces(cam, drive=DRIVE, friction=FRICTION)
+    side, tilt = TURNINGS[turning], np.exp(1j * radians(inclination))
+    overhang, length, grip, guide = 0.02, 0.08, 0.1, 0.15
+    profile = points(cam.profile(np.linspace(0.0, 2.0 * np.pi, 40_001)))
+    for angle in (0.5, 1.1, 1.9, 3.6, 4.4):
+        seen = profile * np.exp(1j * side * angle)
+        touched = seen[int(np.argmax((seen * np.conj(1j * tilt)).real))]
+        up = float(np.sign(cam.displacement(angle, 1)))
+        slip = ((1j * side * touched - 1j * cam.displacement(angle, 1)) * np.conj(tilt)).real
+        pushed = 1j * tilt + grip * np.sign(slip) * tilt  # for a normal force of 1 N
+        moments = [touched.real * pushed.imag + far * pushed.real for far in (overhang, overhang + length)]
+        driven = pushed.imag - up * guide * sum(map(abs, moments)) / length
+        taken = forces.follower_force(angle)
+        normal = brentq(lambda force, driven=driven, taken=taken: force * driven - taken, 0.0, 1e5, xtol=1e-12)
+        assert forces.contact_force(angle) == pytest.approx(normal, rel=1e-4)
+        torque = side * (touched.conjugate() * pushed).imag * normal
+        assert forces.shaft_torque(angle) == pytest.approx(torque, abs=3e-5 * abs(normal))
+    dense = np.asarray(forces.contact_force(ANGLES))
+    assert forces.contact.low <= dense.min()
+    assert dense.max() <= forces.contact.high
+
+
+def test_a_face_touched_below_the_shaft_is_dragged_the_other_way() -> None:
+    swift = Cycle(
+        [Rise("60 mm", "100 deg", law="cycloidal"), Return(None, "100 deg", law="cycloidal"), Dwell()], period="1 s"
+    )
+    cam = DiscCam(swift, "40 mm", InclinedFlat("-70 deg"))
+    forces = CamForces(cam, drive=DRIVE | {"preload": "2000 N"}, friction={"contact": 0.05})
+    angles = np.linspace(0.02, 6.2, 2001)
+    level = (points(cam.profile(angles)) * np.exp(1j * angles)).imag
+    assert level.min() < 0.0 < level.max()
+    driven = np.asarray(forces.follower_force(angles)) / np.asarray(forces.contact_force(angles))
+    tilt = radians(-70.0)
+    assert driven == pytest.approx(cos(tilt) - 0.05 * np.sign(level) * np.sin(tilt), rel=1e-9)
+    dense = np.asarray(forces.contact_force(angles))
+    assert forces.contact.low <= dense.min()
+    assert dense.max() <= forces.contact.high <= 1.01 * dense.max()
+
+
+def test_a_pair_holds_its_faces_at_their_distance() -> None:
+    first = cam_of(10.0)
+    second = conjugate_cam(first, distance="170 mm")
+    normals, far = face_lines(first, ANGLES)
+    apart = 0.17 * cos(radians(10.0))
+    heights = (points(second.profile(ANGLES))[:, None] * -normals.conj()[None, :]).real
+    assert np.allclose(np.diag(heights), apart - far, atol=1e-15)
+    assert (heights <= apart - far[None, :] + 1e-15).all()
+
+
+def test_least_sizes_and_best_laws_are_those_of_the_shorter_stroke() -> None:
+    cosine, turns = cos(radians(20.0)), np.linspace(0.0, 2.0 * np.pi, 200_001)
+    motion = cam_of(20.0).displacement
+    needed = 0.02 - cosine * float(np.min(motion(turns) + motion(turns, 2)))
+    least = least_base_circle(motion, InclinedFlat("20 deg"), radius_of_curvature="20 mm")
+    assert least.radius == pytest.approx(needed, rel=1e-7)
+    assert least.proven
+    with pytest.raises(InfeasibleProblem, match="no base circle keeps a pressure angle of 15 deg"):
+        least_base_circle(motion, InclinedFlat("20 deg"), pressure_angle="15 deg")
+    square = best_base_circle(VALVE, TranslatingFlat(), radius_of_curvature="3 mm")
+    inclined = best_base_circle(VALVE, InclinedFlat("20 deg"), radius_of_curvature="3 mm")
+    assert inclined.lower_bound == pytest.approx(0.003 + cosine * (square.lower_bound - 0.003), rel=1e-6)
+    assert inclined.least.radius == pytest.approx(inclined.lower_bound, rel=1e-6)
+    base = f"{1.05 * inclined.lower_bound!r} m"
+    bound = best_cam(VALVE, base, InclinedFlat("20 deg"), radius_of_curvature="3 mm")
+    assert bound.status.value == "optimal"
+    assert bound.cam.extremes.least_convex_radius.low == pytest.approx(0.003, rel=1e-6)
+    with pytest.raises(InputError, match="20 deg, whatever the law"):
+        best_cam(VALVE, "11 mm", InclinedFlat("20 deg"), pressure_angle="10 deg")
+
+
+def test_what_depends_on_the_square_of_forces_and_springs_is_enclosed() -> None:
+    forces = CamForces(cam_of(15.0), drive=DRIVE, width="20 mm")
+    low, high = forces.mean_torque
+    assert low <= 0.0 <= high
+    # without friction the normal's part along the way carries the follower
+    assert forces.contact_force(1.0) * cos(radians(15.0)) == pytest.approx(forces.follower_force(1.0), rel=1e-12)
+    assert np.asarray(forces.contact_pressure(ANGLES)).max() <= forces.pressure.high
+    spring = least_spring(cam_of(15.0), drive={"mass": "2 kg"}, speeds=("0 rpm", "300 rpm"), preload="20 N")
+    assert spring.margin >= -1e-6
+
+
+@pytest.mark.parametrize("inclination", ["90 deg", "-100 deg", "5 mm"])
+def test_inclinations_that_lift_nothing_are_refused(inclination: str) -> None:
+    with pytest.raises(InputError, match="inclination"):
+        DiscCam(cycle_of(12.0), "70 mm", InclinedFlat(inclination))
+
+
+FILE = """
+job = "cam"
+title = "Small"
+speed = "200 rpm"
+base_radius = "60 mm"
+pressure_angle = "30 deg"
+radius_of_curvature = "20 mm"
+cutter_radius = "10 mm"
+rows = 13
+animation = true
+forces = { width = "20 mm", friction = { contact = 0.05 } }
+as_made = { points = [181], decimals = [4] }
+pair = { distance = "190 mm" }
+follower = { kind = "inclined flat", inclination = "10 deg" }
+[[file]]
+name = "cam.dxf"
+[[file]]
+name = "cam.nc"
+curve = "cutter"
+cutter_radius = "8 mm"
+[motion]
+name = "slide"
+drive = { mass = "2 kg", stiffness = "3 N/mm", preload = "150 N" }
+[[motion.segment]]
+kind = "rise"
+by = "12 mm"
+duration = "120 deg"
+law = "3-4-5"
+[[motion.segment]]
+kind = "return"
+duration = "100 deg"
+law = "3-4-5"
+[[motion.segment]]
+kind = "dwell"
+"""
+
+
+def run(folder: Path, text: str) -> tuple[dict[str, Any], set[str]]:
+    file = folder / "inclined.toml"
+    file.write_text(text, "utf-8")
+    written = job.run(file, folder / "out")
+    return json.loads((folder / "out" / "cam.json").read_text("utf-8")), {path.name for path in written}
+
+
+def test_problem_files_take_it_with_all_that_a_cam_has(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    drawn = "optlaws.jobs.cam.cam.save_pictures"
+    monkeypatch.setattr(drawn, lambda figures, out: [out / f"{name}.svg" for name in figures])
+    values, names = run(tmp_path, FILE)
+    assert {"cam.dxf", "cam.nc", "return-cam.dxf", "pair.svg", "forces.svg", "animation.svg"} <= names
+    assert tan(values["greatest_pressure_angle"]["high"]) == pytest.approx(tan(radians(10.0)), rel=1e-12)
+    assert values["least_base_circle"]["proven"]
+    assert "greatest_roller" not in values
+    assert values["forces"]["contact"]["least"] > 0.0
+    assert all(abs(peaks["acceleration_ratio"] - 1.0) < 0.1 for peaks in values["as_made"].values())
+    with pytest.raises(InputError, match="an inclined flat needs its inclination, such as inclination = '10 deg'"):
+        run(tmp_path, FILE.replace(', inclination = "10 deg"', ""))
+    with pytest.raises(InputError, match="takes no radius; it takes inclination"):
+        run(tmp_path, FILE.replace('inclination = "10 deg"', 'radius = "10 mm"'))

@@ -1,0 +1,92 @@
+"""A follower is one file: nothing outside its folder asks of which kind one is."""
+
+import ast
+from collections.abc import Iterator
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+import optlaws
+from optlaws.cams.followers.registry import follower_kinds, read_follower
+from optlaws.errors import InputError
+
+PACKAGE = Path(optlaws.__file__).parent
+FOLDER = PACKAGE / "cams" / "followers"
+#: modules that make a follower of one kind, and ask of no other: arms with rollers, and the cam that is shown first
+MAKERS = {
+    "balancing/machine_units/dwell_machine.py": {"OscillatingRoller"},
+    "explorer/answers/cam_view.py": {"translating roller"},
+}
+
+
+def kind_modules() -> set[str]:
+    return {kind.__module__.rpartition(".")[2] for kind in follower_kinds().values()} | {"rollers", "faces"}
+
+
+def kind_words() -> set[str]:
+    """Names of classes in the files of the kinds, and the kinds' own."""
+    trees = (ast.parse((FOLDER / f"{name}.py").read_text("utf-8")) for name in kind_modules())
+    classes = {node.name for tree in trees for node in tree.body if isinstance(node, ast.ClassDef)}
+    return {name for name in classes if not name.startswith("_")} | set(follower_kinds())
+
+
+def named(tree: ast.Module) -> Iterator[str]:
+    """Names, attributes and whole texts of a module; examples in docstrings are longer texts."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.Name):
+            yield node.id
+        elif isinstance(node, ast.Attribute):
+            yield node.attr
+        elif isinstance(node, ast.alias):
+            yield node.name
+        elif isinstance(node, ast.Constant) and isinstance(node.value, str):
+            yield node.value
+
+
+def test_no_module_outside_the_folder_names_a_kind() -> None:
+    words, faults = kind_words(), []
+    assert {"TranslatingRoller", "SwingingFace", "InclinedFace", "RollerContact", "inclined flat"} <= words
+    for path in PACKAGE.rglob("*.py"):
+        place = path.relative_to(PACKAGE).as_posix()
+        if path.parent == FOLDER or place == "__init__.py":  # which lists the public names
+            continue
+        seen = words.intersection(named(ast.parse(path.read_text("utf-8")))) - MAKERS.get(place, set())
+        faults += [f"{place}: {name}" for name in sorted(seen)]
+    assert faults == []
+
+
+def test_no_module_of_the_folder_names_another_ones_kind() -> None:
+    """Kinds stand side by side; what they share is in rollers, faces and contact."""
+    for kind in follower_kinds().values():
+        module = kind.__module__.rpartition(".")[2]
+        imported = {
+            node.module.rpartition(".")[2]
+            for node in ast.walk(ast.parse((FOLDER / f"{module}.py").read_text("utf-8")))
+            if isinstance(node, ast.ImportFrom) and node.module
+        }
+        assert not imported & (kind_modules() - {"rollers", "faces"}), module
+
+
+def test_no_follower_is_told_by_its_class() -> None:
+    """Outside the files of the kinds `isinstance` asks only whether there is a follower at all."""
+    files = [*(PACKAGE / "cams").rglob("*.py"), *(PACKAGE / "jobs" / "cam").rglob("*.py")]
+    for path in files:
+        for node in ast.walk(ast.parse(path.read_text("utf-8"))):
+            if isinstance(node, ast.Call) and isinstance(node.func, ast.Name) and node.func.id == "isinstance":
+                assert not kind_words().intersection(named(ast.Module([ast.Expr(node)], []))), path
+
+
+def test_a_kind_is_read_by_its_name_and_refused_with_the_remedy() -> None:
+    assert len(follower_kinds()) == 5
+    given = {"radius": "12 mm", "arm": "90 mm", "pivot_distance": "120 mm", "inclination": "10 deg"}
+    for name, kind in follower_kinds().items():
+        entries = {key: value for key, value in given.items() if key in kind.__dataclass_fields__}  # type: ignore[attr-defined]
+        follower = read_follower({"kind": name, **entries})
+        assert isinstance(follower, kind)
+        assert np.isfinite(follower.base_radius(1.0))
+        assert (follower.pivot is None) == (follower.axis == "length")
+    with pytest.raises(InputError, match="translating roller"):
+        read_follower({"kind": "translating rollr"})
+    with pytest.raises(InputError, match="kind is missing"):
+        read_follower({"radius": "12 mm"})
