@@ -7,9 +7,6 @@ from optlaws.mechanisms.follower.follower import Follower as Follower
 from optlaws.mechanisms.follower.off_design import Deviation as Deviation
 from optlaws.mechanisms.follower.off_design import off_design as off_design
 from optlaws.mechanisms.follower.response import Response as Response
-from optlaws.mechanisms.lever.design import find_torsion_levers as find_torsion_levers
-from optlaws.mechanisms.lever.lever import TorsionLever as TorsionLever
-from optlaws.mechanisms.lever.motion import LeverMotion as LeverMotion
 from optlaws.mechanisms.machine.machine import Machine as Machine
 from optlaws.mechanisms.machine.masses import Link as Link
 from optlaws.mechanisms.spectrum.residual import residual_functional as residual_functional
@@ -21,14 +18,11 @@ __all__ = [
     "CycleResponse",
     "Deviation",
     "Follower",
-    "LeverMotion",
     "Link",
     "Machine",
     "Response",
     "ResponseSpectrum",
-    "TorsionLever",
     "deg",
-    "find_torsion_levers",
     "mass_law",
     "off_design",
     "polydyne",

@@ -192,20 +192,19 @@ def _draw(
 ) -> None:
     import numpy as np
 
-    from optlaws import drawing
     from optlaws.files import writing
+    from optlaws.plots.machine import draw_spectrum
+    from optlaws.plots.style import BLUES, WARM, empty_figure, plot_style, rendered
 
     if not 0.0 < span[0] < span[1]:
         raise InputError(f"--spectrum takes a range of nu, two rising numbers above 0, got {span[0]:g} {span[1]:g}")
     spectrum = optlaws.response_spectrum(cam, np.linspace(*span, _POINTS), damping)
     C = reference.constants.C.value
-    with drawing.style():
-        figure = drawing.figure()
+    with plot_style():
+        figure = empty_figure()
         axes = figure.subplots()
-        drawing.draw_spectrum(spectrum, axes, what="peak", over=C, color=drawing.BLUES[3], label="in the rise")
-        drawing.draw_spectrum(
-            spectrum, axes, over=C, color=drawing.WARM, linestyle="--", label="free vibration after it"
-        )
+        draw_spectrum(spectrum, axes, what="peak", over=C, color=BLUES[3], label="in the rise")
+        draw_spectrum(spectrum, axes, over=C, color=WARM, linestyle="--", label="free vibration after it")
         axes.set(xlim=span, ylim=(0.0, None), ylabel="acceleration of the mass / C")
         axes.legend()
-        writing.write(file, drawing.rendered(figure, file.suffix[1:]))
+        writing.write(file, rendered(figure, file.suffix[1:]))

@@ -26,7 +26,8 @@ class Follower:
     nu
         Dimensionless circular frequency, above 0.
     damping
-        Ratio zeta = n/nu of the damping to the critical one, at least 0; 1 and more are allowed.
+        Ratio zeta = n/nu of the damping to the critical one, at least 0; 1 and more are allowed. The damper is between
+        mass and ground, not between mass and cam, as that of a `Machine.from_modes` is.
 
     Raises
     ------
@@ -74,7 +75,7 @@ class Follower:
         duration
             Duration of the rise in s.
         damping
-            Viscous damping of the link in N s/m, or N m s/rad; not the ratio.
+            Viscous damping between mass and ground in N s/m, or N m s/rad; not the ratio.
 
         Raises
         ------

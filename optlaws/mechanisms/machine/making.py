@@ -40,8 +40,8 @@ class MadeMachine(StateSpace):
         masses
             Masses in kg, or moments of inertia in kg m², by name; that of the driven one may be 0.
         links
-            Springs with dampers: `Link("motor", "load", stiffness=400, damping=0.4)`, or such a tuple. "ground" is
-            what stands still.
+            Springs with dampers: `Link("motor", "load", stiffness=400, damping=0.4)`, or such a tuple: N/m and N s/m,
+            no ratio. "ground" is what stands still.
         drive
             The mass whose displacement is the law; or two, the law being the second one's distance from the first:
             ("camshaft", "roller").
@@ -88,8 +88,10 @@ class MadeMachine(StateSpace):
         Parameters
         ----------
         modes
-            For each vibration its frequency in Hz, the undamped one, its damping ratio, and its participation: the
-            share of the drive's displacement with which it moves at the place that counts, 1 unless given.
+            For each vibration its frequency in Hz, the undamped one, a number; its damping ratio, the share of the
+            critical damping of what moves relative to the drive (that of a `Follower` is relative to the ground); and
+            its participation: the share of the drive's displacement with which it moves at the place that counts, 1
+            unless given.
         duration, stroke
             Duration of the rise, s, and its stroke, m or rad.
         outputs

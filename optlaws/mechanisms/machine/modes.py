@@ -196,6 +196,9 @@ def _vibration(number: int, given: Any, example: str) -> tuple[float, float, flo
     frequency = positive(given[0], f"the frequency of mode {number}")
     ratio = not_negative(given[1], f"the damping ratio of mode {number}")
     if ratio >= 1.0:
-        raise InputError(f"the damping ratio of mode {number} must be below 1, such as 0.02 for 2 %, got {ratio:g}")
+        raise InputError(
+            f"the damping ratio of mode {number} must be below 1, such as 0.02 for 2 % of the critical damping, "
+            f"got {ratio:g}"
+        )
     (share,) = numbers([given[2] if len(given) == 3 else 1.0], f"the participation of mode {number}")
     return 2.0 * pi * frequency, ratio, share

@@ -5,16 +5,17 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
-from math import inf, nan, sqrt
+from functools import lru_cache
+from math import inf, nan, pi, sqrt
 from typing import ClassVar
 
 import numpy as np
 from numpy.polynomial import legendre
 from numpy.typing import NDArray
 
-from optlaws.errors import InputError
+from optlaws.errors import InputError, OptlawsError
 from optlaws.kept import kept_property
-from optlaws.laws import MotionLaw
+from optlaws.laws import MotionLaw, smoothstep
 from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.dynamics import Panel, inverse_gain
@@ -30,6 +31,7 @@ from optlaws.mechanisms.machine.over_time import (
 )
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import asked_of_output, check_repeats, check_rest, time_of, title_of
+from optlaws.numbers import power_of_two
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily
 from optlaws.synthesis.functionals.sizes import Reach, by_norm, reach_of
@@ -44,6 +46,7 @@ _RADIANS = 40.0  # of the fastest vibration on one piece of the rows
 _MOST_GAIN = 1e6
 _NEGLIGIBLE = 2.0**-54
 _ROUNDED = 1e-12
+_SMOOTH = 4  # the order of the law that scales are taken from
 _KNOWN = 3  # end conditions of which the acceleration is one
 SIDES = {"both": (1.0, -1.0), "high": (1.0,), "low": (-1.0,)}
 _SIDE = {signs: side for side, signs in SIDES.items()}
@@ -88,6 +91,12 @@ class OutputConstant(Functional):
 
     #: what of the output it is, in words
     _what: ClassVar[str]
+    normalised = True
+
+    @kept_property
+    def scale(self) -> float:
+        """Of the output while a smooth law drives the machine, and of its offset; a power of 2."""
+        return _scale_of_output(self.machine, self.output, self.offset)
 
     @property
     def title(self) -> str:
@@ -123,7 +132,7 @@ class OutputConstant(Functional):
         rows = np.array(self.machine.C[place]), self.machine.direct[place]
         order, gain = inverse_gain(np.array(self.machine.A), self.machine.load, *rows) if whole else (0, inf)
         # of a part [0, 1] of the time, whose mean is at most so much more
-        return (order, gain * self.duration) if gain < _MOST_GAIN else None
+        return (order, gain * self.duration) if gain * self.scale < _MOST_GAIN else None
 
     def sizes(self, space: LawSpace) -> tuple[tuple[int, float, float], ...]:
         """How large a law is: its output determines a derivative at once, or all of it among the laws of the space."""
@@ -196,6 +205,23 @@ class OutputConstant(Functional):
         return space.cached((type(self).__name__, self.name), make)
 
 
+@lru_cache(maxsize=256)
+def _scale_of_output(machine: StateSpace, output: str, offset: float) -> float:
+    try:
+        curve = MachineResponse(machine, smoothstep(_SMOOTH), 0.0)[output]
+        return power_of_two(max(abs(offset), *(abs(extreme.value) for extreme in curve.extrema(0))))
+    except (ArithmeticError, OptlawsError, ValueError):
+        return power_of_two(max(abs(offset), _along_a_wave(machine, output)))  # it does not come to rest
+
+
+def _along_a_wave(machine: StateSpace, output: str) -> float:
+    """The amplitude of an output while the law is a wave as long as the motion, with amplitude 1."""
+    rate, place = 2.0j * pi, machine.place(output)
+    drive = np.array([1.0, rate, rate**2])
+    states = np.linalg.lstsq(rate * np.eye(len(machine.A)) - np.array(machine.A), machine.load @ drive, rcond=None)[0]
+    return float(abs(np.array(machine.C[place]) @ states + np.array(machine.direct[place]) @ drive))
+
+
 @dataclass(frozen=True, repr=False)
 class OutputPeak(OutputConstant):
     """Greatest magnitude of an output, or of one side; made by `Machine.peak`."""
@@ -205,7 +231,7 @@ class OutputPeak(OutputConstant):
 
     @property
     def title(self) -> str:
-        """As of others, and which side."""
+        """The title of an output's constant, with the side of the peak."""
         return super().title + ("" if self.both else f", side {_SIDE[self.signs]}")
 
     @property
@@ -314,7 +340,7 @@ class OutputRms(OutputConstant):
 
     def along(self, space: LawSpace, direction: Sequence[float]) -> MotionLaw | None:
         """The law of a space whose output has a direction, as a certificate says it; None where there is none."""
-        matrix = self._matrix(space)
+        matrix = self._matrix(space) / self.scale
         if len(direction) != len(matrix):
             return None
         free, base = matrix[:, :-1], matrix[:, -1]

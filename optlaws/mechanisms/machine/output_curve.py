@@ -35,7 +35,7 @@ class OutputCurve(Curve):
     {'temperature': 0.605102}
     """
 
-    _picture, _over = "output", "time"
+    _over = "time"
 
     name: str
     starts: Array
@@ -50,6 +50,11 @@ class OutputCurve(Curve):
     @property
     def _breaks(self) -> tuple[float, ...]:
         return (*self.starts.tolist(), self.interval[1])
+
+    def _plot(self, ax: Any, style: dict[str, Any]) -> list[Any]:  # noqa: ANN401 - matplotlib's
+        from optlaws.plots.machine import draw_output
+
+        return draw_output(self, ax, **style)
 
     def plus(self, offset: float) -> OutputCurve:
         """The curve with a number added to it, in its units: a constant load, such as a weight that is held.

@@ -25,7 +25,7 @@ from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.mechanisms.machine.texts import check_rest, machine_of, text_of, title_of
 from optlaws.mechanisms.spectrum.laplace import velocity_transform_of
 from optlaws.mechanisms.spectrum.robust import gauss_rule
-from optlaws.numbers import not_negative, numbers
+from optlaws.numbers import not_negative, numbers, power_of_two
 from optlaws.series import chebyshev
 from optlaws.synthesis.families.cone import ConeFamily, stationary_places
 from optlaws.synthesis.problem.constants import MAKERS, Functional
@@ -38,6 +38,7 @@ _SPARE = 40
 _NEGLIGIBLE = 2.0**-54
 _WIDEST = 1000.0
 _MOST_DAMPING = 0.95
+_ACCELERATION = 6.0  # of a smooth law
 
 
 @dataclass(frozen=True)
@@ -88,6 +89,14 @@ class ModeResidual(Functional):
     mode: int
     spread: float
     dampings: tuple[float, float] | None
+
+    normalised = True
+
+    @kept_property
+    def scale(self) -> float:
+        """Of the mode's vibration after a law with a jump of its acceleration; a power of 2."""
+        least = min(min(edge.first[0], edge.last[0]) for edge in self.edges)
+        return power_of_two(self.share * min(1.0, _ACCELERATION / least**2))
 
     @property
     def title(self) -> str:

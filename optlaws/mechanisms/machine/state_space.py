@@ -1,9 +1,10 @@
-"""Linear machines as matrices: x' = A x + B w and y = C x + D w, w being what the law is and what it does."""
+"""Linear machines as matrices: x' = A x + B w, y = C x + D w, where w holds the law and its derivatives a, b and c."""
 
 from __future__ import annotations
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from math import inf, isfinite
 from typing import Any, Self
 
 import numpy as np
@@ -122,6 +123,8 @@ class StateSpace:
         """
         T, h = positive(duration, "duration"), positive(stroke, "stroke")
         _check_inputs(inputs)
+        if not (0.0 < T * T < inf and isfinite(h / (T * T))):
+            raise InputError(f"duration must be a time in s that machines take, got {shortened(duration)}")
         units = np.array([h / T ** SYMBOLS.index(symbol) for symbol in inputs])
         scaled = _scaled(A, "A", T), _scaled(B, "B", T * units), C, _scaled(D, "D", units)
         return cls(*scaled, inputs=inputs, outputs=outputs)

@@ -7,6 +7,7 @@ from typing import Any, TypedDict
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.files import reading
 from optlaws.mechanisms.machine.state_space import StateSpace
 from optlaws.numbers import numbers
 from optlaws.synthesis.spaces.space import LawSpace
@@ -60,9 +61,9 @@ def machine_of(given: Any) -> StateSpace:  # noqa: ANN401 - a machine, or what t
     if not isinstance(given, str):
         raise InputError(f"of must be a machine, or one as JSON text, got {shortened(given)}")
     try:
-        data = json.loads(given)
-    except (ValueError, RecursionError):
-        raise InputError(f"of must be a machine as JSON text, {{...}}, got {shortened(given)}") from None
+        data = reading.json_text(given, "of, a machine,")
+    except InputError as error:
+        raise InputError(f"of must be a machine as JSON text, {{...}}: {error}") from None
     return StateSpace.from_dict(data)
 
 

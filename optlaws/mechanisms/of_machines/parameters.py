@@ -15,7 +15,6 @@ from optlaws.laws import MotionLaw
 from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.numbers import not_negative, numbers
-from optlaws.plotting import plotted
 
 Array = NDArray[np.float64]
 
@@ -79,7 +78,9 @@ class MachineSpectrum:
         >>> [line.get_label() for line in lines]
         ['peak', 'mode 1 left']
         """
-        return plotted("machine_spectrum", self, ax, **style)
+        from optlaws.plots.machine import draw_machine_spectrum
+
+        return draw_machine_spectrum(self, ax, **style)
 
     def to_pandas(self) -> Any:  # noqa: ANN401 - pandas is imported where it is asked for
         """A table: peaks of all outputs, frequencies and what is left of the modes, a row for each value.

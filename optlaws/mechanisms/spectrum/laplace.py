@@ -34,7 +34,7 @@ def velocity_transform(law: MotionLaw, w: Complex) -> Complex:
 
 
 def velocity_transform_of(law: MotionLaw) -> Callable[[Complex], Complex]:
-    """The same as a function of w, for several w of one law.
+    """The transform of a law's velocity as a function of w, for several w of one law.
 
     Examples
     --------

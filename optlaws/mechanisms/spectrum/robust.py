@@ -55,6 +55,10 @@ class Residual(Functional):
     design: float | None = None
     design_damping: float = 0.0
 
+    #: as of the law's acceleration, and in units of a bound where there is one
+    scale = 1.0
+    normalised = True
+
     def value(self, law: MotionLaw) -> float:
         """The greatest over the whole interval."""
         return self.peak(law).value

@@ -1,0 +1,360 @@
+"""Balancing cam mechanisms of types I, II and III: sections, ways and the criteria a and b."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import degrees, inf, tau
+from typing import Any
+
+from optlaws.balancing.dwells.section_laws import REST, check_law, loader_of, own_law, peak_power, peak_velocity, top
+from optlaws.balancing.dwells.sections import Section, composed, excursion
+from optlaws.balancing.loaders.loader import Loader
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import MotionLaw
+from optlaws.laws.segments.piecewise import PiecewiseLaw
+from optlaws.numbers import finite, real
+
+KINDS = ("I", "II", "III")
+LAWS = ("law", "law_1", "law_2", "return_law")
+POSITIVE = ("dwell", "rise", "return_angle", "swing", "radius_ratio", "inertia_ratio")
+NOT_NEGATIVE = ("clutch_angle", "lower_dwell", "standstill")
+ANGLES = ("dwell", "rise", "return_angle", "lower_dwell", "clutch_angle", "standstill", "swing")
+RATIOS = ("radius_ratio", "inertia_ratio", "reverse_share")
+#: what stands for a quantity that is not given
+INSTEAD = {"law_1": "law", "law_2": "law", "return_law": "law", "return_angle": "rise", "lower_dwell": "dwell"}
+FOUND = ("speed", "phi1", "phi2", "S_sp", "S1", "S2", "a", "b")
+
+
+_UNLESS_GIVEN: Any = None  # in no mechanism that was made: there INSTEAD stands for it
+
+
+@dataclass(frozen=True, repr=False, kw_only=True)
+class DwellMechanism:
+    """A balancing cam mechanism for an executive rocker that dwells; `dwell_mechanism` makes it, and names its data.
+
+    Angles are in radians, ways in strokes S of the executive link.
+
+    Examples
+    --------
+    >>> from optlaws import catalogue, deg, dwell_mechanism
+    >>> mechanism = dwell_mechanism(
+    ...     "III",
+    ...     law=catalogue["K"].law,
+    ...     dwell=deg(90),
+    ...     rise=deg(90),
+    ...     clutch_angle=deg(15),
+    ...     swing=deg(20),
+    ...     radius_ratio=1.0026761,
+    ...     inertia_ratio=0.1,
+    ... )
+    >>> mechanism, [section.name for section in mechanism.sections]
+    (DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667), ['rise', 'clutch', 'run-out', 'run-up', 'clutch', ...])
+    """
+
+    kind: str
+    law: MotionLaw
+    dwell: float
+    rise: float
+    swing: float
+    radius_ratio: float
+    inertia_ratio: float
+    clutch_angle: float = 0.0
+    law_1: MotionLaw = _UNLESS_GIVEN
+    law_2: MotionLaw = _UNLESS_GIVEN
+    return_angle: float = _UNLESS_GIVEN
+    return_law: MotionLaw = _UNLESS_GIVEN
+    lower_dwell: float = _UNLESS_GIVEN
+    standstill: float = 0.0
+    reverse_share: float = 0.5
+
+    def __post_init__(self) -> None:
+        for name in LAWS:
+            object.__setattr__(self, name, own_law(getattr(self, name)))
+        for name, other in INSTEAD.items():
+            if getattr(self, name) is None:
+                object.__setattr__(self, name, getattr(self, other))
+        _check(self)
+
+    @property
+    def loader(self) -> Loader:
+        """The inertial loader of the rise."""
+        return loader_of(self.law)
+
+    @property
+    def speed(self) -> float:
+        """Speed of the loader in the dwell, S per radian: B of its law over the angle of the rise (eq. 6)."""
+        return self.loader.B / self.rise
+
+    @property
+    def phi1(self) -> float:
+        """Angle of run-out and run-up together in the upper dwell, radians; 0 for types I and III (eq. 17)."""
+        return (1.0 - self.reverse_share) * self.free(self.dwell) if self.kind == "II" else 0.0
+
+    @property
+    def phi2(self) -> float:
+        """Angle of the reverse motion (II, eq. 17), or of run-out and run-up (III, eq. 24), radians; 0 for type I."""
+        return 0.0 if self.kind == "I" else self.second(self.dwell)
+
+    @property
+    def S_sp(self) -> float:
+        """Way of the rocker while the clutch acts, in S (eq. 11); 0 for type I."""
+        return 0.0 if self.kind == "I" else self.speed * self.clutch_angle
+
+    @property
+    def S1(self) -> float:
+        """Way in the upper dwell (I, eq. 7) or of run-out and run-up together (II, eq. 14), in S; 0 for type III."""
+        if self.kind == "I":
+            return self.speed * self.dwell
+        return self.speed * self.phi1 / peak_velocity(self.law_1)
+
+    @property
+    def S2(self) -> float:
+        """Way of the reverse motion (II, eq. 9) or of run-out and run-up together (III, eq. 26), in S; 0 for type I."""
+        if self.kind == "I":
+            return 0.0
+        return self.S1 + 2.0 * self.S_sp if self.kind == "II" else self.speed * self.phi2 / peak_velocity(self.law_2)
+
+    @kept_property
+    def a(self) -> float:
+        """Criterion a: greatest radius of the loader's cam over that of the executive cam (eq. 1)."""
+        return (self.radius_ratio + excursion(self.sections)) / (self.radius_ratio + 1.0)
+
+    @kept_property
+    def b(self) -> float:
+        """Criterion b: greatest inertia torque of the loader's rocker in the dwells over the balanced one (eq. 23)."""
+        greatest = 0.0
+        for section in self.sections:
+            if section.law is not None and section.name in {"run-out", "reverse", "run-up"}:
+                whole = section.angle / (section.end - section.start)
+                greatest = max(greatest, peak_power(section.law) * section.scale**2 / whole**3)
+        return self.inertia_ratio * greatest * self.rise**3 / peak_power(self.law)
+
+    @kept_property
+    def sections(self) -> tuple[Section, ...]:
+        """The sections of the loader's cam in order, from the start of the rise."""
+        rise = Section.run("rise", self.rise, self.loader.law, 1.0)
+        back = Section.run("return", self.return_angle, loader_of(self.return_law).law, -1.0)
+        return (rise, *self._in_dwell(self.dwell, -1.0), back, *self._in_dwell(self.lower_dwell, 1.0))
+
+    @property
+    def cycle(self) -> float:
+        """Angle of a whole cycle, radians."""
+        return self.rise + self.dwell + self.return_angle + self.lower_dwell
+
+    @kept_property
+    def motion(self) -> PiecewiseLaw:
+        """The motion of the loader's rocker over the cycle, in S over k = cam angle / cycle."""
+        return composed(self.sections)
+
+    @kept_property
+    def remarks(self) -> tuple[str, ...]:
+        """What to mind: a cycle that is not one turn of the cam."""
+        if abs(self.cycle / tau - 1.0) < REST:
+            return ()
+        return (f"rise, return and dwells add up to {degrees(self.cycle):.6g} degrees, not to one turn",)
+
+    def to_dict(self) -> dict[str, Any]:
+        """Angles (radians), ways, criteria and sections as plain data."""
+        return {
+            "type": self.kind,
+            **{name: getattr(self, name) for name in ANGLES + RATIOS + FOUND},
+            "sections": [
+                {"name": section.name, "angle": section.angle, "travel": section.travel} for section in self.sections
+            ],
+            "remarks": list(self.remarks),
+        }
+
+    def __repr__(self) -> str:
+        return f"DwellMechanism({self.kind}, a={self.a:g}, b={self.b:g}, S1={self.S1:g}, S2={self.S2:g})"
+
+    def free(self, dwell: float) -> float:
+        """Angle of a dwell between the clutch angles, radians."""
+        return dwell - 2.0 * self.clutch_angle
+
+    def second(self, dwell: float) -> float:
+        """phi2 of a dwell of types II and III, radians."""
+        if self.kind == "II":
+            return self.reverse_share * self.free(dwell)
+        return self.free(self.dwell) - self.standstill
+
+    def _in_dwell(self, dwell: float, way: float) -> list[Section]:
+        if dwell == 0.0:
+            return []
+        if self.kind == "I":
+            return [Section("dwell", dwell, way * self.speed * dwell)]
+        clutch = Section("clutch", self.clutch_angle, way * self.S_sp)
+        ends = [clutch] if self.clutch_angle else []
+        phi2 = self.second(dwell)
+        if self.kind == "II":
+            phi = self.free(dwell) - phi2
+            law, stroke = self.law_1, self.speed * phi / peak_velocity(self.law_1)
+            middle = [Section.run("reverse", phi2, self.law_2, -way * (stroke + 2.0 * self.S_sp))]
+        else:
+            phi, law, stroke = phi2, self.law_2, self.S2
+            rest = self.free(dwell) - phi2
+            middle = [Section("standstill", rest, 0.0)] if rest > REST else []
+        cut = top(law)
+        run_out = Section.run("run-out", (1.0 - cut) * phi, law, way * stroke, (cut, 1.0))
+        run_up = Section.run("run-up", cut * phi, law, way * stroke, (0.0, cut))
+        return [*ends, run_out, *middle, run_up, *ends]
+
+
+def _check(mechanism: DwellMechanism) -> None:
+    """Refuse what cannot be built.
+
+    Raises
+    ------
+    InputError
+        Naming the first quantity that does not fit, and the remedy.
+    """
+    if mechanism.kind not in KINDS:
+        raise InputError(f"kind must be one of {', '.join(KINDS)}, got {shortened(mechanism.kind)}")
+    for name in (*POSITIVE, *NOT_NEGATIVE):
+        number = real(getattr(mechanism, name))
+        if number is None or not (0.0 < number < inf or (name in NOT_NEGATIVE and number == 0.0)):
+            least = "at least 0" if name in NOT_NEGATIVE else "positive"
+            raise InputError(f"{name} must be {least} and finite, got {shortened(getattr(mechanism, name))}")
+    if not 0.0 < finite(mechanism.reverse_share, "reverse_share") < 1.0:
+        raise InputError(f"reverse_share must be between 0 and 1, got {shortened(mechanism.reverse_share)}")
+    for name in LAWS:
+        check_law(name, getattr(mechanism, name))
+    _speeds(mechanism)
+    if mechanism.kind == "I":
+        _equal_dwells(mechanism)
+    else:
+        _room(mechanism)
+
+
+def _speeds(mechanism: DwellMechanism) -> None:
+    back = loader_of(mechanism.return_law).B / mechanism.return_angle
+    if abs(mechanism.speed / back - 1.0) > REST:
+        raise InputError(
+            f"return_angle must suit the rise, for the loader keeps its speed in the dwell: it ends the rise with "
+            f"{mechanism.speed:.6g} S per radian (B / rise), and the return begins with {back:.6g}; for the return's "
+            f"law it must be {degrees(loader_of(mechanism.return_law).B / mechanism.speed):.6g} degrees"
+        )
+
+
+def _equal_dwells(mechanism: DwellMechanism) -> None:
+    if abs(mechanism.lower_dwell - mechanism.dwell) > REST:
+        raise InputError(
+            f"lower_dwell of type I must equal dwell, {degrees(mechanism.dwell):.6g} degrees, or its rocker drifts; "
+            f"got {degrees(mechanism.lower_dwell):.6g} degrees: take type II, or III if there are two dwells"
+        )
+
+
+def _room(mechanism: DwellMechanism) -> None:
+    for name, dwell in (("dwell", mechanism.dwell), ("lower_dwell", mechanism.lower_dwell)):
+        if mechanism.kind == "II" and dwell == 0.0:
+            continue
+        if mechanism.free(dwell) <= REST or mechanism.second(dwell) <= REST:
+            least = degrees(2.0 * mechanism.clutch_angle + (mechanism.standstill if mechanism.kind == "III" else 0.0))
+            raise InputError(
+                f"{name} must exceed twice clutch_angle{' and the standstill' if mechanism.kind == 'III' else ''}, "
+                f"{least:.6g} degrees, got {degrees(dwell):.6g} degrees"
+            )
+        if mechanism.free(dwell) - mechanism.second(dwell) < -REST:
+            raise InputError(
+                f"{name} of type III must leave room for the same way as the upper one: at least "
+                f"{degrees(mechanism.dwell - mechanism.standstill):.6g} degrees, got {degrees(dwell):.6g} degrees"
+            )
+
+
+def dwell_mechanism(
+    kind: str,
+    *,
+    law: MotionLaw,
+    dwell: float,
+    rise: float,
+    swing: float,
+    radius_ratio: float,
+    inertia_ratio: float,
+    clutch_angle: float = 0.0,
+    law_1: MotionLaw | None = None,
+    law_2: MotionLaw | None = None,
+    return_angle: float | None = None,
+    return_law: MotionLaw | None = None,
+    lower_dwell: float | None = None,
+    standstill: float = 0.0,
+    reverse_share: float = 0.5,
+) -> DwellMechanism:
+    """A balancing cam mechanism with an inertial loader, for an executive rocker that dwells.
+
+    While the executive link dwells, the loader keeps the kinetic energy. In type I its rocker runs on with it at
+    uniform speed. In types II and III a clutch lets the loader go: the rocker of type II runs out, comes back by the
+    reverse motion and runs up again, that of type III runs out, may stand still and runs up again.
+
+    Angles are in radians (`optlaws.deg` turns degrees into radians), ways in strokes S of the executive link.
+
+    Parameters
+    ----------
+    kind
+        "I", "II" or "III".
+    law
+        Executive law of the rise, from rest to rest; its loader is that of `optlaws.loader`.
+    dwell
+        Angle of the upper dwell.
+    rise
+        Angle of the rise.
+    clutch_angle
+        Angle in which the clutch acts at either end of the dwell, at uniform speed; not used by type I.
+    swing
+        Swing of the executive rocker; the rocker of the loader is as long.
+    radius_ratio
+        Least radius of either cam over S.
+    inertia_ratio
+        Moment of inertia of the loader's rocker alone over that of everything the executive rocker moves.
+    law_1
+        Law of run-out and run-up of type II; the executive law unless given.
+    law_2
+        Law of the reverse motion of type II, of run-out and run-up of type III; the executive law unless given.
+    return_angle
+        Angle of the return; that of the rise unless given.
+    return_law
+        Executive law of the return; that of the rise unless given.
+    lower_dwell
+        Angle of the lower dwell, 0 for none; that of the upper dwell unless given.
+    standstill
+        Angle in which the rocker of type III stands still in the upper dwell; in the lower one it stands still for as
+        much longer as that dwell is longer.
+    reverse_share
+        Share of the reverse motion in the angle of type II between the clutch angles.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range, a law is not from rest to rest, the angles leave no room for the motions, or the
+        rise, the return and the dwells do not fit each other.
+
+    Examples
+    --------
+    >>> from optlaws import catalogue, deg
+    >>> data = dict(law=catalogue["K"].law, dwell=deg(90), rise=deg(90), clutch_angle=deg(15), swing=deg(20))
+    >>> for kind in ("I", "II", "III"):
+    ...     print(dwell_mechanism(kind, radius_ratio=1.0026761, inertia_ratio=0.1, **data))
+    DwellMechanism(I, a=1.78435, b=0, S1=1.5708, S2=0)
+    DwellMechanism(II, a=1, b=1.9827, S1=0.333333, S2=0.856932)
+    DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667)
+    """
+    optional: dict[str, Any] = {
+        "law_1": law_1,
+        "law_2": law_2,
+        "return_angle": return_angle,
+        "return_law": return_law,
+        "lower_dwell": lower_dwell,
+    }
+    return DwellMechanism(
+        kind=kind,
+        law=law,
+        dwell=dwell,
+        rise=rise,
+        clutch_angle=clutch_angle,
+        swing=swing,
+        radius_ratio=radius_ratio,
+        inertia_ratio=inertia_ratio,
+        standstill=standstill,
+        reverse_share=reverse_share,
+        **optional,
+    )

@@ -1,0 +1,230 @@
+"""The cam-lever mechanism with torsion bars: what swings, and the law of its motion."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from math import degrees, pi, sqrt
+from typing import Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.balancing.levers.exact_swing import swung, upper_extreme
+from optlaws.balancing.levers.limits import LEAST_TRANSMISSION, MOST_ROCKER_SWING, check
+from optlaws.balancing.levers.linkage import FourBar
+from optlaws.balancing.levers.motion import LeverMotion
+from optlaws.balancing.levers.sizing import Sizing, sized
+from optlaws.errors import InputError
+from optlaws.kept import kept_property
+from optlaws.laws import PolynomialLaw
+from optlaws.numbers import finite
+
+Array = NDArray[np.float64]
+
+
+@dataclass(frozen=True)
+class TorsionLever:
+    """A driven mass that swings between two pre-twisted torsion bars through a four-bar linkage.
+
+    Bar 1, of stiffness c1, holds the cam's rocker, bar 2, of stiffness xi c1, the driven link; they pull against each
+    other, which takes up the clearances, and carry the mass from one extreme to the other, which unloads the cam.
+    Angles in radians (`deg` turns degrees into radians), lengths in units of the rocker, moments in units of c1, times
+    in units of sqrt(I / c1).
+
+    Parameters
+    ----------
+    beta
+        Length of the driven link.
+    lam
+        Length of the coupler, lambda.
+    rho, nu
+        Pre-twists: bar 1 is twisted by gamma01 (1 + rho) at rest, bar 2 by |chi02| (1 + nu), so that rho and nu say
+        what is left of them at the extremes.
+    swing
+        Swing of the driven link from extreme to extreme, radians.
+    least_transmission
+        The angles between the coupler and both links must stay between this and its supplement, radians; 30 degrees.
+    most_rocker_swing
+        The rocker must not swing farther, radians; 60 degrees.
+
+    Raises
+    ------
+    InputError
+        If a number is out of range, the asymptotic formulas have no solution, or a limit is exceeded.
+
+    Examples
+    --------
+    >>> from math import radians
+    >>> lever = TorsionLever(beta=0.75, lam=1, rho=0.15, nu=0.15, swing=radians(60))
+    >>> law = lever.law()
+    >>> round(law.constants.B.value, 6), round(law.constants.C.value, 6)
+    (1.580859, 5.023235)
+    >>> round(lever.xi, 6), round(lever.exact.period, 6), round(lever.asymptotic.period, 6)
+    (0.537689, 6.100747, 6.091704)
+    """
+
+    beta: float
+    lam: float
+    rho: float
+    nu: float
+    swing: float
+    least_transmission: float = LEAST_TRANSMISSION
+    most_rocker_swing: float = MOST_ROCKER_SWING
+
+    def __post_init__(self) -> None:
+        for name in ("beta", "lam", "rho", "nu", "swing", "least_transmission", "most_rocker_swing"):
+            object.__setattr__(self, name, finite(getattr(self, name), name))
+        for name in ("beta", "lam"):
+            if getattr(self, name) <= 0.0:
+                raise InputError(f"{name} must be above 0, got {getattr(self, name)!r}")
+        for name in ("rho", "nu"):
+            if getattr(self, name) < 0.0:
+                raise InputError(f"{name} must be at least 0, or the bar goes slack, got {getattr(self, name)!r}")
+        for name, most in (("swing", pi), ("least_transmission", 0.5 * pi), ("most_rocker_swing", pi)):
+            if not 0.0 < getattr(self, name) < most:
+                raise InputError(
+                    f"{name} must be above 0 and below {degrees(most):g} deg, in radians, got {getattr(self, name)!r}; "
+                    "write deg(60) for 60 degrees"
+                )
+        n, p = self.n, self.p
+        chi02 = self.chi01 - self.swing - p * self.swing**3 / (768.0 * n)
+        check(self, chi02, self.chi01, "by eq. (9), (10)")
+
+    @kept_property
+    def linkage(self) -> FourBar:
+        """The four-bar linkage."""
+        return FourBar(self.beta, self.lam)
+
+    @kept_property
+    def _sizing(self) -> Sizing:
+        return sized(self.linkage, self.rho, self.nu, self.swing)
+
+    @property
+    def chi01(self) -> float:
+        """The extreme beyond rest by eq. (13), radians."""
+        return self._sizing.chi01
+
+    @property
+    def gamma01(self) -> float:
+        """Deviation of the rocker at chi01 by eq. (12), radians."""
+        return self._sizing.gamma01
+
+    @property
+    def xi(self) -> float:
+        """Stiffness of bar 2 over that of bar 1, eq. (3): the moment is zero at rest."""
+        return self._sizing.xi
+
+    @property
+    def twists(self) -> tuple[float, float]:
+        """Twists of bar 1 and bar 2 at rest, gamma01 (1 + rho) and |chi02| (1 + nu), radians."""
+        return self.gamma01 * (1.0 + self.rho), (self.swing - self.chi01) * (1.0 + self.nu)
+
+    @kept_property
+    def twists_left(self) -> tuple[float, float]:
+        """Least twists of bar 1 and bar 2 on the way, exact, radians; a negative one opens the clearances there.
+
+        Bar 1 has it at chi01, bar 2 at chi02; the asymptotic formulas plan gamma01 rho and |chi02| nu.
+        """
+        first, second = self.twists
+        return first - float(self.linkage.rocker(self.exact.chi01)), second + self.exact.chi02
+
+    @property
+    def n(self) -> float:
+        """Coefficient of chi in the moment, eq. (5), in units of c1."""
+        return self.xi + self.beta**2
+
+    @property
+    def q(self) -> float:
+        """Coefficient of chi²/2 in the moment, eq. (5), in units of c1."""
+        return self.linkage.Q * self.twists[0]
+
+    @property
+    def p(self) -> float:
+        """Coefficient of chi³/6 in the moment, eq. (5), in units of c1."""
+        return self.linkage.P - self.linkage.R * self.twists[0]
+
+    @property
+    def T0(self) -> float:
+        """Period of small swings, 2 pi / sqrt(n), in units of sqrt(I / c1)."""
+        return 2.0 * pi / sqrt(self.n)
+
+    def moment(self, chi: Any) -> Array:  # noqa: ANN401 - whatever numpy takes for an array
+        """Moment M_R of the bars on the driven link against its deviation chi, exact, eq. (2), in units of c1."""
+        return self._moment(np.asarray(chi, dtype=np.float64))[0]
+
+    def taylor_moment(self, chi: Any) -> Array:  # noqa: ANN401 - whatever numpy takes for an array
+        """The moment to the third power of chi, eq. (4), in units of c1."""
+        chi = np.asarray(chi, dtype=np.float64)
+        return np.asarray(chi * (self.n + chi * (self.q / 2.0 + chi * (self.p / 6.0))))
+
+    def potential(self, chi: Any) -> Array:  # noqa: ANN401 - whatever numpy takes for an array
+        """Energy stored in the bars less that at rest, in units of c1: the integral of the moment from 0 to chi."""
+        chi = np.asarray(chi, dtype=np.float64)
+        rocker = self.linkage.rocker(chi)
+        # xi times the second twist is beta times the first, eq. (3)
+        return np.asarray(0.5 * (self.xi * chi**2 + rocker**2) + self.twists[0] * (self.beta * chi - rocker))
+
+    @kept_property
+    def exact(self) -> LeverMotion:
+        """The swing that satisfies the exact equation of motion (1), (2), to rounding.
+
+        Raises
+        ------
+        InputError
+            If the exact extremes exceed a limit, or the link does not swing so far.
+        """
+        chi01 = upper_extreme(self.potential, self.swing, self.linkage.range, self.chi01)
+        check(self, chi01 - self.swing, chi01, "in the exact motion")
+        return swung(self.potential, self._moment, chi01, self.swing)
+
+    @kept_property
+    def asymptotic(self) -> LeverMotion:
+        """The swing by the asymptotic formulas (7), (8).
+
+        Raises
+        ------
+        InputError
+            If the formulas give no period, or a motion that turns back.
+        """
+        n, q, p, swing = self.n, self.q, self.p, self.swing
+        square = 1.0 + swing**2 * (768.0 * n * p + p**2 * swing**2 - 1280.0 * q**2) / (24576.0 * n**2)
+        if square <= 0.0:
+            raise InputError(f"eq. (8) gives no period for {self!r}; reduce swing")
+        second = q * swing**2 / (48.0 * n)
+        amplitudes = (-3.0 * second, 0.5 * swing, second, p * swing**3 / (1536.0 * n))
+        return LeverMotion(amplitudes, self.T0 / sqrt(square))
+
+    def law(self) -> PolynomialLaw:
+        """The law of the stroke from chi01 to chi02, exact: a = (chi01 - chi)/swing of k = 2t/T.
+
+        The halves before and after rest are unlike; `exact.halves` is the law in units of each half.
+        """
+        return self.exact.law
+
+    @kept_property
+    def errors(self) -> dict[str, float]:
+        """What the asymptotic motion is off by: relative errors of T, chi01, chi02, zeta, B1, B3, C1, C3, and max |da|.
+
+        The last is the greatest difference of the displacements of the two `halves`.
+
+        Examples
+        --------
+        >>> from math import radians
+        >>> lever = TorsionLever(beta=0.75, lam=1, rho=0.15, nu=0.15, swing=radians(60))
+        >>> round(lever.errors["T"], 6), round(lever.errors["max |da|"], 6)
+        (-0.001482, 0.000417)
+        """
+        names = {"T": "period"} | {name: name for name in ("chi01", "chi02", "zeta", "B1", "B3", "C1", "C3")}
+        off = {name: getattr(self.asymptotic, kept) / getattr(self.exact, kept) - 1.0 for name, kept in names.items()}
+        k = np.linspace(0.0, 1.0, 801)
+        apart = np.abs(self.asymptotic.halves.a(k) - self.exact.halves.a(k))
+        return {**off, "max |da|": float(apart.max())}
+
+    def _moment(self, chi: Array) -> tuple[Array, Array]:
+        """The moment and its derivative."""
+        first, at = self.twists[0], self.linkage.at(chi)
+        # xi times the second twist is beta times the first, eq. (3)
+        return (
+            np.asarray(self.xi * chi + at.rocker * at.ratio + first * (self.beta - at.ratio)),
+            np.asarray(self.xi + at.ratio**2 - (first - at.rocker) * at.slope),
+        )

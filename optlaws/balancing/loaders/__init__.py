@@ -1,0 +1,1 @@
+"""Inertial loaders: their laws, their limits, and executive laws made for their sake."""

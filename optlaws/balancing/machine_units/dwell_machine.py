@@ -1,0 +1,261 @@
+"""Dwell mechanisms in machine units: the clutch's time as an angle (16), and the torques (19) to (22), in N m."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from itertools import pairwise
+from math import tau
+from typing import Any
+
+from optlaws.balancing.dwells.mechanism import DwellMechanism, dwell_mechanism
+from optlaws.balancing.dwells.section_laws import peak_power
+from optlaws.cams.curves.motion_by_angle import CamMotion, Stretch
+from optlaws.cams.disc import DiscCam
+from optlaws.cams.followers.oscillating_roller import OscillatingRoller
+from optlaws.cycles.cycle import Cycle
+from optlaws.cycles.specification.segments import Dwell, Return, Rise
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+from optlaws.laws import MotionLaw
+from optlaws.motion.quantities import quantity
+
+_DWELL = ("run-out", "reverse", "run-up")
+
+
+@dataclass(frozen=True)
+class DwellMachine:
+    """A balancing dwell mechanism at a speed; made by `dwell_machine`.
+
+    Attributes
+    ----------
+    mechanism
+        The mechanism, dimensionless.
+    rate
+        Of the cam's shaft, rad/s.
+    inertia, loader_inertia
+        Of everything the executive rocker moves, and of the loader's rocker alone, kg m².
+    arm, base_radius
+        Length of both rockers, and least radius of both pitch curves, m.
+
+    Examples
+    --------
+    >>> from optlaws import catalogue
+    >>> data = dict(dwell="90 deg", rise="90 deg", swing="20 deg", arm="100 mm", base_radius="35 mm", speed="100 rpm")
+    >>> inertias = dict(inertia="0.05 kg m^2", loader_inertia="0.005 kg m^2")
+    >>> type_1 = dwell_machine("I", law=catalogue["K"].law, **data, **inertias)
+    >>> round(type_1.balanced_torque, 6), type_1.residual_torque
+    (0.668101, 0.0)
+    """
+
+    mechanism: DwellMechanism
+    rate: float
+    inertia: float
+    loader_inertia: float
+    arm: float
+    base_radius: float
+
+    @property
+    def clutch_angle(self) -> float:
+        """Angle of the clutch, rad: w t_sp (eq. 16)."""
+        return self.mechanism.clutch_angle
+
+    @property
+    def balanced_torque(self) -> float:
+        """The greatest torque that the loader takes from the shaft, N m: D I gS²/(ph_v T_v²) (eq. 22)."""
+        mechanism = self.mechanism
+        return (
+            peak_power(mechanism.law)
+            * self.inertia
+            * mechanism.swing**2
+            / (mechanism.rise * (mechanism.rise / self.rate) ** 2)
+        )
+
+    @property
+    def driven_torque(self) -> float:
+        """The greatest inertia torque at the executive rocker, N m: C I gS/T_v²."""
+        mechanism = self.mechanism
+        return mechanism.law.peak(2).value * self.inertia * mechanism.swing / (mechanism.rise / self.rate) ** 2
+
+    @property
+    def residual_torque(self) -> float:
+        """The greatest torque of the loader's rocker alone in the dwells, at the shaft, N m (eq. 19); 0 for type I."""
+        return max((self._power(section) for section in self._sections), default=0.0)
+
+    @property
+    def loader_driven_torque(self) -> float:
+        """The greatest inertia torque at the loader's rocker itself, N m (eq. 20)."""
+        torque = 0.0
+        for law, scale, whole in self._sections:
+            torque = max(
+                torque, law.peak(2).value * self._swing(scale) * self.loader_inertia / (whole / self.rate) ** 2
+            )
+        return torque
+
+    @property
+    def reduction(self) -> float:
+        """Torque at the shaft that is left in the dwells over the one that is balanced: the criterion b (eq. 23)."""
+        return self.residual_torque / self.balanced_torque
+
+    def executive_motion(self) -> Cycle:
+        """The executive rocker over the turn, as a cycle.
+
+        Raises
+        ------
+        InputError
+            If rise, return and dwells do not make a turn.
+        """
+        turn = self._turn()
+        swing = f"{turn.swing!r} rad"
+        rests = [[Dwell(f"{dwell!r} rad")] if dwell else [] for dwell in (turn.dwell, turn.lower_dwell)]
+        rise = Rise(swing, f"{turn.rise!r} rad", law=turn.law)
+        back = Return(swing, f"{turn.return_angle!r} rad", law=turn.return_law)
+        return Cycle([rise, *rests[0], back, *rests[1]], period=f"{tau / self.rate!r} s")
+
+    def loader_motion(self) -> CamMotion:
+        """The loader's rocker over the turn, by the cam's angle, rad.
+
+        Raises
+        ------
+        InputError
+            If rise, return and dwells do not make a turn.
+        """
+        turn = self._turn()
+        stretches = []
+        for (low, high), segment in zip(pairwise(turn.motion.breaks), turn.motion.segments, strict=True):
+            offset = turn.swing * float(turn.motion.a(low))
+            stretches.append(Stretch(tau * low, tau * high, offset, turn.swing, tau, segment, high - low))
+        return CamMotion(tuple(stretches), axis="angle", closed=True)
+
+    def cams(self, roller: str, pivot_distance: str) -> dict[str, DiscCam]:
+        """The executive cam and the loader's, with rollers on arms.
+
+        Parameters
+        ----------
+        roller
+            Radius of both rollers, such as "10 mm".
+        pivot_distance
+            From the cams' centre to the rockers' pivot.
+
+        Raises
+        ------
+        InputError
+            If the cycle is no turn, or there is no such mechanism.
+        """
+        follower = OscillatingRoller(roller, arm=f"{self.arm!r} m", pivot_distance=pivot_distance)
+        radius = f"{self.base_radius!r} m"
+        return {
+            "executive": DiscCam(self.executive_motion(), radius, follower),
+            "loader": DiscCam(self.loader_motion(), radius, follower),
+        }
+
+    def to_dict(self) -> dict[str, Any]:
+        """Torques, angles and criteria as plain data in SI units."""
+        names = ("rate", "clutch_angle", "balanced_torque", "driven_torque", "residual_torque", "loader_driven_torque")
+        return {name: getattr(self, name) for name in names} | {"mechanism": self.mechanism.to_dict()}
+
+    @property
+    def _sections(self) -> list[tuple[MotionLaw, float, float]]:
+        """Laws of the loader's rocker alone, with their strokes in S and the angles of the whole laws."""
+        return [
+            (section.law, abs(section.scale), section.angle / (section.end - section.start))
+            for section in self.mechanism.sections
+            if section.law is not None and section.name in _DWELL
+        ]
+
+    def _swing(self, scale: float) -> float:
+        return scale * self.mechanism.swing
+
+    def _power(self, section: tuple[MotionLaw, float, float]) -> float:
+        law, scale, whole = section
+        time = whole / self.rate
+        return peak_power(law) * self.loader_inertia * self._swing(scale) ** 2 / (whole * time**2)
+
+    def _turn(self) -> DwellMechanism:
+        if self.mechanism.remarks:
+            raise InputError(f"no cam comes back: {self.mechanism.remarks[0]}; give a return_angle or a lower_dwell")
+        return self.mechanism
+
+
+def dwell_machine(
+    kind: str,
+    *,
+    law: MotionLaw,
+    speed: str,
+    dwell: str,
+    rise: str,
+    swing: str,
+    inertia: str,
+    loader_inertia: str,
+    arm: str,
+    base_radius: str,
+    clutch_time: str = "0 s",
+    more: Mapping[str, Any] | None = None,
+) -> DwellMachine:
+    """A balancing dwell mechanism from a machine's data: its clutch takes a time, an angle that grows with the speed.
+
+    Parameters
+    ----------
+    kind
+        "I", "II" or "III".
+    law
+        Executive law of the rise.
+    speed
+        Of the cam's shaft, such as "120 rpm": n of eq. (16).
+    dwell, rise, swing
+        Angles of the upper dwell and the rise, and the executive rocker's swing, such as "90 deg".
+    inertia, loader_inertia
+        Moments of inertia of everything the executive rocker moves, and of the loader's rocker alone.
+    arm, base_radius
+        Length of both rockers, and least radius of both cams.
+    clutch_time
+        In which the clutch acts, such as "5 ms": t_sp of eq. (16).
+    more
+        Further entries of `dwell_mechanism`: law_1, law_2, return_angle, lower_dwell, standstill, reverse_share.
+
+    Raises
+    ------
+    InputError
+        If a quantity is of another dimension or out of its range, or the clutch leaves no room in the dwell.
+
+    Examples
+    --------
+    >>> from optlaws import catalogue
+    >>> K = catalogue["K"].law
+    >>> data = dict(law=K, dwell="90 deg", rise="90 deg", swing="20 deg", arm="100 mm", base_radius="35 mm")
+    >>> inertias = dict(inertia="0.05 kg m^2", loader_inertia="0.005 kg m^2")
+    >>> slow = dwell_machine("III", speed="100 rpm", clutch_time="25 ms", **data, **inertias)
+    >>> slow.mechanism, round(slow.balanced_torque, 6), round(slow.residual_torque, 6)
+    (DwellMechanism(III, a=1.59434, b=0.15, S1=0, S2=0.666667), 0.668101, 0.100215)
+    """
+    given = {
+        "speed": _above(speed, "angular velocity", "speed"),
+        "arm": _above(arm, "length", "arm"),
+        "base_radius": _above(base_radius, "length", "base_radius"),
+        "inertia": _above(inertia, "moment of inertia", "inertia"),
+        "loader_inertia": _above(loader_inertia, "moment of inertia", "loader_inertia"),
+    }
+    turned = _above(swing, "angle", "swing")
+    time = quantity(clutch_time, "time", "clutch_time")
+    if time < 0.0:
+        raise InputError(f"clutch_time must be at least 0, got {shortened(clutch_time)}")
+    mechanism = dwell_mechanism(
+        kind,
+        law=law,
+        clutch_angle=given["speed"] * time,
+        radius_ratio=given["base_radius"] / (turned * given["arm"]),
+        inertia_ratio=given["loader_inertia"] / given["inertia"],
+        dwell=_above(dwell, "angle", "dwell"),
+        rise=_above(rise, "angle", "rise"),
+        swing=turned,
+        **(more or {}),
+    )
+    sizes = {name: given[name] for name in ("inertia", "loader_inertia", "arm", "base_radius")}
+    return DwellMachine(mechanism, given["speed"], **sizes)
+
+
+def _above(value: str, dimension: str, name: str) -> float:
+    known = quantity(value, dimension, name)
+    if known <= 0.0:
+        raise InputError(f"{name} must be above 0, got {shortened(value)}")
+    return known

@@ -1,0 +1,158 @@
+"""The command `optlaws dwell`: balancing mechanisms for motions with dwells, compared."""
+
+from __future__ import annotations
+
+from math import degrees, gcd, inf
+from typing import TYPE_CHECKING, Any
+
+import optlaws
+from optlaws.cli.options import AsJson, Whole, read_law
+from optlaws.cli.show import print_json, show, table
+from optlaws.errors import InputError
+
+if TYPE_CHECKING:
+    from optlaws.balancing.dwells.choice import DwellComparison
+    from optlaws.balancing.dwells.clutch import Teeth
+
+_TEETH = 3
+_TURN = 360.0 * (1.0 + 1e-9)
+
+
+def dwell(
+    name: str,
+    /,
+    *,
+    dwell: float,
+    rise: float,
+    swing: float,
+    radius_ratio: float,
+    inertia_ratio: float,
+    clutch_angle: float,
+    most_torque: float,
+    most_size: float = inf,
+    lower_dwell: float | None = None,
+    law_1: str | None = None,
+    law_2: str | None = None,
+    teeth: Whole = 120,
+    as_json: AsJson = False,
+) -> None:
+    """Balancing mechanisms of types I, II and III for an executive link that dwells, and which of them to take.
+
+    Parameters
+    ----------
+    name
+        Executive law: a name or code of the catalogue, or a JSON or CSV file with a law.
+    dwell
+        Upper dwell, degrees.
+    rise
+        Rise, and return, degrees.
+    swing
+        Swing of the executive rocker, degrees.
+    radius_ratio
+        Least radius of the cams over the stroke of the executive link.
+    inertia_ratio
+        Inertia of the loader's rocker over the executive inertia.
+    clutch_angle
+        Angle in which the clutch acts at either end of a dwell, degrees.
+    most_torque
+        Greatest residual torque b that is acceptable.
+    most_size
+        Greatest size a of the cam that is acceptable.
+    lower_dwell
+        Lower dwell, degrees; 0 for none, the upper one unless given.
+    law_1
+        Law of run-out and run-up of type II; the executive law unless given.
+    law_2
+        Law of the reverse motion of type II and of run-out and run-up of type III; the executive law unless given.
+    teeth
+        Greatest number of teeth of the clutch.
+    as_json
+        Print one JSON object on stdout and nothing else; angles in radians.
+    """
+    _check_turn(rise, dwell, lower_dwell)
+    comparison = optlaws.compare_dwell_mechanisms(
+        law=read_law(name),
+        dwell=optlaws.deg(dwell),
+        rise=optlaws.deg(rise),
+        swing=optlaws.deg(swing),
+        radius_ratio=radius_ratio,
+        inertia_ratio=inertia_ratio,
+        clutch_angle=optlaws.deg(clutch_angle),
+        most_torque=most_torque,
+        most_size=most_size,
+        lower_dwell=None if lower_dwell is None else optlaws.deg(lower_dwell),
+        law_1=None if law_1 is None else read_law(law_1),
+        law_2=None if law_2 is None else read_law(law_2),
+    )
+    clutches = {kind: optlaws.Clutch(mechanism) for kind, mechanism in comparison.mechanisms.items() if kind != "I"}
+    if as_json:
+        print_json(_plain(comparison, clutches, teeth))
+    else:
+        _show(comparison, clutches, teeth)
+
+
+def _check_turn(rise: float, dwell: float, lower_dwell: float | None) -> None:
+    """Refuse angles that one turn of the cam has no room for; that they are fewer is said with the answer."""
+    cycle = 2.0 * rise + dwell + (dwell if lower_dwell is None else lower_dwell)
+    if cycle > _TURN:
+        lower = "the lower dwell, as long as the upper one," if lower_dwell is None else "--lower-dwell"
+        raise InputError(
+            f"--rise, the return as long, --dwell and {lower} add up to {cycle:.6g} degrees, more than one turn; "
+            "shorten them, or give a shorter --lower-dwell"
+        )
+
+
+def _show(comparison: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: int) -> None:
+    types = table("type", "a", "b", "S1", "S2", "usable")
+    for kind, reason in comparison.reasons.items():
+        mechanism = comparison.mechanisms.get(kind)
+        cells = (
+            ["", "", "", ""]
+            if mechanism is None
+            else [f"{value:.6g}" for value in (mechanism.a, mechanism.b, mechanism.S1, mechanism.S2)]
+        )
+        types.add_row(kind, *cells, reason)
+    chosen = (
+        "none is usable" if comparison.chosen is None else f"type {comparison.chosen}, the smallest cam of those usable"
+    )
+    remarks = {remark for mechanism in comparison.mechanisms.values() for remark in mechanism.remarks}
+    show(*(f"mind: {remark}" for remark in sorted(remarks)))
+    show(types, f"take {chosen}; the paper's rule of thumb says {comparison.by_rule}")
+    teeth_of = table("clutch", "p/N wanted", "p", "N", "off by, deg", "exact with")
+    for kind, clutch in clutches.items():
+        for choice in _choices(clutch, teeth):
+            error = f"{degrees(choice.error):.4f}"
+            teeth_of.add_row(kind, f"{clutch.ratio:.8g}", str(choice.p), str(choice.N), error, _remedy(choice))
+    if clutches:
+        show(teeth_of)
+
+
+def _choices(clutch: optlaws.Clutch, teeth: int) -> tuple[Teeth, ...]:
+    choices = [choice for choice in clutch.choices(1, teeth) if gcd(choice.p, choice.N) == 1]
+    return tuple(choices[:_TEETH]) or (clutch.nearest(teeth),)
+
+
+def _remedy(choice: Teeth) -> str:
+    angles = {"swing": choice.swing, "dwell": choice.dwell, "rise": choice.rise}
+    said = [f"{name} {degrees(value):.5g}" for name, value in angles.items() if value is not None]
+    said += [] if choice.B2 is None else [f"B2 = {choice.B2:.5g}"]
+    return " or ".join(said)
+
+
+def _plain(comparison: DwellComparison, clutches: dict[str, optlaws.Clutch], teeth: int) -> dict[str, Any]:
+    return {
+        "chosen": comparison.chosen,
+        "by_rule": comparison.by_rule,
+        "reasons": dict(comparison.reasons),
+        "types": {kind: mechanism.to_dict() for kind, mechanism in comparison.mechanisms.items()},
+        "clutches": {
+            kind: {
+                "ratio": clutch.ratio,
+                "teeth": [
+                    {"p": choice.p, "N": choice.N, "error": choice.error, "swing": choice.swing, "B2": choice.B2}
+                    for choice in _choices(clutch, teeth)
+                ],
+            }
+            for kind, clutch in clutches.items()
+        },
+    }

@@ -1,0 +1,198 @@
+"""The command `optlaws lever`: the cam-lever mechanism with torsion bars."""
+
+from __future__ import annotations
+
+from math import degrees
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import optlaws
+from optlaws.cli.options import AsJson, check_files, save
+from optlaws.cli.show import print_json, show, table
+from optlaws.errors import InputError
+
+if TYPE_CHECKING:
+    from rich.table import Table
+
+    from optlaws.balancing.levers.motion import LeverMotion
+
+_ANGLES = ("chi01", "chi02")
+_CONSTANTS = ("zeta", "B1", "B3", "C1", "C3")
+
+
+def lever(
+    *,
+    swing: float,
+    beta: float | None = None,
+    lam: float | None = None,
+    rho: float = 0.15,
+    nu: float = 0.15,
+    wanted: list[str] | None = None,
+    inertia: float | None = None,
+    stiffness: float | None = None,
+    period: float | None = None,
+    least_transmission: float = 30.0,
+    most_rocker_swing: float = 60.0,
+    as_json: AsJson = False,
+    output: Path | None = None,
+) -> None:
+    """Law of motion of a mass that swings between torsion bars on a cam-lever mechanism: exact and asymptotic.
+
+    Parameters
+    ----------
+    swing
+        Swing of the driven link from extreme to extreme, degrees.
+    beta
+        Length of the driven link in units of the rocker; sought where --wanted asks.
+    lam
+        Length of the coupler in units of the rocker; sought where --wanted asks.
+    rho
+        Part of the first bar's pre-twist that is left at its extreme.
+    nu
+        Part of the second bar's pre-twist that is left at its extreme.
+    wanted
+        A constant of the exact motion, such as B1/B3=0.99 or T=6.1, for which the length not given is sought; twice for
+        two of them and both lengths.
+    inertia
+        Moment of inertia of the driven mass, kg m².
+    stiffness
+        Stiffness c1 of the first bar, N m/rad: with --inertia, gives the period in seconds.
+    period
+        Wanted period, seconds: with --inertia, gives the stiffness of both bars.
+    least_transmission
+        Least angle between the coupler and either link, degrees; the greatest is its supplement.
+    most_rocker_swing
+        Greatest swing of the rocker, degrees.
+    as_json
+        Print one JSON object on stdout and nothing else; angles in radians.
+    output
+        Write the exact law of the stroke to this JSON file.
+    """
+    check_files(output)
+    if period is not None and stiffness is not None:
+        raise InputError("--period and --stiffness exclude each other: one gives the other")
+    if (inertia is None) != (period is None and stiffness is None):
+        raise InputError("--inertia goes with --stiffness or --period")
+    angles = {"--swing": (swing, 180.0), "--least-transmission": (least_transmission, 90.0)}
+    for option, (angle, most) in {**angles, "--most-rocker-swing": (most_rocker_swing, 180.0)}.items():
+        if not 0.0 < angle < most:
+            raise InputError(f"{option} must be above 0 and below {most:g} degrees, got {angle:g}")
+    given: dict[str, float] = {
+        "rho": rho,
+        "nu": nu,
+        "swing": optlaws.deg(swing),
+        "least_transmission": optlaws.deg(least_transmission),
+        "most_rocker_swing": optlaws.deg(most_rocker_swing),
+    }
+    levers = _levers(beta, lam, wanted or [], given)
+    machines = [_machine(lever.exact, inertia, stiffness, period, lever.xi) for lever in levers]
+    if output is not None:
+        _save(output, levers)
+    if as_json:
+        plain = [_plain(lever) | machine for lever, machine in zip(levers, machines, strict=True)]
+        print_json(plain[0] if wanted is None else {"levers": plain})
+        return
+    for lever, machine in zip(levers, machines, strict=True):
+        _show(lever, machine)
+
+
+def _levers(
+    beta: float | None, lam: float | None, wanted: list[str], given: dict[str, float]
+) -> tuple[optlaws.TorsionLever, ...]:
+    if wanted:
+        from optlaws.balancing.levers.design import BETA, LAM
+
+        values = dict(_value(text) for text in wanted)
+        return optlaws.find_torsion_levers(
+            values, beta=BETA if beta is None else beta, lam=LAM if lam is None else lam, **given
+        )
+    if beta is None or lam is None:
+        raise InputError("give --beta and --lam, or with --wanted a constant for each that is left out")
+    return (optlaws.TorsionLever(beta=beta, lam=lam, **given),)
+
+
+def _value(text: str) -> tuple[str, float]:
+    name, _, number = text.partition("=")
+    try:
+        return name.strip(), float(number)
+    except ValueError:
+        raise InputError(f"--wanted takes NAME=NUMBER, such as B1/B3=0.99, got {text!r}") from None
+
+
+def _machine(
+    motion: LeverMotion, inertia: float | None, stiffness: float | None, period: float | None, xi: float
+) -> dict[str, float]:
+    if inertia is None:
+        return {}
+    first = motion.stiffness(period, inertia) if period is not None else stiffness
+    if first is None:
+        return {}
+    return {
+        "period_seconds": motion.seconds(first, inertia),
+        "stiffness_1": first,
+        "stiffness_2": xi * first,
+    }
+
+
+def _plain(lever: optlaws.TorsionLever) -> dict[str, Any]:
+    linkage = lever.linkage
+    return {
+        "beta": lever.beta,
+        "lam": lever.lam,
+        "rho": lever.rho,
+        "nu": lever.nu,
+        "swing": lever.swing,
+        "alpha": linkage.alpha,
+        "psi0": linkage.psi0,
+        **{name: getattr(linkage, name) for name in "QPSR"},
+        **{name: getattr(lever, name) for name in ("xi", "gamma01", "n", "q", "p", "T0")},
+        "twists": list(lever.twists),
+        "twists_left": list(lever.twists_left),
+        "exact": _motion(lever.exact),
+        "asymptotic": _motion(lever.asymptotic),
+        "errors": lever.errors,
+        "law": lever.law().to_dict(),
+    }
+
+
+def _motion(motion: LeverMotion) -> dict[str, Any]:
+    return {"T": motion.period, **{name: getattr(motion, name) for name in (*_ANGLES, *_CONSTANTS)}}
+
+
+def _save(file: Path, levers: tuple[optlaws.TorsionLever, ...]) -> None:
+    if len(levers) > 1:
+        raise InputError(f"--output takes one law, found are {len(levers)}: give --beta or --lam of one of them")
+    save(file, {"law": levers[0].law().to_dict()})
+
+
+def _show(lever: optlaws.TorsionLever, machine: dict[str, float]) -> None:
+    facts = table()
+    linkage = lever.linkage
+    facts.add_row("beta, lambda", f"{lever.beta:.8g}, {lever.lam:.8g}")
+    facts.add_row("alpha, psi0", f"{linkage.alpha:.8g}, {degrees(linkage.psi0):.6g} deg")
+    facts.add_row("xi = c2/c1", f"{lever.xi:.8g}")
+    for name, twist, left in zip(("1", "2"), lever.twists, lever.twists_left, strict=True):
+        slack = "" if left > 0.0 else ": slack"
+        facts.add_row(
+            f"twist of bar {name}", f"{degrees(twist):.6g} deg at rest, {degrees(left):.4g} deg at least{slack}"
+        )
+    for name, value in machine.items():
+        unit = "s" if name == "period_seconds" else "N m/rad"
+        facts.add_row(name.replace("_", " ").replace(" seconds", ""), f"{value:.8g} {unit}")
+    show(facts, _compared(lever))
+
+
+def _compared(lever: optlaws.TorsionLever) -> Table:
+    rows = table("", "exact", "asymptotic", "off by, %")
+    exact, asymptotic = _motion(lever.exact), _motion(lever.asymptotic)
+    rows.add_row("T, sqrt(I/c1)", f"{exact['T']:.8g}", f"{asymptotic['T']:.8g}", f"{100 * lever.errors['T']:.2g}")
+    for name in (*_ANGLES, *_CONSTANTS):
+        scale, unit = (degrees(1.0), ", deg") if name in _ANGLES else (1.0, "")
+        rows.add_row(
+            f"{name}{unit}",
+            f"{scale * exact[name]:.8g}",
+            f"{scale * asymptotic[name]:.8g}",
+            f"{100 * lever.errors[name]:.2g}",
+        )
+    rows.add_row("max |da|", "", "", f"{100 * lever.errors['max |da|']:.2g}")
+    return rows

@@ -1,0 +1,252 @@
+"""Dwell mechanisms of types I, II, III: reference tables, the composed motion, what does not fit."""
+
+import json
+from dataclasses import replace
+from math import degrees, pi, radians
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import quad
+
+from optlaws import InputError, MotionLaw, catalogue, deg, dwell_mechanism, smoothstep
+from optlaws.balancing.dwells.mechanism import DwellMechanism
+from tests.laws.examples import free_function_law
+from tests.mechanisms.reference import rows
+from tests.sampling import examples
+
+K = catalogue["K"].law
+SIX_DIGITS = 5.1e-6
+
+
+def mechanism(kind: str, row: dict[str, str]) -> DwellMechanism:
+    swing, clutch, dwell, rise = (
+        radians(float(row[name])) for name in ("gamma_sum", "phi_sp", "phi_dwell", "phi_rise")
+    )
+    return dwell_mechanism(
+        kind,
+        law=K,
+        dwell=dwell,
+        rise=rise,
+        clutch_angle=clutch,
+        swing=swing,
+        radius_ratio=0.35 / swing,
+        inertia_ratio=0.1,
+    )
+
+
+def example(kind: str, **changed: object) -> DwellMechanism:
+    data: dict[str, object] = {
+        "law": K,
+        "dwell": deg(90),
+        "rise": deg(90),
+        "clutch_angle": deg(15),
+        "swing": deg(20),
+        "radius_ratio": 0.35 / deg(20),
+        "inertia_ratio": 0.1,
+    }
+    return dwell_mechanism(kind, **{**data, **changed})  # type: ignore[arg-type] # a test may give anything
+
+
+@pytest.mark.parametrize("row", rows("types_grid"), ids=lambda row: "-".join(list(row.values())[:4]).split(":")[0])
+def test_the_grid(row: dict[str, str]) -> None:
+    first = mechanism("I", row)
+    found = {"a_I": first.a, "S1_over_S_I": first.S1, "r0_over_S": first.radius_ratio}
+    assert first.b == 0.0
+    for kind in ("II", "III"):
+        if not row[f"a_{kind}"]:
+            with pytest.raises(InputError, match="must exceed twice clutch_angle"):
+                mechanism(kind, row)
+            continue
+        dwell_machine = mechanism(kind, row)
+        found |= {
+            f"a_{kind}": dwell_machine.a,
+            f"b_{kind}": dwell_machine.b,
+            f"b_{kind}_per_I1I": dwell_machine.b / 0.1,
+        }
+        found |= {f"S2_over_S_{kind}": dwell_machine.S2, f"phi2_{kind}": degrees(dwell_machine.phi2)}
+    for name, value in found.items():
+        assert value == pytest.approx(float(row[name]), rel=SIX_DIGITS), name
+
+
+def test_the_example_to_eight_digits() -> None:
+    table = {row["quantity"]: float(row["value"]) for row in rows("types_example")}
+    found = {kind: example(kind) for kind in ("I", "II", "III")}
+    values = {f"{name}_{kind}": getattr(one, name) for kind, one in found.items() for name in ("a", "b")}
+    values |= {"S1_over_S_I": found["I"].S1, "S2_over_S_II": found["II"].S2, "S2_over_S_III": found["III"].S2}
+    values |= {"phi2_II": degrees(found["II"].phi2), "phi2_III": degrees(found["III"].phi2)}
+    for name, value in values.items():
+        assert value == pytest.approx(table[name], rel=1e-7), name
+
+
+@pytest.mark.parametrize("row", rows("types_sensitivity")[::3], ids=lambda row: "-".join(list(row.values())[:3]))
+def test_other_radii(row: dict[str, str]) -> None:
+    swing, dwell = deg(float(row["gamma_sum"])), deg(float(row["phi_dwell"]))
+    ratio = float(row["r0min/b"]) / swing
+    for kind in ("I", "II", "III"):
+        instance = example(kind, dwell=dwell, rise=pi - dwell, clutch_angle=deg(10), swing=swing, radius_ratio=ratio)
+        assert instance.a == pytest.approx(float(row[f"a_{kind}"]), abs=5.1e-5)
+
+
+def test_the_formulas_of_size_in_the_text() -> None:
+    first, second, third = (example(kind) for kind in ("I", "II", "III"))
+    B, r = pi / 2, first.radius_ratio
+    assert first.a == pytest.approx(1 + B / (r + 1), rel=1e-12)  # eq. 8
+    assert pytest.approx(B * ((90 - 30) / (2 * B) + 30) / 90, rel=1e-12) == second.S2  # eq. 18
+    assert third.a == pytest.approx(1 + (third.S2 + 2 * third.S_sp) / (r + 1), rel=1e-12)
+    assert third.b == pytest.approx(0.1 * first.rise / third.phi2, rel=1e-12)
+
+
+LAWS: dict[str, dict[str, object]] = {
+    "K": {},
+    "smooth": {"law": smoothstep(3)},
+    "mixed": {"law": catalogue["Co"].law, "law_1": smoothstep(3), "law_2": smoothstep(4)},
+    "singular": {"law": catalogue["0317(1,5)"].law, "law_2": catalogue["modified sine"].law},
+    "unsymmetric": {"law": free_function_law(3, 4, 6), "law_1": free_function_law(3, 4, 6)},
+    "reverse share": {"reverse_share": 0.35},
+}
+
+
+@pytest.mark.sample(6)
+@pytest.mark.parametrize("changed", LAWS.values(), ids=LAWS.keys())
+@pytest.mark.parametrize("kind", ["I", "II", "III"])
+def test_the_composed_motion_is_continuous_and_closes(kind: str, changed: dict[str, object]) -> None:
+    instance = example(kind, **changed)
+    motion = instance.motion
+    assert motion.jumps(1) == ()
+    assert motion.a(1.0) == pytest.approx(0.0, abs=1e-12)
+    assert motion.b(1.0) == pytest.approx(motion.b(0.0), rel=1e-12)
+    low, high = motion.extrema(0)
+    assert instance.a == pytest.approx(
+        (instance.radius_ratio + high.value - low.value) / (instance.radius_ratio + 1.0), rel=1e-12
+    )
+    # the same displacement by integrating the acceleration twice
+    edges = np.concatenate([np.linspace(s, e, 5)[:-1] for s, e in zip(motion.breaks, motion.breaks[1:], strict=False)])
+    nodes, weights = np.polynomial.legendre.leggauss(24)
+    place, speed = 0.0, motion.b(0.0)
+    for start, end in zip(edges, [*edges[1:], 1.0], strict=True):
+        # nodes are drawn towards both ends, where a fractional power may begin
+        k = start + (end - start) * smoothstep(3).a(0.5 * (nodes + 1.0))
+        factor = 0.5 * (end - start) * weights * smoothstep(3).b(0.5 * (nodes + 1.0))
+        place += (end - start) * speed + float(factor @ ((end - k) * motion.c(k)))
+        speed += float(factor @ motion.c(k))
+        assert place == pytest.approx(motion.a(end), abs=1e-9)
+
+
+@pytest.mark.parametrize("changed", LAWS.values(), ids=LAWS.keys())
+def test_type_II_has_no_net_travel_in_a_dwell(changed: dict[str, object]) -> None:
+    instance = example("II", **changed)
+    start, end = instance.rise / instance.cycle, (instance.rise + instance.dwell) / instance.cycle
+    motion = instance.motion
+    assert motion.a(end) == pytest.approx(motion.a(start), abs=1e-12)
+    inside = [k for k in motion.breaks if start < k < end]
+    travel = quad(motion.b, start, end, points=inside, limit=200)[0]
+    assert travel == pytest.approx(0.0, abs=1e-9)
+
+
+@pytest.mark.parametrize("kind", ["II", "III"])
+@pytest.mark.parametrize("changed", LAWS.values(), ids=LAWS.keys())
+def test_criterion_b_is_the_ratio_of_peak_torques(kind: str, changed: dict[str, object]) -> None:
+    instance = example(kind, **changed)
+    k = np.linspace(0.0, 1.0, 40001)
+    place = k * instance.cycle
+    dwells = ((place > instance.rise) & (place < instance.rise + instance.dwell)) | (
+        place > instance.rise + instance.dwell + instance.return_angle
+    )
+    torque = np.abs(instance.motion.d(k[dwells])).max() / instance.cycle**3
+    executive = np.abs(instance.law.d(k)).max() / instance.rise**3
+    assert instance.b == pytest.approx(instance.inertia_ratio * torque / executive, rel=1e-5)
+
+
+def test_power_is_balanced_while_the_executive_link_moves() -> None:
+    instance = example("III", law=smoothstep(4))
+    k = np.linspace(0.0, 1.0, 201)
+    executive = instance.law.d(k) / instance.rise**3
+    loader = instance.motion.d(k * instance.rise / instance.cycle) / instance.cycle**3
+    assert loader == pytest.approx(-(instance.loader.Y**2) * executive, abs=1e-12 * np.abs(executive).max())
+
+
+def test_unequal_dwells() -> None:
+    longer = {"lower_dwell": deg(120), "rise": deg(75)}
+    third, second = example("III", **longer), example("II", **longer)
+    assert [round(degrees(section.angle)) for section in third.sections if section.name == "standstill"] == [30]
+    assert third.remarks == second.remarks == ()
+    for one in (third, second):
+        assert one.motion.a(1.0) == pytest.approx(0.0, abs=1e-12)
+    single = example("II", lower_dwell=0.0, rise=deg(135))
+    assert single.motion.jumps(1) == ()
+    assert single.motion.b(1.0) == pytest.approx(single.motion.b(0.0))
+    shorter = example("III", lower_dwell=deg(60), rise=deg(105), standstill=deg(30))
+    assert shorter.motion.a(1.0) == pytest.approx(0.0, abs=1e-12)
+    for kind, why in (("I", "lower_dwell of type I must equal dwell"), ("III", "at least 90 degrees, got 60")):
+        with pytest.raises(InputError, match=why):
+            example(kind, lower_dwell=deg(60), rise=deg(105))
+    with pytest.raises(InputError, match="lower_dwell must exceed"):
+        example("III", lower_dwell=0.0)
+
+
+def test_the_return_must_take_over_the_speed_of_the_loader() -> None:
+    with pytest.raises(InputError, match=r"return_angle must suit the rise.*must be 90 degrees"):
+        example("II", return_angle=deg(80))
+    other = smoothstep(3)
+    K_speed = example("II").speed
+    angle = example("II", law=other, return_law=other).loader.B / K_speed
+    instance = example("II", return_law=other, return_angle=angle)
+    assert instance.motion.jumps(1) == ()
+    assert instance.remarks == (
+        f"rise, return and dwells add up to {degrees(instance.cycle):.6g} degrees, not to one turn",
+    )
+
+
+@pytest.mark.parametrize(
+    ("changed", "reason"),
+    [
+        ({"dwell": 0.0}, "dwell must be positive"),
+        ({"rise": -1.0}, "rise must be positive"),
+        ({"swing": float("nan")}, "swing must be positive"),
+        ({"dwell": "90"}, "dwell must be positive and finite, got '90'"),
+        ({"rise": True}, "rise must be positive and finite, got True"),
+        ({"reverse_share": "half"}, "reverse_share must be a finite real number, got 'half'"),
+        ({"clutch_angle": -0.1}, "clutch_angle must be at least 0"),
+        ({"clutch_angle": deg(45)}, "dwell must exceed twice clutch_angle, 90 degrees"),
+        ({"reverse_share": 1.0}, "reverse_share"),
+        ({"law": K.to_dict()}, "law must be a MotionLaw"),
+        ({"law_1": smoothstep(1)}, "law_1 must run from rest to rest"),
+        ({"law_2": K.to_json()}, "law_2 must be a MotionLaw"),
+    ],
+)
+def test_wrong_data_are_refused(changed: dict[str, object], reason: str) -> None:
+    with pytest.raises(InputError, match=reason):
+        example("II", **changed)
+    with pytest.raises(InputError, match="kind must be one of I, II, III"):
+        example("IV")
+
+
+@examples(30)
+@given(dwell=st.floats(0.8, 2.0), clutch=st.floats(0.02, 0.3), radius=st.floats(0.3, 4.0), share=st.floats(0.25, 0.75))
+def test_size_and_residual_torque_are_traded(dwell: float, clutch: float, radius: float, share: float) -> None:
+    data = {"dwell": dwell, "rise": pi - dwell, "clutch_angle": clutch, "radius_ratio": radius}
+    first, second, third = (example(kind, **data) for kind in ("I", "II", "III"))
+    assert second.a <= third.a <= first.a
+    assert 0.0 == first.b < third.b < second.b
+    shared = example("II", **data, reverse_share=share)
+    assert pytest.approx(shared.S1 + 2.0 * shared.S_sp) == shared.S2
+    assert shared.motion.a(1.0) == pytest.approx(0.0, abs=1e-12)
+    assert replace(third, inertia_ratio=0.2).b == pytest.approx(2.0 * third.b)
+
+
+def test_the_motion_is_stored() -> None:
+    motion = example("III", law=smoothstep(3)).motion
+    assert MotionLaw.from_json(motion.to_json()) == motion
+    assert json.loads(json.dumps(example("II").to_dict()))["type"] == "II"
+
+
+def test_what_is_not_given_is_as_what_stands_for_it() -> None:
+    law = catalogue["K"].law
+    data = {"kind": "III", "law": law, "dwell": 1.5, "rise": 1.4, "swing": 0.35, "radius_ratio": 1.0}
+    made = DwellMechanism(inertia_ratio=0.1, **data)  # type: ignore[arg-type] # a dict of all kinds
+    assert (made.law_1, made.law_2, made.return_law) == (law, law, law)
+    assert (made.return_angle, made.lower_dwell) == (1.4, 1.5)
+    other = replace(made, kind="II", lower_dwell=0.0)
+    assert (other.lower_dwell, other.return_angle) == (0.0, 1.4)

@@ -1,0 +1,203 @@
+"""The exact motion against independent methods, and what must hold of it whatever the geometry."""
+
+from math import pi
+
+import mpmath  # type: ignore[import-untyped]
+import numpy as np
+import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+from optlaws import InputError, MotionLaw, TorsionLever, deg
+from tests.balancing.levers.cases import apart
+from tests.sampling import examples
+
+LEVERS = {
+    "softer": TorsionLever(0.75, 1, 0.15, 0.15, deg(60)),
+    "strongly nonlinear": TorsionLever(0.5, 1, 0.15, 0.15, deg(100), least_transmission=deg(28)),
+    "harder": TorsionLever(1.5, 3, 0.15, 0.15, deg(35)),
+    "small": TorsionLever(0.3, 6, 0.0, 0.4, deg(1)),
+}
+LIMITS = ("the limit is", "dead point", "eq. (13) has no root", "no swing of", "comes to rest on its way")
+
+
+def printed_moment(one: TorsionLever, chi: mpmath.mpf) -> mpmath.mpf:
+    """Eq. (2) and (11) as they stand but for the first arc's sign beyond psi = pi; the ratio from the directions."""
+    alpha = mpmath.sqrt(mpmath.mpf(one.lam) ** 2 + (mpmath.mpf(one.beta) - 1) ** 2)
+    rest = mpmath.atan2(one.lam, mpmath.mpf(one.beta) - 1)
+    psi = rest + chi
+    f2 = alpha**2 + one.beta**2 - 2 * alpha * one.beta * mpmath.cos(psi)
+    side = 1 if mpmath.sin(psi) >= 0 else -1
+    turned = mpmath.pi - side * mpmath.acos((alpha - one.beta * mpmath.cos(psi)) / mpmath.sqrt(f2)) - rest
+    turned -= mpmath.acos((f2 + 1 - mpmath.mpf(one.lam) ** 2) / (2 * mpmath.sqrt(f2)))
+    # from one side of psi = 0 to the other the first arc leaps by a whole turn, the rocker does not
+    turned -= 2 * mpmath.pi * mpmath.nint(turned / (2 * mpmath.pi))
+    gamma = rest + turned
+    end = one.beta * mpmath.expjpi(psi / mpmath.pi) - alpha - mpmath.expjpi(gamma / mpmath.pi)
+    delta = mpmath.arg(end)
+    ratio = one.beta * mpmath.sin(delta - psi) / mpmath.sin(delta - gamma)
+    first, second = one.twists
+    return one.xi * (second + chi) - (first - turned) * ratio
+
+
+@pytest.mark.parametrize("one", LEVERS.values(), ids=LEVERS)
+def test_moment_is_the_printed_formula(one: TorsionLever) -> None:
+    for chi in np.linspace(one.exact.chi02, one.exact.chi01, 7):
+        assert float(one.moment(chi)) == pytest.approx(
+            float(printed_moment(one, mpmath.mpf(chi))), rel=1e-13, abs=1e-15
+        )
+
+
+@pytest.mark.sample(2)
+@pytest.mark.parametrize("one", LEVERS.values(), ids=LEVERS)
+def test_potential_is_the_integral_of_the_moment(one: TorsionLever) -> None:
+    for chi in (one.exact.chi01, one.exact.chi02):
+        integral = mpmath.quad(lambda x: printed_moment(one, x), [0, chi])
+        assert float(one.potential(chi)) == pytest.approx(float(integral), rel=1e-12)
+
+
+@pytest.mark.parametrize("one", LEVERS.values(), ids=LEVERS)
+def test_taylor_coefficients_are_the_derivatives_of_the_printed_moment(one: TorsionLever) -> None:
+    with mpmath.workdps(40):
+        _, n, q, p = (
+            mpmath.factorial(i) * value
+            for i, value in enumerate(mpmath.taylor(lambda x: printed_moment(one, x), 0, 3, h=mpmath.mpf(10) ** -9))
+        )
+    for found, value in ((one.n, n), (one.q, q), (one.p, p)):
+        assert found == pytest.approx(float(value), rel=1e-6)
+
+
+@pytest.mark.parametrize("one", LEVERS.values(), ids=LEVERS)
+def test_an_ode_integrator_runs_the_same_way(one: TorsionLever) -> None:
+    motion = one.exact
+    t = np.linspace(0.0, motion.period, 41)
+    run = solve_ivp(
+        lambda _, state: [state[1], -float(one.moment(state[0]))],
+        (0.0, motion.period),
+        [motion.chi01, 0.0],
+        method="DOP853",
+        rtol=1e-12,
+        atol=1e-14,
+        t_eval=t,
+    )
+    assert run.y[0] == pytest.approx(motion.chi(t), abs=2e-11)
+    assert run.y[1] == pytest.approx(motion.chi(t, 1), abs=2e-11)
+
+
+def test_period_by_quadrature_in_many_digits() -> None:
+    one = LEVERS["softer"]
+    with mpmath.workdps(30):
+        top = mpmath.mpf(one.exact.chi01)
+        energy = mpmath.mpf(float(one.potential(one.exact.chi01)))
+
+        def pace(phase: mpmath.mpf) -> mpmath.mpf:
+            chi = top - one.swing * mpmath.sin(phase / 2) ** 2
+            square = 2 * (energy - mpmath.quad(lambda x: printed_moment(one, x), [0, chi]))
+            return one.swing / 2 * mpmath.sin(phase) / mpmath.sqrt(square)
+
+        # midpoints: the rule is spectral for an even periodic function, and stays off the ends
+        count = 12
+        half = mpmath.pi / count * sum(pace((i + mpmath.mpf(0.5)) * mpmath.pi / count) for i in range(count))
+    assert one.exact.period == pytest.approx(2 * float(half), rel=1e-9)
+
+
+@pytest.mark.parametrize("one", LEVERS.values(), ids=LEVERS)
+def test_energy_is_conserved_along_the_law(one: TorsionLever) -> None:
+    law, half = one.law(), one.exact.period / 2
+    k = np.linspace(0.0, 1.0, 301)
+    energy = 0.5 * (law.b(k) * one.swing / half) ** 2 + one.potential(one.exact.chi01 - one.swing * law.a(k))
+    assert np.ptp(energy) < 1e-13 * energy.max() + 1e-17
+
+
+@pytest.mark.parametrize("one", LEVERS.values(), ids=LEVERS)
+def test_both_laws_start_and_end_at_rest(one: TorsionLever) -> None:
+    for motion in (one.exact, one.asymptotic):
+        assert np.array(motion.law.boundary_values(2)) == pytest.approx(np.array([[0, 0], [1, 0]]), abs=1e-13)
+        assert motion.law.a(2 * motion.zeta) == pytest.approx(motion.chi01 / motion.swing, rel=1e-13)
+        assert MotionLaw.from_json(motion.law.to_json()) == motion.law
+
+
+@pytest.mark.parametrize("one", LEVERS.values(), ids=LEVERS)
+def test_halves_are_the_stroke_in_their_own_units(one: TorsionLever) -> None:
+    for motion in (one.exact, one.asymptotic):
+        halves, law = motion.halves, motion.law
+        k = np.linspace(0.0, 1.0, 41)
+        first, second = k / 2, 0.5 + k / 2
+        share = motion.chi01 / motion.swing
+        assert halves.a(first) == pytest.approx(law.a(np.minimum(2 * motion.zeta * k, 1)) / (2 * share), abs=1e-13)
+        rest = law.a(2 * motion.zeta + (1 - 2 * motion.zeta) * k)
+        assert halves.a(second) == pytest.approx(0.5 + (rest - share) / (2 * (1 - share)), abs=1e-13)
+        assert halves.a(1.0) == pytest.approx(1.0, abs=1e-13)
+        ((place, height),) = halves.jumps(1)
+        assert (place, height) == pytest.approx((0.5, motion.B3 - motion.B1), rel=1e-9)
+        assert (halves.c(0.0), halves.c(1.0)) == pytest.approx((motion.C1, motion.C3), rel=1e-11)
+
+
+def test_closed_forms_of_the_paper() -> None:
+    for one in LEVERS.values():
+        n, q, p, swing, motion = one.n, one.q, one.p, one.swing, one.asymptotic
+        z = np.cos(2 * pi * motion.zeta)
+        cubic = [p * swing**2 / (384 * n), q * swing / (24 * n), 0.5 - p * swing**2 / (512 * n), -q * swing / (12 * n)]
+        assert np.polyval(cubic, z) == pytest.approx(0.0, abs=1e-15)
+        first, third = (768 * n + side * 64 * q * swing + p * swing**2 for side in (-1, 1))
+        assert motion.chi01 == pytest.approx(swing * first / (1536 * n), rel=1e-13)
+        assert motion.chi02 == pytest.approx(-swing * third / (1536 * n), rel=1e-13)
+        zeta, k = motion.zeta, np.linspace(0.0, 0.5, 21)
+        for phi, at, whole, turn in (
+            (4 * pi * zeta * k, k, first, 4 * pi * zeta),
+            (2 * pi * (0.5 + k - 2 * (0.5 + k) * zeta - 0.5 + 2 * zeta), 0.5 + k, third, 2 * pi * (1 - 2 * zeta)),
+        ):
+            a = 0.5 - (384 * n * np.cos(phi) - 48 * q * swing + 16 * q * swing * np.cos(2 * phi)) / whole
+            a -= 0.5 * p * swing**2 * np.cos(3 * phi) / whole
+            b = 768 * n * np.sin(phi) + 64 * q * swing * np.sin(2 * phi) + 3 * p * swing**2 * np.sin(3 * phi)
+            c = 768 * n * np.cos(phi) + 128 * q * swing * np.cos(2 * phi) + 9 * p * swing**2 * np.cos(3 * phi)
+            assert motion.halves.a(at) == pytest.approx(a, abs=1e-13)
+            inner = slice(None, -1) if turn == 4 * pi * zeta else slice(None)  # b changes its units at k = 1/2
+            assert motion.halves.b(at)[inner] == pytest.approx((0.5 * turn * b / whole)[inner], abs=1e-12)
+            assert motion.halves.c(at)[inner] == pytest.approx((0.5 * turn**2 * c / whole)[inner], abs=1e-11)
+
+
+def test_a_parallelogram_swings_harmonically() -> None:
+    for lam, rho, nu, swing in ((0.5, 0.0, 0.3, 20.0), (3.0, 0.15, 0.15, 60.0), (10.0, 0.3, 0.0, 45.0)):
+        lever = TorsionLever(1.0, lam, rho, nu, deg(swing))
+        for motion in (lever.exact, lever.asymptotic):
+            assert motion.chi01 == pytest.approx(-motion.chi02, rel=1e-13)
+            assert motion.zeta == pytest.approx(0.25, abs=1e-14)
+            assert motion.period == pytest.approx(lever.T0, rel=1e-13)
+            assert pytest.approx((pi / 2, pi / 2), rel=1e-13) == (motion.B1, motion.B3)
+            assert pytest.approx((pi**2 / 2, -(pi**2) / 2), rel=1e-12) == (motion.C1, motion.C3)
+            k = np.linspace(0.0, 1.0, 33)
+            assert motion.law.a(k) == pytest.approx(0.5 - 0.5 * np.cos(pi * k), abs=1e-14)
+        assert apart(lever.exact, lever.asymptotic) < 1e-13
+
+
+@example(beta=2.0, lam=0.1, rho=0.0, nu=0.0, swing=12.0)
+@examples(60)
+@given(
+    beta=st.floats(0.05, 4.0),
+    lam=st.floats(-1.0, 1.2).map(lambda power: 10.0**power),
+    rho=st.floats(0.0, 0.6),
+    nu=st.floats(0.0, 0.6),
+    swing=st.floats(2.0, 140.0),
+)
+def test_any_geometry_gives_the_exact_motion_or_names_the_limit(
+    beta: float, lam: float, rho: float, nu: float, swing: float
+) -> None:
+    try:
+        lever = TorsionLever(beta, lam, rho, nu, deg(swing))
+        motion = lever.exact
+    except InputError as error:
+        assert any(limit in str(error) for limit in LIMITS), str(error)  # noqa: PT017 - either an answer or a limit
+        return
+    half = motion.period / 2
+    k = (1.0 - np.cos(pi * np.arange(65) / 64)) / 2
+    chi = motion.chi01 - lever.swing * motion.law.a(k)
+    with mpmath.workdps(25):
+        moment = np.array([float(printed_moment(lever, mpmath.mpf(x))) for x in chi[::16].tolist()])
+    residual = motion.law.c(k[::16]) * lever.swing / half**2 - moment
+    assert np.abs(residual).max() < 1e-12 * np.abs(moment).max()
+    # differences of the displacements alone, on Chebyshev points, know nothing of the law's own derivatives
+    fitted = np.polynomial.Chebyshev.fit(k, chi, 64, domain=[0, 1]).deriv(2)
+    inner = slice(8, -8)
+    assert fitted(k[inner]) == pytest.approx(-lever.moment(chi[inner]) * half**2, abs=1e-8 * lever.swing)
