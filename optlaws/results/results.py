@@ -1,0 +1,139 @@
+"""Results of a script: what it reads of its problem file, and the files that it makes of it."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, TypeVar
+
+import msgspec
+
+from optlaws.files import reading, tables, writing
+from optlaws.files.problem_file import convert
+from optlaws.results.page import Page
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+Struct = TypeVar("Struct", bound=msgspec.Struct)
+Spec = TypeVar("Spec", bound="Entries")
+
+
+class Entries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The entries that the problem file of every script has; a script's own are those of a subclass.
+
+    Attributes
+    ----------
+    title
+        Heading of the results.
+    text
+        What stands below it.
+    job
+        "script", in the files that come with optlaws.
+
+    Examples
+    --------
+    >>> class Peaks(Entries):
+    ...     laws: list[str]
+    >>> Peaks(title="Peaks", laws=["cycloidal"]).laws
+    ['cycloidal']
+    """
+
+    title: str
+    text: str = ""
+    job: str = "script"
+
+
+def read(file: Path, entries: type[Struct]) -> Struct:
+    """Entries of a TOML file as a typed value.
+
+    Parameters
+    ----------
+    file
+        The file.
+    entries
+        A subclass of `msgspec.Struct`.
+
+    Raises
+    ------
+    InputError
+        If the file cannot be read, or an entry is unknown (the nearest right one is named), missing or of another type.
+    """
+    return convert(reading.toml(file), entries, file)
+
+
+class Results:
+    r"""Tables, pictures and pages that a script makes of its problem file, written together when all are made.
+
+    Parameters
+    ----------
+    file
+        The problem file, or the script beside it.
+    digits
+        How many digits of its numbers mean something: a file that differs by less is left as it is.
+
+    Examples
+    --------
+    >>> from pathlib import Path
+    >>> _ = Path("peaks.toml").write_text('title = "Peaks"\n', "utf-8")
+    >>> results = Results("peaks.py")
+    >>> results.read(Entries).title
+    'Peaks'
+    >>> results.table("peaks", ["law", "C"], [["cycloidal", 6.283185]])
+    >>> [file.as_posix() for file in results.write()]
+    ['results/peaks/peaks.csv']
+    """
+
+    def __init__(self, file: Path | str, *, digits: int | None = None) -> None:
+        self.file = Path(file).with_suffix(".toml")
+        self.digits = digits
+        self._title = self.file.stem
+        self._texts: dict[str, str | Page] = {}
+        self._pictures: dict[str, Figure] = {}
+
+    @property
+    def about(self) -> str:
+        """Title and file, which the first line of every table tells."""
+        return f"{self._title}; from {self.file.name}"
+
+    def read(self, entries: type[Spec]) -> Spec:
+        """Entries of the problem file, as `read` gives them; the title becomes that of the results."""
+        spec = read(self.file, entries)
+        self._title = spec.title
+        return spec
+
+    def table(self, name: str, headings: Sequence[str], rows: Sequence[Sequence[tables.Cell]], note: str = "") -> None:
+        """A table `name`.csv; its first line tells what it is of, and the note."""
+        self.text(f"{name}.csv", tables.to_csv(headings, rows, about=f"{self.about}; {note}" if note else self.about))
+
+    def page(self, name: str, title: str | None = None) -> Page:
+        """A page `name`.md, to be filled, under the title of the problem file or another."""
+        page = self._texts[f"{name}.md"] = Page(self._title if title is None else title)
+        return page
+
+    def text(self, name: str, content: str) -> None:
+        """A file of another format; its text must hold the mark "made by optlaws" at the end of a line or an entry."""
+        self._texts[name] = content
+
+    def picture(self, name: str, figure: Figure) -> None:
+        """A picture `name`.svg, and the same as `name`.png."""
+        self._pictures[name] = figure
+
+    def pictures(self) -> dict[str, str]:
+        """The pictures as svg, by the names of their files."""
+        from optlaws.plots.style import rendered
+
+        return {f"{name}.svg": rendered(figure, "svg").decode() for name, figure in self._pictures.items()}
+
+    def write(self, out: Path | None = None) -> list[Path]:
+        """Write what was made into a folder, `results/NAME` where you are unless given, and return the files.
+
+        Files that say the same are left as they are; one that a user changed is kept as `name.orig`.
+        """
+        from optlaws.plots.style import save_pictures
+
+        folder = Path("results", self.file.stem) if out is None else out
+        texts = [
+            writing.write(folder / name, str(content), digits=self.digits) for name, content in self._texts.items()
+        ]
+        return texts + save_pictures(self._pictures, folder)
