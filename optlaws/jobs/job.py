@@ -9,6 +9,7 @@ from typing import Any
 
 from optlaws.errors import InputError
 from optlaws.files import reading
+from optlaws.files.packaged import packaged
 from optlaws.suggest import unknown_key
 
 Job = Callable[[Mapping[str, Any], Path, Path], list[Path]]
@@ -17,28 +18,13 @@ _MODULES = {
     "atlas": "laws.atlas",
     "cam": "cam.cam",
     "cycle": "cycle.cycle",
-    "dwell drawing": "dwell.drawing",
-    "dwell types": "dwell.types",
-    "follower": "follower.follower",
     "force loaded": "laws.force_loaded",
     "fronts": "laws.fronts",
-    "ledger": "ledger.ledger",
-    "lever drawing": "lever.drawing",
-    "lever moments": "lever.moments",
-    "lever nomogram": "lever.nomogram",
-    "lever parametric": "lever.parametric",
-    "lever tables": "lever.tables",
-    "loader drawing": "loader.drawing",
-    "loader nomogram": "loader.nomogram",
-    "loader optimal": "loader.optimal",
-    "loader table": "loader.table",
     "machine laws": "machine.laws_for_machine",
-    "optimal polydyne": "follower.optimal_polydyne",
-    "optimal table": "laws.optimal_table",
-    "own search": "laws.own_search",
-    "savin families": "laws.savin_families",
     "solutions": "laws.solutions",
 }
+#: the job of the problem files that come with optlaws and have a script beside them
+SCRIPT = "script"
 
 
 class _Jobs(Mapping[str, Job]):
@@ -76,15 +62,35 @@ def run(file: Path, out: Path | None = None) -> list[Path]:
     InputError
         If the file cannot be read, is not TOML, or holds an unknown or wrong entry.
     """
+    if file.suffix == ".py":
+        raise InputError(
+            f"{file}: optlaws runs no code but its own scripts, by name (`optlaws run {file.stem}`); "
+            f"run yours by Python: `python {file}`"
+        )
     data = reading.toml(file)
     name = data.get("job")
     if name is None:
         raise InputError(f"{file}: the entry job is missing; known jobs are {', '.join(JOBS)}")
+    target = out if out is not None else file.resolve().parent.parent / "results" / file.stem
+    if name == SCRIPT:
+        return _scripted(file, target)
     if not isinstance(name, str) or name not in JOBS:
         raise InputError(f"{file}: {unknown_key(name, JOBS, 'job')}")
-    target = out if out is not None else file.resolve().parent.parent / "results" / file.stem
     try:
         return JOBS[name](data, file, target)
     except InputError as error:
         text = str(error)
         raise InputError(text if str(file) in text else f"{file}: {text}") from None
+
+
+def _scripted(file: Path, out: Path) -> list[Path]:
+    """The results of a script that comes with optlaws, whose own problem file this must be."""
+    from optlaws import problems
+
+    if file.stem in problems.names() and packaged(f"problems/{file.stem}.toml").samefile(file):
+        return problems.run(file.stem, out)
+    raise InputError(
+        f"{file}: scripts are run for the problems that come with optlaws alone, by name: "
+        f"`optlaws run {file.stem if file.stem in problems.names() else 'optimal_table'}`; "
+        "a script of your own takes this file by optlaws.results.Results"
+    )

@@ -14,7 +14,7 @@ from optlaws.cli.app import exit_code
 from optlaws.jobs.job import run
 from optlaws.jobs.laws.atlas import COLUMNS
 from optlaws.jobs.laws.atlas_lookup import best_law, look_up, read
-from optlaws.studies.points.study_file import read_study
+from optlaws.studies.specification import read_study
 from tests.documents import ROOT
 from tests.jobs import examples
 from tests.sampling import sampled

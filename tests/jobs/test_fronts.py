@@ -6,12 +6,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from optlaws import Problem, drawing, synthesize
+from optlaws import Problem, synthesize
 from optlaws.jobs import job
+from optlaws.plots.front import draw_front
 from optlaws.synthesis.pareto import pareto_front
 from tests.documents import ROOT
 from tests.jobs.examples import FRONTS
-from tests.jobs.written import table
+from tests.problems.written import table
 
 RESULTS = ROOT / "results" / "fronts"
 
@@ -59,11 +60,11 @@ def test_the_figures_are_pictures(made: Path) -> None:
 
 def test_a_front_can_be_drawn_alone() -> None:
     front = pareto_front(Problem(order=3), ("B", "C"), points=3, between=(1.5, 1.8))
-    (line,) = drawing.draw_front(front)
+    (line,) = draw_front(front)
     assert line.axes is not None
     assert line.axes.get_ylabel() == "peak acceleration C (dimensionless)"
     surface = pareto_front(Problem(order=3), ("B", "C", "J"), points=4, between=(1.5, 1.8))
-    (points,) = drawing.draw_front(surface)
+    (points,) = draw_front(surface)
     assert len(np.asarray(points.get_array())) == len(surface)  # type: ignore[attr-defined]
 
 

@@ -9,7 +9,7 @@ from optlaws import Certificate, MotionLaw, Problem, synthesize
 from optlaws.jobs import job
 from tests.documents import ROOT
 from tests.jobs.examples import SOLUTIONS
-from tests.jobs.written import table
+from tests.problems.written import table
 from tests.sampling import sampled
 
 

@@ -5,13 +5,11 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws import drawing
 from optlaws.cams.cutting.spline import spline
 from optlaws.cams.cutting.svg import beziers
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.oscillating_flat import SwingingFace
-from optlaws.cams.followers.oscillating_roller import SwingingRoller
 from optlaws.files.writing import MARK
+from optlaws.plots.style import BLUES, GREY, WARM
 
 Array = NDArray[np.float64]
 
@@ -43,11 +41,11 @@ def animated(cam: DiscCam, seconds: float = 4.0) -> str:
         f'<svg xmlns="http://www.w3.org/2000/svg" width="480" height="480" viewBox="{box}">\n'
         f"<desc>a cam that turns under its follower; {MARK}</desc>\n"
         f'<g fill="none" stroke-width="{half / 180:.3f}">\n'
-        f'<path fill="#dfe9f3" stroke="{drawing.BLUES[3]}" d="{path} M 0 0 H {half / 8:.3f}">\n'
+        f'<path fill="#dfe9f3" stroke="{BLUES[3]}" d="{path} M 0 0 H {half / 8:.3f}">\n'
         f'<animateTransform attributeName="transform" type="rotate" from="0" to="{turn:g}" {every}/></path>\n'
-        f'<g stroke="{drawing.WARM}">{_follower(cam)}\n'
+        f'<g stroke="{WARM}">{_follower(cam)}\n'
         f'<animateTransform attributeName="transform" type="{kind}" values="{values}" {every}/></g>\n'
-        f'<circle r="{half / 60:.3f}" stroke="{drawing.GREY}"/>\n</g>\n</svg>\n'
+        f'<circle r="{half / 60:.3f}" stroke="{GREY}"/>\n</g>\n</svg>\n'
     )
 
 
@@ -55,15 +53,15 @@ def _reach(cam: DiscCam) -> float:
     """How far from the centre anything is."""
     angles = np.linspace(*cam.displacement.interval, _FRAMES)
     far = float(np.linalg.norm(cam.pitch_curve(angles), axis=1).max()) + 2.0 * cam.contact.roller
-    return max(far, cam.contact.distance if isinstance(cam.contact, SwingingRoller | SwingingFace) else 0.0)
+    return max(far, cam.contact.pivot or 0.0)
 
 
 def _moved(cam: DiscCam) -> tuple[str, str]:
     """How the follower moves from where it is at first: along its way, or about its pivot, clockwise as it rises."""
     angles = np.linspace(*cam.displacement.interval, _FRAMES)
     off = np.asarray(cam.displacement(angles)) - float(cam.displacement(float(angles[0])))
-    if isinstance(cam.contact, SwingingRoller | SwingingFace):
-        pivot = f"{_MILLI * cam.contact.distance:.3f} 0"
+    if cam.contact.pivot is not None:
+        pivot = f"{_MILLI * cam.contact.pivot:.3f} 0"
         return "rotate", ";".join(f"{np.degrees(angle):.4f} {pivot}" for angle in off)
     return "translate", ";".join(f"0 {-_MILLI * length:.4f}" for length in off)
 
@@ -80,10 +78,10 @@ def _follower(cam: DiscCam) -> str:
         )
         way = _FACE * _MILLI * _reach(cam) * along * [1.0, -1.0]
         return f'<path d="M {x - way[0]:.3f} {-(y - way[1]):.3f} L {x + way[0]:.3f} {-(y + way[1]):.3f}"/>'
-    held = f"{_MILLI * contact.distance:.3f} 0" if isinstance(contact, SwingingRoller) else f"{x:.3f} {-2.0 * y:.3f}"
+    end = f"{x:.3f} {-2.0 * y:.3f}" if contact.pivot is None else f"{_MILLI * contact.pivot:.3f} 0"
     return (
         f'<circle cx="{x:.3f}" cy="{-y:.3f}" r="{_MILLI * contact.roller:.3f}" fill="white"/>'
-        f'<path d="M {x:.3f} {-y:.3f} L {held}"/>'
+        f'<path d="M {x:.3f} {-y:.3f} L {end}"/>'
     )
 
 

@@ -12,14 +12,14 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws import drawing
 from optlaws.cams.barrel import SIDES, BarrelCam, SpaceCurve
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text, convert
-from optlaws.jobs.cam.extremes import EXTREMES, enclosure, extreme_row, plain
+from optlaws.jobs.cam.extreme_rows import EXTREMES, enclosure, extreme_row, plain
 from optlaws.jobs.cycle.entries import Axis, cycle_of
-from optlaws.jobs.pages.page import Page
+from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style, save_pictures, titled
+from optlaws.results.page import Page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -36,7 +36,7 @@ _SAID = {
 }
 
 
-class AskedBarrel(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class BarrelEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """The cylinder, its groove and the roller."""
 
     outer_radius: str
@@ -50,7 +50,7 @@ class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     job: str
     title: Text
     motion: Axis
-    barrel: AskedBarrel
+    barrel: BarrelEntries
     speed: str | None = None
     period: str | None = None
     turning: str = "counterclockwise"
@@ -65,11 +65,11 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     about = f"{spec.title}; from {file.name}"
     texts = {
         "cam.md": str(page(spec, cam)),
-        "cam.json": json.dumps({"about": f"{about}; {writing.MARK}", **told(cam)}, indent=1) + "\n",
+        "cam.json": json.dumps({"about": f"{about}; {writing.MARK}", **to_data(cam)}, indent=1) + "\n",
         "cam.csv": tables.to_csv(_columns(spec), _rows(spec, cam), about=about),
     }
     figures = {"cam": draw(cam, spec.title)}
-    return [*(writing.write(out / name, text) for name, text in texts.items()), *drawing.save_pictures(figures, out)]
+    return [*(writing.write(out / name, text) for name, text in texts.items()), *save_pictures(figures, out)]
 
 
 def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
@@ -80,7 +80,7 @@ def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
     InputError
         If an entry of the file is unknown or wrong.
     """
-    return told(read(data, file)[1])
+    return to_data(read(data, file)[1])
 
 
 def read(data: Mapping[str, Any], file: Path) -> tuple[Study, BarrelCam]:
@@ -102,7 +102,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, BarrelCam]:
     return spec, cam
 
 
-def told(cam: BarrelCam) -> dict[str, Any]:
+def to_data(cam: BarrelCam) -> dict[str, Any]:
     """What a program is told, in metres and radians."""
     return {
         "unit": "SI",
@@ -115,38 +115,37 @@ def told(cam: BarrelCam) -> dict[str, Any]:
 
 def page(spec: Study, cam: BarrelCam) -> Page:
     """The page of results."""
-    made = Page(spec.title).text(spec.text).figure("cam", spec.title)
-    made.text(f"Undercut: {_SAID[cam.undercut]}.")
+    result = Page(spec.title).text(spec.text).figure("cam", spec.title)
+    result.text(f"Undercut: {_SAID[cam.undercut]}.")
     rows = [
         extreme_row("pressure angle at the bottom, least", cam.pressure_angles[0], degrees(1.0), "deg"),
         extreme_row("pressure angle at the bottom, greatest", cam.pressure_angles[1], degrees(1.0), "deg"),
         extreme_row("way of a flank a radian, least", cam.margin, _MILLI, "mm"),
     ]
-    return made.table(EXTREMES, rows, digits=7)
+    return result.table(EXTREMES, rows, digits=7)
 
 
 def draw(cam: BarrelCam, title: str) -> Figure:
     """The groove unrolled at the outer radius, and the pressure angle at the top and at the bottom of the groove."""
     angles = np.linspace(*cam.displacement.interval, _SAMPLES)
-    with drawing.style():
-        figure = drawing.new_figure(8.6, 5.6)
+    with plot_style():
+        figure = new_figure(8.6, 5.6)
         groove, pressure = figure.subplots(2, 1, sharex=True, height_ratios=(1.4, 1.0))
-        for side, colour in zip(SIDES, (drawing.BLUES[3], drawing.WARM), strict=True):
+        for side, colour in zip(SIDES, (BLUES[3], WARM), strict=True):
             groove.plot(*_unrolled(cam.flank(side), angles, cam.pitch_curve), color=colour, label=f"{side} flank")
         centre = np.degrees(angles), _MILLI * cam.pitch_curve(angles)[:, 2]
-        groove.plot(*centre, color=drawing.GREY, linestyle=":", label="axis of the roller")
-        for radius, colour in zip(cam.radii, (drawing.BLUES[3], drawing.WARM), strict=True):
+        groove.plot(*centre, color=GREY, linestyle=":", label="axis of the roller")
+        for radius, colour in zip(cam.radii, (BLUES[3], WARM), strict=True):
             values = np.degrees(cam.pressure_angle(angles, radius=radius))
             pressure.plot(np.degrees(angles), values, color=colour, label=f"at the radius {_MILLI * radius:g} mm")
-        pressure.axhline(0.0, color=drawing.GREY, linewidth=0.8)
+        pressure.axhline(0.0, color=GREY, linewidth=0.8)
         groove.set(ylabel="along the shaft, mm")
         pressure.set(xlabel="around the cam, deg", ylabel="pressure angle, deg", xlim=(0.0, _TURN))
         pressure.set_xticks(np.arange(0.0, _TURN + 1.0, 60.0))
         for axes in (groove, pressure):
             axes.legend(loc="upper left", bbox_to_anchor=(1.0, 1.0))
-        figure.suptitle(title, x=0.01, ha="left", fontsize=11.0)
         figure.align_ylabels()
-        return figure
+        return titled(figure, title)
 
 
 def _unrolled(curve: SpaceCurve, angles: Array, pitch: SpaceCurve) -> tuple[Array, Array]:

@@ -6,13 +6,13 @@ from typing import Any
 
 from optlaws.cams.best_laws import BestCam
 from optlaws.cams.least_sizes import LeastBaseCircle, least_base_circle
-from optlaws.cycles.asked.quantities import quantity
+from optlaws.cycles.summary import objective_unit
 from optlaws.errors import InfeasibleProblem
 from optlaws.files import tables
-from optlaws.jobs.cam.extremes import Limits
-from optlaws.jobs.cam.wishes import Cams, Study
-from optlaws.jobs.cycle.cycle import objective_unit
-from optlaws.jobs.pages.page import Page
+from optlaws.jobs.cam.extreme_rows import Limits
+from optlaws.jobs.cam.schema import Cams, Study
+from optlaws.motion.quantities import quantity
+from optlaws.results.page import Page
 
 _MILLI = 1e3
 _DIGITS = 6
@@ -20,7 +20,7 @@ _MET = 1e-7  # of a base circle, where bound and size are said to meet
 _HEADINGS = ("what", "value", "no laws are below", "unit", "status")
 
 
-def told(cams: Cams) -> dict[str, Any]:
+def to_data(cams: Cams) -> dict[str, Any]:
     """What a program is told, in SI units; nothing where the laws are those of the cycle."""
     best = cams.best
     if best is None:

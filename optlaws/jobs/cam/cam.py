@@ -11,19 +11,19 @@ from typing import Any
 
 import numpy as np
 
-from optlaws import drawing
 from optlaws.cams.best_laws import BestBaseCircle
 from optlaws.cams.curves.plane_curve import PlaneCurve
-from optlaws.cams.followers.contact import RollerContact
 from optlaws.cams.least_sizes import GreatestRoller, LeastBaseCircle, greatest_roller, least_base_circle
 from optlaws.errors import InfeasibleProblem
 from optlaws.files import tables, writing
 from optlaws.jobs.cam import barrels, best, pair
-from optlaws.jobs.cam.extremes import EXTREMES, Limits, enclosure, extreme_rows, plain
-from optlaws.jobs.cam.more import Found, add, figures, files
-from optlaws.jobs.cam.wishes import Cams, Study, read
-from optlaws.jobs.pages.page import Page
+from optlaws.jobs.cam.extreme_rows import EXTREMES, Limits, enclosure, extreme_rows, plain
+from optlaws.jobs.cam.forces_and_files import Findings, add, figures, files
+from optlaws.jobs.cam.schema import Cams, Study, read
 from optlaws.kept import kept_property
+from optlaws.plots.cycle import UNITS
+from optlaws.plots.style import save_pictures
+from optlaws.results.page import Page
 
 _MILLI = 1e3
 _TURN = 360.0
@@ -35,8 +35,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         return barrels.run(data, file, out)
     spec, cams = read(data, file)
     cam, about = cams.first, f"{spec.title}; from {file.name}"
-    findings, sizes = Found(spec, cam, cams.cycle), Sizes(spec, cams)
-    stored = {"about": f"{about}; {writing.MARK}", **_told(cams, findings, sizes)}
+    findings, sizes = Findings(spec, cam, cams.cycle), Sizes(spec, cams)
+    stored = {"about": f"{about}; {writing.MARK}", **_to_data(cams, findings, sizes)}
     texts = {
         "cam.md": str(page(spec, cams, findings, sizes)),
         "cam.json": json.dumps(stored, indent=1) + "\n",
@@ -45,7 +45,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     drawn = figures(findings, spec.title) | pair.figures(cams, spec.title)
     return [
         *(writing.write(out / name, text) for name, text in texts.items()),
-        *drawing.save_pictures(drawn, out),
+        *save_pictures(drawn, out),
         *files(findings, out, about),
         *pair.files(cams, spec.file, out, about),
     ]
@@ -62,51 +62,51 @@ def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
     if "barrel" in data:
         return barrels.answer(data, file)
     spec, cams = read(data, file)
-    return _told(cams, Found(spec, cams.first, cams.cycle), Sizes(spec, cams))
+    return _to_data(cams, Findings(spec, cams.first, cams.cycle), Sizes(spec, cams))
 
 
-def _told(cams: Cams, found_beside: Found, sizes: Sizes) -> dict[str, Any]:
+def _to_data(cams: Cams, findings: Findings, sizes: Sizes) -> dict[str, Any]:
     extremes = cams.first.extremes
     undercut, limits = extremes.undercut, sizes.limits
-    told: dict[str, Any] = {
+    data: dict[str, Any] = {
         "unit": "SI",
-        **best.told(cams),
+        **best.to_data(cams),
         "greatest_pressure_angle": enclosure(extremes.greatest_pressure_angle, limits.pressure),
         "least_pressure_angle": enclosure(extremes.pressure_angles[0], limits.pressure),
         "largest_pressure_angle": enclosure(extremes.pressure_angles[1], limits.pressure),
-        "bulging_radius": enclosure(extremes.bulging_radius, limits.radius),
-        "hollow_radius": None if extremes.hollow_radius is None else enclosure(extremes.hollow_radius),
+        "bulging_radius": enclosure(extremes.least_convex_radius, limits.radius),
+        "hollow_radius": None if extremes.least_concave_radius is None else enclosure(extremes.least_concave_radius),
         "undercut": {"status": undercut.status, "simple": undercut.simple},
     }
     least, roller = sizes.least, sizes.roller
     if isinstance(least, LeastBaseCircle):
-        told["least_base_circle"] = {
+        data["least_base_circle"] = {
             "radius": least.radius, "too_small": least.too_small, "proven": least.proven, "limit": least.limit,
             "angle": sizes.angle(least.angle),
         }  # fmt: skip
     elif least is not None:
-        told["least_base_circle"] = None
+        data["least_base_circle"] = None
     if roller is not None:
-        told["greatest_roller"] = {
+        data["greatest_roller"] = {
             "radius": roller.radius,
             "too_large": roller.too_large,
             "angle": sizes.angle(roller.angle),
         }
-    return told | pair.told(cams) | found_beside.told()
+    return data | pair.to_data(cams) | findings.to_data()
 
 
-def page(spec: Study, cams: Cams, found_beside: Found, sizes: Sizes) -> Page:
+def page(spec: Study, cams: Cams, findings: Findings, sizes: Sizes) -> Page:
     """The page of results."""
-    made = Page(spec.title).text(spec.text).figure("cam", spec.title)
-    best.add(made, cams, spec)
-    made.text(f"Undercut: {cams.first.extremes.undercut}.")
-    made.table(EXTREMES, extreme_rows(cams.first, sizes.limits), digits=7)
+    result = Page(spec.title).text(spec.text).figure("cam", spec.title)
+    best.add(result, cams, spec)
+    result.text(f"Undercut: {cams.first.extremes.undercut}.")
+    result.table(EXTREMES, extreme_rows(cams.first, sizes.limits), digits=7)
     rows = _size_rows(sizes)
     if rows:
-        made.heading("Sizes").table(("what", "kept with", "broken with", "unit", "at, deg"), rows, digits=7)
+        result.heading("Sizes").table(("what", "kept with", "broken with", "unit", "at, deg"), rows, digits=7)
     if isinstance(sizes.least, str):
-        made.text(f"{sizes.least[0].upper()}{sizes.least[1:]}.")
-    return add(pair.add(made, cams, spec.file), found_beside)
+        result.text(f"{sizes.least[0].upper()}{sizes.least[1:]}.")
+    return add(pair.add(result, cams, spec.file), findings)
 
 
 def _size_rows(sizes: Sizes) -> list[list[tables.Cell]]:
@@ -154,7 +154,7 @@ class Sizes:
     @kept_property
     def roller(self) -> GreatestRoller | None:
         """The greatest roller; None under a flat face."""
-        if not isinstance(self.cams.first.contact, RollerContact):
+        if not self.cams.first.contact.roller:
             return None
         return greatest_roller(self.cams.first, radius_of_curvature=self.spec.radius_of_curvature or "0 mm")
 
@@ -164,7 +164,8 @@ def _columns(spec: Study, cams: Cams) -> list[str]:
     if cams.second is not None:
         curves += [f"return {name}" for name in curves]
     points = [f"{name} {axis}, mm" for name in curves for axis in "xy"]
-    return ["cam, deg", "displacement, m or rad", *points, "pressure angle, deg", "curvature, 1/mm"]
+    displacement = f"displacement, {UNITS[cams.first.displacement.axis][0][0]}"
+    return ["cam, deg", displacement, *points, "pressure angle, deg", "curvature, 1/mm"]
 
 
 def _rows(spec: Study, cams: Cams) -> list[list[tables.Cell]]:
@@ -177,7 +178,7 @@ def _rows(spec: Study, cams: Cams) -> list[list[tables.Cell]]:
             curves += [disc.cutter_path(spec.cutter_radius)] if spec.cutter_radius else []
     columns = [
         turns,
-        cam.displacement(angles),
+        UNITS[cam.displacement.axis][0][1] * cam.displacement(angles),
         *(column for curve in curves for column in (_MILLI * curve(angles)).T),
         np.degrees(cam.pressure_angle(angles)),
         cam.profile.curvature(angles) / _MILLI,

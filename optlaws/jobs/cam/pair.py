@@ -7,17 +7,17 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from optlaws.cams.followers.follower import positive
-from optlaws.jobs.cam.extremes import EXTREMES, Limits, enclosure, extreme_rows
-from optlaws.jobs.cam.more import AskedFile
-from optlaws.jobs.cam.pictures import draw_pair
-from optlaws.jobs.cam.wishes import Cams
-from optlaws.jobs.pages.page import Page
+from optlaws.jobs.cam.extreme_rows import EXTREMES, Limits, enclosure, extreme_rows
+from optlaws.jobs.cam.forces_and_files import FileEntries
+from optlaws.jobs.cam.schema import Cams
+from optlaws.plots.cam import pair_figure
+from optlaws.results.page import Page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 
-def told(cams: Cams) -> dict[str, Any]:
+def to_data(cams: Cams) -> dict[str, Any]:
     """What a program is told of the second cam, in metres and radians; nothing where there is none."""
     if cams.second is None:
         return {}
@@ -26,41 +26,41 @@ def told(cams: Cams) -> dict[str, Any]:
         "return_cam": {
             "base_radius": positive(cams.second.base_radius, "base_radius"),
             "greatest_pressure_angle": enclosure(extremes.greatest_pressure_angle),
-            "bulging_radius": enclosure(extremes.bulging_radius),
+            "bulging_radius": enclosure(extremes.least_convex_radius),
             "undercut": {"status": extremes.undercut.status, "simple": extremes.undercut.simple},
         }
     }
 
 
-def add(page: Page, cams: Cams, asked: Sequence[AskedFile]) -> Page:
+def add(page: Page, cams: Cams, entries: Sequence[FileEntries]) -> Page:
     """The page with the second cam."""
     if cams.second is None:
         return page
     page.heading("Return cam").figure("pair", "Both cams on one shaft, with their followers at the start")
     page.text(f"Undercut: {cams.second.extremes.undercut}.")
     page.table(EXTREMES, extreme_rows(cams.second, Limits()), digits=7)
-    return page.text("\n".join(f"- [{name_of(entry)}]({name_of(entry)})" for entry in asked))
+    return page.text("\n".join(f"- [{name_of(entry)}]({name_of(entry)})" for entry in entries))
 
 
 def figures(cams: Cams, title: str) -> dict[str, Figure]:
     """The picture of both."""
-    return {} if cams.second is None else {"pair": draw_pair(cams.first, cams.second, title)}
+    return {} if cams.second is None else {"pair": pair_figure(cams.first, cams.second, title)}
 
 
-def files(cams: Cams, asked: Sequence[AskedFile], out: Path, about: str) -> list[Path]:
+def files(cams: Cams, entries: Sequence[FileEntries], out: Path, about: str) -> list[Path]:
     """Write the files that cut the second cam: as those of the first."""
     second = cams.second
     if second is None:
         return []
-    return [second.export(out / name_of(entry), entry.format, about=about, **entry.asked()) for entry in asked]
+    return [second.export(out / name_of(entry), entry.format, about=about, **entry.options()) for entry in entries]
 
 
-def name_of(asked: AskedFile) -> str:
+def name_of(entries: FileEntries) -> str:
     """The name of the second cam's file beside that of the first.
 
     Examples
     --------
-    >>> name_of(AskedFile(name="cam.dxf"))
+    >>> name_of(FileEntries(name="cam.dxf"))
     'return-cam.dxf'
     """
-    return f"return-{asked.name}"
+    return f"return-{entries.name}"

@@ -4,33 +4,23 @@ from __future__ import annotations
 
 import json
 from collections.abc import Mapping
-from math import pi
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from optlaws import drawing
-from optlaws.cycles.best.aims import FORCE, LOADED, POWER, kind_of
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.driven.load import LOAD, read_load
+from optlaws.cycles.summary import drive_rows, joint_rows, proof_rows
 from optlaws.files import tables, writing
-from optlaws.jobs.cycle.axes_picture import draw_together
 from optlaws.jobs.cycle.entries import Study, read
 from optlaws.jobs.cycle.machine_files import TOGETHER, Exports, add_exports, exports_of, plain_name
-from optlaws.jobs.cycle.picture import QUANTITIES, UNITS, draw
-from optlaws.jobs.pages.page import Page
+from optlaws.plots.axes import axes_figure
+from optlaws.plots.cycle import QUANTITIES, UNITS, cycle_figure
+from optlaws.plots.style import save_pictures
+from optlaws.results.page import Page
 
 _ROUNDING = 1e-11  # what is below this share of a peak is 0
 _SHARE = 360.0
-_LOAD_UNITS = {
-    "length": "m",
-    "angle": "rad",
-    "acceleration": "m/s²",
-    "angular acceleration": "rad/s²",
-    "force": "N",
-    "torque": "N m",
-}
 
 
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
@@ -41,10 +31,10 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     texts = {"cycle.md": str(page(spec, cycles, made)), "cycle.json": _stored(cycles, about)}
     for name, cycle in cycles.items():
         texts[f"{plain_name(name)}.csv"] = table_of_motion(cycle, spec.rows, about)
-    figures = {plain_name(name): draw(cycle, f"{spec.title}: {name}") for name, cycle in cycles.items()}
+    figures = {plain_name(name): cycle_figure(cycle, f"{spec.title}: {name}") for name, cycle in cycles.items()}
     if len(cycles) > 1:
-        figures[TOGETHER] = draw_together(cycles, spec.title)
-    files = [writing.write(out / name, text) for name, text in texts.items()] + drawing.save_pictures(figures, out)
+        figures[TOGETHER] = axes_figure(cycles, spec.title)
+    files = [writing.write(out / name, text) for name, text in texts.items()] + save_pictures(figures, out)
     return files + [export.write(out / name) for named in made.values() for name, export in named.items()]
 
 
@@ -66,7 +56,8 @@ def page(spec: Study, cycles: Mapping[str, Cycle], made_exports: Exports) -> Pag
     for name, cycle in cycles.items():
         made.heading(name).figure(plain_name(name), f"{spec.title}: {name}")
         made.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
-        made.table(("what", "value", "unit"), _told(cycle), digits=9)
+        rows = [*proof_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
+        made.table(("what", "value", "unit"), [[row.name, row.value, row.unit or None] for row in rows], digits=9)
         add_exports(made, made_exports[name])
     return made
 
@@ -97,60 +88,6 @@ def _segment_rows(cycle: Cycle) -> list[list[tables.Cell]]:
 def _whole_row(cycle: Cycle) -> list[tables.Cell]:
     peaks = [cycle.peak(nu) * UNITS[cycle.axis][nu][1] for nu in (1, 2, 3)]
     return ["whole cycle", 0.0, 1e3 * cycle.duration, _SHARE, None, *peaks]
-
-
-def _told(cycle: Cycle) -> list[list[tables.Cell]]:
-    """What is least, how it is proven, and what the drive takes."""
-    rows: list[list[tables.Cell]] = []
-    if cycle.solutions:
-        unit = objective_unit(cycle)
-        rows += [["status", cycle.status.value, None], [f"least {cycle.minimise}", cycle.objective, unit]]
-        if cycle.lower_bound is not None:
-            rows.append(["proven lower bound", cycle.lower_bound, unit])
-    if cycle.drive is not None:
-        force, power = ("N", "W") if cycle.axis == "length" else ("N m", "W")
-        effort = cycle.effort
-        rows += [
-            ["peak of force" if cycle.axis == "length" else "peak of torque", effort.peak_force, force],
-            ["RMS of it", effort.rms_force, force],
-            ["peak of power", effort.peak_power, power],
-            ["mean of power", effort.mean_power, power],
-            ["peak torque at the master's shaft", effort.shaft_torque(2.0 * pi / cycle.duration), "N m"],
-        ]
-    if cycle.load is not None:
-        peaks = {name: cycle.load_motion.peak(name).value for name in _outputs(cycle)}
-        rows += [[f"peak of the load's {name}", value, _load_unit(cycle, name)] for name, value in peaks.items()]
-    leaps = {name: max(abs(joint[name]) for joint in cycle.joints) for name in ("velocity", "acceleration")}
-    units = (_unit(cycle, order) for order in (1, 2))
-    named = zip(leaps.items(), units, strict=True)
-    return [*rows, *([f"greatest leap of the {name} at a joint", leap, unit] for (name, leap), unit in named)]
-
-
-def _outputs(cycle: Cycle) -> tuple[str, ...]:
-    return cycle.load_motion.machine.outputs
-
-
-def objective_unit(cycle: Cycle) -> str:
-    """The unit of what a cycle minimises."""
-    nu, _ = kind_of(cycle.minimise)
-    if nu == LOADED:
-        return _load_unit(cycle, cycle.minimise.removeprefix("rms ").removeprefix(LOAD))
-    if nu == POWER:
-        return "W"
-    if nu == FORCE:
-        return "N" if cycle.axis == "length" else "N m"
-    return _unit(cycle, nu)
-
-
-def _load_unit(cycle: Cycle, output: str) -> str:
-    """The unit of an output of the load; of one whose dimension is not known, that it is one of SI."""
-    dimension = read_load(cycle.load, cycle.axis).dimensions.get(output, "")
-    return _LOAD_UNITS.get(dimension, "SI")
-
-
-def _unit(cycle: Cycle, order: int) -> str:
-    """The unit of a derivative by time."""
-    return {"length": "m", "angle": "rad"}[cycle.axis] + ("/s", "/s²", "/s³")[order - 1]
 
 
 def _columns(cycle: Cycle) -> list[str]:
@@ -189,13 +126,15 @@ def _stored(cycles: Mapping[str, Cycle], about: str) -> str:
 def _facts(cycle: Cycle) -> dict[str, Any]:
     drive: dict[str, Any] = {} if cycle.drive is None else {"effort": cycle.effort.to_dict()}
     if cycle.load is not None:
-        drive["load"] = {name: cycle.load_motion.peak(name).value for name in _outputs(cycle)}
+        drive["load"] = {name: cycle.load_motion.peak(name).value for name in cycle.load_motion.machine.outputs}
     return {
         "period": cycle.duration,
         "status": cycle.status.value,
         "minimise": cycle.minimise,
         "objective": cycle.objective if cycle.solutions else None,
         "lower_bound": cycle.lower_bound if cycle.solutions else None,
+        "search_space": cycle.search_space,
+        "remarks": list(cycle.remarks),
         "segments": [
             {"name": peak.name, "start": peak.start, "duration": peak.duration}
             | {name: peak.peak(nu) for nu, name in enumerate(QUANTITIES) if nu}

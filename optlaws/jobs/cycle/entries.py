@@ -8,10 +8,10 @@ from typing import Annotated, Any, Literal
 
 import msgspec
 
-from optlaws.cycles.asked.segments import CycleSegment
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.stored import KINDS
-from optlaws.errors import InputError
+from optlaws.cycles.serialisation import KINDS
+from optlaws.cycles.specification.segments import CycleSegment
+from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.files.problem_file import Text, convert
 
 Kind = Literal["dwell", "constant velocity", "move", "rise", "return", "free"]
@@ -109,8 +109,8 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, dict[str, Cycle]]:
             raise InputError(f"{file}: two axes are called {axis.name}: give each a name of its own")
         try:
             cycles[axis.name] = cycle_of(axis, spec.speed, spec.period)
-        except InputError as error:
-            raise InputError(f"{file}: axis {axis.name}: {error}") from None
+        except (InputError, InfeasibleProblem) as error:
+            raise type(error)(f"{file}: axis {axis.name}: {error}") from None
     return spec, cycles
 
 

@@ -11,9 +11,10 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.exports.export import Export, export_cycle
 from optlaws.exports.format import FORMATS, format_of
+from optlaws.exports.identifiers import variable_names
 from optlaws.files import tables, writing
 from optlaws.jobs.cycle.entries import AskedExport, Axis, Study
-from optlaws.jobs.pages.page import Page
+from optlaws.results.page import Page
 
 #: the exports of each axis by the names of their files
 Exports = dict[str, dict[str, Export]]
@@ -36,9 +37,10 @@ def exports_of(spec: Study, cycles: Mapping[str, Cycle], file: Path) -> Exports:
         raise InputError(f"{file}: an axis is called {TOGETHER}, as the picture of all is: give it another name")
     taken = {"cycle.md", "cycle.json", f"{TOGETHER}.svg", f"{TOGETHER}.png"}
     taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg", ".png")}
+    names = variable_names(axis.name for axis in spec.axis)
     for axis in spec.axis:
         try:
-            made[axis.name] = _of_axis(axis, cycles[axis.name], taken)
+            made[axis.name] = _of_axis(axis, cycles[axis.name], names[axis.name], taken)
         except InputError as error:
             raise InputError(f"{file}: axis {axis.name}: export {error}") from None
     return made
@@ -62,7 +64,7 @@ def add_exports(page: Page, made: Mapping[str, Export]) -> None:
         page.table(_HEADINGS, [_row(name, export) for name, export in made.items()], digits=7)
 
 
-def _of_axis(axis: Axis, cycle: Cycle, taken: set[str]) -> dict[str, Export]:
+def _of_axis(axis: Axis, cycle: Cycle, variable: str, taken: set[str]) -> dict[str, Export]:
     made: dict[str, Export] = {}
     for asked in axis.export:
         name = _file_name(axis.name, asked)
@@ -70,14 +72,15 @@ def _of_axis(axis: Axis, cycle: Cycle, taken: set[str]) -> dict[str, Export]:
             raise InputError(f"to {asked.to}: another file is called {name}: give each a name of its own")
         taken.add(name)
         try:
-            made[name] = _export(cycle, asked)
+            made[name] = _export(cycle, asked, variable)
         except InputError as error:
             raise InputError(f"to {asked.to}: {error}") from None
     return made
 
 
-def _export(cycle: Cycle, asked: AskedExport) -> Export:
+def _export(cycle: Cycle, asked: AskedExport, variable: str) -> Export:
     given = msgspec.structs.asdict(asked)
+    given["name"] = variable if asked.name is None else asked.name
     said = {"master": given.pop("master"), "unit": given.pop("unit")}
     del given["file"], given["to"]
     return export_cycle(cycle, asked.to, said, **given)

@@ -10,13 +10,13 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
-from optlaws.jobs.pages.page import Page
-from optlaws.studies.point import StudyPoint
-from optlaws.studies.points.study_file import read_study
+from optlaws.plots.style import DISTINCT, GREY, empty_figure, plot_style, save_pictures
+from optlaws.results.page import Page
 from optlaws.studies.run import run_study
+from optlaws.studies.specification import read_study
+from optlaws.studies.study import StudyPoint
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -40,7 +40,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "atlas.csv", tables.to_csv(COLUMNS, [_cells(point) for point in points], about=about)),
         writing.write(out / "atlas.md", str(_page(study.title, points))),
     ]
-    return written + drawing.save_pictures(draw(points), out)
+    return written + save_pictures(draw(points), out)
 
 
 def _cells(point: StudyPoint) -> list[tables.Cell]:
@@ -102,8 +102,8 @@ def draw(points: Sequence[StudyPoint]) -> dict[str, Figure]:
 def _draw_least(points: Sequence[StudyPoint], constant: str, word: str) -> Figure:
     """A panel for each degree of Z, in it a curve for each order."""
     degrees = sorted({point.inputs["degree"] for point in points})
-    with drawing.style():
-        figure = drawing.figure(1.6 + 3.2 * len(degrees), 4.8)
+    with plot_style():
+        figure = empty_figure(1.6 + 3.2 * len(degrees), 4.8)
         panels = figure.subplots(1, len(degrees), sharex=True, sharey=True, squeeze=False)[0]
         for axes, degree in zip(panels, degrees, strict=True):
             _curves(axes, [point for point in points if point.inputs["degree"] == degree])
@@ -116,14 +116,14 @@ def _draw_least(points: Sequence[StudyPoint], constant: str, word: str) -> Figur
 
 def _curves(axes: Axes, points: Sequence[StudyPoint]) -> None:
     orders = sorted({point.inputs["order"] for point in points})
-    for order, colour, stroke in zip(orders, drawing.DISTINCT, cycle(_STROKES), strict=False):
+    for order, colour, stroke in zip(orders, DISTINCT, cycle(_STROKES), strict=False):
         curve = [point for point in points if point.inputs["order"] == order]
         values = [np.nan if point.objective is None else point.objective for point in curve]
         style: dict[str, Any] = {"color": colour, "linestyle": stroke}
         axes.plot([point.inputs["B"] for point in curve], values, label=f"l = {order}", **style)
     limits = _limits(points)
     if limits:
-        axes.plot(list(limits), list(limits.values()), color=drawing.GREY, linewidth=1.0, label="limit of all laws")
+        axes.plot(list(limits), list(limits.values()), color=GREY, linewidth=1.0, label="limit of all laws")
 
 
 def _limits(points: Sequence[StudyPoint]) -> dict[float, float]:

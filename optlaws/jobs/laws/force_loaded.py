@@ -9,15 +9,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 import msgspec
 import numpy as np
 
-from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text, convert
 from optlaws.formulas.of_motion import of_text
-from optlaws.jobs.pages.page import Page
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.studies.points.problem_entries import Asked, gap, problem
+from optlaws.plots.style import BLUES, GREY, empty_figure, plot_style, save_picture
+from optlaws.results.page import Page
+from optlaws.studies.problem_entries import ProblemEntries, gap, problem
 from optlaws.synthesis import Solution, synthesize
 from optlaws.synthesis.functionals.loads import drive_torque
 from optlaws.synthesis.functionals.makers import peak, rms
@@ -48,7 +48,7 @@ class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
     job: str
     title: Text
-    problem: Asked
+    problem: ProblemEntries
     case: Annotated[list[Case], msgspec.Meta(min_length=1, max_length=4)]
     catalogue: Annotated[list[Text], msgspec.Meta(max_length=4)] = []
     text: str = ""
@@ -70,7 +70,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     return [
         writing.write(out / "table.csv", tables.to_csv(HEADINGS, lines, about=about)),
         writing.write(out / "table.md", str(page)),
-        *drawing.save_picture(draw(spec.title, list(cases.values())), out / "figure"),
+        *save_picture(draw(spec.title, list(cases.values())), out / "figure"),
     ]
 
 
@@ -99,21 +99,21 @@ def _line(case: Case, name: str, law: MotionLaw, solution: Solution | None) -> l
 
 def draw(title: str, cases: Sequence[tuple[Case, Laws]]) -> Figure:
     """The torque of every law over k, one panel a case."""
-    with drawing.style():
-        figure = drawing.figure(9.2, 3.2 * len(cases) + 0.6)
+    with plot_style():
+        figure = empty_figure(9.2, 3.2 * len(cases) + 0.6)
         panels = figure.subplots(len(cases), 1, sharex=True, squeeze=False)[:, 0]
         k = np.linspace(0.0, 1.0, _POINTS)
         for axes, (case, laws) in zip(panels, cases, strict=True):
             torque = of_text(case.torque)
             for i, (name, (law, solution)) in enumerate(laws.items()):
                 values = torque.values({"k": k, "a": law.a(k), "b": law.b(k), "c": law.c(k)})
-                shade = drawing.GREY if solution is None else drawing.BLUES[-1 - (len(laws) - 1 - i)]
+                shade = GREY if solution is None else BLUES[-1 - (len(laws) - 1 - i)]
                 style = "-" if solution is not None else (0, (1 + 2 * i, 2))
                 label = name if axes is panels[0] else None
                 axes.plot(k, np.broadcast_to(values, k.shape), color=shade, linestyle=style, label=label)
             axes.set_title(case.name, loc="left", fontsize=9.5)
             axes.set_ylabel("torque")
-            axes.axhline(0.0, color=drawing.GREY, linewidth=0.6)
+            axes.axhline(0.0, color=GREY, linewidth=0.6)
         panels[-1].set_xlabel("k")
         figure.suptitle(title, x=0.01, ha="left", fontsize=11.0)
         figure.legend(loc="outside lower center", ncols=3)

@@ -12,16 +12,26 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 import msgspec
 import numpy as np
 
-from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text, convert
-from optlaws.jobs.pages.page import Page
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.laws.catalogue.catalogue import catalogue
 from optlaws.laws.savin.family import FAMILIES
 from optlaws.laws.savin.savin import alpha_range, savin
-from optlaws.studies.points.problem_entries import Asked, Positive, gap, problem
+from optlaws.plots.front import draw_front, draw_proven_front
+from optlaws.plots.style import (
+    GREEN,
+    GREY,
+    WARM,
+    empty_figure,
+    name_point,
+    plot_style,
+    save_picture,
+    shades,
+)
+from optlaws.results.page import Page
+from optlaws.studies.problem_entries import Positive, ProblemEntries, gap, problem
 from optlaws.synthesis import FUNCTIONALS, Problem
 from optlaws.synthesis.front import HEADINGS, Front
 from optlaws.synthesis.limits.of_problem import known_limit
@@ -41,7 +51,7 @@ Constant = Literal["B", "C", "D", "J"]
 _FEW = 5
 
 
-class Curve(Asked, kw_only=True, forbid_unknown_fields=True):
+class Curve(ProblemEntries, kw_only=True, forbid_unknown_fields=True):
     """One front: what its problem asks beyond the base problem, and its name in the legend."""
 
     label: Text
@@ -69,7 +79,7 @@ class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
     job: str
     title: Text
-    problem: Asked
+    problem: ProblemEntries
     figure: Annotated[list[Picture], msgspec.Meta(min_length=1)]
     points: Points = 50
     text: str = ""
@@ -101,7 +111,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     ]
     for picture, fronts in drawn:
         figure = draw(picture, fronts)
-        written += drawing.save_picture(figure, out / picture.name)
+        written += save_picture(figure, out / picture.name)
     return written
 
 
@@ -186,7 +196,7 @@ def draw_beside(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
         points = np.array([_point(law, picture) for law in laws])
         if not any(_inside(point, x, y) for point in points.tolist()):
             continue
-        style: dict[str, Any] = {"color": drawing.GREEN, "linestyle": _STROKES[family], "linewidth": 1.2, "zorder": 3}
+        style: dict[str, Any] = {"color": GREEN, "linestyle": _STROKES[family], "linewidth": 1.2, "zorder": 3}
         axes.plot(*points.T, label=f"Savin's family {family} (l = {FAMILIES[family] + 2})", **style)
     if SMOOTHSTEPS in picture.catalogue:
         _smoothsteps(axes, picture, x, y)
@@ -195,13 +205,13 @@ def draw_beside(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
 
 def _smoothsteps(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
     label = "smoothsteps, by order l"
-    ring: dict[str, Any] = {"color": drawing.WARM, "markerfacecolor": "white", "markersize": 6.5, "zorder": 5}
+    ring: dict[str, Any] = {"color": WARM, "markerfacecolor": "white", "markersize": 6.5, "zorder": 5}
     for order in (2, 3, 4, 5):
         point = _point(smoothstep(order), picture)
         if _inside(point, x, y):
             axes.plot(*point, "o", label=label, **ring)
             # in words, for bare numbers are those of the catalogue's laws
-            drawing.name_point(axes, f"l = {order}", point, (7.0, -9.0))
+            name_point(axes, f"l = {order}", point, (7.0, -9.0))
             label = "_nolegend_"
 
 
@@ -211,11 +221,11 @@ def _laws(axes: Axes, picture: Picture, x: Ends, y: Ends) -> None:
     points = [(catalogue[name].name, _point(catalogue[name].law, picture)) for name in named]
     shown = [(name, point) for name, point in points if _inside(point, x, y)]
     for number, (name, point) in enumerate(shown, 1):
-        diamond: dict[str, Any] = {"color": drawing.WARM, "markersize": 5.0, "zorder": 5}
+        diamond: dict[str, Any] = {"color": WARM, "markersize": 5.0, "zorder": 5}
         axes.plot(*point, "D", label=f"{number}  {name}", **diamond)
         before = [other for _, other in shown[: number - 1]]
         crowded = any(_near(point, other, x, y) for other in before)
-        drawing.name_point(axes, f"{number}", point, (-6.0, -9.0) if crowded else (6.0, 4.0))
+        name_point(axes, f"{number}", point, (-6.0, -9.0) if crowded else (6.0, 4.0))
 
 
 def _near(first: Ends, second: Ends, x: Ends, y: Ends) -> bool:
@@ -239,17 +249,17 @@ _DRAWN = 1e-4
 def draw(picture: Picture, fronts: Sequence[Front]) -> Figure:
     """Fronts of two constants, with known laws beside them and the limits of all laws below."""
     x, y = (_window(picture, fronts, axis) for axis in (0, 1))
-    with drawing.style():
-        figure = drawing.figure(8.6, 5.0)
+    with plot_style():
+        figure = empty_figure(8.6, 5.0)
         axes = figure.subplots()
-        shades = drawing.shades(len(fronts))
-        for curve, front, shade in zip(picture.front, fronts, shades, strict=True):
+        colours = shades(len(fronts))
+        for curve, front, shade in zip(picture.front, fronts, colours, strict=True):
             _draw_curve(axes, front, color=shade, label=curve.label)
         draw_beside(axes, picture, x, y)
         if picture.limits and picture.over[0] == "B":
             _limit_curves(axes, picture, fronts, x)
         elif picture.limits:
-            _corners(axes, picture, fronts, shades)
+            _corners(axes, picture, fronts, colours)
         axes.set(xlim=x, ylim=y, title=picture.title)
         figure.legend(loc="outside right upper")
         return figure
@@ -260,10 +270,10 @@ def _draw_curve(axes: Axes, front: Front, **style: Any) -> None:  # noqa: ANN401
     dots = {**style, "marker": "o", "markersize": 2.2, "zorder": 4}
     exact = _exact(front)
     if exact is None:
-        drawing.draw_front(front, axes, **dots)
+        draw_front(front, axes, **dots)
     else:
-        drawing.draw_proven_front(exact, axes, **style, zorder=4)
-        drawing.draw_front(front, axes, **{**dots, "label": "_nolegend_", "linestyle": "none"})
+        draw_proven_front(exact, axes, **style, zorder=4)
+        draw_front(front, axes, **{**dots, "label": "_nolegend_", "linestyle": "none"})
 
 
 def _exact(front: Front) -> ProvenFront | None:
@@ -301,15 +311,13 @@ def _limit_curves(axes: Axes, picture: Picture, fronts: Sequence[Front], x: Ends
             continue
         label = "limit of all laws" if not drawn else f"the same of order {asked.order}"
         stroke = ("-", "-.")[min(len(drawn), 1)]
-        axes.plot(
-            values, np.array(limits, dtype=float), label=label, color=drawing.GREY, linewidth=1.2, linestyle=stroke
-        )
+        axes.plot(values, np.array(limits, dtype=float), label=label, color=GREY, linewidth=1.2, linestyle=stroke)
         drawn.append(limits)
 
 
-def _corners(axes: Axes, picture: Picture, fronts: Sequence[Front], shades: Sequence[str]) -> None:
+def _corners(axes: Axes, picture: Picture, fronts: Sequence[Front], colours: Sequence[str]) -> None:
     """What no law can beat in either constant, which no one law need reach in both."""
-    for curve, front, shade in zip(picture.front, fronts, shades, strict=True):
+    for curve, front, shade in zip(picture.front, fronts, colours, strict=True):
         style: dict[str, Any] = {"color": shade, "linewidth": 1.1, "linestyle": (0, (1, 2)), "zorder": 2}
         asked = _freed(front[0].problem, picture.over[0])
         limits = [known_limit(replace(asked, minimise=name)) for name in picture.over]

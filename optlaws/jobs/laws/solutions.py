@@ -12,11 +12,11 @@ from typing import Annotated, Any, Literal
 import msgspec
 
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
-from optlaws.files import reading, tables, writing
+from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text, convert
-from optlaws.jobs.pages import printed
-from optlaws.jobs.pages.page import Page
-from optlaws.studies.points.problem_entries import Asked, Lists, Some, gap, problem, record, shown
+from optlaws.results import printed
+from optlaws.results.page import Page
+from optlaws.studies.problem_entries import EntryLists, ProblemEntries, Some, gap, problem, record, shown
 from optlaws.suggest import unknown_key
 from optlaws.synthesis import FUNCTIONALS, Certificate, Problem, Solution, synthesize
 from optlaws.synthesis.problem.fields import ENTRIES
@@ -30,7 +30,7 @@ class Compare(msgspec.Struct, forbid_unknown_fields=True):
 
     name: Text
     columns: Annotated[list[str], Some]
-    problem: Asked
+    problem: ProblemEntries
 
 
 class Beside(msgspec.Struct, forbid_unknown_fields=True):
@@ -47,8 +47,8 @@ class Study(msgspec.Struct, forbid_unknown_fields=True):
 
     job: str
     title: Text
-    problem: Asked
-    sweep: Annotated[list[Lists], Some]
+    problem: ProblemEntries
+    sweep: Annotated[list[EntryLists], Some]
     text: str = ""
     bound: Literal["quick", "tight"] = "quick"
     columns: Annotated[list[str], Some] = msgspec.field(default_factory=lambda: ["B", "C", "D", "J", *RESULTS[1:]])
@@ -139,7 +139,7 @@ def _beside(spec: Study, file: Path, entries: Sequence[Mapping[str, Any]]) -> li
     if spec.beside is None:
         return [[] for _ in entries]
     source = file.parent / spec.beside.file
-    lines = printed.rows(source, _header(source))
+    lines = printed.rows(source)
     if not lines:
         raise InputError(f"beside: {source} has no rows")
     for name in (spec.beside.match, *spec.beside.columns):
@@ -152,14 +152,6 @@ def _beside(spec: Study, file: Path, entries: Sequence[Mapping[str, Any]]) -> li
         line = by_value.get(value, {}) if isinstance(value, float) else {}
         table.append([line.get(name) for name in spec.beside.columns])
     return table
-
-
-def _header(source: Path) -> tuple[str, ...]:
-    try:
-        lines = reading.text(source).splitlines()
-    except InputError as error:
-        raise InputError(f"beside: {error}") from None
-    return tuple(next((line.split(",") for line in lines if line and not line.startswith("#")), []))
 
 
 def _cells(

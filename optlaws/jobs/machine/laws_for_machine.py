@@ -12,12 +12,10 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.machine.definition import MachineTable, Sought, Spread
-from optlaws.jobs.pages.page import Page
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.laws.catalogue.catalogue import catalogue
@@ -25,7 +23,9 @@ from optlaws.laws.making.input_shaping import Shaper, shaped_law
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.modes import mode
 from optlaws.mechanisms.spectrum.laplace import velocity_transform
-from optlaws.studies.points.problem_entries import gap, record
+from optlaws.plots.style import BLUES, GREEN, GREY, WARM, empty_figure, plot_style, save_picture
+from optlaws.results.page import Page
+from optlaws.studies.problem_entries import gap, record
 from optlaws.synthesis import Solution, synthesize
 
 if TYPE_CHECKING:
@@ -119,7 +119,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
         writing.write(out / "table.md", str(_page(spec, machine, headings, lines))),
         writing.write(out / "laws.json", _laws(about, laws)),
     ]
-    return written + drawing.save_picture(draw(spec, machine, laws), out / "figure")
+    return written + save_picture(draw(spec, machine, laws), out / "figure")
 
 
 def _check(spec: Study, machine: Machine) -> None:
@@ -242,9 +242,9 @@ def _in_machine_units(machine: MachineTable) -> str:
 def draw(spec: Study, machine: Machine, laws: Sequence[Compared]) -> Figure:
     """What is left of each mode over its frequency, and an output over time."""
     drawn = [law for name in spec.figure.laws for law in laws if law.name == name and law.law is not None]
-    with drawing.style():
+    with plot_style():
         modes = spec.vibration.modes
-        figure = drawing.figure(9.6 + 3.6 * (len(modes) - 1), 4.6)
+        figure = empty_figure(9.6 + 3.6 * (len(modes) - 1), 4.6)
         *left, right = figure.subplots(1, len(modes) + 1)
         for number, axes in zip(modes, left, strict=True):
             _residuals(axes, spec, number, drawn)
@@ -278,12 +278,12 @@ def _outputs(axes: Axes, spec: Study, machine: Machine, laws: Sequence[Compared]
 
 
 def _styles(laws: Sequence[Compared]) -> list[dict[str, Any]]:
-    ours = iter((drawing.BLUES[-1], drawing.GREEN, "#66c2a5", drawing.BLUES[1]))
-    known = iter((drawing.GREY, drawing.WARM, "#fdae61", "#8c8c8c", "#a6761d"))
+    ours = iter((BLUES[-1], GREEN, "#66c2a5", BLUES[1]))
+    known = iter((GREY, WARM, "#fdae61", "#8c8c8c", "#a6761d"))
     styles = []
     for law in laws:
         if law.solution is None:
-            styles.append({"color": next(known, drawing.GREY), "linestyle": "--", "linewidth": 1.2})
+            styles.append({"color": next(known, GREY), "linestyle": "--", "linewidth": 1.2})
         else:
-            styles.append({"color": next(ours, drawing.BLUES[-1]), "linewidth": 1.6})
+            styles.append({"color": next(ours, BLUES[-1]), "linewidth": 1.6})
     return styles

@@ -19,7 +19,6 @@ from optlaws import (
     best_base_circle,
     best_cam,
     conjugate_cam,
-    drawing,
 )
 from optlaws.cams.disc import DiscCam
 from optlaws.errors import InputError
@@ -60,7 +59,9 @@ def cycle() -> Cycle:
 @pytest.fixture(autouse=True)
 def drawn(monkeypatch: pytest.MonkeyPatch) -> None:
     """Pictures are made, but the contract of jobs writes them."""
-    monkeypatch.setattr(drawing, "save_pictures", lambda figures, out: [out / f"{name}.svg" for name in figures])
+    for module in ("cam", "barrels"):
+        saved = f"optlaws.jobs.cam.{module}.save_pictures"
+        monkeypatch.setattr(saved, lambda figures, out: [out / f"{name}.svg" for name in figures])
 
 
 def done(folder: Path, text: str) -> tuple[str, dict[str, Any], set[str]]:
@@ -158,4 +159,28 @@ def test_a_second_follower_may_be_another(tmp_path: Path) -> None:
     swing = [Rise("25 deg", "120 deg"), Dwell("90 deg"), Return(duration="100 deg"), Dwell()]
     first = DiscCam(Cycle(swing, speed="200 rpm", degree=5), "60 mm", OscillatingRoller("12 mm", "110 mm", "140 mm"))
     second = conjugate_cam(first, OscillatingRoller("9 mm", "90 mm", "140 mm"), angle="85 deg")
-    assert told["return_cam"]["bulging_radius"]["low"] == pytest.approx(second.extremes.bulging_radius.low, rel=1e-9)
+    least = second.extremes.least_convex_radius.low
+    assert told["return_cam"]["bulging_radius"]["low"] == pytest.approx(least, rel=1e-9)
+
+
+def test_a_cam_that_is_undercut_says_so_where_forces_are_asked_for(tmp_path: Path) -> None:
+    steep = MOTION.replace("120 deg", "40 deg").replace("100 deg", "40 deg").replace("90 deg", "140 deg")
+    steep = steep.replace("[[motion", 'drive = { mass = "2 kg", preload = "60 N" }\n[[motion', 1)
+    small = HEAD + 'base_radius = "20 mm"\n' + ROLLER + "[forces]\n"
+    page, _, _ = done(tmp_path, small + steep)
+    assert "Undercut: undercut at " in page
+    assert "which it cannot on a cam that is undercut" in page
+    with pytest.raises(InputError, match=r"no pressure: undercut at \d.* make the base circle larger"):
+        done(tmp_path, small + 'width = "20 mm"\n' + steep)
+
+
+@pytest.mark.parametrize(("by", "unit"), [("35 mm", "mm"), ("20 deg", "deg")])
+def test_displacements_of_a_table_are_in_the_units_of_pictures(tmp_path: Path, by: str, unit: str) -> None:
+    text = HEAD + 'base_radius = "60 mm"\n' + ROLLER + MOTION.replace("35 mm", by)
+    if unit == "deg":
+        arm = '[follower]\nkind = "oscillating roller"\nradius = "12 mm"\narm = "90 mm"\npivot_distance = "120 mm"\n'
+        text = text.replace(ROLLER, arm)
+    done(tmp_path, text)
+    lines = (tmp_path / "out" / "cam.csv").read_text("utf-8").splitlines()
+    assert lines[1].split('","')[1] == f"displacement, {unit}"
+    assert max(float(line.split(",")[1]) for line in lines[2:]) == pytest.approx(float(by.split(maxsplit=1)[0]))

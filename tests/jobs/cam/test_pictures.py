@@ -6,7 +6,7 @@ import pytest
 from optlaws.cams.loads.forces import CamForces
 from optlaws.errors import InputError
 from optlaws.jobs.cam.animation import animated
-from optlaws.jobs.cam.pictures import draw_forces
+from optlaws.plots.cam import forces_figure
 from tests.cams.placed import FOLLOWERS, cam_of
 
 
@@ -36,7 +36,7 @@ def test_forces_are_drawn_with_the_pressure_where_it_is_known() -> None:
     cam = cam_of("translating roller")
     drive = {"mass": "2 kg", "preload": "200 N"}
     for width, panels in ((None, 2), ("20 mm", 3)):
-        figure = draw_forces(CamForces(cam, speed="200 rpm", drive=drive, width=width), "Forces")
+        figure = forces_figure(CamForces(cam, speed="200 rpm", drive=drive, width=width), "Forces")
         assert len(figure.axes) == panels
 
 

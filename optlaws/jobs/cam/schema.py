@@ -5,62 +5,42 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Annotated, Any, Literal
+from typing import Annotated, Any, Literal, TypeAlias
 
 import msgspec
 
 from optlaws.cams.best_laws import BestBaseCircle, BestCam, best_base_circle, best_cam
 from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import Follower
-from optlaws.cams.followers.oscillating_flat import OscillatingFlat
-from optlaws.cams.followers.oscillating_roller import OscillatingRoller
-from optlaws.cams.followers.translating_flat import TranslatingFlat
-from optlaws.cams.followers.translating_roller import TranslatingRoller
+from optlaws.cams.followers.registry import read_follower
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.files.problem_file import Text, convert
-from optlaws.jobs.cam.more import More, check
+from optlaws.jobs.cam.forces_and_files import ForcesAndFiles, check
 from optlaws.jobs.cycle.entries import Axis, cycle_of
 
-Kind = Literal["translating roller", "translating flat", "oscillating roller", "oscillating flat"]
-KINDS: dict[str, type[Any]] = {
-    "translating roller": TranslatingRoller,
-    "translating flat": TranslatingFlat,
-    "oscillating roller": OscillatingRoller,
-    "oscillating flat": OscillatingFlat,
-}
+#: its kind, and the entries that this kind takes
+FollowerEntries: TypeAlias = dict[str, str]
 
 
-class AskedFollower(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """A follower; which entries it has depends on its kind."""
-
-    kind: Kind
-    radius: str | None = None
-    offset: str | None = None
-    arm: str | None = None
-    pivot_distance: str | None = None
-    face_offset: str | None = None
-
-
-class AskedPair(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class PairEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """The return cam: how its follower is fixed to the first one, and the follower where it is another."""
 
     distance: str | None = None
     angle: str | None = None
-    follower: AskedFollower | None = None
+    follower: FollowerEntries | None = None
 
 
-class Study(More, kw_only=True, forbid_unknown_fields=True):
+class Study(ForcesAndFiles, kw_only=True, forbid_unknown_fields=True):
     """The problem file."""
 
     job: str
     title: Text
     motion: Axis
-    follower: AskedFollower
+    follower: FollowerEntries
     base_radius: str | None = None
     best: Literal["laws", "base circle"] | None = None
-    pair: AskedPair | None = None
+    pair: PairEntries | None = None
     speed: str | None = None
     period: str | None = None
     turning: str = "counterclockwise"
@@ -103,7 +83,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, Cams]:
     """
     spec = convert(data, Study, file)
     try:
-        cams = _made(spec)
+        cams = _cams(spec)
         if spec.cutter_radius is not None:
             cams.first.cutter_path(spec.cutter_radius)
         check(spec, cams.first, cams.cycle)
@@ -112,14 +92,14 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, Cams]:
     return spec, cams
 
 
-def _made(spec: Study) -> Cams:
-    follower = follower_of(spec.follower)
+def _cams(spec: Study) -> Cams:
+    follower = read_follower(spec.follower)
     if spec.best != "base circle" and spec.base_radius is None:
         raise InputError("base_radius is missing: give it, such as '60 mm', or ask for best = 'base circle'")
     if spec.best == "base circle" and spec.base_radius is not None:
         raise InputError("base_radius is what best = 'base circle' looks for: leave it out, or ask for best = 'laws'")
     cycle = cycle_of(spec.motion, spec.speed, spec.period)
-    wanted: dict[str, Any] = {
+    limits: dict[str, Any] = {
         "pressure_angle": spec.pressure_angle,
         "radius_of_curvature": spec.radius_of_curvature,
         "turning": spec.turning,
@@ -128,44 +108,17 @@ def _made(spec: Study) -> Cams:
         cam = DiscCam(cycle, spec.base_radius, follower, turning=spec.turning)
         return Cams(cycle, cam, None, _second(spec.pair, cam))
     if spec.best == "laws":
-        best = best_cam(cycle, spec.base_radius, follower, **wanted)
+        best = best_cam(cycle, spec.base_radius, follower, **limits)
         return Cams(cycle, best.cam, best, _second(spec.pair, best.cam))
-    least = best_base_circle(cycle, follower, **wanted)
+    least = best_base_circle(cycle, follower, **limits)
     return Cams(cycle, least.least.cam, least, _second(spec.pair, least.least.cam))
 
 
-def _second(asked: AskedPair | None, cam: DiscCam) -> DiscCam | None:
-    if asked is None:
+def _second(entries: PairEntries | None, cam: DiscCam) -> DiscCam | None:
+    if entries is None:
         return None
-    follower = None if asked.follower is None else follower_of(asked.follower)
+    follower = None if entries.follower is None else read_follower(entries.follower)
     try:
-        return conjugate_cam(cam, follower, distance=asked.distance, angle=asked.angle)
+        return conjugate_cam(cam, follower, distance=entries.distance, angle=entries.angle)
     except InputError as error:
         raise InputError(f"pair: {error}") from None
-
-
-def follower_of(asked: AskedFollower) -> Follower:
-    """A follower of a file.
-
-    Raises
-    ------
-    InputError
-        If it has an entry that its kind does not take, or lacks one.
-
-    Examples
-    --------
-    >>> follower_of(AskedFollower(kind="translating roller", radius="12 mm"))
-    TranslatingRoller(radius='12 mm', offset='0 mm')
-    """
-    kind = KINDS[asked.kind]
-    given = {name: value for name, value in msgspec.structs.asdict(asked).items() if value is not None}
-    del given["kind"]
-    taken = kind.__dataclass_fields__
-    for name in given:
-        if name not in taken:
-            raise InputError(f"follower: a {asked.kind} takes no {name}; it takes {', '.join(taken) or 'no entries'}")
-    for name in taken:
-        if name not in given and name not in {"offset", "face_offset"}:
-            raise InputError(f"follower: a {asked.kind} needs its {name}, such as {name} = '12 mm'")
-    follower: Follower = kind(**given)
-    return follower

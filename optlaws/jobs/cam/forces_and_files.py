@@ -11,22 +11,24 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import msgspec
 
+from optlaws.cams.as_manufactured.peaks import AsMade, UnreachedProfileError, as_made, with_error
+from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.cutting.cam_files import curve_of
+from optlaws.cams.cutting.file_options import Cutting
 from optlaws.cams.cutting.formats import format_of
-from optlaws.cams.cutting.wanted import Cutting
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.loads.forces import CamForces
 from optlaws.cams.loads.springs import Spring, least_spring
-from optlaws.cams.made.as_made import AsMade, UnreachedProfileError, as_made, with_error
-from optlaws.cycles.asked.programme import TURN
+from optlaws.cams.loads.summary import named_forces
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text
 from optlaws.jobs.cam.animation import animated
-from optlaws.jobs.cam.pictures import draw, draw_forces
-from optlaws.jobs.pages.page import Page
 from optlaws.kept import kept_property
+from optlaws.motion.quantities import TURN
+from optlaws.plots.cam import cam_figure, forces_figure
+from optlaws.results.page import Page
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -38,7 +40,7 @@ _FORCE = {"length": "N", "angle": "N m"}
 _STIFFNESS = {"length": "N/m", "angle": "N m/rad"}
 
 
-class AskedForces(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class ForcesEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """Forces of the cam under the drive of its motion."""
 
     friction: dict[str, float | str] = {}
@@ -46,7 +48,7 @@ class AskedForces(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     materials: tuple[str, str] = ("steel", "steel")
 
 
-class AskedSpring(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class SpringEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A spring that keeps the follower on the cam over a range of speeds."""
 
     speeds: tuple[str, str]
@@ -55,7 +57,7 @@ class AskedSpring(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     preload: str | None = None
 
 
-class AskedAsMade(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class AsManufacturedEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """Which files are run against the follower: tables of so many points and decimals, and errors of the profile."""
 
     points: Several = (361, 721)
@@ -65,7 +67,7 @@ class AskedAsMade(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     waves: Several = (3, 12)
 
 
-class AskedFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class FileEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A file that cuts the cam; what is not given is as in `DiscCam.export`."""
 
     name: Text
@@ -78,23 +80,23 @@ class AskedFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     degree: int | None = None
     feed: str | None = None
 
-    def asked(self) -> dict[str, Any]:
+    def options(self) -> dict[str, Any]:
         """Entries of the export."""
         given = msgspec.structs.asdict(self)
         return {key: value for key, value in given.items() if key not in {"name", "format"} and value is not None}
 
 
-class More(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class ForcesAndFiles(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """Entries of the problem file beside the geometry's."""
 
-    forces: AskedForces | None = None
-    spring: AskedSpring | None = None
-    as_made: AskedAsMade | None = None
-    file: Annotated[list[AskedFile], msgspec.Meta(max_length=50)] = []
+    forces: ForcesEntries | None = None
+    spring: SpringEntries | None = None
+    as_made: AsManufacturedEntries | None = None
+    file: Annotated[list[FileEntries], msgspec.Meta(max_length=50)] = []
     animation: bool = False
 
 
-def check(spec: More, cam: DiscCam, cycle: Cycle) -> None:
+def check(spec: ForcesAndFiles, cam: DiscCam, cycle: Cycle) -> None:
     """Refuse what would be refused only after the work was done.
 
     Raises
@@ -107,13 +109,13 @@ def check(spec: More, cam: DiscCam, cycle: Cycle) -> None:
             raise InputError(f"file: name must be that of a file in the folder of results, got {entry.name!r}")
         writing.check_name(Path(entry.name))
         format_of(Path(entry.name), entry.format)
-        entries = entry.asked()
+        entries = entry.options()
         curve_of(cam, entries.pop("curve", None), entries.pop("cutter_radius", None))
         Cutting(**entries)
     forces_of(spec, cam, cycle)
 
 
-def forces_of(spec: More, cam: DiscCam, cycle: Cycle) -> CamForces | None:
+def forces_of(spec: ForcesAndFiles, cam: DiscCam, cycle: Cycle) -> CamForces | None:
     """The cam's forces at the speed of its cycle, if they were asked for."""
     asked = spec.forces
     if asked is None:
@@ -126,10 +128,10 @@ def forces_of(spec: More, cam: DiscCam, cycle: Cycle) -> CamForces | None:
 
 
 @dataclass(frozen=True)
-class Found:
+class Findings:
     """What was asked beside the geometry, computed once."""
 
-    spec: More
+    spec: ForcesAndFiles
     cam: DiscCam
     cycle: Cycle
 
@@ -148,7 +150,7 @@ class Found:
         return least_spring(self.cam, drive=load, **msgspec.structs.asdict(self.spec.spring))
 
     @kept_property
-    def made(self) -> dict[str, AsMade | None]:
+    def as_made(self) -> dict[str, AsMade | None]:
         """Peaks of the cam as made; None where its follower does not reach all of it."""
         asked, cam = self.spec.as_made, self.cam
         if asked is None:
@@ -164,15 +166,15 @@ class Found:
             made[name] = _tried(partial(with_error, cam, asked.error, waves))
         return made
 
-    def told(self) -> dict[str, Any]:
+    def to_data(self) -> dict[str, Any]:
         """What a program is told, in SI units."""
         data: dict[str, Any] = {}
         if self.forces is not None:
             data["forces"] = self.forces.to_dict()
         if self.spring is not None:
             data["spring"] = self.spring.to_dict()
-        if self.made:
-            data["as_made"] = {name: None if peaks is None else peaks.to_dict() for name, peaks in self.made.items()}
+        if self.as_made:
+            data["as_made"] = {name: None if peaks is None else peaks.to_dict() for name, peaks in self.as_made.items()}
         return data
 
 
@@ -183,7 +185,7 @@ def _tried(run: Callable[[], AsMade]) -> AsMade | None:
         return None
 
 
-def add(page: Page, findings: Found) -> Page:
+def add(page: Page, findings: Findings) -> Page:
     """The page with what was asked beside the geometry."""
     forces, spring, cam = findings.forces, findings.spring, findings.cam
     if forces is not None:
@@ -194,13 +196,15 @@ def add(page: Page, findings: Found) -> Page:
             f"{_rounded(0.5 * sum(forces.mean_torque), forces.torque.peak):.6g} N m. "
             + ("The follower lifts off." if forces.lifts_off else "The follower stays on the cam.")
         )
+        if cam.extremes.undercut.status == UNDERCUT:
+            page.text("That is so if the follower moves as asked, which it cannot on a cam that is undercut.")
     if spring is not None:
         page.heading("Spring").table(("what", "value", "unit"), _spring_rows(spring, cam), digits=6)
-    if findings.made:
+    if findings.as_made:
         unit = "um" if cam.displacement.axis == "length" else "urad"
         headings = ("what", f"deviation, {unit}", "peak acceleration, ratio", "peak jerk, ratio")
-        page.heading("As made").table(headings, [_made_row(*item) for item in findings.made.items()], digits=5)
-        if None in findings.made.values():
+        page.heading("As made").table(headings, [_made_row(*item) for item in findings.as_made.items()], digits=5)
+        if None in findings.as_made.values():
             page.text("Where nothing stands the follower does not reach all of the cam: it has hollows.")
     if findings.spec.animation:
         page.heading("Turning").figure("animation", "The cam turns under its follower")
@@ -209,39 +213,27 @@ def add(page: Page, findings: Found) -> Page:
     return page
 
 
-def figures(findings: Found, title: str) -> dict[str, Figure]:
+def figures(findings: Findings, title: str) -> dict[str, Figure]:
     """Pictures by their names."""
-    drawn = {"cam": draw(findings.cam, title)}
-    return drawn if findings.forces is None else drawn | {"forces": draw_forces(findings.forces, title)}
+    drawn = {"cam": cam_figure(findings.cam, title)}
+    return drawn if findings.forces is None else drawn | {"forces": forces_figure(findings.forces, title)}
 
 
-def files(findings: Found, out: Path, about: str) -> list[Path]:
+def files(findings: Findings, out: Path, about: str) -> list[Path]:
     """Write the files that cut the cam, and the one that shows it turn."""
     cut = [
-        findings.cam.export(out / entry.name, entry.format, about=about, **entry.asked())
+        findings.cam.export(out / entry.name, entry.format, about=about, **entry.options())
         for entry in findings.spec.file
     ]
     return [*cut, *([writing.write(out / "animation.svg", animated(findings.cam))] if findings.spec.animation else [])]
 
 
 def _force_rows(forces: CamForces) -> list[list[tables.Cell]]:
-    curves = [("contact force", "N", 1.0, forces.contact), ("torque at the shaft", "N m", 1.0, forces.torque)]
-    if forces.width is not None:
-        curves.append(("Hertz's pressure", "MPa", 1.0 / _MICRO, forces.pressure))
     rows: list[list[tables.Cell]] = []
-    for name, unit, factor, curve in curves:
-        high = curve.peak * factor
-        places = [_rounded(degrees(at), 360.0) for at in (curve.least_at, curve.most_at)]
-        rows.append(
-            [
-                name,
-                _rounded(curve.least * factor, high),
-                places[0],
-                _rounded(curve.most * factor, high),
-                places[1],
-                unit,
-            ]
-        )
+    for name, curve, unit, factor in named_forces(forces):
+        low, high = (_rounded(value * factor, curve.peak * factor) for value in (curve.least, curve.most))
+        first, last = (_rounded(degrees(at), 360.0) for at in (curve.least_at, curve.most_at))
+        rows.append([name, low, first, high, last, unit])
     return rows
 
 

@@ -7,13 +7,12 @@ from math import degrees
 
 import numpy as np
 
+from optlaws.cams.curves.extremes import Extreme
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.extremes.bounding import Extreme
+from optlaws.cams.loads.summary import geometry
 from optlaws.files import tables
 
 EXTREMES = ("what", "at least", "at most", "unit", "at, deg")
-_MILLI = 1e3
-_NOTHING = 1e-100
 _REACHED = 1e-7
 
 
@@ -38,18 +37,11 @@ class Limits:
 
 def extreme_rows(cam: DiscCam, limits: Limits) -> list[list[tables.Cell]]:
     """Rows of a table of extreme pressure angles and radii of curvature."""
-    extremes = cam.extremes
-    angles = [
-        ("greatest pressure angle", extremes.greatest_pressure_angle),
-        ("pressure angle, least", extremes.pressure_angles[0]),
-        ("pressure angle, greatest", extremes.pressure_angles[1]),
+    kept = {"deg": limits.pressure, "mm": limits.radius}
+    return [
+        extreme_row(name, extreme, factor, unit, None if extreme is cam.extremes.least_concave_radius else kept[unit])
+        for name, extreme, unit, factor in geometry(cam)
     ]
-    seen = [(name, extreme) for name, extreme in angles if extremes.greatest_pressure_angle.value > _NOTHING]
-    rows = [extreme_row(name, extreme, degrees(1.0), "deg", limits.pressure) for name, extreme in seen]
-    rows.append(extreme_row("least radius of curvature, bulging", extremes.bulging_radius, _MILLI, "mm", limits.radius))
-    if extremes.hollow_radius is not None:
-        rows.append(extreme_row("least radius of curvature, hollow", extremes.hollow_radius, _MILLI, "mm"))
-    return rows
 
 
 def extreme_row(name: str, extreme: Extreme, factor: float, unit: str, limit: float | None = None) -> list[tables.Cell]:

@@ -1,1 +1,0 @@
-"""Jobs about balancing mechanisms for dwells."""

@@ -1,1 +1,0 @@
-"""Jobs about elastic followers and the cams made for them."""

@@ -1,1 +1,0 @@
-"""Jobs about the torsion lever."""
