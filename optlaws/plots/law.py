@@ -10,12 +10,12 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws import drawing
-from optlaws.cycles.side_by_side import Comparison
+from optlaws.cycles.law_comparison import Comparison
 from optlaws.errors import InputError
 from optlaws.laws.curve import Curve
 from optlaws.laws.law import MotionLaw
-from optlaws.plotting import draws
+from optlaws.plots.style import BLUES, BROWN, GREEN, GREY, VIOLET, WARM, new_figure, plot_style
+from optlaws.synthesis.limits.of_problem import limited_laws
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution
 
@@ -32,7 +32,7 @@ PEAKS = (None, "B", "C", "J")
 _SAMPLES = 801
 _MARGIN = 0.08
 #: curves drawn into one pair of axes, each by its peak
-_COLOURS = (drawing.GREY, drawing.GREEN, drawing.BLUES[3], drawing.WARM)
+_COLOURS = (GREY, GREEN, BLUES[3], WARM)
 _ABOVE: Any = {
     "loc": "lower right",
     "bbox_to_anchor": (1.0, 1.0),
@@ -45,22 +45,15 @@ _ONE_SIDED = {"C_plus": (2, 1.0), "C_minus": (2, -1.0)}
 
 
 def panels(width: float = 7.2, height: float = 7.6) -> list[Axes]:
-    """Four empty axes over one k, for a, b, c and j, in a new figure of the project's style.
-
-    Examples
-    --------
-    >>> [axes.get_ylabel() for axes in panels()]
-    ['displacement a', 'velocity b', 'acceleration c', 'jerk j']
-    """
-    with drawing.style():
-        made = list(drawing.new_figure(width, height).subplots(4, 1, sharex=True))
-    for axes, quantity in zip(made, QUANTITIES, strict=True):
+    """Four empty axes over one k, for a, b, c and j, in a new figure of the project's style."""
+    with plot_style():
+        four_axes = list(new_figure(width, height).subplots(4, 1, sharex=True))
+    for axes, quantity in zip(four_axes, QUANTITIES, strict=True):
         axes.set(ylabel=quantity)
-    made[-1].set(xlabel="k (all dimensionless)")
-    return made
+    four_axes[-1].set(xlabel="k (all dimensionless)")
+    return four_axes
 
 
-@draws("curve")
 def draw_curve(
     curve: Curve,
     axes: Axes | Panels | None = None,
@@ -68,26 +61,12 @@ def draw_curve(
 ) -> list[Artist]:
     """Draw a, b, c and j of a law, or of a mass, with their peaks, and return the artists.
 
-    Parameters
-    ----------
-    curve
-        What is drawn, dimensionless.
-    axes
-        Four axes for a, b, c and j; one for all four, each divided by its peak; new ones unless given.
-    style
-        matplotlib's, for the curves.
+    Into one pair of axes each is divided by its peak; `style` is of the curves.
 
     Raises
     ------
     InputError
         If there are neither one nor four axes.
-
-    Examples
-    --------
-    >>> from optlaws.laws import smoothstep
-    >>> artists = draw_curve(smoothstep(3), color=drawing.GREEN)
-    >>> artists[1].axes.get_title(loc="left")
-    'B = 1.875 at k = 0.5'
     """
     if axes is None:
         axes = panels()
@@ -128,11 +107,11 @@ def broken(curve: Curve, nu: int, count: int = _SAMPLES) -> tuple[Array, Array]:
     """
     k, values = curve.samples(count, nu)
     values = np.where(np.isfinite(values), values, np.nan)
-    leaps = _leaps(curve, nu)
-    if leaps.size:
+    jumps = _jumps(curve, nu)
+    if jumps.size:
         # at a break the value before it comes first, and the one after it at least twice
-        last = np.searchsorted(k, leaps, side="right") - 1
-        first = np.searchsorted(k, leaps, side="left")
+        last = np.searchsorted(k, jumps, side="right") - 1
+        first = np.searchsorted(k, jumps, side="left")
         keep = np.ones(len(k), dtype=bool)
         for before, after in zip(first, last, strict=True):
             keep[before + 2 : after] = False
@@ -141,7 +120,7 @@ def broken(curve: Curve, nu: int, count: int = _SAMPLES) -> tuple[Array, Array]:
     return k, values
 
 
-def _leaps(curve: Curve, nu: int) -> Array:
+def _jumps(curve: Curve, nu: int) -> Array:
     """Where the curve's derivative jumps; those of lower order make it infinite there."""
     if not isinstance(curve, MotionLaw):
         return np.empty(0)
@@ -159,16 +138,16 @@ def _line(curve: Curve, axes: Axes, nu: int, **style: Any) -> Artist:  # noqa: A
     return line
 
 
-def _with_peak(curve: Curve, axes: Axes, nu: int, style: dict[str, Any], *, said: bool = True) -> Iterator[Artist]:
+def _with_peak(curve: Curve, axes: Axes, nu: int, style: dict[str, Any], *, titled: bool = True) -> Iterator[Artist]:
     k, values = broken(curve, nu)
-    (line,) = axes.plot(k, values, **{"color": drawing.BLUES[3]} | style)
+    (line,) = axes.plot(k, values, **{"color": BLUES[3]} | style)
     yield line
     yield from _sides(axes, k, values, line.get_color())
     name = PEAKS[nu]
     if name is None:
         return
     peak = curve.peak(nu)
-    if said and not axes.get_title(loc="left"):
+    if titled and not axes.get_title(loc="left"):
         axes.set_title(f"{name} = {peak.value:.7g} at k = {peak.k:.6g}", loc="left", fontsize=9.0)
     if isfinite(peak.value):
         low, high = curve.extrema(nu)
@@ -214,26 +193,25 @@ def marks(problem: Problem) -> Iterator[Mark]:
     [(1, 1.8, 'B = 1.8'), (1, -1.8, 'B = 1.8')]
     """
     for nu, name in enumerate(PEAKS):
-        asked = None if name is None else problem.range(name)
-        if asked is not None and isfinite(asked.high):
-            text = f"{name} = {asked.high:.6g}" if asked.fixed else f"{name} at most {asked.high:.6g}"
-            yield from (Mark(nu, sign * asked.high, 0.0, 1.0, text) for sign in (1.0, -1.0))
+        bounds = None if name is None else problem.range(name)
+        if bounds is not None and isfinite(bounds.high):
+            text = f"{name} = {bounds.high:.6g}" if bounds.fixed else f"{name} at most {bounds.high:.6g}"
+            yield from (Mark(nu, sign * bounds.high, 0.0, 1.0, text) for sign in (1.0, -1.0))
     for name, (nu, sign) in _ONE_SIDED.items():
-        asked = problem.range(name)
-        if asked is not None and isfinite(asked.high):
-            yield Mark(nu, sign * asked.high, 0.0, 1.0, f"{name} at most {asked.high:.6g}")
+        bounds = problem.range(name)
+        if bounds is not None and isfinite(bounds.high):
+            yield Mark(nu, sign * bounds.high, 0.0, 1.0, f"{name} at most {bounds.high:.6g}")
     for window in problem.windows:
         for value in {window.low, window.high} - {inf, -inf}:
             yield Mark(window.order, value, window.start, window.stop, "window")
 
 
-@draws("solution")
 def draw_solution(
     solution: Solution,
     axes: Axes | Panels | None = None,
     **style: Any,  # noqa: ANN401 - matplotlib's
 ) -> list[Artist]:
-    """Draw the law of a solution with the limits of its problem, and the limit that no law can beat.
+    """Draw the law of a solution with the limits of its problem, and the limit of its order at any degree.
 
     Into one pair of axes, where every curve is divided by its peak, no limits are drawn.
 
@@ -247,7 +225,7 @@ def draw_solution(
     >>> from optlaws.synthesis import synthesize
     >>> artists = draw_solution(synthesize(Problem(B=1.8, order=4)))
     >>> sorted({artist.get_label() for artist in artists if artist.get_label()[0] != "_"})
-    ['B = 1.8', 'no law has a smaller C: 4.05']
+    ['B = 1.8', 'no law of order 4 with this B has a smaller C: 4.05']
     """
     if axes is None:
         axes = panels()
@@ -265,16 +243,15 @@ def draw_solution(
 
 #: curves that can be told apart, in colour and in grey
 _COMPARED = (
-    {"color": drawing.GREY, "linestyle": "--"},
-    {"color": drawing.BLUES[3], "linestyle": "-"},
-    {"color": drawing.WARM, "linestyle": "-."},
-    {"color": drawing.GREEN, "linestyle": (0, (5, 1))},
-    {"color": drawing.VIOLET, "linestyle": ":"},
-    {"color": drawing.BROWN, "linestyle": (0, (3, 1, 1, 1))},
+    {"color": GREY, "linestyle": "--"},
+    {"color": BLUES[3], "linestyle": "-"},
+    {"color": WARM, "linestyle": "-."},
+    {"color": GREEN, "linestyle": (0, (5, 1))},
+    {"color": VIOLET, "linestyle": ":"},
+    {"color": BROWN, "linestyle": (0, (3, 1, 1, 1))},
 )
 
 
-@draws("comparison")
 def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style: Any) -> list[Artist]:  # noqa: ANN401
     """Draw a, b, c and j of several laws one over the other, dimensionless, with one legend in a new figure.
 
@@ -285,7 +262,7 @@ def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style:
 
     Examples
     --------
-    >>> from optlaws.cycles.side_by_side import compare
+    >>> from optlaws.cycles.law_comparison import compare
     >>> artists = draw_comparison(compare("modified sine", "cycloidal"))
     >>> [text.get_text() for text in artists[0].figure.legends[0].get_texts()]
     ['modified sine', 'cycloidal']
@@ -294,8 +271,10 @@ def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style:
     artists: list[Artist] = []
     firsts = []
     for place, law in enumerate(comparison.laws.values()):
-        own = {**_COMPARED[place % len(_COMPARED)], **style}
-        drawn = [artist for nu, panel in enumerate(by_order) for artist in _with_peak(law, panel, nu, own, said=False)]
+        look = {**_COMPARED[place % len(_COMPARED)], **style}
+        drawn = [
+            artist for nu, panel in enumerate(by_order) for artist in _with_peak(law, panel, nu, look, titled=False)
+        ]
         firsts.append(drawn[0])
         artists += drawn
     if axes is None:
@@ -306,19 +285,19 @@ def draw_comparison(comparison: Comparison, axes: Panels | None = None, **style:
 
 def _without_idle(solution: Solution) -> list[Mark]:
     """Marks but those far below every value of a law that never goes there, such as -B where b is never negative."""
-    kept = []
+    near = []
     for mark in marks(solution.problem):
         low, high = solution.law.extrema(mark.nu)
         if mark.what == "window" or low.value - 0.5 * abs(mark.value) <= mark.value <= high.value + 2 * abs(mark.value):
-            kept.append(mark)
-    return kept
+            near.append(mark)
+    return near
 
 
 def _marked(axes: Axes, mark: Mark) -> Artist:
     if mark.start == mark.stop:
-        (point,) = axes.plot([mark.start], [mark.value], "D", color=drawing.WARM, markersize=5.0, label="via point")
+        (point,) = axes.plot([mark.start], [mark.value], "D", color=WARM, markersize=5.0, label="via point")
         return point
-    (line,) = axes.plot([mark.start, mark.stop], [mark.value] * 2, "--", color=drawing.WARM, lw=1.1, label=mark.what)
+    (line,) = axes.plot([mark.start, mark.stop], [mark.value] * 2, "--", color=WARM, lw=1.1, label=mark.what)
     return line
 
 
@@ -327,7 +306,7 @@ def _limit(by_order: Sequence[Axes], solution: Solution) -> list[Artist]:
     if solution.limit is None or name not in PEAKS:
         return []
     nu = PEAKS.index(name)
-    text = f"no law has a smaller {name}: {solution.limit:.6g}"
+    text = f"no {limited_laws(solution.problem)} has a smaller {name}: {solution.limit:.6g}"
     signs = (1.0, -1.0) if solution.law.extrema(nu)[0].value < 0.0 else (1.0,)
     lines = [
         by_order[nu].plot([0.0, 1.0], [sign * solution.limit] * 2, ":", color="black", lw=1.1, label=text)

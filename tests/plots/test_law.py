@@ -6,7 +6,7 @@ from matplotlib.figure import Figure
 
 from optlaws import Chebyshev, Problem, at_most, catalogue, pareto_front, smoothstep, synthesize, via
 from optlaws.errors import InputError
-from optlaws.law_pictures import broken
+from optlaws.plots.law import broken
 
 
 def axes(count: int) -> np.ndarray:
@@ -65,7 +65,7 @@ def test_limits_of_a_problem_are_drawn() -> None:
     assert {"B = 1.8", "J at most 150", "via point"} <= set(labels)
     assert labels["via point"].get_data()[0][0] == 0.4
     assert labels["J at most 150"].get_ydata() == pytest.approx([150.0, 150.0])
-    assert any(label.startswith("no law has a smaller C: 4.") for label in labels)
+    assert any(label.startswith("no law of order 3 within these bounds has a smaller C: 4.") for label in labels)
 
 
 def test_a_front_is_drawn_into_the_axes_given() -> None:

@@ -1,0 +1,219 @@
+"""Pictures of cams: the profile with its follower at several angles, to scale, and what the follower does and bears."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from itertools import pairwise
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cams.disc import DiscCam
+from optlaws.cams.followers.contact import Contact
+from optlaws.cams.loads.forces import CamForces
+from optlaws.errors import InputError
+from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
+Values = Callable[[Array], Array]
+
+PANELS = ("displacement", "pressure angle", "curvature")
+_MILLI = 1e3
+_SHOWN = 8  # followers around the cam
+_SAMPLES = 721
+_FILL = "#dfe9f3"
+_SIZES = {"length": ("displacement, mm", _MILLI), "angle": ("displacement, deg", 180.0 / np.pi)}
+
+
+def cam_figure(cam: DiscCam, title: str) -> Figure:
+    """The cam and what its follower does, as a figure."""
+    with plot_style():
+        figure, panels = _figure()
+        draw_cam(cam, panels)
+        figure.align_ylabels(panels[1:])
+        return titled(figure, title)
+
+
+def forces_figure(forces: CamForces, title: str) -> Figure:
+    """Contact force, torque at the shaft and, where the contact has a width, Hertz's pressure over the turn."""
+    panels: list[tuple[str, Values, str]] = [
+        ("contact force, N", forces.contact_force, BLUES[3]),
+        ("torque at the shaft, N m", forces.shaft_torque, WARM),
+    ]
+    if forces.width is not None:
+        panels.append(("Hertz's pressure, MPa", lambda at: 1e-6 * np.asarray(forces.contact_pressure(at)), GREEN))
+    with plot_style():
+        figure = new_figure(8.6, 2.2 * len(panels))
+        for axes, (label, values, colour) in zip(_column(figure, len(panels)), panels, strict=True):
+            _curve(axes, np.array(forces.cam.displacement.breaks), values, label, color=colour)
+            axes.axhline(0.0, color=GREY, linewidth=0.8)
+        figure.axes[-1].set(xlabel="cam, deg")
+        figure.align_ylabels()
+        return titled(figure, title)
+
+
+def pair_figure(first: DiscCam, second: DiscCam, title: str) -> Figure:
+    """Two cams on one shaft, in their common coordinates, with both followers at the start."""
+    colours = BLUES[3], WARM
+    with plot_style():
+        figure = new_figure(5.6, 6.0)
+        axes = figure.subplots()
+        axes.set_aspect("equal")
+        for cam, colour, name in zip((first, second), colours, ("cam", "return cam"), strict=True):
+            profile = _MILLI * cam.profile(np.linspace(*cam.displacement.interval, _SAMPLES))
+            axes.plot(*profile.T, color=colour, zorder=4, label=name)
+            _draw_at_start(cam, axes, colour)
+        axes.plot(*_linked(first, second).T, color=GREY, linewidth=1.1, label="follower at the start")
+        axes.plot([0.0], [0.0], "+", color=GREY, markersize=9.0, zorder=5)
+        axes.set(xlabel="x of the cams, mm", ylabel="y of the cams, mm")
+        axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.1), ncols=3)
+        return titled(figure, title)
+
+
+def _draw_at_start(cam: DiscCam, axes: Axes, colour: str) -> None:
+    """The roller, or the face, at the start."""
+    if cam.contact.roller:
+        from matplotlib.patches import Circle
+
+        centre = tuple(_MILLI * cam.pitch_curve(np.array(0.0)))
+        axes.add_patch(Circle(centre, _MILLI * cam.contact.roller, fill=False, edgecolor=colour, zorder=3))
+        return
+    touched, normal = _MILLI * cam.profile(np.array(0.0)), cam.profile.normal(np.array(0.0))
+    reach = 0.6 * float(np.hypot(*touched)) * np.array([normal[1], -normal[0]])
+    axes.plot(*np.array([touched - reach, touched + reach]).T, color=colour, linewidth=1.1, zorder=3)
+
+
+def _linked(first: DiscCam, second: DiscCam) -> Array:
+    """From the one follower to the other, by the slide or by the pivot that they share."""
+    joints = [_MILLI * cam.pitch_curve(np.array(0.0)) for cam in (first, second)]
+    if first.contact.pivot is not None:
+        turned = _phase(first, 0.0)
+        joints.insert(1, _MILLI * first.contact.pivot * np.array([np.cos(turned), np.sin(turned)]))
+    return np.array(joints)
+
+
+def draw_cam(cam: DiscCam, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
+    """Draw a cam with its follower around it, and displacement, pressure angle and curvature over the cam's angle.
+
+    Into one pair of axes the cam alone is drawn.
+
+    Raises
+    ------
+    InputError
+        If there are neither one nor four axes.
+    """
+    if axes is None:
+        with plot_style():
+            axes = _figure()[1]
+    panels = list(np.ravel(np.asarray(axes, dtype=object)))
+    if len(panels) not in {1, 1 + len(PANELS)}:
+        raise InputError(f"a cam is drawn into one pair of axes or into four, got {len(panels)}")
+    artists = _draw_mechanism(cam, panels[0], {"color": BLUES[3]} | style)
+    edges = np.array(cam.displacement.breaks)
+    label, factor = _SIZES[cam.displacement.axis]
+    curves: tuple[tuple[str, Values], ...] = (
+        (label, lambda at: factor * np.asarray(cam.displacement(at))),
+        ("pressure angle, deg", lambda at: np.degrees(cam.pressure_angle(at))),
+        ("curvature, 1/mm", lambda at: np.asarray(cam.profile.curvature(at)) / _MILLI),
+    )
+    for panel, (text, values) in zip(panels[1:], curves, strict=len(panels) > 1):
+        artists += _curve(panel, edges, values, text, **{"color": BLUES[3]} | style)
+    if len(panels) > 1:
+        panels[-1].set(xlabel="cam, deg")
+    return artists
+
+
+def _figure() -> tuple[Figure, list[Axes]]:
+    figure = new_figure(10.4, 5.6)
+    grid = figure.add_gridspec(len(PANELS), 2, width_ratios=(1.15, 1.0))
+    right: list[Axes] = []
+    for row in range(len(PANELS)):
+        right.append(figure.add_subplot(grid[row, 1], sharex=right[0] if right else None))
+    for edge in right[:-1]:
+        edge.tick_params(labelbottom=False)
+    return figure, [figure.add_subplot(grid[:, 0]), *right]
+
+
+def _column(figure: Figure, count: int) -> Sequence[Axes]:
+    return list(np.ravel(figure.subplots(count, 1, sharex=True)))
+
+
+def _curve(axes: Axes, edges: Array, values: Values, label: str, **style: Any) -> list[Artist]:  # noqa: ANN401
+    """A function that may leap at edges, where its line is drawn upright."""
+    inside = [np.linspace(low, high, 120) for low, high in pairwise(edges)]
+    near = [part[0] + (part - part[0]) * (1.0 - 2e-9) + 1e-9 * (part[-1] - part[0]) for part in inside]
+    at = np.concatenate(near)
+    for edge in edges[1:-1]:
+        axes.axvline(np.degrees(edge), color=GREY, linewidth=0.6, linestyle=":")
+    axes.set(ylabel=label, xlim=(np.degrees(edges[0]), np.degrees(edges[-1])))
+    axes.set_xticks(np.arange(np.degrees(edges[0]), np.degrees(edges[-1]) + 1.0, 60.0))
+    return list(axes.plot(np.degrees(at), values(at), **style))
+
+
+def _draw_mechanism(cam: DiscCam, axes: Axes, style: dict[str, Any]) -> list[Artist]:
+    """The profile, its pitch curve and base circle, and the follower where it is as seen from the cam."""
+    from matplotlib.patches import Circle
+
+    first, last = cam.displacement.interval
+    angles = np.linspace(first, last, _SAMPLES)
+    profile = _MILLI * cam.profile(angles)
+    axes.set_aspect("equal")
+    if cam.displacement.closed:
+        axes.fill(*profile.T, color=_FILL, zorder=1)
+    artists: list[Artist] = list(axes.plot(*profile.T, zorder=4, label="profile", **style))
+    radius = _MILLI * float(np.hypot(*cam.pitch_curve(_lowest(cam)).T))
+    dashed: Any = {"fill": False, "edgecolor": GREY, "linewidth": 0.8, "linestyle": (0, (6, 4)), "zorder": 2}
+    axes.add_patch(Circle((0.0, 0.0), radius, label="base circle", **dashed))
+    if cam.contact.roller:
+        dotted: Any = {"color": GREY, "linewidth": 0.8, "linestyle": ":", "zorder": 2}
+        axes.plot(*(_MILLI * cam.pitch_curve(angles)).T, label="pitch curve", **dotted)
+    for i, at in enumerate(np.linspace(first, last, _SHOWN, endpoint=not cam.displacement.closed)):
+        _draw_follower(cam, axes, float(at), GREY if i else WARM)
+    axes.plot([], [], color=WARM, linewidth=1.1, label="follower at the start")
+    axes.plot([0.0], [0.0], "+", color=GREY, markersize=9.0, zorder=5)
+    axes.set(xlabel="x of the cam, mm", ylabel="y of the cam, mm")
+    axes.legend(loc="upper center", bbox_to_anchor=(0.5, -0.12), ncols=2)
+    return artists
+
+
+def _lowest(cam: DiscCam) -> float:
+    angles = np.linspace(*cam.displacement.interval, _SAMPLES)
+    return float(angles[int(np.argmin(cam.displacement(angles)))])
+
+
+def _draw_follower(cam: DiscCam, axes: Axes, angle: float, colour: str) -> None:
+    """A roller with its arm or rod, or a face, in the cam's coordinates."""
+    from matplotlib.patches import Circle
+
+    contact, at = cam.contact, np.array(angle)
+    touched, normal = (_MILLI * cam.profile(at), cam.profile.normal(at))
+    body: Any = {"color": colour, "linewidth": 1.1, "zorder": 3}
+    if contact.roller:
+        centre = _MILLI * cam.pitch_curve(at)
+        axes.add_patch(Circle(tuple(centre), _MILLI * contact.roller, fill=False, edgecolor=colour, zorder=3))
+        axes.plot(*np.array([centre, _holder(cam, contact, angle, centre)]).T, **body)
+        return
+    along = np.array([normal[1], -normal[0]])
+    reach = 0.45 * float(np.abs(_MILLI * cam.profile(np.linspace(*cam.displacement.interval, 61))).max())
+    axes.plot(*np.array([touched - reach * along, touched + reach * along]).T, **body)
+
+
+def _holder(cam: DiscCam, contact: Contact, angle: float, centre: Array) -> Array:
+    """Where a rod is shown to end, or where an arm's pivot is, mm."""
+    turned = -contact.turning * angle + _phase(cam, angle)
+    if contact.pivot is not None:
+        return _MILLI * contact.pivot * np.array([np.cos(turned), np.sin(turned)])
+    return centre + _MILLI * 2.5 * contact.roller * np.array([-np.sin(turned), np.cos(turned)])
+
+
+def _phase(cam: DiscCam, angle: float) -> float:
+    """By how much the cam's coordinates are turned: where its curve is beside where its follower is."""
+    x, y = (float(coordinate.terms[0]) for coordinate in cam.contact.point(cam.displacement.jet(np.array(angle), 2)))
+    curve = cam.pitch_curve(np.array(angle))
+    return float(np.arctan2(curve[1], curve[0]) - np.arctan2(y, x) + cam.contact.turning * angle)

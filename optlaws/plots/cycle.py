@@ -1,0 +1,128 @@
+"""Pictures of cycles: position, velocity, acceleration and jerk over time, with the segments and the limits marked."""
+
+from __future__ import annotations
+
+from math import inf
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+from numpy.typing import NDArray
+
+from optlaws.cycles.cycle import Cycle
+from optlaws.motion.quantities import TURN
+from optlaws.plots.law import four
+from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+Array = NDArray[np.float64]
+
+#: units of tables and pictures, and how many of them make one of SI
+UNITS = {
+    "length": (("mm", 1e3), ("mm/s", 1e3), ("m/s²", 1.0), ("m/s³", 1.0)),
+    "angle": (("deg", 360.0 / TURN), ("deg/s", 360.0 / TURN), ("rad/s²", 1.0), ("rad/s³", 1.0)),
+}
+QUANTITIES = ("position", "velocity", "acceleration", "jerk")
+_EACH = 200
+
+
+def cycle_figure(cycle: Cycle, title: str) -> Figure:
+    """The motion of one cycle, as a figure."""
+    with plot_style():
+        figure = new_figure(8.6, 8.2)
+        draw_cycle(cycle, list(figure.subplots(4, 1, sharex=True)))
+        figure.align_ylabels()
+        return titled(figure, title)
+
+
+def draw_cycle(cycle: Cycle, axes: Any = None, **style: Any) -> list[Artist]:  # noqa: ANN401 - matplotlib's
+    """Draw position, velocity, acceleration and jerk into four axes, new ones unless given, and return the artists.
+
+    Raises
+    ------
+    InputError
+        If there are neither one nor four axes.
+    """
+    if hasattr(axes, "plot"):
+        return _draw_together(cycle, axes, style)
+    if axes is None:
+        with plot_style():
+            axes = list(new_figure(8.6, 8.2).subplots(4, 1, sharex=True))
+    panels = four(axes)
+    artists: list[Artist] = []
+    for nu, panel in enumerate(panels):
+        artists += draw_curve(cycle, panel, nu, {"color": BLUES[3]} | style)
+        mark_segments(cycle, panel)
+        artists += _mark_limits(cycle, panel, nu)
+    name_segments(cycle, panels[0])
+    panels[-1].set(xlabel="time, ms", xlim=(0.0, 1e3 * cycle.duration))
+    return artists
+
+
+def _draw_together(cycle: Cycle, axes: Axes, style: dict[str, Any]) -> list[Artist]:
+    """All four, each divided by its peak, with the limits that are near."""
+    artists: list[Artist] = []
+    for nu, colour in enumerate((GREY, GREEN, BLUES[3], WARM)):
+        unit, size = UNITS[cycle.axis][nu]
+        peak = cycle.peak(nu) or 1.0
+        name = {"label": f"{QUANTITIES[nu]} / {peak * size:.6g} {unit}", "color": colour} | style
+        artists += draw_curve(cycle, axes, nu, name, share=1.0 / (peak * size))
+        artists += _mark_limits(cycle, axes, nu, share=1.0 / (peak * size))
+    mark_segments(cycle, axes)
+    axes.set(xlabel="time, ms", xlim=(0.0, 1e3 * cycle.duration), ylabel="share of the peak")
+    axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0), ncols=2, frameon=False, fontsize=8.0)
+    return artists
+
+
+def name_segments(cycle: Cycle, axes: Axes) -> None:
+    """Say above the axes what each segment is called."""
+    above: Any = {"xycoords": ("data", "axes fraction"), "ha": "center", "va": "bottom", "fontsize": 8.0}
+    for peaks in cycle.peaks:
+        place = 1e3 * (peaks.start + 0.5 * peaks.duration)
+        axes.annotate(peaks.name, (place, 1.02), color=GREY, **above)
+
+
+def _starts(cycle: Cycle) -> list[float]:
+    return [peaks.start for peaks in cycle.peaks]
+
+
+def draw_curve(cycle: Cycle, axes: Axes, nu: int, style: dict[str, Any], share: float = 1.0) -> list[Artist]:
+    """One derivative over the whole cycle."""
+    unit, factor = UNITS[cycle.axis][nu]
+    times, values = samples(cycle, nu, _EACH)
+    axes.set_ylabel(f"{QUANTITIES[nu]}, {unit}")
+    return list(axes.plot(1e3 * times, share * factor * values, **style))
+
+
+def samples(cycle: Cycle, nu: int, count: int) -> tuple[Array, Array]:
+    """Times and values of a derivative, so many in a piece with its breaks: a jump is upright between two pieces."""
+    times, values = [], []
+    for piece in cycle.pieces:
+        breaks = piece.start + piece.duration * np.array(piece.law.breaks)
+        inside = np.unique(np.concatenate([np.linspace(piece.start, piece.stop, count), breaks]))
+        times.append(inside)
+        values.append(piece.values(inside, nu))
+    return np.concatenate(times), np.concatenate(values)
+
+
+def mark_segments(cycle: Cycle, axes: Axes) -> None:
+    """A line at every joint."""
+    for start in _starts(cycle)[1:]:
+        axes.axvline(1e3 * start, color=GREY, linewidth=0.7, linestyle=":")
+
+
+def _mark_limits(cycle: Cycle, axes: Axes, nu: int, share: float = 1.0) -> list[Artist]:
+    """The limits of each optimal segment, where they are within sight."""
+    factor = share * UNITS[cycle.axis][nu][1]
+    look: dict[str, Any] = {"color": WARM, "linewidth": 1.1, "linestyle": "--"}
+    artists: list[Artist] = []
+    for peaks, limits in zip(cycle.peaks, cycle.limits_of_segments, strict=True):
+        most = limits.get(nu, inf)
+        if most < 4.0 * max(cycle.peak(nu), 1e-300):
+            span = [1e3 * peaks.start, 1e3 * (peaks.start + peaks.duration)]
+            for side in (1.0, -1.0):
+                artists += axes.plot(span, [side * most * factor] * 2, **look)
+    return artists

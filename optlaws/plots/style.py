@@ -1,0 +1,133 @@
+"""Pictures in one style; matplotlib is imported when the first one is drawn."""
+
+from __future__ import annotations
+
+import io
+import sys
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from optlaws.files import writing
+from optlaws.files.writing import MARK
+
+if TYPE_CHECKING:
+    from matplotlib.artist import Artist
+    from matplotlib.axes import Axes
+    from matplotlib.figure import Figure
+
+BLUES = ("#b3cde3", "#74add1", "#4292c6", "#2166ac", "#08306b")
+WARM = "#d95f02"
+GREEN = "#1b7f5c"
+GREY = "#595959"
+VIOLET = "#7b3294"
+BROWN = "#a6761d"
+#: colours of curves that have no order of their own, apart for those too who see no red and green
+DISTINCT = (BLUES[3], WARM, GREEN, VIOLET, BROWN, GREY)
+
+STYLE: Any = {  # matplotlib's type lists every key there is
+    "font.family": "DejaVu Sans",
+    "font.size": 10.0,
+    "axes.titlesize": 11.0,
+    "axes.titlelocation": "left",
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "axes.grid": True,
+    "grid.color": "#e6e6e6",
+    "grid.linewidth": 0.7,
+    "axes.axisbelow": True,
+    "lines.linewidth": 1.6,
+    "legend.frameon": False,
+    "legend.fontsize": 9.0,
+    "figure.dpi": 100.0,
+    "savefig.dpi": 160.0,
+    "svg.hashsalt": "optlaws",
+    "svg.fonttype": "path",
+}
+
+
+@contextmanager
+def plot_style() -> Iterator[None]:
+    """The style of every picture of the project, for the time of a `with` block."""
+    import matplotlib as mpl
+
+    with mpl.rc_context(STYLE):
+        yield
+
+
+def empty_figure(width: float = 7.2, height: float = 4.6) -> Figure:
+    """An empty figure that no window system knows of; sizes in inches."""
+    from matplotlib.figure import Figure
+
+    return Figure(figsize=(width, height), layout="constrained")
+
+
+def new_figure(width: float = 7.2, height: float = 4.6) -> Figure:
+    """An empty figure for a user's plot: one of pyplot's, so that it is shown, where the user has imported pyplot."""
+    pyplot = sys.modules.get("matplotlib.pyplot")
+    if pyplot is None:
+        return empty_figure(width, height)
+    return pyplot.figure(figsize=(width, height), layout="constrained")  # type: ignore[no-any-return] # by name alone
+
+
+def new_axes() -> Axes:
+    """Empty axes of the project's style in a figure of their own."""
+    with plot_style():
+        return new_figure().subplots()
+
+
+def titled(figure: Figure, title: str) -> Figure:
+    """The figure with a title above its left edge."""
+    figure.suptitle(title, x=0.01, ha="left", fontsize=11.0)
+    return figure
+
+
+def shades(count: int) -> list[str]:
+    """Blues from light to dark for curves that have an order, at most five, as far apart as there are.
+
+    Examples
+    --------
+    >>> shades(2) == [BLUES[1], BLUES[4]]
+    True
+    """
+    if count >= len(BLUES):
+        return list(BLUES)
+    last = len(BLUES) - 1
+    return [BLUES[last - round((last - 1) * place / max(1, count - 1))] for place in range(count)][::-1]
+
+
+def name_point(axes: Axes, text: str, point: tuple[float, float], at: tuple[float, float] = (6.0, 4.0)) -> Artist:
+    """A small text beside a point, legible over lines; `at` is its offset in points."""
+    from matplotlib.patheffects import withStroke
+
+    style: dict[str, Any] = {"color": WARM, "fontsize": 8.0, "zorder": 6, "ha": "right" if at[0] < 0.0 else "left"}
+    style["path_effects"] = [withStroke(linewidth=2.5, foreground="white")]
+    return axes.annotate(text, point, xytext=at, textcoords="offset points", **style)
+
+
+def save_picture(drawing: Figure, place: Path) -> list[Path]:
+    """Write a figure as svg and png: `place` has no ending. Both are left as they are where they show the same.
+
+    Fonts and renderers differ between machines, so that the svg, whose places can be compared, speaks for its twin.
+    """
+    vector, raster = (place.with_name(f"{place.name}.{kind}") for kind in ("svg", "png"))
+    content = rendered(drawing, "svg")
+    if not (writing.is_current(vector, content) and writing.is_own(raster)):
+        writing.write(raster, rendered(drawing, "png"))
+    writing.write(vector, content)
+    return [vector, raster]
+
+
+def save_pictures(drawings: Mapping[str, Figure], folder: Path) -> list[Path]:
+    """Write figures by name: see `save_picture`."""
+    return [path for name, drawing in drawings.items() for path in save_picture(drawing, folder / name)]
+
+
+def rendered(drawing: Figure, kind: str) -> bytes:
+    """The picture as svg or png, without the date: the same drawing gives the same bytes."""
+    stream = io.BytesIO()
+    metadata = {"svg": {"Date": None, "Creator": MARK}, "png": {"Software": MARK}}[kind]
+    with plot_style():
+        drawing.savefig(stream, format=kind, metadata=metadata)
+    return stream.getvalue()
