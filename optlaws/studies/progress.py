@@ -28,16 +28,16 @@ class Watch(Protocol):
 
 
 class Silent:
-    """Nobody watches."""
+    """Progress that is not shown."""
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
-        """Say nothing."""
+        """Show nothing."""
 
     def advance(self, counts: Mapping[str, int]) -> None:
-        """Say nothing."""
+        """Show nothing."""
 
     def end(self, counts: Mapping[str, int]) -> None:
-        """Say nothing."""
+        """Show nothing."""
 
 
 class Bar:
@@ -52,19 +52,18 @@ class Bar:
             TextColumn("{task.fields[counts]}", markup=False),
             console=console,
         )
-        self._rate = Rate()
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
         """Show the bar."""
+        self._rate = _Rate(total, counts)
         done = sum(counts.values())
-        self._rate.begin(done)
         self._task = self._progress.add_task("", total=total, completed=done, rate="", counts=listed(counts))
         self._progress.start()
 
     def advance(self, counts: Mapping[str, int]) -> None:
         """Move it."""
-        done = sum(counts.values())
-        self._progress.update(self._task, completed=done, rate=self._rate.text(done), counts=listed(counts))
+        rate, _ = self._rate.texts(counts)
+        self._progress.update(self._task, completed=sum(counts.values()), rate=rate, counts=listed(counts))
 
     def end(self, counts: Mapping[str, int]) -> None:
         """Leave it as it is."""
@@ -72,67 +71,52 @@ class Bar:
         self._progress.stop()
 
 
-def watching() -> Watch:
-    """A bar for whoever watches, on a terminal or in a notebook; nothing elsewhere."""
-    return Bar(Console(stderr=True)) if watched() else Silent()
-
-
 class Lines:
     """A line of text at the beginning, every ten seconds and at the end."""
 
     def __init__(self, console: Console) -> None:
         self._console = console
-        self._rate = Rate()
-        self._last = 0.0
-        self._total = 0
 
     def begin(self, total: int, counts: Mapping[str, int]) -> None:
         """The first line."""
-        self._total, self._last = total, monotonic()
-        self._rate.begin(sum(counts.values()))
-        self._say(f"{sum(counts.values())} of {total} points done before")
+        self._rate, self._total, self._last = _Rate(total, counts), total, monotonic()
+        self._print(f"{sum(counts.values())} of {total} points done before")
 
     def advance(self, counts: Mapping[str, int]) -> None:
         """Perhaps a line."""
         if monotonic() - self._last >= _SECONDS:
             self._last = monotonic()
-            self._say(self._state(counts))
+            self.end(counts)
 
     def end(self, counts: Mapping[str, int]) -> None:
         """The last line."""
-        self._say(self._state(counts))
+        parts = (f"{sum(counts.values())} of {self._total}", *self._rate.texts(counts), listed(counts))
+        self._print(", ".join(part for part in parts if part))
 
-    def _state(self, counts: Mapping[str, int]) -> str:
-        done = sum(counts.values())
-        left = self._rate.left(self._total - done)
-        parts = (f"{done} of {self._total}", self._rate.text(done), left, listed(counts))
-        return ", ".join(part for part in parts if part)
-
-    def _say(self, text: str) -> None:
+    def _print(self, text: str) -> None:
         self._console.print(text, markup=False, highlight=False, soft_wrap=True)
 
 
-class Rate:
+def watching() -> Watch:
+    """A bar for whoever watches, on a terminal or in a notebook; nothing elsewhere."""
+    return Bar(Console(stderr=True)) if watched() else Silent()
+
+
+class _Rate:
     """Points a second since the run began."""
 
-    def __init__(self) -> None:
-        self._before, self._began, self._rate = 0, 0.0, 0.0
+    def __init__(self, total: int, counts: Mapping[str, int]) -> None:
+        self._total, self._before, self._began = total, sum(counts.values()), monotonic()
 
-    def begin(self, done: int) -> None:
-        """Begin to count."""
-        self._before, self._began = done, monotonic()
-
-    def text(self, done: int) -> str:
-        """The rate; nothing before the first point."""
-        self._rate = (done - self._before) / max(monotonic() - self._began, 1e-9)
-        return f"{self._rate:.3g}/s" if done > self._before else ""
-
-    def left(self, points: int) -> str:
-        """The time that so many points take at this rate."""
-        if not points or not self._rate:
-            return ""
-        minutes, seconds = divmod(round(points / self._rate), 60)
-        return f"{minutes // 60}:{minutes % 60:02}:{seconds:02} left"
+    def texts(self, counts: Mapping[str, int]) -> tuple[str, str]:
+        """The rate, and the time that the points left take at it; nothing before the first point and after the last."""
+        done = sum(counts.values())
+        rate = (done - self._before) / max(monotonic() - self._began, 1e-9)
+        if not rate:
+            return "", ""
+        minutes, seconds = divmod(round((self._total - done) / rate), 60)
+        left = f"{minutes // 60}:{minutes % 60:02}:{seconds:02} left" if done < self._total else ""
+        return f"{rate:.3g}/s", left
 
 
 def listed(counts: Mapping[str, int]) -> str:

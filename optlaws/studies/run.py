@@ -8,26 +8,23 @@ from collections.abc import Mapping
 from concurrent.futures import FIRST_COMPLETED, BrokenExecutor, Executor, Future, wait
 from contextlib import closing
 from pathlib import Path
-from time import monotonic
 from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError, SolverFailure
 from optlaws.numbers import whole
-from optlaws.studies.points.points import Points
-from optlaws.studies.points.study_file import StudyFile, entries, read_study
+from optlaws.studies import tables
+from optlaws.studies.executor import WorkerPool
+from optlaws.studies.journal import Journal
+from optlaws.studies.points import StudyPoints
 from optlaws.studies.progress import Watch, watching
-from optlaws.studies.solving.executors import Crew
-from optlaws.studies.store import table
-from optlaws.studies.store.directory import StudyDirectory
-from optlaws.studies.store.journal import Journal
+from optlaws.studies.specification import StudyFile, entries, read_study
+from optlaws.studies.store import StudyDirectory
 from optlaws.studies.study import Study
 from optlaws.synthesis import Problem
 
 _TRIES = 3
 _TICK = 1.0
-#: how long a cluster may be without workers; whoever has to wait for them does so before the study
-_LOST_SECONDS = 120.0
 
 
 def run_study(
@@ -70,62 +67,62 @@ def run_study(
     Examples
     --------
     >>> import tempfile
-    >>> from optlaws.studies.solving.executors import Serial
-    >>> asked = {"problem": {"order": 4}, "vary": {"B": [1.6, 1.7], "degree": [3, 9]}}
+    >>> from optlaws.studies.executor import Serial
+    >>> source = {"problem": {"order": 4}, "vary": {"B": [1.6, 1.7], "degree": [3, 9]}}
     >>> with tempfile.TemporaryDirectory() as out:
-    ...     study = run_study(asked, out, executor=Serial())
+    ...     study = run_study(source, out, executor=Serial())
     ...     print(study.counts, round(study.best("C").constants["C"], 6))
     {'optimal': 4} 4.819774
     """
     if workers is not None:
         workers = whole(workers, "workers", least=1)
     study = read_study(source)
-    points = Points.of(study)
+    points = StudyPoints.of(study)
     check(study, points)
     directory, seen = StudyDirectory(Path(out)), watch or watching()
     with directory.locked():
-        points = Points.of(study, directory.claim(study, points))
+        points = StudyPoints.of(study, directory.claim(study, points))
         if not _finished(directory, points):
             with closing(Journal(directory.journal)) as journal:
                 journal.open()
                 seen.begin(len(points), journal.counts)
                 try:
-                    _solve(study, points, journal, Crew(executor, workers), seen)
+                    _solve(study, points, journal, WorkerPool(executor, workers), seen)
                 finally:
                     seen.end(journal.counts)
-            table.compact(directory, points)
+            tables.compact(directory, points)
         if directory.table.exists():
             # it is whole, and a run may have been killed between the two
             directory.journal.unlink(missing_ok=True)
     return Study(directory.path)
 
 
-def _finished(directory: StudyDirectory, points: Points) -> bool:
+def _finished(directory: StudyDirectory, points: StudyPoints) -> bool:
     """Whether the table is there and whole; one that is damaged is made again where the journal still has its rows."""
     if not directory.table.exists():
         return False
     try:
-        table.check(directory, len(points))
-    except table.DamagedTable:
-        if not directory.journal.exists():
-            raise
-        return False
+        tables.check(directory, len(points))
+    except tables.DamagedTable:
+        if directory.journal.exists():
+            return False
+        raise
     return True
 
 
-def task(study: StudyFile, points: Points, number: int) -> dict[str, Any]:
+def task(study: StudyFile, points: StudyPoints, number: int) -> dict[str, Any]:
     """A chunk as plain data."""
     return {
         "chunk": number,
         "problem": study.problem.given(),
-        "points": list(points.chunk_inputs(number).items()),
+        "points": list(points.of_chunk(number).items()),
         "bound": study.bound,
         "time_limit": study.time_limit,
         "imports": study.imports,
     }
 
 
-def check(study: StudyFile, points: Points) -> None:
+def check(study: StudyFile, points: StudyPoints) -> None:
     """Refuse a study whose modules are missing or whose first point is no problem."""
     for module in study.imports:
         try:
@@ -140,24 +137,23 @@ def check(study: StudyFile, points: Points) -> None:
         raise InputError(f"the first point, {shown}, is no problem: {error}") from None
 
 
-def _solve(study: StudyFile, points: Points, journal: Journal, crew: Crew, watch: Watch) -> None:
+def _solve(study: StudyFile, points: StudyPoints, journal: Journal, pool: WorkerPool, watch: Watch) -> None:
     waiting = (number for number in range(points.chunks) if number not in journal.done)
     under_way: dict[Future[list[bytes]], int] = {}
     tries: Counter[int] = Counter()
-    alive = _Alive(crew)
 
     def submit(number: int) -> None:
-        under_way[crew.submit(task(study, points, number))] = number
+        under_way[pool.submit(task(study, points, number))] = number
 
     try:
         while True:
-            while len(under_way) < crew.most and (number := next(waiting, None)) is not None:
+            while len(under_way) < pool.most and (number := next(waiting, None)) is not None:
                 submit(number)
             if not under_way:
                 return
             done, _ = wait(under_way, timeout=_TICK, return_when=FIRST_COMPLETED)
             if not done:
-                alive.check()
+                pool.check()
             lost = {under_way[future]: error for future in done if (error := _failure(future)) is not None}
             whole = [(number, answer.result()) for answer in done if (number := under_way.pop(answer)) not in lost]
             journal.append(whole)
@@ -172,27 +168,7 @@ def _solve(study: StudyFile, points: Points, journal: Journal, crew: Crew, watch
     finally:
         for future in under_way:
             future.cancel()
-        crew.close()
-
-
-class _Alive:
-    """Sees that a cluster has workers while nothing comes from it."""
-
-    def __init__(self, crew: Crew) -> None:
-        self._crew = crew
-        self._empty_since: float | None = None
-
-    def check(self) -> None:
-        if not self._crew.empty:
-            self._empty_since = None
-            return
-        now = monotonic()
-        self._empty_since = self._empty_since or now
-        if now - self._empty_since >= _LOST_SECONDS:
-            raise SolverFailure(
-                f"the cluster has had no worker for {_LOST_SECONDS:g} s; what is solved is safe: start workers, wait "
-                "for them by client.wait_for_workers(1), and run the same study again"
-            )
+        pool.close()
 
 
 def _failure(future: Future[list[bytes]]) -> BaseException | None:

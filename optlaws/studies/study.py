@@ -4,30 +4,81 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
-
-import msgspec
 
 from optlaws.errors import InputError
 from optlaws.extras import needed
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.studies.point import CONSTANTS, StudyPoint, study_point
-from optlaws.studies.points.points import Points
-from optlaws.studies.points.study_file import entries
-from optlaws.studies.solving.solving import STATUSES, Row
-from optlaws.studies.store import table
-from optlaws.studies.store.directory import StudyDirectory
-from optlaws.studies.store.journal import Journal
+from optlaws.studies import tables
+from optlaws.studies.chunk import STATUSES, StudyRow
+from optlaws.studies.journal import Journal
+from optlaws.studies.points import StudyPoints
+from optlaws.studies.specification import entries
+from optlaws.studies.store import StudyDirectory
 from optlaws.suggest import unknown_key
+from optlaws.synthesis import Problem
 
 if TYPE_CHECKING:
     import pandas as pd
     import pyarrow as pa
     import xarray as xr
 
+CONSTANTS = ("B", "C", "D", "J", "rms_c")
 _SHOWN = 12
+
+
+@dataclass(frozen=True)
+class StudyPoint:
+    """One row of a study, with its law and its problem.
+
+    Attributes
+    ----------
+    index, key
+        Its number in the study, and a hash of its problem.
+    inputs
+        What varies, at this point.
+    problem
+        The whole problem.
+    status
+        "optimal", "local" or "inaccurate" where there is a law (see `Status`); otherwise "infeasible", "not found",
+        "wrong input", "time limit", "worker died" or "error", and `error` says more.
+    objective, lower_bound, gap, limit
+        As in `Solution`; None where there is no law.
+    constants
+        B, C, D, J and rms_c of the law; empty where there is none, None for one without bound.
+    law
+        The law; None where there is none.
+    seconds
+        Wall time.
+    """
+
+    index: int
+    key: str
+    inputs: Mapping[str, Any]
+    status: str
+    objective: float | None
+    lower_bound: float | None
+    gap: float | None
+    limit: float | None
+    constants: Mapping[str, float | None]
+    seconds: float
+    error: str | None
+    entries: Mapping[str, Any] = field(repr=False)
+    stored: Mapping[str, Any] | None = field(repr=False)
+
+    @kept_property
+    def law(self) -> MotionLaw | None:
+        """The law."""
+        return None if self.stored is None else MotionLaw.from_dict(self.stored)
+
+    @kept_property
+    def problem(self) -> Problem:
+        """The problem; InputError where the point asks for none."""
+        return Problem.from_dict(self.entries)
 
 
 class Study:
@@ -47,7 +98,7 @@ class Study:
     def __init__(self, path: Path | str) -> None:
         self._directory = StudyDirectory(Path(path))
         self._about, self.file = self._directory.read()
-        self._checked: tuple[int, int] | None = None
+        self._checked: tuple[int, ...] = ()
         self._scanned: tuple[tuple[int, ...], Journal] | None = None
 
     @property
@@ -61,9 +112,9 @@ class Study:
         return {name: value for name, value in self._about.items() if name != "study"}
 
     @kept_property
-    def _points(self) -> Points:
+    def _points(self) -> StudyPoints:
         """The points, by index."""
-        points = Points.of(self.file, self._about["chunk"])
+        points = StudyPoints.of(self.file, self._about["chunk"])
         if len(points) != len(self):
             raise InputError(
                 f"{self._directory.about} is damaged: it says {len(self)} points, its study has {len(points)}"
@@ -73,8 +124,11 @@ class Study:
     @property
     def counts(self) -> dict[str, int]:
         """How many points are done, by status."""
-        counted = self._counted()
-        return {status: counted[status] for status in STATUSES if counted[status]}
+        if self._tabled:
+            counts = Counter(self._parquet().read(columns=["status"])["status"].to_pylist())
+        else:
+            counts = self._journal().counts
+        return {status: counts[status] for status in STATUSES if counts[status]}
 
     @property
     def finished(self) -> bool:
@@ -91,20 +145,19 @@ class Study:
 
     def __iter__(self) -> Iterator[StudyPoint]:
         """The points that are done, in their order; few of them are in memory at a time."""
-        return (self._point(row) for row in self._rows())
+        return map(self._point, self._rows())
 
     def __getitem__(self, index: int) -> StudyPoint:
         """One point, by its index."""
         if not 0 <= index < len(self):
             raise IndexError(f"{self.path} has the points 0 to {len(self) - 1}, not {index}")
-        if self._directory.table.exists():
-            file = self._parquet()
-            group = file.read_row_group(index // table.GROUP)
-            return self._point(table.unflat(group.slice(index % table.GROUP, 1).to_pylist()[0], self._points))
+        if self._tabled:
+            group = self._parquet().read_row_group(index // tables.GROUP)
+            return self._point(tables.row_of(group.slice(index % tables.GROUP, 1).to_pylist()[0], self._points))
         number, journal = self._points.chunk_of(index), self._journal()
         if number not in journal.done:
             raise InputError(f"point {index} of {self.path} is not solved yet")
-        return self._point(next(r for r in map(msgspec.json.decode, journal.rows(number)) if r["index"] == index))
+        return self._point(tables.rows_of_chunk(journal, number)[index])
 
     def law(self, index: int) -> MotionLaw:
         """The law of one point.
@@ -134,21 +187,21 @@ class Study:
         InputError
             If the constant or an entry is unknown, or no point with a law has these values.
         """
-        known = (*CONSTANTS, "objective")
+        known, condition = (*CONSTANTS, "objective"), dict(where or {})
         if constant not in known:
             raise InputError(unknown_key(constant, known, "constant"))
-        wanted = dict(where or {})
-        for name in wanted:
+        for name in condition:
             if name not in self.file.names():
                 raise InputError(unknown_key(name, self.file.names(), "entry that varies"))
         rows = (
             row
             for row in self._rows()
-            if row[constant] is not None and all(row["inputs"][name] == value for name, value in wanted.items())
+            if getattr(row, constant) is not None
+            and all(row.inputs[name] == value for name, value in condition.items())
         )
-        best = min(rows, key=lambda row: (row[constant], row["index"]), default=None)
+        best = min(rows, key=lambda row: (getattr(row, constant), row.index), default=None)
         if best is None:
-            raise InputError(f"{self.path} has no law{f' with {wanted}' if wanted else ''}")
+            raise InputError(f"{self.path} has no law{f' with {condition}' if condition else ''}")
         return self._point(best)
 
     def to_arrow(self) -> pa.Table:
@@ -160,9 +213,7 @@ class Study:
             If pyarrow is missing.
         """
         needed("pyarrow", "to_arrow")
-        if self._directory.table.exists():
-            return self._parquet().read()
-        return table.arrow(list(table.rows_in_order(self._journal(), self._points)), table.schema(self._points))
+        return self._parquet().read() if self._tabled else tables.arrow(list(self._rows()), tables.schema(self._points))
 
     def to_pandas(self) -> pd.DataFrame:
         """All rows that are done as a data frame.
@@ -184,46 +235,43 @@ class Study:
             If xarray is missing.
         """
         needed("xarray", "to_xarray")
-        from optlaws.studies.store.dataset import dataset
-
-        return dataset(self._rows(), self._points, self.about)
+        return tables.dataset(self._rows(), self._points, self.about)
 
     def _repr_html_(self) -> str:
         from optlaws.shown.showing import facts, page, table
 
-        first = [[*row["inputs"].values(), row["status"], *(row[name] for name in CONSTANTS)] for row in self._first()]
+        lines = [
+            [*row.inputs.values(), row.status, *(getattr(row, name) for name in CONSTANTS)]
+            for row in islice(self._rows(), _SHOWN)
+        ]
         done = {"done": f"{sum(self.counts.values())} of {len(self)}", **self.counts}
-        return page(self.about["title"], facts(done), table((*self.file.names(), "status", *CONSTANTS), first))
-
-    def _first(self) -> list[Row]:
-        rows = self._rows()
-        return [row for row, _ in zip(rows, range(_SHOWN), strict=False)]
+        return page(self.about["title"], facts(done), table((*self.file.names(), "status", *CONSTANTS), lines))
 
     def __repr__(self) -> str:
         counts = ", ".join(f"{number} {status}" for status, number in self.counts.items())
         return f"Study({str(self.path)!r}, {len(self)} points: {counts or 'none done'})"
 
-    def _rows(self) -> Iterator[Row]:
-        if not self._directory.table.exists():
-            yield from map(table.plain, table.rows_in_order(self._journal(), self._points))
-            return
-        for batch in self._parquet().iter_batches(batch_size=table.GROUP):
-            for row in batch.to_pylist():
-                yield table.unflat(row, self._points)
+    @property
+    def _tabled(self) -> bool:
+        """Whether the rows are in the table, as those of a finished study are."""
+        return self._directory.table.exists()
 
-    def _counted(self) -> Counter[str]:
-        if not self._directory.table.exists():
-            return self._journal().counts
-        return Counter(self._parquet().read(columns=["status"])["status"].to_pylist())
+    def _rows(self) -> Iterator[StudyRow]:
+        if not self._tabled:
+            yield from tables.rows_in_order(self._journal(), self._points)
+            return
+        for batch in self._parquet().iter_batches(batch_size=tables.GROUP):
+            for line in batch.to_pylist():
+                yield tables.row_of(line, self._points)
 
     def _journal(self) -> Journal:
         """The journal as far as it is written; it is read again when it has grown."""
         file = self._directory.journal
         try:
-            state_of_file = file.stat()
+            there = file.stat()
         except FileNotFoundError:
             return Journal(file)
-        state = (state_of_file.st_ino, state_of_file.st_mtime_ns, state_of_file.st_size)
+        state = (there.st_ino, there.st_mtime_ns, there.st_size)
         if self._scanned is None or self._scanned[0] != state:
             self._scanned = (state, Journal(file))
         return self._scanned[1]
@@ -232,15 +280,22 @@ class Study:
         needed("pyarrow", f"reading {self._directory.table}")
         import pyarrow.parquet as pq
 
-        state_of_file = self._directory.table.stat()
-        state = (state_of_file.st_mtime_ns, state_of_file.st_size)
+        there = self._directory.table.stat()
+        state = (there.st_mtime_ns, there.st_size)
         if state != self._checked:
-            table.check(self._directory, len(self))
+            tables.check(self._directory, len(self))
             self._checked = state
         return pq.ParquetFile(self._directory.table)
 
-    def _point(self, row: Row) -> StudyPoint:
-        return study_point(row, entries(self.file.problem.given(), row["inputs"]))
+    def _point(self, row: StudyRow) -> StudyPoint:
+        law = row.stored_law()
+        names = ("index", "key", "inputs", "status", "objective", "lower_bound", "gap", "limit", "seconds", "error")
+        return StudyPoint(
+            **{name: getattr(row, name) for name in names},
+            constants={} if law is None else {name: getattr(row, name) for name in CONSTANTS},
+            entries=entries(self.file.problem.given(), row.inputs),
+            stored=law,
+        )
 
 
 def open_study(path: Path | str) -> Study:

@@ -4,8 +4,10 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+from msgspec.structs import asdict
+
+from optlaws.studies.executor import Serial
 from optlaws.studies.run import run_study
-from optlaws.studies.solving.executors import Serial
 from optlaws.studies.study import Study
 
 SMALL: dict[str, Any] = {
@@ -16,7 +18,7 @@ SMALL: dict[str, Any] = {
 
 
 def rows(study: Study) -> list[dict[str, Any]]:
-    return [{**row, "seconds": None} for row in study._rows()]
+    return [{**asdict(row), "law": row.stored_law(), "seconds": None} for row in study._rows()]
 
 
 def serially(asked: Mapping[str, Any], out: Path) -> Study:

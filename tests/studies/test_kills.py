@@ -17,7 +17,7 @@ import pytest
 
 from optlaws import open_study
 from optlaws.cli import exit_code
-from optlaws.studies.store.directory import StudyDirectory
+from optlaws.studies.store import StudyDirectory
 from optlaws.studies.study import Study
 from tests.documents import ROOT
 from tests.studies.sweeping import rows, serially

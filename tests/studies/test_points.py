@@ -9,14 +9,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws import InputError, Problem
-from optlaws.studies.points.axes import axes
-from optlaws.studies.points.points import Points, key
-from optlaws.studies.points.study_file import entries, filled, read_study
+from optlaws import InputError, Problem, Range, at_most, between
+from optlaws.studies.points import StudyPoints, axes, key
+from optlaws.studies.specification import entries, filled, read_study
 
 
-def points(**study: object) -> Points:
-    return Points.of(read_study({"problem": {"order": 4}, **study}))
+def points(**study: object) -> StudyPoints:
+    return StudyPoints.of(read_study({"problem": {"order": 4}, **study}))
 
 
 @given(st.lists(st.integers(1, 5), min_size=1, max_size=4), st.integers(1, 7))
@@ -55,8 +54,8 @@ def test_ranges_have_their_ends_exactly_and_equal_steps_or_ratios() -> None:
             }
         )
     )[::-1]
-    assert list(linear.columns[0]) == [1.5, 1.6, 1.7, 1.8]
-    values = list(log.columns[0])
+    assert list(linear.columns["B"]) == [1.5, 1.6, 1.7, 1.8]
+    values = list(log.columns["J"])
     assert values[0] == 30.0
     assert values[-1] == 3000.0
     assert all(isclose(b / a, 10.0**0.5, rel_tol=1e-12) for a, b in pairwise(values))
@@ -107,9 +106,41 @@ def test_places_in_text_bounds_and_free_constants() -> None:
     assert Problem.from_dict(asked) == Problem(order=4, minimise="0.25*C/4 + 0.75*rms_c/3.5", bounds={"rms_c": 4.0})
 
 
+def test_upper_and_lower_bounds_vary_of_every_constant() -> None:
+    base = {"order": 4, "B": 1.7, "C": [4.5, 9.0], "bounds": {"rms_c": [3.0, 5.0], "D": [0.0, 9.0]}}
+    asked = {"at_most.C": 6.0, "at_most.J": 80.0, "at_least.rms_c": 3.5, "at_most.peak(c - {w}*b)": 7.0, "w": 2.0}
+    expected = Problem(
+        order=4,
+        B=1.7,
+        C=between(4.5, 6.0),
+        J=at_most(80.0),
+        bounds={"rms_c": between(3.5, 5.0), "D": at_most(9.0), "peak(c - 2.0*b)": at_most(7.0)},
+    )
+    assert Problem.from_dict(entries(base, asked)) == expected
+    assert entries(base, {"at_most.C": "free", "at_least.B": 1.6})["B"] == [1.6, None]
+    assert "C" not in entries(base, {"at_most.C": "free"})
+
+
+def test_upper_bounds_vary_along_spans_samples_and_lists_together() -> None:
+    over = {"at_most.rms_c": {"from": 3.5, "to": 5.0}, "at_least.B": {"from": 1.5, "to": 1.6}}
+    places = points(
+        vary={"at_most.J": {"from": 40.0, "to": 4000.0, "steps": 3, "scale": "log"}},
+        together=[{"at_most.jounce": [900.0, 9000.0], "degree": [9, 11]}],
+        sample=[{"kind": "sobol", "points": 4, "seed": 1, "over": over}],
+    )
+    problems = [Problem.from_dict(entries({"order": 4}, places.inputs(i))) for i in range(len(places))]
+    assert len({problem.J for problem in problems}) == 3
+    assert {problem.J for problem in problems} == {at_most(40.0), at_most(400.0), at_most(4000.0)}
+    assert all(
+        problem.bounds["rms_c"].low == 0.0 and 3.5 <= problem.bounds["rms_c"].high <= 5.0 for problem in problems
+    )
+    assert all(isinstance(problem.B, Range) and 1.5 <= problem.B.low <= 1.6 for problem in problems)
+    assert {problem.bounds["jounce"] for problem in problems} == {at_most(900.0), at_most(9000.0)}
+
+
 def test_a_key_depends_on_the_problem_alone() -> None:
     first = points(vary={"B": [1.5, 1.6], "degree": [5, 9]})
-    second = Points.of(read_study({"problem": {"degree": 9}, "vary": {"order": [4], "B": [1.6]}}))
+    second = StudyPoints.of(read_study({"problem": {"degree": 9}, "vary": {"order": [4], "B": [1.6]}}))
     given_first, given_second = first.study.problem.given(), second.study.problem.given()
     assert key(entries(given_first, first.inputs(3))) == key(entries(given_second, second.inputs(0)))
     assert len({key(entries(given_first, first.inputs(i))) for i in range(4)}) == 4
@@ -121,6 +152,9 @@ def test_a_key_depends_on_the_problem_alone() -> None:
         ({"vari": {"B": [1.5]}}, "unknown key 'vari'; did you mean 'vary'"),
         ({"vary": {"degre": [5]}}, "unknown entry 'degre'; did you mean 'degree'"),
         ({}, "nothing varies"),
+        ({"vary": {"at_mots.J": [5.0]}}, "unknown entry 'at_mots.J'; did you mean 'at_most.NAME'"),
+        ({"vary": {"J": [60.0], "at_most.J": [50.0]}}, "J varies twice"),
+        ({"vary": {"bounds.rms_c": [4.0], "at_most.rms_c": [5.0]}}, "rms_c varies twice"),
         ({"vary": {"B": {"from": 1.5, "to": 2.0, "step": 3}}}, "unknown key 'step'; did you mean 'steps'"),
         ({"vary": {"B": {"from": 1.5, "to": 2.0}}}, "steps"),
         ({"vary": {"B": []}}, "length"),

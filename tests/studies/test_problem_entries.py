@@ -8,11 +8,11 @@ import pytest
 
 from optlaws import BSplines, InputError, Pieces, Problem, at_most, between
 from optlaws.files.problem_file import convert
-from optlaws.studies.points.problem_entries import Asked, problem
+from optlaws.studies.problem_entries import ProblemEntries, problem
 
 
 def asked(**entries: Any) -> Problem:  # noqa: ANN401
-    return problem("row 1", convert(entries, Asked, Path("some.toml")).given())
+    return problem("row 1", convert(entries, ProblemEntries, Path("some.toml")).given())
 
 
 def test_every_entry_is_read() -> None:

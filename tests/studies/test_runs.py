@@ -1,6 +1,7 @@
 """Running studies: the same rows everywhere, failures that stay single, a store that is refused or gone on with."""
 
 import json
+import shutil
 import sys
 from collections.abc import Callable, Iterator
 from concurrent.futures import Future, ProcessPoolExecutor, ThreadPoolExecutor
@@ -12,6 +13,9 @@ import pytest
 
 import optlaws
 from optlaws import FUNCTIONALS, InputError, MotionLaw, Problem, SolverFailure, open_study, run_study, synthesize
+from optlaws.files import writing
+from optlaws.studies.specification import read_study
+from optlaws.studies.store import digest
 from optlaws.studies.study import Study
 from tests.studies.sweeping import SMALL, rows, serially, troubled
 
@@ -108,7 +112,7 @@ def test_a_cluster_gives_the_rows_of_a_serial_run(small: Study, tmp_path: Path) 
 def test_a_cluster_without_workers_is_said(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     from distributed import Client, LocalCluster
 
-    monkeypatch.setattr("optlaws.studies.run._LOST_SECONDS", 1.0)
+    monkeypatch.setattr("optlaws.studies.executor._LOST_SECONDS", 1.0)
     with (
         LocalCluster(n_workers=0, processes=False, dashboard_address=None) as cluster,
         Client(cluster) as client,
@@ -207,9 +211,57 @@ def test_other_versions_may_not_finish_a_study(tmp_path: Path) -> None:
     (tmp_path / "rows.parquet").unlink()
     about = json.loads((tmp_path / "study.json").read_text())
     about["versions"]["casadi"] = "3.0"
-    (tmp_path / "study.json").write_text(json.dumps(about))
+    (tmp_path / "study.json").unlink()
+    writing.write(tmp_path / "study.json", json.dumps(about, indent=1) + "\n")
     with pytest.raises(InputError, match=r"was begun with .*casadi 3\.0"):
         serially(SMALL, tmp_path)
+
+
+@pytest.mark.parametrize(
+    "change", [('"degree": 5', '"degree": 7'), ('"order": 4', '"order": 3'), ('"hash": "', '"hash": "0')]
+)
+def test_a_study_whose_file_was_changed_is_neither_read_nor_gone_on_with(
+    small: Study, tmp_path: Path, change: tuple[str, str]
+) -> None:
+    out = tmp_path / "out"
+    shutil.copytree(small.path, out)
+    about = out / "study.json"
+    text = about.read_text("utf-8")
+    assert change[0] in text
+    about.write_text(text.replace(*change, 1), "utf-8")
+    uses: tuple[Callable[[], Study], ...] = (lambda: open_study(out), lambda: serially(SMALL, out))
+    for use in uses:
+        with pytest.raises(InputError, match=r"study\.json is damaged: .*put a whole copy in its place"):
+            use()
+    # line ends count for nothing: some systems change them on their own
+    about.write_bytes(text.replace("\n", "\r\n").encode())
+    assert rows(open_study(out)) == rows(small)
+
+
+def test_directories_of_earlier_versions_are_known_by_the_hash_of_their_study() -> None:
+    study = {
+        "problem": {"order": 4, "degree": 5, "bounds": {"rms_c": [0, 9.0]}},
+        "vary": {
+            "minimise": ["C", "rms_c"],
+            "B": {"from": 1.1, "to": 2.4, "steps": 14},
+            "at_most.J": {"from": 60, "to": 6000, "steps": 2, "scale": "log"},
+        },
+        "together": [{"order": [3, 4], "monotone": [True, False]}],
+        "sample": [
+            {
+                "kind": "sobol",
+                "points": 2,
+                "seed": 1,
+                "over": {"at_most.jounce": {"from": 900, "to": 9e5, "scale": "log"}},
+            }
+        ],
+        "chunk": 9,
+    }
+    assert digest(read_study(study)) == "ecc4bba0553eab6c090e45360a3b84aac4d616c7f282ef573479653304acafe6"
+
+
+def test_a_study_knows_every_library_that_finds_laws(small: Study) -> None:
+    assert {"optlaws", "casadi", "clarabel", "numpy", "scipy"} == small.about["versions"].keys()
 
 
 def test_a_directory_with_other_files_is_left_alone(tmp_path: Path) -> None:

@@ -19,10 +19,10 @@ from hypothesis import HealthCheck, example, given, settings
 from hypothesis import strategies as st
 
 from optlaws import InputError, open_study, run_study
-from optlaws.studies.store.directory import StudyDirectory
-from optlaws.studies.store.journal import Journal, StoreFailure
-from optlaws.studies.store.table import DamagedTable
+from optlaws.studies.journal import Journal, StoreFailure
+from optlaws.studies.store import StudyDirectory
 from optlaws.studies.study import Study
+from optlaws.studies.tables import DamagedTable
 from tests.documents import ROOT
 from tests.sampling import examples
 from tests.studies.sweeping import SMALL, rows, serially
@@ -117,7 +117,7 @@ class After:
 
 
 def interrupted(out: Path, chunks: int) -> None:
-    from optlaws.studies.solving.executors import Serial
+    from optlaws.studies.executor import Serial
 
     with pytest.raises(Enough):
         run_study(SMALL, out, executor=Serial(), watch=After(chunks))
@@ -172,7 +172,7 @@ def test_two_runs_in_one_directory_are_refused(tmp_path: Path) -> None:
 
 def test_the_lock_of_a_killed_run_is_no_hindrance(tmp_path: Path) -> None:
     script = (
-        "import sys, time\nfrom pathlib import Path\nfrom optlaws.studies.store.directory import StudyDirectory\n"
+        "import sys, time\nfrom pathlib import Path\nfrom optlaws.studies.store import StudyDirectory\n"
         f"with StudyDirectory(Path({str(tmp_path)!r})).locked():\n    print('locked', flush=True)\n    time.sleep(60)"
     )
     with subprocess.Popen([sys.executable, "-c", script], stdout=subprocess.PIPE, cwd=ROOT) as owner:
@@ -199,7 +199,7 @@ def test_a_file_system_without_locks_is_said(tmp_path: Path, monkeypatch: pytest
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root can become another user")
 def test_another_user_who_may_only_read_sees_that_a_run_is_under_way() -> None:
     script = (
-        "import os, sys\nfrom pathlib import Path\nfrom optlaws.studies.store.directory import StudyDirectory\n"
+        "import os, sys\nfrom pathlib import Path\nfrom optlaws.studies.store import StudyDirectory\n"
         "from filelock import lock_descriptor\nos.setuid(65534)\nprint(StudyDirectory(Path(sys.argv[1])).in_use())"
     )
     with TemporaryDirectory() as name:

@@ -10,13 +10,12 @@ import numpy as np
 import pytest
 
 from optlaws import Problem, ProblemArray, Solution, open_study, run_study, synthesize_array
-from optlaws.studies.points.points import Points, key
-from optlaws.studies.points.study_file import entries, read_study
+from optlaws.studies.chunk import Task, along_B, array_along_B, blocks, rows
+from optlaws.studies.executor import Serial
+from optlaws.studies.points import StudyPoints, key
 from optlaws.studies.progress import Silent
 from optlaws.studies.run import task
-from optlaws.studies.solving import together
-from optlaws.studies.solving.executors import Serial
-from optlaws.studies.solving.solving import Task, blocks, rows
+from optlaws.studies.specification import entries, read_study
 from tests.sampling import sampled
 
 ASKED: dict[str, Any] = {
@@ -39,7 +38,7 @@ class StopAfter(Silent):
 
 def tasks(asked: dict[str, Any], **changes: Any) -> list[Task]:  # noqa: ANN401
     study = read_study(asked)
-    points = Points.of(study)
+    points = StudyPoints.of(study)
     return [msgspec.convert(task(study, points, i) | changes, Task) for i in range(points.chunks)]
 
 
@@ -80,15 +79,15 @@ def test_studies_that_are_solved_as_arrays_have_great_chunks_and_others_small_on
         ({"order": 4}, {"D": ["free", 6.0], "B": steps}, 64),
         ({"order": 4, "bounds": {"D": 6.0}}, {"B": steps}, 64),
     ):
-        points = Points.of(read_study({"problem": problem, "vary": vary}))
+        points = StudyPoints.of(read_study({"problem": problem, "vary": vary}))
         assert points.chunk == chunk
-    assert Points.of(read_study({"problem": {"order": 4}, "vary": {"B": steps}, "bound": "tight"})).chunk == 4
+    assert StudyPoints.of(read_study({"problem": {"order": 4}, "vary": {"B": steps}, "bound": "tight"})).chunk == 4
 
 
 def test_a_study_goes_on_in_the_chunks_it_was_begun_with(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     asked = {"problem": {"order": 4, "degree": 5}, "vary": {"B": {"from": 1.5, "to": 1.8, "steps": 40}}}
     with monkeypatch.context() as patch:
-        patch.setattr("optlaws.studies.points.points._TOGETHER", 2)
+        patch.setattr("optlaws.studies.points._TOGETHER", 2)
         with pytest.raises(KeyboardInterrupt):
             run_study(asked, tmp_path / "study", executor=Serial(), watch=StopAfter(4))
     begun = open_study(tmp_path / "study")
@@ -104,18 +103,18 @@ def test_an_error_of_all_spoils_no_more_than_its_own_row(monkeypatch: pytest.Mon
     def broken(*_: object) -> None:
         raise RuntimeError("of none in particular")
 
-    monkeypatch.setattr(together, "solved_rows", broken)
+    monkeypatch.setattr("optlaws.studies.chunk.solved_rows", broken)
     (one,) = tasks({"problem": {"order": 4}, "vary": {"B": [1.5, 1.6]}, "chunk": 2})
     assert [msgspec.json.decode(row)["status"] for row in rows(one)] == ["optimal", "optimal"]
 
 
 def test_text_with_a_place_for_B_is_no_line_along_it() -> None:
     run = [(0, {"B": 1.5}), (1, {"B": 1.6})]
-    assert not together.along_B({"order": 4, "minimise": "{B}*C + J"}, run)
-    assert together.along_B({"order": 4, "minimise": "J"}, run)
+    assert not along_B({"order": 4, "minimise": "{B}*C + J"}, run)
+    assert along_B({"order": 4, "minimise": "J"}, run)
     for minimise in ("D", "Q"):
-        assert together.array_along_B({"order": 4, "minimise": minimise}, run, "quick") is None
-    array = together.array_along_B({"order": 4, "minimise": "J"}, run, "quick")
+        assert array_along_B({"order": 4, "minimise": minimise}, run, "quick") is None
+    array = array_along_B({"order": 4, "minimise": "J"}, run, "quick")
     assert array is not None
     assert array[1] == Problem(order=4, minimise="J", B=1.6)
 
@@ -153,7 +152,7 @@ def test_lines_are_whole_in_chunks_of_many() -> None:
         ({"minimise": ["C", "D"], "order": [3, 4], "B": {"from": 1.5, "to": 2.0, "steps": 5}}, 2),
         ({"degree": [5, 9], "order": list(range(2, 22)), "B": {"from": 1.5, "to": 2.0, "steps": 50}}, 150),
     ):
-        points = Points.of(read_study({"problem": {"degree": 5, "order": 4, "minimise": "C"}, "vary": vary}))
+        points = StudyPoints.of(read_study({"problem": {"degree": 5, "order": 4, "minimise": "C"}, "vary": vary}))
         assert points.chunk == chunk
 
 

@@ -21,18 +21,17 @@ class StoreFailure(InputError, OSError):  # noqa: N818 - beside SolverFailure
     --------
     >>> raise StoreFailure("no space left on device")
     Traceback (most recent call last):
-    optlaws.studies.store.journal.StoreFailure: no space left on device
+    optlaws.studies.journal.StoreFailure: no space left on device
     """
 
 
-class _Seen(msgspec.Struct):
-    index: int
+class _Status(msgspec.Struct):
     status: str
 
 
 _HEAD = b"chunk "
 _LAST_HEAD = re.compile(rb"[0-9a-f]{8} chunk \d+ \d+\n\Z")
-_seen = msgspec.json.Decoder(_Seen)
+_decode = msgspec.json.Decoder(_Status).decode
 
 
 class Journal:
@@ -55,41 +54,33 @@ class Journal:
 
     def open(self) -> None:
         """Make it ready for writing: cut away what is torn."""
-        if self._broken:
-            self._rewrite()
         try:
+            if self._broken:
+                self._rewrite()
             self._stream = os.open(self.file, os.O_RDWR | os.O_CREAT | getattr(os, "O_BINARY", 0), 0o644)
-            os.ftruncate(self._stream, self._end)
-            os.lseek(self._stream, self._end, os.SEEK_SET)
+            self._cut()
         except OSError as error:
             raise self._failure(error) from error
 
     def append(self, chunks: Iterable[tuple[int, Sequence[bytes]]]) -> None:
-        """Write chunks and have them on the disk when this returns.
-
-        Raises
-        ------
-        StoreFailure
-            If they cannot be written; the journal is then as it was.
-        """
+        """Write chunks and have them on the disk when this returns; the journal is as it was where they cannot be."""
         if self._stream is None:
             raise StoreFailure(f"{self.file} is not open for writing")
-        begin, text, places = self._end, b"", {}
+        text, places = b"", {}
         added: Counter[str] = Counter()
         for number, rows in chunks:
-            places[number] = (begin + len(text), len(rows))
+            places[number] = (self._end + len(text), len(rows))
             text += _block(number, rows)
-            added.update(_seen.decode(row).status for row in rows)
+            added.update(_decode(row).status for row in rows)
         try:
             left = memoryview(text)
             while left:
                 left = left[os.write(self._stream, left) :]
             os.fsync(self._stream)
         except OSError as error:
-            os.ftruncate(self._stream, begin)
-            os.lseek(self._stream, begin, os.SEEK_SET)
+            self._cut()
             raise self._failure(error) from error
-        self._end = begin + len(text)
+        self._end += len(text)
         self.done |= places
         self.counts += added
 
@@ -106,6 +97,12 @@ class Journal:
             stream.seek(place)
             stream.readline()
             return [stream.readline()[9:-1] for _ in range(count)]
+
+    def _cut(self) -> None:
+        """Cut away all behind the last whole chunk."""
+        if self._stream is not None:
+            os.ftruncate(self._stream, self._end)
+            os.lseek(self._stream, self._end, os.SEEK_SET)
 
     def _scan(self) -> None:
         """Find the whole chunks; one that comes twice, which only a file edited by hand can have, counts once."""
@@ -124,7 +121,7 @@ class Journal:
                     number, count = map(int, data.removeprefix(_HEAD).split())
                     begun, statuses = (number, count, place), []
                 elif begun is not None:
-                    statuses.append(_seen.decode(data).status)
+                    statuses.append(_decode(data).status)
                 place += len(line)
                 if begun is not None and len(statuses) == begun[1] and begun[0] not in self.done:
                     self.done[begun[0]] = (begun[2], begun[1])
@@ -134,19 +131,17 @@ class Journal:
         self._broken = length != self._end
 
     def _rewrite(self) -> None:
+        """Replace the file by one of the whole chunks alone."""
         copy = self.file.with_suffix(".mending")
         places: dict[int, tuple[int, int]] = {}
-        try:
-            with copy.open("wb") as target:
-                for number in self.done:
-                    places[number] = (target.tell(), self.done[number][1])
-                    target.write(_block(number, self.rows(number)))
-                self._end = target.tell()
-                target.flush()
-                os.fsync(target.fileno())
-            copy.replace(self.file)
-        except OSError as error:
-            raise self._failure(error) from error
+        with copy.open("wb") as target:
+            for number, (_, count) in self.done.items():
+                places[number] = (target.tell(), count)
+                target.write(_block(number, self.rows(number)))
+            self._end = target.tell()
+            target.flush()
+            os.fsync(target.fileno())
+        copy.replace(self.file)
         self.done, self._broken = places, False
 
     def _failure(self, error: OSError) -> StoreFailure:
@@ -157,7 +152,7 @@ class Journal:
 
 
 def _block(number: int, rows: Sequence[bytes]) -> bytes:
-    return _line(b"%b%d %d" % (_HEAD, number, len(rows))) + b"".join(map(_line, rows))
+    return b"".join(map(_line, (b"%b%d %d" % (_HEAD, number, len(rows)), *rows)))
 
 
 def _line(data: bytes) -> bytes:
@@ -167,4 +162,4 @@ def _line(data: bytes) -> bytes:
 def _checked(line: bytes) -> bytes | None:
     """What a line holds; None where the checksum does not fit or the line is torn."""
     data = line[9:-1]
-    return data if line.endswith(b"\n") and line[:9] == b"%08x " % zlib.crc32(data) else None
+    return data if line == _line(data) else None

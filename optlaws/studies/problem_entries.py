@@ -37,7 +37,7 @@ TYPES: dict[Kind, Any] = {
 }
 
 
-class Entries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class OptionalEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """Entries of a problem that a file may hold; what is left out is None."""
 
     def given(self) -> dict[str, Any]:
@@ -47,28 +47,25 @@ class Entries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 def _struct(name: str, doc: str, types: Mapping[str, Any]) -> Any:  # noqa: ANN401 - a type
     members = [(entry, types[entry] | None, None) for entry in ENTRIES]
-    space = {"__doc__": doc}
-    return msgspec.defstruct(
-        name, members, bases=(Entries,), namespace=space, module=__name__, kw_only=True, forbid_unknown_fields=True
-    )
+    return msgspec.defstruct(name, members, bases=(OptionalEntries,), namespace={"__doc__": doc}, module=__name__)
 
 
 if TYPE_CHECKING:
 
-    class Asked(Entries):
+    class ProblemEntries(OptionalEntries):
         """A problem."""
 
-    class Lists(Entries):
+    class EntryLists(OptionalEntries):
         """Lists of values."""
 
 else:
-    Asked = _struct(
-        "Asked",
+    ProblemEntries = _struct(
+        "ProblemEntries",
         'Entries of a problem; those left out are as in the base problem or `Problem`. "free" takes a constant away.',
         {name: TYPES[entry.kind] for name, entry in ENTRIES.items()},
     )
-    Lists = _struct(
-        "Lists",
+    EntryLists = _struct(
+        "EntryLists",
         "Values that entries take in turn; lists in one table go together and are of one length.",
         {name: Annotated[list[TYPES[entry.kind]], Some] for name, entry in ENTRIES.items()},
     )
@@ -87,14 +84,12 @@ def problem(where: str, *parts: Mapping[str, Any]) -> Problem:
     >>> problem("row 1", {"order": 4, "B": 1.641}, {"B": "free", "minimise": "D"})
     Problem(B=None, order=4, basis=Chebyshev(degree=9), minimise='D')
     """
-    entries: dict[str, Any] = {}
-    for part in parts:
-        entries |= part
+    entries = {name: value for part in parts for name, value in part.items()}
     try:
-        kept = {name: value for name, value in entries.items() if value != "free"}
-        if "bounds" in kept:
-            kept["bounds"] = {name: value for name, value in kept["bounds"].items() if value != "free"}
-        return Problem.from_dict(kept)
+        entries = {name: value for name, value in entries.items() if value != "free"}
+        if "bounds" in entries:
+            entries["bounds"] = {name: value for name, value in entries["bounds"].items() if value != "free"}
+        return Problem.from_dict(entries)
     except InputError as error:
         raise InputError(f"{where}: {error}") from None
 
@@ -136,10 +131,11 @@ def gap(solution: Solution) -> str:
 
 def record(solution: Solution) -> dict[str, Any]:
     """What results keep of a solution: nothing that differs from run to run."""
-    kept = ["status", "objective", "lower_bound", "limit", "constants", "z", "law", "problem", "certificate"]
-    if solution.power_certificate is not None:
-        kept.append("power_certificate")
-    if solution.peak_certificate is not None:
-        kept.append("peak_certificate")
-    whole = solution.to_dict()
-    return {name: whole[name] for name in kept}
+    names = ["status", "objective", "lower_bound", "limit", "constants", "z", "law", "problem", "certificate"]
+    proofs = {
+        "power_certificate": solution.power_certificate,
+        "peak_certificate": solution.peak_certificate,
+    }
+    names += [name for name, proof in proofs.items() if proof is not None]
+    entries = solution.to_dict()
+    return {name: entries[name] for name in names}

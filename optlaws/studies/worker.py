@@ -21,7 +21,7 @@ def main() -> None:
 
     import msgspec
 
-    from optlaws.studies.solving.solving import Task, blocks
+    from optlaws.studies.chunk import Task, blocks
 
     decode = msgspec.json.Decoder(tuple[int, Task]).decode
     output.write(READY + b"\n")

@@ -1,1 +1,0 @@
-"""What a study asks: its file, what varies, and its points in order."""
