@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from pathlib import Path
 from types import UnionType
@@ -13,10 +14,8 @@ from optlaws.errors import InputError
 from optlaws.files.typed import typed
 from optlaws.suggest import unknown_key
 
-#: entries that many jobs have; degrees are those of a whole turn
+#: an entry that many jobs have
 Text = Annotated[str, msgspec.Meta(min_length=1)]
-Positive = Annotated[float, msgspec.Meta(gt=0)]
-Degrees = Annotated[float, msgspec.Meta(gt=0, lt=360)]
 
 Spec = TypeVar("Spec", bound=msgspec.Struct)
 
@@ -33,7 +32,14 @@ def convert(data: Mapping[str, Any], spec: type[Spec], file: Path) -> Spec:
     try:
         return typed(data, spec)
     except msgspec.ValidationError as error:
-        raise InputError(f"{file}: {error}") from None
+        raise InputError(f"{file}: {error}{_remedy(str(error))}") from None
+
+
+def _remedy(error: str) -> str:
+    """What to do where a bare number stands for a text: most of these are quantities."""
+    if not re.match(r"Expected `str.*`, got `(int|float)`", error):
+        return ""
+    return '; a number with a unit is written as text, such as "35 mm", "120 deg" or "200 rpm"'
 
 
 def _check_keys(data: Any, spec: Any, where: str) -> None:  # noqa: ANN401

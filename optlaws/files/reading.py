@@ -1,13 +1,16 @@
 """Reading files and texts: one door for text, one for TOML, one for JSON, each with limits.
 
-Only regular files are read, up to a size, in UTF-8 with or without a byte order mark. What TOML or JSON holds is
-checked once: how deep it is nested, how large its integers are, and that its text can be stored and printed.
+Only regular files are read, up to a size, in UTF-8 with or without a byte order mark. How much a JSON text holds is
+counted before it is parsed, since its values take many times its size. What TOML or JSON holds is checked once: how
+deep it is nested, how large its integers are, and that its text can be stored and printed.
 """
 
 from __future__ import annotations
 
 import json
+import os
 import stat
+from codecs import BOM_UTF16_BE, BOM_UTF16_LE
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
@@ -16,13 +19,16 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 
 LARGEST_TOML = 1_000_000
-LARGEST_JSON = 100_000_000
+LARGEST_JSON = 64_000_000
 DEEPEST = 50
 _MOST_BITS = 1024
+#: of a JSON text: values (what parts them, and escapes in texts), and lists and objects, each of which takes as much
+#: memory as ten numbers; an array of 10,000 solutions has two thirds of the one, and half of the other
+_MOST_VALUES, _MOST_BRACKETS = 3_600_000, 600_000
 
 
-def text(file: Path, largest: int = LARGEST_JSON) -> str:
-    """The text of a regular file in UTF-8, without its byte order mark.
+def text(file: Path, largest: int = LARGEST_JSON, *, legacy: bool = False) -> str:
+    """The text of a regular file in UTF-8, without its byte order mark; with `legacy` in UTF-16 or Latin-1, too.
 
     Raises
     ------
@@ -40,15 +46,35 @@ def text(file: Path, largest: int = LARGEST_JSON) -> str:
         if not stat.S_ISREG(file.stat().st_mode):
             raise InputError(f"cannot read {name}: it is not a regular file")
         with file.open("rb") as stream:
-            data = stream.read(largest + 1)
+            # a file may grow while it is read
+            large = os.fstat(stream.fileno()).st_size > largest
+            data = b"" if large else stream.read(largest + 1)
     except OSError as error:
         raise InputError(f"cannot read {name}: {error.strerror or error}") from None
-    if len(data) > largest:
+    if large or len(data) > largest:
         raise InputError(f"{name} is larger than {largest} bytes")
     try:
         return data.decode("utf-8-sig")
     except UnicodeDecodeError:
+        if legacy and b"\0" not in data:
+            return data.decode("latin-1")
+        if legacy and data.startswith((BOM_UTF16_LE, BOM_UTF16_BE)):
+            return data.decode("utf-16", errors="replace")
         raise InputError(f"{name} is not a text file in UTF-8") from None
+
+
+def is_file(file: Path) -> bool:
+    """Whether there is such a file; a name that no file can have is none.
+
+    Examples
+    --------
+    >>> is_file(Path("x" * 300)), is_file(Path("a" + chr(0)))
+    (False, False)
+    """
+    try:
+        return storable(str(file)) and file.is_file()
+    except (OSError, ValueError):
+        return False
 
 
 def _named(file: Path) -> str:
@@ -85,7 +111,7 @@ def json_file(file: Path) -> Any:  # noqa: ANN401 - whatever it holds
     Raises
     ------
     InputError
-        If it cannot be read, is larger than 100 MB, is not JSON, or holds what nothing needs: see `checked`.
+        If it cannot be read, is larger than 64 MB, is not JSON, or holds what nothing needs: see `parsed`, `checked`.
     """
     return json_text(text(file), str(file))
 
@@ -96,20 +122,70 @@ def json_text(content: Any, name: str) -> Any:  # noqa: ANN401 - it is checked h
     Raises
     ------
     InputError
-        If it is not JSON, or holds what nothing needs: see `checked`.
+        If it is not JSON, or holds what nothing needs: see `parsed`, `checked`.
 
     Examples
     --------
     >>> json_text("[1, 2]", "a list")
     [1, 2]
     """
+    return checked(parsed(content, name), name)
+
+
+def parsed(content: Any, name: str) -> Any:  # noqa: ANN401 - it is checked here
+    """The contents of a JSON text, of which only its size is checked, and that it says nothing twice.
+
+    Raises
+    ------
+    InputError
+        If it is not JSON, holds a key twice or a number that is not finite, or is larger than 64 MB, or has more than
+        3.6 million values or 0.6 million lists and objects.
+
+    Examples
+    --------
+    >>> parsed('{"B": 1.6, "B": 1.7}', "the problem")
+    Traceback (most recent call last):
+    optlaws.errors.InputError: the problem: the key 'B' comes twice
+    """
     try:
-        data = json.loads(content)
+        # as it comes from a network
+        content = content.decode("utf-8-sig") if isinstance(content, bytes) else content
+        _check_extent(content)
+        return json.loads(content, object_pairs_hook=_once, parse_constant=_no_number)
     except RecursionError:
         raise InputError(f"{name} is nested more than {DEEPEST} deep") from None
+    except InputError as error:
+        raise InputError(f"{name}: {error}") from None
     except (TypeError, ValueError) as error:
         raise InputError(f"{name} must be JSON text and is not JSON: {error}") from None
-    return checked(data, name)
+
+
+def _check_extent(content: Any) -> None:  # noqa: ANN401
+    """Refuse a text whose values would take more memory than any of ours."""
+    if not isinstance(content, str):
+        raise InputError(f"must be JSON text, got {shortened(content)}")
+    if len(content) > LARGEST_JSON:
+        raise InputError(f"larger than {LARGEST_JSON} characters")
+    brackets = content.count("[") + content.count("{")
+    values = brackets + content.count(",") + content.count(":") + content.count("\\")
+    if brackets > _MOST_BRACKETS or values > _MOST_VALUES:
+        raise InputError(
+            f"{values} values and {brackets} lists and objects are more than {_MOST_VALUES} and {_MOST_BRACKETS}: "
+            "give it in parts, such as those of synthesize_chunks"
+        )
+
+
+def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    entries: dict[str, Any] = {}
+    for key, value in pairs:
+        if key in entries:
+            raise InputError(f"the key {shortened(key)} comes twice")
+        entries[key] = value
+    return entries
+
+
+def _no_number(text: str) -> float:
+    raise InputError(f"{text} is no JSON number")
 
 
 def checked(data: Any, name: str) -> Any:  # noqa: ANN401 - whatever it holds
@@ -133,7 +209,8 @@ def checked(data: Any, name: str) -> Any:  # noqa: ANN401 - whatever it holds
             if isinstance(value, Mapping):
                 deeper += [*value.keys(), *value.values()]
             elif isinstance(value, list | tuple):
-                deeper += value
+                # most of a file are numbers
+                deeper += [part for part in value if type(part) is not float]
             else:
                 _check_leaf(value, name)
         if not deeper:

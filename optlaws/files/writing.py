@@ -1,13 +1,19 @@
 """Writing results: whole or not at all, never over what a user made or changed, and only where something changed.
 
+Whoever else writes the same file at the same moment: the file of one of them is there, and what a user had is kept.
 Every file carries the mark "made by optlaws" with a seal, a digest of all else that it holds, so that an edit shows.
 """
 
 from __future__ import annotations
 
+import os
 import re
+import stat
 import struct
+from collections.abc import Iterator
+from contextlib import suppress
 from hashlib import sha256
+from itertools import count
 from pathlib import Path
 from secrets import token_hex
 from tempfile import TemporaryFile
@@ -80,29 +86,26 @@ def write_any(file: Path, content: str) -> Path:
 
 
 def _written_bare(file: Path, data: bytes) -> Path:
-    if file.is_file() and file.read_bytes() == data:
-        return file
-    file.parent.mkdir(parents=True, exist_ok=True)
-    if file.exists() and not is_own(file):
-        file.replace(_free_name(file))
-    _replace(file, data)
+    if _content(file) != data:
+        _put(file, data)
     return file
 
 
 def _written(file: Path, content: str | bytes, digits: int | None, *, exact: bool) -> Path:
     data = content.encode() if isinstance(content, str) else content
-    if is_own(file) and _unsealed(file.read_bytes())[0] == data if exact else is_current(file, data, digits=digits):
-        return file
-    file.parent.mkdir(parents=True, exist_ok=True)
-    if file.exists() and not is_own(file):
-        file.replace(_free_name(file))
-    _replace(file, sealed(data))
+    there = _content(file)
+    same = is_sealed(there) and (
+        _unsealed(there)[0] == data if exact else say_the_same(_unsealed(there)[0], data, file.suffix, digits)
+    )
+    if not same:
+        _put(file, sealed(data))
     return file
 
 
 def is_current(file: Path, content: bytes, *, digits: int | None = None) -> bool:
     """Whether a file was made by optlaws, not changed since, and says the same as a content but for rounding."""
-    return is_own(file) and say_the_same(_unsealed(file.read_bytes())[0], content, file.suffix, digits)
+    there = _content(file)
+    return is_sealed(there) and say_the_same(_unsealed(there)[0], content, file.suffix, digits)
 
 
 def is_own(file: Path) -> bool:
@@ -110,9 +113,26 @@ def is_own(file: Path) -> bool:
 
     Line ends count for nothing: some systems change them on their own.
     """
-    if not file.is_file():
-        return False
-    plain, seal = _unsealed(file.read_bytes())
+    return is_sealed(_content(file))
+
+
+def _content(file: Path) -> bytes:
+    """What a file holds; nothing where there is none."""
+    try:
+        return file.read_bytes() if file.is_file() else b""
+    except FileNotFoundError:
+        return b""
+
+
+def is_sealed(content: bytes) -> bool:
+    """Whether a content has the seal of what it holds.
+
+    Examples
+    --------
+    >>> is_sealed(sealed(b"# about; made by optlaws")), is_sealed(b"# about; made by optlaws a554eb6dcb07b0e5")
+    (True, False)
+    """
+    plain, seal = _unsealed(content)
     return seal is not None and seal == _seal(plain)
 
 
@@ -165,19 +185,91 @@ def _chunk(mark: bytes) -> bytes:
     return struct.pack(">I", len(text) - 4) + text + struct.pack(">I", crc32(text))
 
 
-def _replace(file: Path, data: bytes) -> None:
-    mode = file.stat().st_mode & 0o777 if file.exists() else None
-    copy = file.with_name(f".{file.name[:100]}.{token_hex(8)}")
+def _put(file: Path, data: bytes) -> None:
+    """Make a file hold some data at once, whoever else writes it at the same moment: what a user has there is kept."""
+    file.parent.mkdir(parents=True, exist_ok=True)
+    copy = _beside(file)
     try:
         # made as any new file is, so that the umask holds
         with copy.open("xb") as stream:
             stream.write(data)
-        if mode is not None:
-            copy.chmod(mode)
-        copy.replace(file)
+        while not (_replaced(copy, file) if os.path.lexists(file) else _placed(copy, file)):
+            pass
     except BaseException:
         copy.unlink(missing_ok=True)
         raise
+
+
+def _placed(copy: Path, file: Path) -> bool:
+    """Give a copy its name, unless another has come by it meanwhile."""
+    try:
+        os.link(copy, file)
+    except FileExistsError:
+        return False
+    except OSError:
+        # no links here
+        copy.replace(file)
+        return True
+    copy.unlink()
+    return True
+
+
+def _replaced(copy: Path, file: Path) -> bool:
+    """Put a copy in the place of a file, which is kept if it is a user's, unless it is gone meanwhile."""
+    try:
+        mode = file.lstat().st_mode
+        _keep(file)
+    except FileNotFoundError:
+        return False
+    if stat.S_ISREG(mode):
+        copy.chmod(stat.S_IMODE(mode))
+    # what is there now is what was kept, or what another process of ours has put there
+    copy.replace(file)
+    return True
+
+
+def _keep(file: Path) -> None:
+    """Keep what is there as `name.orig`, but for what is ours: by a second name, so that it is there all the time."""
+    seen = _beside(file)
+    try:
+        os.link(file, seen, follow_symlinks=False)
+    except FileNotFoundError:
+        raise
+    except OSError:
+        _keep_copy(file)
+        return
+    try:
+        if is_own(seen):
+            return
+        for kept in _free_names(file):
+            try:
+                os.link(seen, kept, follow_symlinks=False)
+            except FileExistsError:
+                if not os.path.samestat(kept.lstat(), seen.lstat()):
+                    continue
+            return
+    finally:
+        seen.unlink(missing_ok=True)
+
+
+def _keep_copy(file: Path) -> None:
+    """The same where a file can have one name only."""
+    content = file.read_bytes()
+    if is_sealed(content):
+        return
+    for kept in _free_names(file):
+        with suppress(FileExistsError), kept.open("xb") as stream:
+            stream.write(content)
+            return
+
+
+def _beside(file: Path) -> Path:
+    return file.with_name(f".{file.name[:100]}.{token_hex(8)}")
+
+
+def _free_names(file: Path) -> Iterator[Path]:
+    yield file.with_name(f"{file.name}.orig")
+    yield from (file.with_name(f"{file.name}.orig{number}") for number in count(1))
 
 
 def check_place(file: Path) -> None:
@@ -234,12 +326,3 @@ def check_name(file: Path) -> None:
         why = "it is that of a device"
     if why:
         raise InputError(f"{shortened(name)} cannot be the name of a file: {why}; choose another")
-
-
-def _free_name(file: Path) -> Path:
-    kept = file.with_name(f"{file.name}.orig")
-    count = 1
-    while kept.exists():
-        kept = file.with_name(f"{file.name}.orig{count}")
-        count += 1
-    return kept

@@ -7,9 +7,10 @@ from pathlib import Path
 import pytest
 from PIL import Image
 
-from optlaws import drawing
 from optlaws.errors import InputError
 from optlaws.files import tables, writing
+from optlaws.plots.style import empty_figure, plot_style, save_picture
+from tests.files.concurrent_writing import outcomes
 
 MINE = f"# {writing.MARK}\n"
 SEALED = writing.sealed(MINE.encode()).decode()
@@ -100,12 +101,12 @@ def test_a_file_that_says_the_same_is_left_as_it_is(tmp_path: Path, name: str) -
 
 def test_pictures_are_sealed_and_rewritten_together(tmp_path: Path) -> None:
     def drawn(place: float) -> dict[str, bytes]:
-        with drawing.style():
-            figure = drawing.figure()
+        with plot_style():
+            figure = empty_figure()
             axes = figure.subplots()
             axes.plot([0.0, place], [0.0, 1.0])
             axes.set(xlim=(0.0, 2.0))
-        return {path.name: path.read_bytes() for path in drawing.save_picture(figure, tmp_path / "figure")}
+        return {path.name: path.read_bytes() for path in save_picture(figure, tmp_path / "figure")}
 
     first = drawn(1.0)
     assert list(first) == ["figure.svg", "figure.png"]
@@ -134,6 +135,43 @@ def test_the_umask_and_the_rights_of_a_replaced_file_hold(tmp_path: Path) -> Non
         assert target.stat().st_mode & 0o777 == 0o664
     finally:
         os.umask(before)
+
+
+@pytest.mark.parametrize("rounds", [400, pytest.param(20_000, marks=pytest.mark.long)])
+def test_of_two_processes_that_write_at_once_one_wins_and_the_users_file_is_kept(tmp_path: Path, rounds: int) -> None:
+    assert list(outcomes(rounds, tmp_path)) == []
+
+
+def test_what_another_process_does_meanwhile_costs_no_file(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    target = tmp_path / "b.txt"
+    target.write_text("mine", "utf-8")
+    linked = os.link
+
+    def slow(source: Path, target_of_link: Path, *, follow_symlinks: bool = True) -> None:
+        # the other process, in the middle of ours
+        monkeypatch.setattr(os, "link", linked)
+        writing.write(target, f"theirs {writing.MARK}\n", exact=True)
+        linked(source, target_of_link, follow_symlinks=follow_symlinks)
+
+    monkeypatch.setattr(os, "link", slow)
+    writing.write(target, f"ours {writing.MARK}\n", exact=True)
+    files = {path.name: path.read_text("utf-8").partition(" ")[0] for path in tmp_path.iterdir()}
+    assert files == {"b.txt": "ours", "b.txt.orig": "mine"}
+
+
+def test_where_a_file_has_one_name_only_it_is_copied(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    def none(*_: object, **__: object) -> None:
+        raise PermissionError("no links here")
+
+    monkeypatch.setattr(os, "link", none)
+    target = tmp_path / "b.csv"
+    for text in ("first", "second"):
+        target.write_text(text, "utf-8")
+        writing.write(target, MINE)
+    writing.write(target, MINE + "again\n")
+    kept = {path.name: path.read_text("utf-8") for path in tmp_path.iterdir() if path != target}
+    assert kept == {"b.csv.orig": "first", "b.csv.orig1": "second"}
+    assert writing.is_own(target)
 
 
 def test_names_that_are_none_are_refused(tmp_path: Path) -> None:
