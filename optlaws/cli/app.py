@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import os
 import sys
+import warnings
 from collections.abc import Sequence
+from typing import Any
 
 from cyclopts import App, CycloptsError, Parameter
 
@@ -34,16 +36,16 @@ COMMANDS = {
     "mechanisms.cycle": (
         "Whole cycles of a machine in physical units, optimal as a whole: peaks, joints, drives, tables and pictures."
     ),
-    "mechanisms.dwell": (
+    "balancing.dwell": (
         "Balancing mechanisms of types I, II and III for an executive link that dwells, and which of them to take."
     ),
     "mechanisms.follower": (
         "Response of an elastic follower's mass: peaks, dynamic factor, residual vibration, and the same off design."
     ),
-    "mechanisms.lever": (
+    "balancing.lever": (
         "Law of motion of a mass that swings between torsion bars on a cam-lever mechanism: exact and asymptotic."
     ),
-    "mechanisms.loader": (
+    "balancing.loader": (
         "Inertial loader that balances a law: energy parameter Y, peaks of its motion, its mass or stroke."
     ),
     "synthesis.atlas": (
@@ -99,7 +101,9 @@ class NotProven(OptlawsError):  # noqa: N818
 def exit_code(arguments: Sequence[str]) -> int:
     """Run the command and return its exit code; an error is one clear text on stderr."""
     try:
-        app(list(arguments), exit_on_error=False, print_error=False, result_action="return_none")
+        with warnings.catch_warnings():
+            warnings.showwarning = _warn
+            app(list(arguments), exit_on_error=False, print_error=False, result_action="return_none")
     except (CycloptsError, InputError) as error:
         text, code = cut(str(error)), BAD_INPUT
     except InfeasibleProblem as error:
@@ -120,3 +124,7 @@ def exit_code(arguments: Sequence[str]) -> int:
         return 0
     print(f"optlaws: {text}", file=sys.stderr)  # noqa: T201
     return code
+
+
+def _warn(message: Warning | str, *_: Any, **__: Any) -> None:  # noqa: ANN401
+    print(f"optlaws: {message}", file=sys.stderr)  # noqa: T201

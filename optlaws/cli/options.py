@@ -25,10 +25,18 @@ AsJson = Annotated[bool, Parameter(name="--json")]
 _PICTURES = (".png", ".svg")
 
 
-def read_law(text: str, alpha: float | None = None, B: float | None = None, *, by: str = "") -> optlaws.MotionLaw:
+def read_law(
+    text: str,
+    alpha: float | None = None,
+    B: float | None = None,
+    *,
+    by: str = "",
+    tolerance: float | None = None,
+    columns: str | None = None,
+) -> optlaws.MotionLaw:
     """The law of a text, as every command takes it; a family I to IV may have its member by alpha, or B, beside it.
 
-    `by` are the options that choose a member.
+    `by` are the options that choose a member; `tolerance` and `columns` are of a table of points.
 
     Raises
     ------
@@ -47,7 +55,7 @@ def read_law(text: str, alpha: float | None = None, B: float | None = None, *, b
         if family is not None and by:
             low, high = map(float, optlaws.SavinFamily.of(family).range)
             raise InputError(f"laws of family {family} need {by}: alpha is from {low:.9g} to {high:.9g}")
-        return reading.read_law(text)
+        return reading.read_law(text, tolerance=tolerance, columns=None if columns is None else columns.split(","))
     if family is None:
         raise InputError(
             f"{by} choose a member of a family I, II, III or IV, and no other takes it, got {shortened(text)}"
@@ -81,9 +89,9 @@ def save(file: Path, data: Mapping[str, Any]) -> None:
 
 def save_picture(file: Path, value: Any) -> None:  # noqa: ANN401 - whatever has a plot
     """Draw what --plot asks for into its file."""
-    from optlaws import drawing
     from optlaws.files.writing import write
+    from optlaws.plots.style import plot_style, rendered
 
-    with drawing.style():
+    with plot_style():
         figure = value.plot()[0].get_figure(root=True)
-        write(file, drawing.rendered(figure, file.suffix[1:]))
+        write(file, rendered(figure, file.suffix[1:]))

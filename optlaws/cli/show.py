@@ -110,9 +110,8 @@ def busy(text: str) -> Iterator[None]:
 
 def constants_table(constants: optlaws.Constants) -> Table:
     """Constants with their places."""
-    peaks = table("constant", "value", "at k")
-    for name in ("B", "C", "D", "J"):
-        peak: Any = getattr(constants, name)
-        peaks.add_row(name, f"{peak.value:.10g}", f"{peak.k:.6g}")
-    peaks.add_row("RMS of c", f"{constants.rms_c:.10g}", "")
+    headings, *rows = constants.summary().cells()
+    peaks = table("constant", *headings[1:])
+    for row in rows:
+        peaks.add_row(*row)
     return peaks

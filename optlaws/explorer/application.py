@@ -31,7 +31,7 @@ from optlaws.explorer.answers import (
 )
 from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, read, ready
 from optlaws.explorer.guard import Guard
-from optlaws.jobs.cam import wishes
+from optlaws.jobs.cam import schema
 from optlaws.jobs.cycle.entries import Study
 
 #: no question of the page is longer
@@ -70,10 +70,11 @@ def application(start: dict[str, Any]) -> Starlette:
         "names": [*catalogue, *_MEMBERS],
         "cycle": cycle_view.example(),
         "cam": cam_view.example(),
+        "followers": cam_view.followers(),
         "formats": handed.formats(),
     }
     first = msgspec.json.encode({"state": start, **known})
-    ready(*(kind for kind, _ in QUESTIONS.values()), Study, wishes.Study)
+    ready(*(kind for kind, _ in QUESTIONS.values()), Study, schema.Study)
     routes = [
         Route("/api/start", lambda _: _json(first)),
         *(Route(f"/api/{name}", _asking(*question), methods=["POST"]) for name, question in QUESTIONS.items()),

@@ -10,7 +10,7 @@ from optlaws.errors import InputError
 from optlaws.explorer.answers.asked import MOST_LAWS, AskedLaw, problem_of
 from optlaws.files import reading
 from optlaws.files.packaged import is_problem, problem_file
-from optlaws.laws.catalogue.reading import is_file, read_law
+from optlaws.laws.catalogue.reading import is_file, is_table, read_law
 
 _FIRST = {"order": 4, "degree": 9, "B": 1.7}
 
@@ -33,7 +33,7 @@ def start(given: str | None) -> dict[str, Any]:
     if is_problem(given):
         return _of_problem_file(problem_file(Path(given))[0])
     if is_file(given):
-        return _of_law_file(Path(given))
+        return _of_law_file(given)
     read_law(given)
     return _laws({"name": given})
 
@@ -42,12 +42,13 @@ def _laws(*laws: dict[str, Any]) -> dict[str, Any]:
     return {"view": "laws", "laws": list(laws)[:MOST_LAWS]}
 
 
-def _of_law_file(file: Path) -> dict[str, Any]:
+def _of_law_file(given: str) -> dict[str, Any]:
     """The problem of a solution, so that it can be changed; else the law."""
-    data = None if file.suffix.lower() == ".csv" else reading.json_file(file)
+    file = Path(given)
+    data = None if is_table(given) else reading.json_file(file)
     if isinstance(data, dict) and isinstance(data.get("problem"), dict):
         return _laws(_problem(data["problem"], file))
-    return _laws({"law": read_law(str(file)).to_dict(), "title": file.stem[:60]})
+    return _laws({"law": read_law(given).to_dict(), "title": file.stem[:60]})
 
 
 def _of_problem_file(file: Path) -> dict[str, Any]:

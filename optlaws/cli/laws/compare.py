@@ -27,7 +27,8 @@ def compare(
     Parameters
     ----------
     laws
-        Names or codes of the catalogue, members such as "III(7.2)", JSON files of laws or of `optlaws solve --output`.
+        Names or codes of the catalogue, members such as "III(7.2)", JSON files of laws or of `optlaws solve --output`,
+        tables of points such as old.csv or "old.csv(tolerance=0.02; columns=1,3)".
     stroke
         Stroke of the machine with its unit, such as 35mm or 45deg; with --time gives peaks in machine units.
     time

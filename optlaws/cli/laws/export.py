@@ -14,7 +14,7 @@ from optlaws.errors import InputError
 
 if TYPE_CHECKING:
     from optlaws.exports.export import Export
-    from optlaws.exports.motion import Motion
+    from optlaws.motion.motion import Motion
 
 BEST = "best"
 
@@ -37,6 +37,8 @@ def export(
     interpolation: str | None = None,
     task: str | None = None,
     name: str | None = None,
+    tolerance: float | None = None,
+    columns: str | None = None,
     output: Path | None = None,
     as_json: AsJson = False,
 ) -> None:
@@ -63,7 +65,8 @@ def export(
     axis
         Which axis of a problem file with several.
     points
-        How many points, or "best", as it is unless given: the fewest whose run is as good as that of any number.
+        How many points or pieces; chosen unless given, for the least peak acceleration of the run. "best" looks for the
+        fewest pieces with the best breaks too, in formats of polynomials.
     counts
         Steps of the slave's encoder over the stroke, to which positions are rounded.
     digits
@@ -76,6 +79,8 @@ def export(
         Time of the drive's task, such as "1 ms": the report then says what it hears once in each.
     name
         Of the variable, the table or the joint.
+    tolerance, columns
+        Of a table of points, as `optlaws law` takes them.
     output
         The file to write; one that is there and says something else is kept as NAME.orig.
     as_json
@@ -95,7 +100,8 @@ def export(
     request = {**asked, "points": _points(points)}
     chosen.request(**request)
     said = {"stroke": stroke, "time": time, "master": master, "start": start}
-    made = export_motion(_motion(law, axis, said), to, task=task, **request)
+    of_table = {"tolerance": tolerance, "columns": columns}
+    made = export_motion(_motion(law, axis, said, of_table), to, task=task, **request)
     _answer(made, output, as_json=as_json)
 
 
@@ -108,19 +114,21 @@ def _points(text: str | None) -> int | str | None:
         raise InputError(f"--points takes a whole number or {BEST}, got {text}") from None
 
 
-def _motion(law: str, axis: str | None, said: dict[str, str | None]) -> Motion:
-    from optlaws.exports.motion import motion_of_cycle, motion_of_law
+def _motion(law: str, axis: str | None, said: dict[str, str | None], of_table: dict[str, Any]) -> Motion:
     from optlaws.files.packaged import is_problem
+    from optlaws.motion.motion import motion_of_law
 
     if not is_problem(law):
         if axis is not None:
             raise InputError("--axis is one of a problem file with several; a law has none")
-        return motion_of_law(read_law(law), **said)
-    for option in ("stroke", "time", "start"):
-        if said[option] is not None:
+        return motion_of_law(read_law(law, **of_table), **said)
+    of_law = said | of_table
+    for option in ("stroke", "time", "start", "tolerance", "columns"):
+        if of_law[option] is not None:
             raise InputError(f"--{option} is of a law alone: a cycle has its own")
     cycle = _cycle(Path(law), axis)
-    return motion_of_cycle(cycle) if said["master"] is None else motion_of_cycle(cycle, master=said["master"])
+    of_cycle: Motion = cycle.motion() if said["master"] is None else cycle.motion(master=said["master"])
+    return of_cycle
 
 
 def _cycle(file: Path, axis: str | None) -> Any:  # noqa: ANN401 - a Cycle, which the help must not import
@@ -154,10 +162,10 @@ def _list(*, as_json: bool) -> None:
 
     formats = [FORMATS[name] for name in sorted(FORMATS)]
     if as_json:
-        keys = ("name", "target", "held", "model", "limits", "extension", "takes")
+        keys = ("name", "target", "contents", "model", "limits", "extension", "takes")
         print_json([{key: getattr(file_format, key) for key in keys} for file_format in formats])
         return
     rows = table("format", "target", "holds", "runs", "limits")
     for file_format in formats:
-        rows.add_row(file_format.name, file_format.target, file_format.held, file_format.model, file_format.limits)
+        rows.add_row(file_format.name, file_format.target, file_format.contents, file_format.model, file_format.limits)
     show(rows)

@@ -22,6 +22,8 @@ def law(
     plot: Path | None = None,
     csv: Path | None = None,
     samples: Whole | None = None,
+    tolerance: float | None = None,
+    columns: str | None = None,
     as_json: AsJson = False,
 ) -> None:
     """Show a law of the catalogue, a coded law, a member of Savin's families or a stored law, with its constants.
@@ -30,7 +32,7 @@ def law(
     ----------
     name
         A name in any language or of a controller, a code such as "0317(1,5)", a member such as "III(7.2)", a JSON file
-        of a law or of `optlaws solve --output`, or a CSV file with a table of points.
+        of a law or of `optlaws solve --output`, or a file with a table of points (.csv, .txt, .tsv, .tab, .dat).
     alpha
         Member of the family I, II, III or IV.
     peak_velocity
@@ -43,6 +45,11 @@ def law(
         Write k, a, b, c, j and d at equal steps of k to this file.
     samples
         How many lines for --csv; 201 unless given.
+    tolerance
+        Of a table of points: how far the law may be off them, in the unit of the displacements, 0 for a law through
+        them; the last digit, or what the noise of the table asks for, unless given.
+    columns
+        Of a table of more than two: those of the time or angle and of the displacement, by headings or numbers, as 1,3.
     as_json
         Print one JSON object on stdout and nothing else.
     """
@@ -52,7 +59,10 @@ def law(
     check_files(csv, plot=plot)
     if samples is not None and csv is None:
         raise InputError("--samples says how many lines --csv FILE has: name the file")
-    about, motion_law = _asked(name, alpha, peak_velocity)
+    motion_law = read_law(
+        name, alpha, peak_velocity, by="--alpha or --peak-velocity", tolerance=tolerance, columns=columns
+    )
+    about = _about(name, alpha, peak_velocity, motion_law)
     values = [{"k": k, **{letter: getattr(motion_law, letter)(k) for letter in LETTERS}} for k in at or ()]
     if csv is not None:
         writing.write(csv, table_of_values(motion_law, name, SAMPLES if samples is None else samples))
@@ -80,19 +90,17 @@ def _show(about: dict[str, Any], motion_law: optlaws.MotionLaw, values: list[dic
         show(rows)
 
 
-def _asked(name: str, alpha: float | None, B: float | None) -> tuple[dict[str, Any], optlaws.MotionLaw]:
+def _about(name: str, alpha: float | None, B: float | None, motion_law: optlaws.MotionLaw) -> dict[str, Any]:
     from optlaws.laws.catalogue import reading
     from optlaws.laws.catalogue.entry import continuity_with_rest
 
     family = reading.family_of(name)
-    motion_law = read_law(name, alpha, B, by="--alpha or --peak-velocity")
     chosen = None if family is not None else reading.member(name)
     if family is not None or chosen is not None:
-        return _member(motion_law, chosen or (optlaws.SavinFamily.of(str(family)), alpha), B), motion_law
+        return _member(motion_law, chosen or (optlaws.SavinFamily.of(str(family)), alpha), B)
     if reading.is_file(name):
-        return _facts(f"the law in {name}", motion_law) | {"continuity": continuity_with_rest(motion_law)}, motion_law
-    entry = optlaws.catalogue[name]
-    return entry.to_dict(), entry.law
+        return _facts(f"the law in {name}", motion_law) | {"continuity": continuity_with_rest(motion_law)}
+    return optlaws.catalogue[name].to_dict()
 
 
 def _member(

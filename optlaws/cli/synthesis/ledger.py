@@ -2,15 +2,14 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import Any
 
 from optlaws.cli.app import NotProven
 from optlaws.cli.options import AsJson
 from optlaws.cli.show import busy, print_json, show, table
-
-if TYPE_CHECKING:
-    from optlaws.jobs.ledger.verdicts import Judged
 
 
 def ledger(
@@ -42,13 +41,13 @@ def ledger(
         Print a list of the items on stdout and nothing else.
     """
     from optlaws.files.packaged import or_packaged
-    from optlaws.jobs.ledger.ledger import chosen, entries
-    from optlaws.jobs.ledger.verdicts import judge
 
+    # a script that comes with optlaws, which type checkers find under problems/
+    script = import_module("optlaws.problems.ledger")
     source = or_packaged(file)
-    asked = chosen(entries(source), paper=paper, kind=kind, verdict=verdict, name=id)
-    with busy(f"{len(asked)} items"):
-        judged = [judge(item, name, source.parent) for name, item in asked]
+    items = script.chosen(script.entries(source), paper=paper, kind=kind, verdict=verdict, name=id)
+    with busy(f"{len(items)} items"):
+        judged = [script.judge(item, name, source.parent) for name, item in items]
     if as_json:
         print_json([judgement.to_dict() for judgement in judged])
     else:
@@ -61,7 +60,7 @@ def ledger(
         raise NotProven("\n".join(text for judgement, text in zip(judged, broken, strict=True) if not judgement.holds))
 
 
-def _show(judged: list[Judged]) -> None:
+def _show(judged: Sequence[Any]) -> None:
     rows = table("paper", "item", "kind", "printed", "computed", "verdict")
     for judgement in judged:
         computed = "" if judgement.computed is None else f"{judgement.computed:.10g}"

@@ -49,21 +49,19 @@ def _summary(solution: optlaws.Solution) -> dict[str, Any]:
     return {name: whole[name] for name in names}
 
 
+#: how notes stand behind what they are of
+_NOTES = {"status": ": {}", "lower bound": " ({})", "Z(k)": "  ({})"}
+
+
 def _show(solution: optlaws.Solution) -> None:
-    facts = table()
-    facts.add_row("status", f"{solution.status.value}: {solution.status.advice}")
-    facts.add_row(solution.problem.titled(str(solution.problem.minimise)), f"{solution.objective:.10g}")
-    facts.add_row("lower bound", f"{solution.lower_bound:.10g} (gap {solution.gap:.1e})")
-    if solution.limit is not None:
-        facts.add_row("limit", f"{solution.limit:.10g}, which no law of any degree can beat")
-    if solution.starts:
-        facts.add_row("starts", f"{len(solution.starts)}, from {solution.starts[0]:.10g} to {solution.starts[-1]:.10g}")
-    if solution.z is not None:
-        coefficients = " ".join(f"{coefficient:.9g}" for coefficient in solution.z)
-        facts.add_row("Z(k)", f"{coefficients}  ({solution.problem.basis.name})")
-    facts.add_row("solved", solution.problem.titled(repr(solution.problem)))
-    facts.add_row("", f"{solution.iterations} iterations, {1e3 * solution.seconds:.0f} ms")
-    show(facts, constants_table(solution.constants), *_remarks(solution))
+    facts, notes, constants = table(), [], solution.constants.summary()
+    for row in solution.summary():
+        if row.name == "note":
+            notes.append(f"note: {row.value}")
+        elif row not in constants:
+            note = _NOTES.get(row.name, ", {}").format(row.note) if row.note else ""
+            facts.add_row(row.name, f"{row.text()}{note}")
+    show(facts, constants_table(solution.constants), *notes, *_remarks(solution))
 
 
 def _remarks(solution: optlaws.Solution) -> list[str]:
@@ -71,7 +69,7 @@ def _remarks(solution: optlaws.Solution) -> list[str]:
     problem = solution.problem
     if str(problem.minimise) != "C" or problem.bounded or problem.boundary is not None:
         return []
-    from optlaws.cycles.side_by_side import costs
+    from optlaws.cycles.law_comparison import costs
 
     usual = optlaws.catalogue[_USUAL].law
     prices = costs(solution.law, usual, _USUAL, nu=_FREQUENCIES)

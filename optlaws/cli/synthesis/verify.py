@@ -37,7 +37,7 @@ def verify(*files: Path, as_json: AsJson = False) -> None:
         print_json({name: verification.to_dict() for name, verification in verifications.items()})
     else:
         for name, verification in verifications.items():
-            word = "proven" if verification.proven else "NOT PROVEN"
+            word = "NOT PROVEN" if not verification.proven else "proven" if verification.claims else "recomputed"
             alone = len(verifications) == len(files)
             print(f"{name}: {word}\n{verification}\n" if alone else _line(name, word, verification))  # noqa: T201
     failed = [

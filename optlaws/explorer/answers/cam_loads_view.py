@@ -13,11 +13,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.cams.loads.forces import CamForces
+from optlaws.cams.loads.summary import Labelled, named_forces
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.explorer.answers.cam_view import AskedCam, cams_of, panel
 from optlaws.explorer.answers.law_view import digits, drawn
-from optlaws.jobs.cam.more import AskedForces, Found, forces_of
-from optlaws.series.enclosed import Enclosure
+from optlaws.jobs.cam.forces_and_files import Findings, ForcesEntries, forces_of
+from optlaws.series.enclosures.branch_and_bound import Extremes
 
 Array = NDArray[np.float64]
 
@@ -48,25 +49,23 @@ def _answered(question: str) -> dict[str, Any]:
     spec, cams = cams_of(AskedCam(study=json.loads(question)))
     if spec.motion.drive is None:
         return {"panels": [], "facts": []}
-    asked = msgspec.structs.replace(spec, forces=spec.forces or AskedForces())
+    asked = msgspec.structs.replace(spec, forces=spec.forces or ForcesEntries())
     forces = forces_of(asked, cams.first, cams.cycle)
     assert forces is not None  # noqa: S101 - they were asked for
-    return {"panels": _panels(forces), "facts": [*_facts(forces), *_spring(Found(asked, cams.first, cams.cycle))]}
+    return {"panels": _panels(forces), "facts": [*_facts(forces), *_spring(Findings(asked, cams.first, cams.cycle))]}
 
 
 def _panels(forces: CamForces) -> list[dict[str, Any]]:
-    panels = [
-        _panel("contact force", "N", 1.0, forces.contact_force, forces.contact),
-        _panel("torque at the shaft", "N m", 1.0, forces.shaft_torque, forces.torque),
-    ]
-    if forces.width is not None:
-        pressed = _panel("Hertz's pressure", "MPa", _MICRO, forces.contact_pressure, forces.pressure)
-        panels.append(pressed | {"peaks": pressed["peaks"][-1:]})
+    values = (forces.contact_force, forces.shaft_torque, forces.contact_pressure)
+    panels = [_panel(force, curve) for force, curve in zip(named_forces(forces), values, strict=False)]
+    for pressed in panels[2:]:
+        pressed["peaks"] = pressed["peaks"][-1:]
     return panels
 
 
-def _panel(name: str, unit: str, factor: float, values: Callable[[Array], Any], extremes: Enclosure) -> dict[str, Any]:
+def _panel(force: Labelled[Extremes], values: Callable[[Array], Any]) -> dict[str, Any]:
     """A curve over the turn with its least and greatest value."""
+    name, extremes, unit, factor = force
     angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
     ends = [(extremes.least, extremes.least_at), (extremes.most, extremes.most_at)]
     marks = [
@@ -91,7 +90,7 @@ def _facts(forces: CamForces) -> list[str]:
     return told
 
 
-def _spring(bodies: Found) -> list[str]:
+def _spring(bodies: Findings) -> list[str]:
     """The least spring, where a range of speeds is asked; or why there is none."""
     try:
         spring = bodies.spring

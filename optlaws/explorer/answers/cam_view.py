@@ -13,15 +13,15 @@ import msgspec
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.cams.curves.extremes import Extreme
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.extremes.bounding import Extreme
-from optlaws.cams.followers.contact import RollerContact
+from optlaws.cams.followers.registry import follower_kinds
 from optlaws.cams.least_sizes import least_base_circle
-from optlaws.cycles.asked.quantities import quantity
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.explorer.answers.cycle_view import check_axis
 from optlaws.explorer.answers.law_view import digits, drawn, refusal
-from optlaws.jobs.cam import wishes
+from optlaws.jobs.cam import schema
+from optlaws.motion.quantities import quantity
 
 _MILLI = 1e3
 _TURN = 360.0
@@ -49,7 +49,7 @@ def answer(asked: AskedCam) -> dict[str, Any]:
         return {"refused": {"word": "no such cam", "reason": str(error), "tried": ""}}
 
 
-def cam_of(asked: AskedCam) -> tuple[wishes.Study, DiscCam]:
+def cam_of(asked: AskedCam) -> tuple[schema.Study, DiscCam]:
     """What is wished of the cam, and the cam.
 
     Raises
@@ -61,7 +61,7 @@ def cam_of(asked: AskedCam) -> tuple[wishes.Study, DiscCam]:
     return spec, cams.first
 
 
-def cams_of(asked: AskedCam) -> tuple[wishes.Study, wishes.Cams]:
+def cams_of(asked: AskedCam) -> tuple[schema.Study, schema.Cams]:
     """The same with all that was found for it.
 
     Raises
@@ -73,17 +73,17 @@ def cams_of(asked: AskedCam) -> tuple[wishes.Study, wishes.Cams]:
 
 
 @lru_cache(maxsize=32)
-def _made(question: str) -> tuple[wishes.Study, wishes.Cams]:
+def _made(question: str) -> tuple[schema.Study, schema.Cams]:
     from optlaws.files.problem_file import convert
 
     data = json.loads(question)
     if "barrel" in data:
         raise InputError("the explorer shows disc cams: barrel cams are made by the command `optlaws cam`")
-    check_axis(convert(data, wishes.Study, _WHERE).motion)
-    return wishes.read(data, _WHERE)
+    check_axis(convert(data, schema.Study, _WHERE).motion)
+    return schema.read(data, _WHERE)
 
 
-def _view(spec: wishes.Study, cam: DiscCam) -> dict[str, Any]:
+def _view(spec: schema.Study, cam: DiscCam) -> dict[str, Any]:
     angles = np.linspace(0.0, 2.0 * np.pi, _STEPS + 1)
     curves = {"profile": cam.profile, "pitch": cam.pitch_curve}
     if spec.cutter_radius is not None:
@@ -92,7 +92,7 @@ def _view(spec: wishes.Study, cam: DiscCam) -> dict[str, Any]:
         "curves": {name: _points(np.asarray(curve(angles))) for name, curve in curves.items()},
         "frames": _frames(cam, angles),
         "turning": cam.contact.turning,
-        "follower": _follower(cam, spec.follower),
+        "follower": _follower(cam),
         "panels": _panels(spec, cam, angles),
         "across": "angle of the cam, deg",
         "segments": [],
@@ -123,22 +123,23 @@ def _as_seen(cam: DiscCam, angles: Array, vectors: Array) -> Array:
     return np.column_stack([cosine * x - sine * y, sine * x + cosine * y])
 
 
-def _follower(cam: DiscCam, asked: wishes.AskedFollower) -> dict[str, Any]:
-    pivot = (
-        None if asked.pivot_distance is None else _MILLI * quantity(asked.pivot_distance, "length", "pivot_distance")
-    )
-    roller = _MILLI * cam.contact.roller if isinstance(cam.contact, RollerContact) else None
-    return {"kind": asked.kind, "roller": roller, "pivot": pivot}
+def _follower(cam: DiscCam) -> dict[str, Any]:
+    roller, pivot = cam.contact.roller, cam.contact.pivot
+    return {
+        "kind": cam.follower.kind,
+        "roller": _MILLI * roller if roller else None,
+        "pivot": None if pivot is None else _MILLI * pivot,
+    }
 
 
-def _panels(spec: wishes.Study, cam: DiscCam, angles: Array) -> list[dict[str, Any]]:
+def _panels(spec: schema.Study, cam: DiscCam, angles: Array) -> list[dict[str, Any]]:
     turns = drawn(np.degrees(angles), 4)
     unit, factor = ("mm", _MILLI) if cam.follower.axis == "length" else ("deg", degrees(1.0))
     pressure = cam.extremes.greatest_pressure_angle
     limit = None if spec.pressure_angle is None else degrees(quantity(spec.pressure_angle, "angle", "pressure_angle"))
     radius = _MILLI * np.asarray(cam.radius_of_curvature(angles))
     far = _FAR * _MILLI * quantity(cam.base_radius, "length", "base_radius")
-    bulging = cam.extremes.bulging_radius
+    bulging = cam.extremes.least_convex_radius
     return [
         panel("displacement", unit, turns, factor * np.asarray(cam.displacement(angles)), []),
         panel(
@@ -170,10 +171,12 @@ def _trust(cam: DiscCam) -> dict[str, Any]:
     word, status = _HEARD[extremes.undercut.status]
     facts = [
         f"greatest pressure angle {_told(extremes.greatest_pressure_angle, degrees(1.0), 'deg')}",
-        f"least radius of curvature {_told(extremes.bulging_radius, _MILLI, 'mm')}",
+        f"least radius of curvature {_told(extremes.least_convex_radius, _MILLI, 'mm')}",
     ]
-    if extremes.hollow_radius is not None:
-        facts.append(f"hollow with a radius of {_told(extremes.hollow_radius, _MILLI, 'mm')}: a cutter must be smaller")
+    if extremes.least_concave_radius is not None:
+        facts.append(
+            f"hollow with a radius of {_told(extremes.least_concave_radius, _MILLI, 'mm')}: a cutter must be smaller"
+        )
     text = str(extremes.undercut)
     return {"status": status, "word": word, "advice": f"{text[0].upper()}{text[1:]}.", "gap": "", "facts": facts}
 
@@ -238,3 +241,14 @@ def example() -> dict[str, Any]:
     'no undercut'
     """
     return deepcopy(EXAMPLE)
+
+
+def followers() -> dict[str, dict[str, Any]]:
+    """Kinds of followers: whether each slides or swings, and what its entries may be.
+
+    Examples
+    --------
+    >>> followers()["inclined flat"]
+    {'axis': 'length', 'entries': {'inclination': '10 deg'}}
+    """
+    return {name: {"axis": kind.axis, "entries": kind.examples} for name, kind in follower_kinds().items()}

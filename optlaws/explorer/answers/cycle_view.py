@@ -10,17 +10,16 @@ from pathlib import Path
 from typing import Annotated, Any
 
 import msgspec
-import numpy as np
 
 from optlaws import Cycle, Status
-from optlaws.cycles.best.aims import LIMITS, read_limits
+from optlaws.cycles.optimisation.objectives import LIMITS, read_limits
+from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.explorer.answers.asked import MOST_DEGREE, MOST_ORDER
 from optlaws.explorer.answers.law_view import HEARD, digits, drawn, gap_text, refusal
-from optlaws.jobs.cycle.cycle import objective_unit
 from optlaws.jobs.cycle.entries import Axis, Study, cycle_of
-from optlaws.jobs.cycle.picture import QUANTITIES, UNITS
 from optlaws.laws.catalogue import reading
+from optlaws.plots.cycle import QUANTITIES, UNITS, samples
 
 _EACH = 100
 _TURN = 360.0
@@ -136,13 +135,9 @@ def _limits(shown: Cycle) -> list[dict[int, float]]:
 
 def _panel(shown: Cycle, nu: int) -> dict[str, Any]:
     unit, factor = UNITS[shown.axis][nu]
-    places: list[float] = []
-    values: list[float | None] = []
-    for piece in shown.pieces:
-        breaks = piece.start + piece.duration * np.array(piece.law.breaks)
-        times = np.unique(np.concatenate([np.linspace(piece.start, piece.stop, _EACH), breaks]))
-        places += [_degrees(shown, time) for time in times.tolist()]
-        values += drawn(factor * piece.values(times, nu))
+    times, sampled = samples(shown, nu, _EACH)
+    places = [_degrees(shown, time) for time in times.tolist()]
+    values = drawn(factor * sampled)
     limits = [
         {
             "from": _degrees(shown, peak.start),
@@ -200,9 +195,10 @@ def _trust(shown: Cycle) -> dict[str, Any] | None:
     facts = [f"least {shown.minimise} = {digits(shown.objective)} {unit}"]
     gap = ""
     if shown.lower_bound is not None:
-        facts.append(f"no motions of this programme are below {digits(shown.lower_bound)} {unit}")
+        facts.append(f"none below {digits(shown.lower_bound)} {unit}, of {shown.search_space}")
         gap = gap_text(1.0 - shown.lower_bound / shown.objective)
-    advice = {Status.OPTIMAL: "The lower bound meets the objective: no laws of this programme are better."}
+    facts += shown.remarks
+    advice = {Status.OPTIMAL: f"The lower bound meets the objective: none is better of {shown.search_space}."}
     status = shown.status
     return {
         "status": status.value,
@@ -215,18 +211,8 @@ def _trust(shown: Cycle) -> dict[str, Any] | None:
 
 def _facts(shown: Cycle) -> list[str]:
     """What the drive takes, and leaps at the joints."""
-    facts = []
-    if shown.drive is not None:
-        name, unit = ("force", "N") if shown.axis == "length" else ("torque", "N m")
-        effort = shown.effort
-        facts += [
-            f"peak {name} {digits(effort.peak_force, 6)} {unit}",
-            f"rms {name} {digits(effort.rms_force, 6)} {unit}",
-            f"peak power {digits(effort.peak_power, 6)} W",
-        ]
-    leap = max(abs(joint["acceleration"]) for joint in shown.joints)
-    unit = UNITS[shown.axis][2][0]
-    return [*facts, f"greatest leap of the acceleration at a joint {digits(leap, 6)} {unit}"]
+    rows = [*drive_rows(shown), *joint_rows(shown)]
+    return [f"{row.name} {digits(row.value, 6)} {row.unit}" for row in rows]
 
 
 def _ways(spec: Study, axis: Axis) -> Iterator[dict[str, Any]]:

@@ -76,7 +76,7 @@ def swept_problem(problem: Problem, x: str, y: str) -> Problem:
 
 @lru_cache(maxsize=64)
 def front(problem: Problem, x: str, y: str) -> dict[str, Any]:
-    """The line of optimal laws over x, what is proven of it, and the limit that no law of any degree passes.
+    """The line of optimal laws over x, what is proven of it, and the limit of its order at any degree.
 
     Examples
     --------
@@ -146,7 +146,7 @@ def _words(problem: Problem, x: str, laws: SolutionArray) -> str:
 
 
 def _limits(problem: Problem, x: str, y: str) -> list[Place]:
-    """What no law of any degree can beat, where y alone is minimised over B."""
+    """What no law of the problem's order can beat, of any degree, where y alone is minimised over B."""
     if x != "B" or str(problem.minimise) != y:
         return []
     values = [B for B in np.linspace(*RANGES[x], _LIMITS).tolist() if _jerk_allows(problem, B)]

@@ -15,6 +15,7 @@ from optlaws import MotionLaw, Peak, Problem, Solution, Status
 from optlaws.errors import InfeasibleProblem, OptlawsError, SolverFailure
 from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, given_law, problem_of, solved
 from optlaws.numbers import bounded
+from optlaws.synthesis.limits.of_problem import limited_laws
 
 LETTERS = ("a", "b", "c", "d", "j")
 _ORDERS = {"a": 0, "b": 1, "c": 2, "j": 3}
@@ -115,13 +116,15 @@ def shown(law: MotionLaw) -> dict[str, Any]:
 
 def constants(law: MotionLaw) -> list[dict[str, Any]]:
     """B, C, D, J and the root mean square of c, each as text and as a number, with its place."""
-    own = law.constants
-    rows = [_constant(name, getattr(own, name)) for name in ("B", "C", "D", "J")]
-    return [*rows, {"name": "rms_c", "text": digits(own.rms_c), "value": bounded(own.rms_c), "k": ""}]
-
-
-def _constant(name: str, peak: Peak) -> dict[str, Any]:
-    return {"name": name, "text": digits(peak.value), "value": bounded(peak.value), "k": f"k = {peak.k:.6g}"}
+    return [
+        {
+            "name": "rms_c" if row.place is None else row.name,
+            "text": digits(row.value),
+            "value": bounded(row.value),
+            "k": "" if row.place is None else f"k = {row.place:.6g}",
+        }
+        for row in law.constants.summary()
+    ]
 
 
 def digits(number: float, count: int = 7) -> str:
@@ -185,7 +188,10 @@ def trust(solution: Solution) -> dict[str, Any]:
     facts = [f"{name} = {digits(solution.objective)}", below]
     if solution.limit is not None:
         above = 100.0 * (solution.objective / solution.limit - 1.0)
-        facts.append(f"no law of any degree is below {digits(solution.limit)}: this one is {digits(above, 3)} % above")
+        facts.append(
+            f"no {limited_laws(solution.problem)}, of any degree, is below {digits(solution.limit)}: this one is "
+            f"{digits(above, 3)} % above"
+        )
     return {
         "status": solution.status.value,
         "word": HEARD[solution.status],

@@ -14,7 +14,7 @@ import msgspec
 import optlaws
 from optlaws import Cycle, Problem, Solution
 from optlaws.cams.cutting import formats
-from optlaws.cams.cutting.wanted import Cutting
+from optlaws.cams.cutting.file_options import Cutting
 from optlaws.errors import InputError
 from optlaws.explorer.answers import cam_view, cycle_view
 from optlaws.explorer.answers.asked import MOST_LAWS, AskedLaw, law_of, problem_of, solved

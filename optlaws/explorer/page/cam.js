@@ -10,12 +10,6 @@ import { showTrust } from "./trust.js";
 
 const told = (value) => JSON.stringify(value);
 const element = (id) => document.getElementById(id);
-const FIELDS = {
-  "translating roller": { radius: "12 mm", offset: "0 mm" },
-  "translating flat": {},
-  "oscillating roller": { radius: "14 mm", arm: "110 mm", pivot_distance: "140 mm" },
-  "oscillating flat": { pivot_distance: "120 mm", face_offset: "0 mm" },
-};
 const SIZES = { base_radius: "60 mm", cutter_radius: "none", pressure_angle: "none, or 30 deg", radius_of_curvature: "none, or 15 mm" };
 const NAMES = { base_radius: "base circle", cutter_radius: "cutter", pressure_angle: "pressure ≤", radius_of_curvature: "radius ≥", pivot_distance: "pivot", face_offset: "offset" };
 const SPEED = 60; // degrees a second
@@ -26,6 +20,7 @@ const LOADS = {
 
 export class CamView {
   #study;
+  #followers;
   #programme;
   #mechanism = new Mechanism(element("cam-drawing"));
   #motion = new Motion(element("cam-curves"));
@@ -39,8 +34,9 @@ export class CamView {
   #dial;
   #play;
 
-  constructor(study, failed) {
+  constructor(study, failed, followers) {
     this.#study = study;
+    this.#followers = followers;
     this.#programme = new Programme(element("cam-programme"), study, (state) => state.cam);
     this.#cams = new Latest("api/cam", (answer, question) => {
       this.#render(answer);
@@ -85,12 +81,12 @@ export class CamView {
   #build(kind) {
     this.#kind = kind;
     this.#shows = [];
-    const choose = html("select", { "aria-label": "kind of follower" }, ...Object.keys(FIELDS).map((value) => html("option", { value, text: value })));
+    const choose = html("select", { "aria-label": "kind of follower" }, ...Object.keys(this.#followers).map((value) => html("option", { value, text: value })));
     choose.value = kind;
     choose.addEventListener("change", () => this.#study.change("follower", (state) => {
-      const swings = (name) => name.startsWith("oscillating");
+      const swings = (name) => this.#followers[name].axis === "angle";
       const unlike = swings(choose.value) !== swings(state.cam.follower.kind);
-      state.cam.follower = { kind: choose.value, ...FIELDS[choose.value] };
+      state.cam.follower = { kind: choose.value, ...this.#followers[choose.value].entries };
       if (unlike) for (const segment of state.cam.motion.segment) if (segment.by) segment.by = swings(choose.value) ? "20 deg" : "35 mm";
       if (unlike) for (const name of ["limits", "drive"]) delete state.cam.motion[name];
       if (unlike) for (const name of ["forces", "spring"]) delete state.cam[name];
@@ -98,7 +94,7 @@ export class CamView {
     const turning = html("select", { "aria-label": "turning" }, ...["counterclockwise", "clockwise"].map((value) => html("option", { value, text: value })));
     turning.addEventListener("change", () => this.#study.change("turning", (state) => (state.cam.turning = turning.value)));
     this.#shows.push((cam) => (turning.value = cam.turning ?? "counterclockwise"));
-    const own = Object.keys(FIELDS[kind]).map((name) => this.#text(name, FIELDS[kind][name], (cam) => cam.follower));
+    const own = Object.entries(this.#followers[kind].entries).map(([name, usual]) => this.#text(name, usual, (cam) => cam.follower));
     const sizes = Object.entries(SIZES).map(([name, usual]) => this.#text(name, usual, (cam) => cam));
     const entry = (name, field) => html("div", { class: "entry" }, html("span", { class: "field-name", text: name }), field);
     element("cam-size").replaceChildren(group("Follower", choose, ...own), group("Cam", ...sizes, entry("turning", turning)), group("Forces", ...this.#bearing(kind)));
@@ -106,7 +102,7 @@ export class CamView {
 
   /** What the follower moves, the width of the contact, friction, and up to which speed a spring is to hold. */
   #bearing(kind) {
-    const drive = Object.entries(LOADS[kind.startsWith("oscillating") ? "arm" : "slide"]);
+    const drive = Object.entries(LOADS[this.#followers[kind].axis === "angle" ? "arm" : "slide"]);
     return [
       ...drive.map(([name, usual]) => this.#text(name, usual, (cam) => cam.motion.drive, (cam, value) => put(cam.motion, "drive", name, value))),
       this.#text("width", "none, or 20 mm", (cam) => cam.forces, (cam, value) => put(cam, "forces", "width", value)),

@@ -40,7 +40,7 @@ function painted() {
 }
 
 async function begin() {
-  const { state, names, cycle, cam, formats } = await (await fetch("api/start")).json();
+  const { state, names, cycle, cam, followers, formats } = await (await fetch("api/start")).json();
   const first = location.hash.length > 1 ? read(location.hash) : { ...structuredClone(FIRST), ...state };
   const views = {};
   const examples = { cycle, cam };
@@ -64,7 +64,7 @@ async function begin() {
 
   views.laws = new Laws(study, names, failed, painted);
   views.cycle = new CycleView(study, failed);
-  views.cam = new CamView(study, failed);
+  views.cam = new CamView(study, failed, followers);
   if (first.view in examples) first[first.view] ??= structuredClone(examples[first.view]);
   addEventListener("hashchange", () => study.replace(read(location.hash)));
   for (const kind of ["input", "pointermove", "keydown"]) addEventListener(kind, () => marked("input"), { capture: true, passive: true });

@@ -94,7 +94,7 @@ export class Plane {
     const limit = this.#front.limit.map(at).filter((one) => this.#inside(one, box));
     // no smooth law lies below and before the limit: there is room
     const place = limit[Math.floor(limit.length * 0.22)];
-    if (place) group.append(svg("text", { class: "limit-name", x: Math.max(place[0] - 8, box.left + 90), y: place[1] + 14, "text-anchor": "end", text: "limit of all laws" }));
+    if (place) group.append(svg("text", { class: "limit-name", x: Math.max(place[0] - 8, box.left + 90), y: place[1] + 14, "text-anchor": "end", text: "limit of all laws of this order" }));
     return group;
   }
 

@@ -3,9 +3,10 @@
 import json
 from pathlib import Path
 
+import numpy as np
 import pytest
 
-from optlaws import MotionLaw, SavinFamily, catalogue, savin
+from optlaws import Cycle, Dwell, MotionLaw, Return, Rise, SavinFamily, catalogue, read_law, savin, smoothstep
 from optlaws.cli.app import exit_code
 
 
@@ -127,3 +128,34 @@ def test_wrong_input_is_refused(capsys: pytest.CaptureFixture[str], arguments: l
     captured = capsys.readouterr()
     assert message in captured.err
     assert captured.out == ""
+
+
+@pytest.mark.filterwarnings("default::optlaws.NoisyTable")
+def test_a_measured_table_is_told_to_be_noisy_unless_its_tolerance_is_given(
+    capsys: pytest.CaptureFixture[str], tmp_path: Path
+) -> None:
+    file, k = tmp_path / "scan.txt", np.linspace(0.0, 1.0, 121)
+    lift = 35.0 * smoothstep(3)(k) + np.random.default_rng(1).normal(0.0, 0.02, 121)
+    file.write_text(
+        "angle\tlift\ttemperature\n" + "".join(f"{x:.4f}\t{y:.2f}\t20\n" for x, y in zip(k, lift, strict=True))
+    )
+    assert exit_code(["law", str(file)]) == 2
+    assert "line 2: 3 columns of numbers" in capsys.readouterr().err
+    for arguments in (["law", str(file), "--columns", "angle,lift"], ["law", f"{file}(columns=1,2)"]):
+        assert exit_code([*arguments, "--json"]) == 0
+        answer = capsys.readouterr()
+        assert answer.err.startswith("optlaws: the points scatter by 0.0")
+        assert json.loads(answer.out)["constants"]["C"]["value"] == pytest.approx(5.7735, rel=0.1)
+    told = [["--columns", "1,2", "--tolerance", "0.1"], ["--columns", "1,2", "--tolerance", "0"]]
+    peaks = []
+    for options in told:
+        assert exit_code(["law", str(file), *options, "--json"]) == 0
+        answer = capsys.readouterr()
+        assert answer.err == ""
+        peaks.append(json.loads(answer.out)["constants"]["C"]["value"])
+    assert peaks[0] < 8.0
+    assert peaks[1] > 30.0
+    law = f"{file}(columns=1,2; tolerance=0.1)"
+    rise = Rise("35 mm", "0.1 s", law=law)
+    cycle = Cycle([rise, Dwell("0.1 s"), Return(duration="0.1 s", law=law)], period="0.3 s")
+    assert cycle(0.025) == pytest.approx(0.035 * read_law(law)(0.25), rel=1e-12)

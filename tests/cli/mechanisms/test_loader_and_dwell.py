@@ -1,12 +1,12 @@
 """The commands `optlaws loader` and `optlaws dwell`."""
 
 import json
-from math import radians
+from math import degrees, gcd, radians
 from pathlib import Path
 
 import pytest
 
-from optlaws import MotionLaw, loader, smoothstep
+from optlaws import Clutch, MotionLaw, catalogue, deg, dwell_mechanism, loader, smoothstep
 from optlaws.cli.app import BAD_INPUT, exit_code
 
 DWELL = (
@@ -70,6 +70,69 @@ def test_dwell_compares_and_chooses(capsys: pytest.CaptureFixture[str]) -> None:
     assert data["chosen"] == "III"
     assert data["types"]["II"]["dwell"] == pytest.approx(radians(90))
     assert all(one["p"] >= 1 for one in data["clutches"]["III"]["teeth"])
+
+
+def test_dwell_tells_what_would_make_the_teeth_exact(capsys: pytest.CaptureFixture[str]) -> None:
+    mechanism = dwell_mechanism(
+        "III",
+        law=catalogue["K"].law,
+        dwell=deg(90),
+        rise=deg(90),
+        clutch_angle=deg(15),
+        swing=deg(20),
+        radius_ratio=1.0026761,
+        inertia_ratio=0.1,
+    )
+    clutch = Clutch(mechanism)
+    best = [choice for choice in clutch.choices(1, 60) if gcd(choice.p, choice.N) == 1][:3]
+    assert exit_code(["dwell", "K", *DWELL.split(), "--teeth", "60"]) == 0
+    lines = [line.split(maxsplit=5) for line in capsys.readouterr().out.splitlines()]
+    rows = [line for line in lines if line[:2] == ["III", "0.021140605"]]
+    assert [row[:5] for row in rows] == [
+        ["III", "0.021140605", str(one.p), str(one.N), f"{degrees(one.error):.4f}"] for one in best
+    ]
+    for row, one in zip(rows, best, strict=True):
+        assert one.swing is not None
+        assert one.dwell is not None
+        assert one.rise is not None
+        assert one.B2 is not None
+        assert row[5].strip() == (
+            f"swing {degrees(one.swing):.5g} or dwell {degrees(one.dwell):.5g} or rise {degrees(one.rise):.5g} "
+            f"or B2 = {one.B2:.5g}"
+        )
+    assert exit_code(["dwell", "K", *DWELL.split(), "--teeth", "60", "--json"]) == 0
+    teeth = json.loads(capsys.readouterr().out)["clutches"]["III"]["teeth"]
+    assert [(one["p"], one["N"], one["swing"], one["B2"]) for one in teeth] == [
+        (one.p, one.N, pytest.approx(one.swing), pytest.approx(one.B2)) for one in best
+    ]
+    # of so few teeth none meet: the nearest is told
+    assert exit_code(["dwell", "K", *DWELL.split(), "--teeth", "20", "--json"]) == 0
+    teeth = json.loads(capsys.readouterr().out)["clutches"]["III"]["teeth"]
+    assert [(one["p"], one["N"]) for one in teeth] == [(clutch.nearest(20).p, clutch.nearest(20).N)]
+
+
+@pytest.mark.parametrize(
+    ("rise", "dwell", "lower", "fits"),
+    [
+        ("90", "90", None, True),
+        ("90.01", "90", None, False),
+        ("100", "100", "60", True),
+        ("100", "100", "60.01", False),
+        ("100", "100", None, False),
+    ],
+)
+def test_a_turn_has_room_for_its_angles(
+    rise: str, dwell: str, lower: str | None, *, fits: bool, capsys: pytest.CaptureFixture[str]
+) -> None:
+    asked = DWELL.replace("--dwell 90 --rise 90", f"--dwell {dwell} --rise {rise}").split()
+    asked += [] if lower is None else ["--lower-dwell", lower]
+    assert exit_code(["dwell", "K", *asked]) == (0 if fits else BAD_INPUT)
+    told = " ".join(capsys.readouterr().err.split())
+    assert ("more than one turn" in told) is not fits
+    if not fits:
+        total = 2 * float(rise) + float(dwell) + float(lower or dwell)
+        assert f"{total:.6g} degrees" in told
+        assert ("as long as the upper one" in told) is (lower is None)
 
 
 def test_dwell_says_why_a_type_cannot_be_built(capsys: pytest.CaptureFixture[str]) -> None:
