@@ -15,10 +15,11 @@ _load, __dir__, __all__ = face(
         "optlaws.cams.disc": "DiscCam",
         "optlaws.cams.loads.forces": "CamForces",
         "optlaws.cams.loads.springs": "Spring least_spring",
-        "optlaws.cams.made.as_made": "AsMade as_made with_error",
-        "optlaws.cams.of_mechanisms.balancing": "Balancing",
-        "optlaws.cams.of_mechanisms.dwell_machine": "DwellMachine dwell_machine",
-        "optlaws.cams.of_mechanisms.lever_cam": "LeverCam rocker_law",
+        "optlaws.cams.as_manufactured.peaks": "AsMade as_made with_error",
+        "optlaws.balancing.machine_units.balancing": "Balancing",
+        "optlaws.balancing.machine_units.dwell_machine": "DwellMachine dwell_machine",
+        "optlaws.balancing.machine_units.lever_cam": "LeverCam rocker_law",
+        "optlaws.cams.followers.inclined_flat": "InclinedFlat",
         "optlaws.cams.followers.oscillating_flat": "OscillatingFlat",
         "optlaws.cams.followers.oscillating_roller": "OscillatingRoller",
         "optlaws.cams.followers.translating_flat": "TranslatingFlat",
@@ -26,11 +27,11 @@ _load, __dir__, __all__ = face(
         "optlaws.cams.least_sizes": "greatest_roller least_base_circle",
         "optlaws.cycles.machine_axes": "Axes",
         "optlaws.cycles.cycle": "Cycle",
-        "optlaws.cycles.asked.segments": "ConstantVelocity Dwell Free Move Return Rise",
+        "optlaws.cycles.specification.segments": "ConstantVelocity Dwell Free Move Return Rise",
         "optlaws.cycles.machine_follower": "MachineFollower machine_follower",
-        "optlaws.errors": "InfeasibleProblem InputError NotNormalised OptlawsError SolverFailure",
+        "optlaws.errors": "InfeasibleProblem InputError NoisyTable NotNormalised OptlawsError SolverFailure",
         "optlaws.exports.pieces.best_breaks": "best_breaks",
-        "optlaws.exports.polynomials": "PiecewiseMotion",
+        "optlaws.motion.polynomials": "PiecewiseMotion",
         "optlaws.laws.catalogue.catalogue": "catalogue",
         "optlaws.laws.catalogue.reading": "read_law",
         "optlaws.laws.making.through_points": "law_through",
@@ -48,22 +49,22 @@ _load, __dir__, __all__ = face(
         "optlaws.mechanisms.cam.constants": "cam_constant",
         "optlaws.mechanisms.of_machines.flat_output": "driving_law flat_output",
         "optlaws.mechanisms.cam.polydyne": "mass_law polydyne",
-        "optlaws.mechanisms.dwell.choice": "compare_dwell_mechanisms",
-        "optlaws.mechanisms.dwell.clutch": "Clutch",
-        "optlaws.mechanisms.dwell.mechanism": "dwell_mechanism",
+        "optlaws.balancing.dwells.choice": "compare_dwell_mechanisms",
+        "optlaws.balancing.dwells.clutch": "Clutch",
+        "optlaws.balancing.dwells.mechanism": "dwell_mechanism",
         "optlaws.mechanisms.follower.cycle": "CycleResponse",
         "optlaws.mechanisms.follower.follower": "Follower",
         "optlaws.mechanisms.follower.off_design": "Deviation off_design",
         "optlaws.mechanisms.follower.response": "Response",
-        "optlaws.mechanisms.lever.design": "find_torsion_levers",
-        "optlaws.mechanisms.lever.lever": "TorsionLever",
-        "optlaws.mechanisms.loader.loader": "Loader loader",
-        "optlaws.mechanisms.loader.optimal": "BalancedLaw balanced_law",
-        "optlaws.mechanisms.loader.trapezium": "TrapeziumSubstitute",
+        "optlaws.balancing.levers.design": "find_torsion_levers",
+        "optlaws.balancing.levers.lever": "TorsionLever",
+        "optlaws.balancing.loaders.loader": "Loader loader",
+        "optlaws.balancing.loaders.optimal": "BalancedLaw balanced_law",
+        "optlaws.balancing.loaders.trapezium": "TrapeziumSubstitute",
         "optlaws.mechanisms.machine.machine": "Machine",
         "optlaws.mechanisms.machine.masses": "Link",
         "optlaws.mechanisms.of_machines.parameters": "MachineSpectrum machine_spectrum",
-        "optlaws.cycles.side_by_side": "Comparison compare",
+        "optlaws.cycles.law_comparison": "Comparison compare",
         "optlaws.mechanisms.spectrum.residual": "residual_functional residual_phasor",
         "optlaws.mechanisms.spectrum.robust": "residual",
         "optlaws.mechanisms.spectrum.spectrum": "ResponseSpectrum response_spectrum",
@@ -77,7 +78,8 @@ _load, __dir__, __all__ = face(
         "optlaws.synthesis.limits.closed_forms": "acceleration_limit limit",
         "optlaws.synthesis.limits.laws": "limit_law",
         "optlaws.synthesis.pareto": "pareto_front",
-        "optlaws.synthesis.problem.constants": "FUNCTIONALS B C C_minus C_plus D Functional J jounce rms_c rms_j",
+        "optlaws.synthesis.problem.constants": "FUNCTIONALS B C C_minus C_plus D Functional J jounce "
+        "rms_c rms_j rms_jounce",
         "optlaws.synthesis.problem.expression": "Expression maximum",
         "optlaws.synthesis.problem.problem": "Problem",
         "optlaws.synthesis.problem.ranges": "Range at_least at_most between",
@@ -104,7 +106,7 @@ declare(
     {
         "optlaws.laws.segments.piecewise": "piecewise",
         "optlaws.laws.polynomial": "polynomial",
-        "optlaws.mechanisms.loader.law": "loader",
+        "optlaws.balancing.loaders.law": "loader",
     },
 )
 declare(
@@ -114,8 +116,8 @@ declare(
         "optlaws.laws.segments.constant_power": "power",
         "optlaws.laws.segments.segment": "polynomial",
         "optlaws.laws.segments.sine": "harmonics sine",
-        "optlaws.mechanisms.dwell.parts": "part",
-        "optlaws.mechanisms.loader.segment": "loader",
+        "optlaws.balancing.dwells.parts": "part",
+        "optlaws.balancing.loaders.segment": "loader",
     },
 )
 declare(
@@ -124,24 +126,6 @@ declare(
         "optlaws.synthesis.spaces.bases": "bernstein chebyshev pieces powers",
         "optlaws.synthesis.spaces.pieces.periodic": "periodic",
         "optlaws.synthesis.spaces.splines": "bsplines",
-    },
-)
-declare(
-    "drawing",
-    {
-        "optlaws.drawing": "front machine_spectrum output proven_front spectrum",
-        "optlaws.jobs.cam.pictures": "cam",
-        "optlaws.jobs.cycle.axes_picture": "axes",
-        "optlaws.jobs.cycle.picture": "cycle",
-        "optlaws.law_pictures": "comparison curve solution",
-    },
-)
-declare(
-    "exporting",
-    {
-        "optlaws.cams.cutting.cam_files": "cam",
-        "optlaws.exports.export": "cycle law motion solution",
-        "optlaws.exports.pieces.motion_pieces": "pieces_of_cycle pieces_of_law",
     },
 )
 declare(
@@ -159,7 +143,7 @@ declare(
         "optlaws.exports.tables.twincat": "twincat-table",
     },
 )
-declare("plain constant", {"optlaws.mechanisms.loader.constants": "B_loader C_loader D_loader"})
+declare("plain constant", {"optlaws.balancing.loaders.constants": "B_loader C_loader D_loader"})
 declare(
     "constant",
     {

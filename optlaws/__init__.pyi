@@ -2,12 +2,31 @@
 from optlaws import laws as laws
 from optlaws import mechanisms as mechanisms
 from optlaws import synthesis as synthesis
+from optlaws.balancing.dwells.choice import compare_dwell_mechanisms as compare_dwell_mechanisms
+from optlaws.balancing.dwells.clutch import Clutch as Clutch
+from optlaws.balancing.dwells.mechanism import dwell_mechanism as dwell_mechanism
+from optlaws.balancing.levers.design import find_torsion_levers as find_torsion_levers
+from optlaws.balancing.levers.lever import TorsionLever as TorsionLever
+from optlaws.balancing.loaders.loader import Loader as Loader
+from optlaws.balancing.loaders.loader import loader as loader
+from optlaws.balancing.loaders.optimal import BalancedLaw as BalancedLaw
+from optlaws.balancing.loaders.optimal import balanced_law as balanced_law
+from optlaws.balancing.loaders.trapezium import TrapeziumSubstitute as TrapeziumSubstitute
+from optlaws.balancing.machine_units.balancing import Balancing as Balancing
+from optlaws.balancing.machine_units.dwell_machine import DwellMachine as DwellMachine
+from optlaws.balancing.machine_units.dwell_machine import dwell_machine as dwell_machine
+from optlaws.balancing.machine_units.lever_cam import LeverCam as LeverCam
+from optlaws.balancing.machine_units.lever_cam import rocker_law as rocker_law
+from optlaws.cams.as_manufactured.peaks import AsMade as AsMade
+from optlaws.cams.as_manufactured.peaks import as_made as as_made
+from optlaws.cams.as_manufactured.peaks import with_error as with_error
 from optlaws.cams.barrel import BarrelCam as BarrelCam
 from optlaws.cams.best_laws import best_base_circle as best_base_circle
 from optlaws.cams.best_laws import best_cam as best_cam
 from optlaws.cams.conjugate import conjugate_cam as conjugate_cam
 from optlaws.cams.curves.motion_by_angle import CamMotion as CamMotion
 from optlaws.cams.disc import DiscCam as DiscCam
+from optlaws.cams.followers.inclined_flat import InclinedFlat as InclinedFlat
 from optlaws.cams.followers.oscillating_flat import OscillatingFlat as OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller as OscillatingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat as TranslatingFlat
@@ -17,33 +36,25 @@ from optlaws.cams.least_sizes import least_base_circle as least_base_circle
 from optlaws.cams.loads.forces import CamForces as CamForces
 from optlaws.cams.loads.springs import Spring as Spring
 from optlaws.cams.loads.springs import least_spring as least_spring
-from optlaws.cams.made.as_made import AsMade as AsMade
-from optlaws.cams.made.as_made import as_made as as_made
-from optlaws.cams.made.as_made import with_error as with_error
-from optlaws.cams.of_mechanisms.balancing import Balancing as Balancing
-from optlaws.cams.of_mechanisms.dwell_machine import DwellMachine as DwellMachine
-from optlaws.cams.of_mechanisms.dwell_machine import dwell_machine as dwell_machine
-from optlaws.cams.of_mechanisms.lever_cam import LeverCam as LeverCam
-from optlaws.cams.of_mechanisms.lever_cam import rocker_law as rocker_law
-from optlaws.cycles.asked.segments import ConstantVelocity as ConstantVelocity
-from optlaws.cycles.asked.segments import Dwell as Dwell
-from optlaws.cycles.asked.segments import Free as Free
-from optlaws.cycles.asked.segments import Move as Move
-from optlaws.cycles.asked.segments import Return as Return
-from optlaws.cycles.asked.segments import Rise as Rise
 from optlaws.cycles.cycle import Cycle as Cycle
+from optlaws.cycles.law_comparison import Comparison as Comparison
+from optlaws.cycles.law_comparison import compare as compare
 from optlaws.cycles.machine_axes import Axes as Axes
 from optlaws.cycles.machine_follower import MachineFollower as MachineFollower
 from optlaws.cycles.machine_follower import machine_follower as machine_follower
-from optlaws.cycles.side_by_side import Comparison as Comparison
-from optlaws.cycles.side_by_side import compare as compare
+from optlaws.cycles.specification.segments import ConstantVelocity as ConstantVelocity
+from optlaws.cycles.specification.segments import Dwell as Dwell
+from optlaws.cycles.specification.segments import Free as Free
+from optlaws.cycles.specification.segments import Move as Move
+from optlaws.cycles.specification.segments import Return as Return
+from optlaws.cycles.specification.segments import Rise as Rise
 from optlaws.errors import InfeasibleProblem as InfeasibleProblem
 from optlaws.errors import InputError as InputError
+from optlaws.errors import NoisyTable as NoisyTable
 from optlaws.errors import NotNormalised as NotNormalised
 from optlaws.errors import OptlawsError as OptlawsError
 from optlaws.errors import SolverFailure as SolverFailure
 from optlaws.exports.pieces.best_breaks import best_breaks as best_breaks
-from optlaws.exports.polynomials import PiecewiseMotion as PiecewiseMotion
 from optlaws.laws.catalogue.catalogue import catalogue as catalogue
 from optlaws.laws.catalogue.reading import read_law as read_law
 from optlaws.laws.constants import Constants as Constants
@@ -66,21 +77,11 @@ from optlaws.mechanisms.angles import deg as deg
 from optlaws.mechanisms.cam.constants import cam_constant as cam_constant
 from optlaws.mechanisms.cam.polydyne import mass_law as mass_law
 from optlaws.mechanisms.cam.polydyne import polydyne as polydyne
-from optlaws.mechanisms.dwell.choice import compare_dwell_mechanisms as compare_dwell_mechanisms
-from optlaws.mechanisms.dwell.clutch import Clutch as Clutch
-from optlaws.mechanisms.dwell.mechanism import dwell_mechanism as dwell_mechanism
 from optlaws.mechanisms.follower.cycle import CycleResponse as CycleResponse
 from optlaws.mechanisms.follower.follower import Follower as Follower
 from optlaws.mechanisms.follower.off_design import Deviation as Deviation
 from optlaws.mechanisms.follower.off_design import off_design as off_design
 from optlaws.mechanisms.follower.response import Response as Response
-from optlaws.mechanisms.lever.design import find_torsion_levers as find_torsion_levers
-from optlaws.mechanisms.lever.lever import TorsionLever as TorsionLever
-from optlaws.mechanisms.loader.loader import Loader as Loader
-from optlaws.mechanisms.loader.loader import loader as loader
-from optlaws.mechanisms.loader.optimal import BalancedLaw as BalancedLaw
-from optlaws.mechanisms.loader.optimal import balanced_law as balanced_law
-from optlaws.mechanisms.loader.trapezium import TrapeziumSubstitute as TrapeziumSubstitute
 from optlaws.mechanisms.machine.machine import Machine as Machine
 from optlaws.mechanisms.machine.masses import Link as Link
 from optlaws.mechanisms.of_machines.flat_output import driving_law as driving_law
@@ -92,6 +93,7 @@ from optlaws.mechanisms.spectrum.residual import residual_phasor as residual_pha
 from optlaws.mechanisms.spectrum.robust import residual as residual
 from optlaws.mechanisms.spectrum.spectrum import ResponseSpectrum as ResponseSpectrum
 from optlaws.mechanisms.spectrum.spectrum import response_spectrum as response_spectrum
+from optlaws.motion.polynomials import PiecewiseMotion as PiecewiseMotion
 from optlaws.series.peaks import Peak as Peak
 from optlaws.studies.run import run_study as run_study
 from optlaws.studies.study import open_study as open_study
@@ -119,6 +121,7 @@ from optlaws.synthesis.problem.constants import J as J
 from optlaws.synthesis.problem.constants import jounce as jounce
 from optlaws.synthesis.problem.constants import rms_c as rms_c
 from optlaws.synthesis.problem.constants import rms_j as rms_j
+from optlaws.synthesis.problem.constants import rms_jounce as rms_jounce
 from optlaws.synthesis.problem.expression import Expression as Expression
 from optlaws.synthesis.problem.expression import maximum as maximum
 from optlaws.synthesis.problem.problem import Problem as Problem
@@ -192,6 +195,7 @@ __all__ = [
     "Front",
     "FrontPoint",
     "Functional",
+    "InclinedFlat",
     "InfeasibleProblem",
     "InputError",
     "J",
@@ -203,6 +207,7 @@ __all__ = [
     "MachineSpectrum",
     "MotionLaw",
     "Move",
+    "NoisyTable",
     "NotNormalised",
     "OptlawsError",
     "OscillatingFlat",
@@ -290,6 +295,7 @@ __all__ = [
     "rms",
     "rms_c",
     "rms_j",
+    "rms_jounce",
     "rocker_law",
     "run_study",
     "savin",

@@ -39,6 +39,16 @@ class NotNormalised(UserWarning):
     """
 
 
+class NoisyTable(UserWarning):
+    """A measured table whose points are noisy, so that its law keeps within a tolerance of them.
+
+    Examples
+    --------
+    >>> issubclass(NoisyTable, UserWarning)
+    True
+    """
+
+
 class InfeasibleProblem(OptlawsError):  # noqa: N818
     """No law meets the conditions of the problem.
 

@@ -6,11 +6,37 @@ import sys
 from collections import defaultdict
 from collections.abc import Callable, Iterator, Mapping, MutableMapping
 from importlib import import_module
+from types import ModuleType
 from typing import Any, TypeVar
+
+from optlaws.locks import process_lock
 
 T = TypeVar("T")
 
 _MODULES: defaultdict[str, dict[str, str]] = defaultdict(dict)
+
+
+#: modules of libraries that import each other in circles, which two threads must not begin at different ends
+_IN_CIRCLES = ("numpy", "numpy.polynomial")
+_circles = process_lock()
+
+
+def imported(module: str) -> ModuleType:
+    """A module of optlaws, imported at the first use, in whichever thread.
+
+    Modules of optlaws import each other in no circle, and none from its package while that imports it, so that threads
+    may import several at once. numpy is not so, and comes first and whole. The lock is held for it alone: held for
+    modules of optlaws, it would wait for one that waits for the lock.
+
+    Examples
+    --------
+    >>> imported("optlaws.mechanisms.angles").__name__
+    'optlaws.mechanisms.angles'
+    """
+    with _circles:
+        for library in _IN_CIRCLES:
+            import_module(library)
+    return import_module(module)
 
 
 def face(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any], Callable[[], list[str]], list[str]]:
@@ -38,7 +64,7 @@ def face(package: str, modules: Mapping[str, str]) -> tuple[Callable[[str], Any]
     def load(name: str) -> Any:  # noqa: ANN401 - whatever the name stands for
         if name not in homes:
             raise AttributeError(f"module {package!r} has no attribute {name!r}", name=name, obj=sys.modules[package])
-        value = getattr(import_module(homes[name]), name)
+        value = getattr(imported(homes[name]), name)
         setattr(sys.modules[package], name, value)
         return value
 
@@ -68,7 +94,7 @@ class Registry(MutableMapping[str, T]):
 
     def __getitem__(self, name: str) -> T:
         if name not in self._values and name in self._modules:
-            import_module(self._modules[name])
+            imported(self._modules[name])
         return self._values[name]
 
     def __setitem__(self, name: str, value: T) -> None:

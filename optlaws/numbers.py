@@ -5,7 +5,7 @@ from __future__ import annotations
 import operator
 from collections.abc import Iterable
 from fractions import Fraction
-from math import isfinite
+from math import frexp, inf, isfinite, ldexp
 from numbers import Rational, Real
 from typing import Any
 
@@ -88,6 +88,19 @@ def bounded(value: float) -> float | None:
     return value if isfinite(value) else None
 
 
+def power_of_two(size: float) -> float:
+    """The greatest power of 2 that is not above a size; 1 where the size is 0 or not finite.
+
+    Numbers are divided by it, and multiplied again, without rounding.
+
+    Examples
+    --------
+    >>> power_of_two(6.0), power_of_two(0.3), power_of_two(0.0)
+    (4.0, 0.25, 1.0)
+    """
+    return ldexp(0.5, frexp(size)[1]) if 0.0 < size < inf else 1.0
+
+
 def finite(value: Any, name: str) -> float:  # noqa: ANN401
     """The value as a float; `name` is what an error calls it.
 
@@ -103,7 +116,9 @@ def finite(value: Any, name: str) -> float:  # noqa: ANN401
     """
     number = real(value)
     if number is None or not isfinite(number):
-        raise InputError(f"{name} must be a finite real number, got {shortened(value)}")
+        united = hasattr(value, "units") or (isinstance(value, str) and value.strip()[:1] in set("+-.0123456789"))
+        remedy = ": give the number alone, without a unit and not as text" if united else ""
+        raise InputError(f"{name} must be a finite real number, got {shortened(value)}{remedy}")
     if abs(number) > MAGNITUDE_LIMIT:
         raise InputError(f"{name} must not exceed {MAGNITUDE_LIMIT:g} in magnitude, got {number!r}")
     return number
