@@ -20,6 +20,18 @@ class Import:
         return f"{self.source}:{self.line} imports {self.target}"
 
 
+#: methods that hand a value to what draws, exports or shows it: the only places where such an import stands
+HANDED_UP = {
+    "plot": ("optlaws.plots.",),
+    "_plot": ("optlaws.plots.",),
+    "export": ("optlaws.exports.", "optlaws.cams.cutting."),
+    "summary": ("optlaws.cycles.summary.", "optlaws.cams.loads.summary."),
+    "_repr_html_": ("optlaws.cycles.summary.", "optlaws.cams.loads.summary."),
+    "pieces": ("optlaws.exports.",),
+    "polynomials": ("optlaws.exports.",),
+}
+
+
 def modules(package: Path) -> dict[str, Path]:
     """The package's modules by their dotted names; a package is its __init__.py."""
     found = {}
@@ -30,7 +42,7 @@ def modules(package: Path) -> dict[str, Path]:
 
 
 def imports(package: Path) -> list[Import]:
-    """Every import statement in the package, deferred ones included."""
+    """Every import statement in the package, deferred ones included, but for those of `HANDED_UP`."""
     return _imports(package, tuple(path.stat().st_mtime_ns for path in modules(package).values()))
 
 
@@ -49,12 +61,21 @@ def _imports_of(name: str, path: Path, known: dict[str, Path]) -> Iterator[Impor
         for statement in node.body
         for child in ast.walk(statement)
     }
+    handed_up = {
+        id(child)
+        for node in ast.walk(tree)
+        if isinstance(node, ast.ClassDef)
+        for method in node.body
+        if isinstance(method, ast.FunctionDef) and method.name in HANDED_UP
+        for child in ast.walk(method)
+        if isinstance(child, ast.ImportFrom) and f"{child.module}.".startswith(HANDED_UP[method.name])
+    }
     parent = name.split(".") if path.name == "__init__.py" else name.split(".")[:-1]
     for node in ast.walk(tree):
         if isinstance(node, ast.Import):
             for alias in node.names:
                 yield Import(name, alias.name, node.lineno, id(node) in typing)
-        elif isinstance(node, ast.ImportFrom):
+        elif isinstance(node, ast.ImportFrom) and id(node) not in handed_up:
             above = parent[: len(parent) - node.level + 1] if node.level else []
             origin = ".".join([*above, *([node.module] if node.module else [])])
             for alias in node.names:
@@ -62,6 +83,27 @@ def _imports_of(name: str, path: Path, known: dict[str, Path]) -> Iterator[Impor
                 submodule = f"{origin}.{alias.name}"
                 target = submodule if submodule in known else origin
                 yield Import(name, target, node.lineno, id(node) in typing)
+
+
+def declared(package: Path) -> list[tuple[str, Import]]:
+    """What the tables of the package's face say in strings: a registry's subject, and its import of a module."""
+    owners = {
+        str(call.args[0].value): name
+        for name, path in modules(package).items()
+        for call in _calls(path, "Registry")
+        if isinstance(call.args[0], ast.Constant)
+    }
+    return [
+        (subject, Import(owners[subject], module, call.lineno, typing=False))
+        for call in _calls(package / "__init__.py", "declare")
+        for subject, table in [map(ast.literal_eval, call.args)]
+        for module in table
+    ]
+
+
+def _calls(path: Path, function: str) -> list[ast.Call]:
+    nodes = ast.walk(ast.parse(path.read_text("utf-8")))
+    return [node for node in nodes if isinstance(node, ast.Call) and ast.unparse(node.func) == function]
 
 
 def cycles(found: list[Import], *, typing: bool = False) -> list[list[str]]:

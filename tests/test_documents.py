@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from docs._ext.docstrings import finish, prepare
 from docs._ext.module_tree import PAGE, page_with_tree
 from optlaws.cli.app import COMMANDS
 from optlaws.jobs.job import JOBS
@@ -14,7 +15,9 @@ from tests.documents import PROGRAMS, ROOT, Command, commands, failure
 # What is executed or parsed (tests/documents.py), and what has nothing to execute.
 LANGUAGES = {"python", "pycon", "console", "toml", "text", "csv", "bibtex"}
 PAGES = sorted([*ROOT.glob("README.md"), *(ROOT / "docs").rglob("*.md")])
-LAYERS = "|".join(sorted(path.name for path in (ROOT / "optlaws").iterdir() if (path / "__init__.py").is_file()))
+FOLDERS = sorted(path.name for path in (ROOT / "optlaws").iterdir() if (path / "__init__.py").is_file())
+#: where users have files of their own under these names, pages name such as are not there
+LAYERS = "|".join(name for name in FOLDERS if name not in {"problems", "results"})
 #: files and folders of the repository, those of the package with or without its name, and dotted names
 PATH = re.compile(rf"(?<![\w/.-])((?:optlaws|tests|docs|\.ci|{LAYERS})/[\w./-]*(?:\.\w+|/))(?![\w*<{{])")
 DOTTED = re.compile(r"(?<![\w./-])((?:optlaws|tests)(?:\.[A-Za-z_]\w*)+)")
@@ -148,3 +151,22 @@ def test_a_command_that_does_what_its_block_shows_passes(line: str, output: list
 )
 def test_a_command_that_does_otherwise_fails(line: str, output: list[str], complaint: str) -> None:
     assert complaint in (failure(Command(line, output)) or "")
+
+
+def test_no_half_of_a_sentence_is_taken_for_a_type_and_no_names_are_parted() -> None:
+    from docutils import nodes
+    from docutils.utils import new_document
+
+    page = new_document("page")
+    for what, lines in (
+        ("property", ["The program: shared by |b| <= B.", "", "Of one: shape."]),
+        ("class", ["Peaks.", "", "Attributes", "----------", "B, C, J", "    Peaks: of b, c, j.", "See B, C"]),
+    ):
+        prepare(None, what, "", None, None, lines)  # type: ignore[arg-type] # the application is not asked
+        assert not any(text in line for line in lines[:1] for text in (": ", "|b| "))
+        assert not any(line.startswith("B, C, J") for line in lines)
+        page += [nodes.paragraph("", "", nodes.Text(line.replace("\\", ""))) for line in lines]
+    finish(None, page)  # type: ignore[arg-type]
+    shown = [paragraph.astext() for paragraph in page]
+    assert shown[0] == "The program: shared by |b| <= B."
+    assert {"B, C, J", "    Peaks: of b, c, j.", "See B, C", "Of one: shape."} <= set(shown)

@@ -17,9 +17,9 @@ from optlaws.cli.app import exit_code
 from optlaws.errors import OptlawsError
 from optlaws.files import reading
 from optlaws.jobs import job
-from optlaws.studies.points.points import Points
-from optlaws.studies.points.study_file import read_study
+from optlaws.studies.points import StudyPoints
 from optlaws.studies.run import check
+from optlaws.studies.specification import read_study
 from optlaws.synthesis.problem.fields import ENTRIES
 from tests.documents import ROOT
 from tests.sampling import examples
@@ -98,10 +98,10 @@ def test_entries_of_a_problem_and_of_a_study(name: str, value: object, basis: st
         study = read_study(
             {"problem": entries | {"minimise": "{w}*C + {1-w}*D"}, "vary": {"w": [value], name: [value]}}
         )
-        check(study, Points.of(study))
+        check(study, StudyPoints.of(study))
     with a_door():
         study = read_study({"problem": {k: v for k, v in entries.items() if k != name}, "vary": {name: [value, 1]}})
-        check(study, Points.of(study))
+        check(study, StudyPoints.of(study))
 
 
 PATHS = st.lists(st.integers(0, 30), min_size=1, max_size=4)

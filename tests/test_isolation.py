@@ -21,6 +21,8 @@ from optlaws import (
     savin,
     synthesize,
 )
+from tests.documents import ROOT
+from tests.imports import modules
 
 VALUES: dict[str, Callable[[], Any]] = {
     "solution": lambda: synthesize(Problem(B=1.7, order=3)),
@@ -58,3 +60,63 @@ def test_a_module_and_the_tests_of_its_laws_run_in_one_call() -> None:
         arguments, cwd=Path(__file__).parent.parent, capture_output=True, text=True, check=False, timeout=120
     )
     assert process.returncode == 0, process.stdout[-2000:]
+
+
+#: eight threads use or import optlaws for the first time at once; what fails is printed
+FIRST_USE = """
+import random, sys, threading, importlib, optlaws
+mode, seed = sys.argv[1], int(sys.argv[2])
+uses = [
+    lambda: optlaws.synthesize(optlaws.Problem(B=1.8, order=3)).objective,
+    lambda: optlaws.savin("III", 7.2).constants,
+    lambda: optlaws.smoothstep(3).export("csv", stroke="35 mm", time="0.1 s", points=21).text,
+    lambda: optlaws.read_law("0317(1,5)").constants,
+    lambda: optlaws.Follower(nu=19, damping=0.05).response(optlaws.smoothstep(4)).peak(2),
+    lambda: optlaws.catalogue["cycloidal"].law.constants,
+    lambda: optlaws.Cycle([optlaws.Rise("1 mm", "0.1 s"), optlaws.Return(duration="0.1 s")], period="0.2 s"),
+    lambda: optlaws.MotionLaw.from_json('{"format":1,"kind":"polynomial","acceleration":[],"a0":0.0,"b0":1.0}'),
+]
+def modules(thread):
+    names = sys.argv[3].split()
+    random.Random(8 * seed + thread).shuffle(names)
+    for name in names:
+        importlib.import_module(name)
+def first(thread):
+    barrier.wait()
+    try:
+        modules(thread) if mode == "modules" else uses[(seed if mode == "same" else seed + thread) % 8]()
+    except BaseException as error:
+        print(mode, seed, thread, repr(error))
+if mode == "modules":
+    import numpy, numpy.polynomial
+    sys.setswitchinterval(1e-5)
+barrier = threading.Barrier(8)
+threads = [threading.Thread(target=first, args=(thread,)) for thread in range(8)]
+[thread.start() for thread in threads]
+[thread.join() for thread in threads]
+"""
+
+
+@pytest.mark.parametrize(
+    ("mode", "rounds"),
+    [
+        ("modules", 2),
+        ("mixed", 2),
+        pytest.param("modules", 60, marks=pytest.mark.long),
+        pytest.param("mixed", 200, marks=pytest.mark.long),
+        pytest.param("same", 200, marks=pytest.mark.long),
+    ],
+)
+def test_threads_may_use_optlaws_first_at_once(mode: str, rounds: int) -> None:
+    rooms = ("optlaws.cli", "optlaws.explorer", "optlaws.__main__")
+    names = " ".join(name for name in modules(ROOT / "optlaws") if not name.startswith(rooms))
+    for seed in range(rounds):
+        process = subprocess.run(
+            [sys.executable, "-c", FIRST_USE, mode, str(seed), names],
+            capture_output=True,
+            text=True,
+            check=False,
+            timeout=300,
+            cwd=ROOT,
+        )
+        assert (process.returncode, process.stdout) == (0, ""), process.stdout + process.stderr[-2000:]

@@ -1,6 +1,10 @@
+import os
 import re
+import subprocess
+import sys
 import tomllib
 from importlib import metadata
+from pathlib import Path
 from typing import Any
 
 import pytest
@@ -46,3 +50,35 @@ def test_every_dependency_is_pinned_to_a_version_it_allows(requirement: Requirem
     for pin in pins:
         (specifier,) = pin.specifier
         assert requirement.specifier.contains(specifier.version)
+
+
+#: what of the tests uses most of the libraries
+WITH_LOWEST = ("tests/test_public_api.py", "tests/laws", "tests/files", "tests/cycles", "tests/exports", "tests/cli")
+
+
+@pytest.mark.long
+def test_the_lowest_versions_that_are_allowed_install_and_pass(tmp_path: Path) -> None:
+    from uv import find_uv_bin
+
+    uv, python = find_uv_bin(), tmp_path / "bin" / "python"
+    extras = "cad,control,explore,studies,test,verify"
+    for command in (
+        [uv, "venv", "--quiet", "--python", sys.executable, str(tmp_path)],
+        [
+            uv,
+            "pip",
+            "install",
+            "--quiet",
+            "--python",
+            str(python),
+            "--resolution",
+            "lowest-direct",
+            "-e",
+            f"{ROOT}[{extras}]",
+        ],
+        # what old libraries warn of in new ones that they use is not of optlaws
+        [str(python), "-m", "pytest", "-q", "-W", "ignore::DeprecationWarning", "-p", "no:cacheprovider", *WITH_LOWEST],
+    ):
+        environment = {name: value for name, value in os.environ.items() if name != "PYTHONPATH"}
+        process = subprocess.run(command, cwd=ROOT, capture_output=True, text=True, check=False, env=environment)
+        assert process.returncode == 0, process.stdout[-3000:] + process.stderr[-3000:]

@@ -141,7 +141,7 @@ def test_every_public_callable_is_annotated() -> None:
 def test_everything_raised_on_purpose_is_one_tree() -> None:
     found = [one for name in NAMES if inspect.isclass(one := getattr(optlaws, name)) and issubclass(one, Exception)]
     warnings = {one for one in found if issubclass(one, Warning)}
-    assert {warning.__name__ for warning in warnings} == {"NotNormalised"}
+    assert {warning.__name__ for warning in warnings} == {"NoisyTable", "NotNormalised"}
     errors = [one for one in found if one not in warnings]
     assert {error.__name__ for error in errors} == {"InfeasibleProblem", "InputError", "OptlawsError", "SolverFailure"}
     assert all(issubclass(error, optlaws.OptlawsError) for error in errors)

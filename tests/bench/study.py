@@ -20,10 +20,10 @@ import msgspec
 from rich.console import Console
 from rich.table import Table
 
-from optlaws.studies.points.points import Points
-from optlaws.studies.points.study_file import read_study
+from optlaws.studies.chunk import Task, rows
+from optlaws.studies.points import StudyPoints
 from optlaws.studies.run import run_study, task
-from optlaws.studies.solving.solving import Task, rows
+from optlaws.studies.specification import read_study
 
 RATE, EFFICIENCY = 300.0, 0.9
 #: seconds for a million laws
@@ -82,15 +82,15 @@ PARTS = {
     "IPOPT": ("optlaws.synthesis.method.ways.interior_points.solve_on_points",),
     "Newton": ("optlaws.synthesis.method.ways.contacts.newton", "optlaws.synthesis.method.ways.identified.newton"),
     "proof": ("optlaws.synthesis.search.certify", "optlaws.synthesis.search.lower_bound"),
-    "synthesis": ("optlaws.studies.solving.solving.synthesize", "optlaws.studies.solving.together.solved"),
-    "constants": ("optlaws.studies.solving.solving._row", "optlaws.studies.solving.together._rows"),
+    "synthesis": ("optlaws.studies.chunk.synthesize", "optlaws.studies.chunk.solved"),
+    "constants": ("optlaws.studies.chunk._of_solution", "optlaws.studies.chunk._of_solutions"),
 }
 
 
 def shares(points: int, degree: int) -> dict[str, float]:
     """Shares of the processor time that a study takes in one process; what is outside all parts is the study's own."""
     study = read_study(asked(points, degree))
-    grid = Points.of(study)
+    grid = StudyPoints.of(study)
     tasks = [msgspec.convert(task(study, grid, number), Task) for number in range(grid.chunks)]
     list(rows(tasks[0]))
     spent: dict[str, float] = {}

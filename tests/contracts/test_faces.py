@@ -56,7 +56,9 @@ def test_no_stub_is_without_its_table() -> None:
 
 def test_importing_optlaws_imports_no_subject() -> None:
     script = "import sys, optlaws; print(*(name for name in sys.modules if name.startswith('optlaws.')))"
-    assert set(python(script).split()) <= {f"optlaws.{name}" for name in ("lazy", "laws", "mechanisms", "synthesis")}
+    assert set(python(script).split()) <= {
+        f"optlaws.{name}" for name in ("lazy", "laws", "locks", "mechanisms", "synthesis")
+    }
 
 
 @pytest.mark.parametrize(

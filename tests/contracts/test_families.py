@@ -10,12 +10,13 @@ import pytest
 from numpy.typing import NDArray
 
 from optlaws import BoundaryConditions, BSplines, Chebyshev, Pieces
-from optlaws.mechanisms.loader.constants import B_loader, C_loader, D_loader
+from optlaws.balancing.loaders.constants import B_loader, C_loader, D_loader
 from optlaws.mechanisms.spectrum.robust import residual
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.curved import OfFormula
 from optlaws.synthesis.families.energy import EnergyFamily
 from optlaws.synthesis.families.family import Family, ProductFamily
+from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.problem.named_constants import named
 from optlaws.synthesis.spaces.bases import Basis
 from optlaws.synthesis.spaces.of_basis import space_of
@@ -203,6 +204,9 @@ def test_derivatives_by_the_place_are_those_of_differences(family: Family) -> No
 @every_family
 def test_derivatives_by_the_variables_are_those_of_differences(family: Family) -> None:
     x, u = point(family), inside(family)
+    if isinstance(family, KinkedIntegralFamily):
+        # at rest c = b at both ends: a kink there comes and goes with coordinates that do not keep the ends
+        x = x + 0.1 * np.random.default_rng(1).normal(size=len(x))
     signs = np.resize(family.signs, len(u))
     jet, hessian = family.jet(x, u, signs), family.hessian(x, u, WEIGHTS * signs)
     assert jet.value == pytest.approx(signs * family.value(x, u) - family.room(x), rel=1e-11, abs=1e-11)

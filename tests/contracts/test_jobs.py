@@ -16,7 +16,7 @@ from tests.jobs.examples import EXAMPLES
 from tests.sampling import sampled
 
 #: those whose own tests do them each time, and make check-results at full size
-SLOW = {"atlas", "fronts", "loader optimal", "machine laws", "optimal polydyne"}
+SLOW = {"atlas", "fronts", "machine laws"}
 WRONG = [(name, *change) for name, example in EXAMPLES.items() for change in example.wrong]
 WRONG_BESIDE = [(name, *change) for name, example in EXAMPLES.items() for change in example.wrong_beside]
 
@@ -78,7 +78,7 @@ def test_a_job_writes_sealed_files_and_the_same_again(
     assert {file: file.read_bytes() for file in (tmp_path / "out").iterdir()} == first
 
 
-@pytest.mark.parametrize("name", sampled(["savin families", "lever drawing"]))
+@pytest.mark.parametrize("name", sampled(["force loaded", "cycle"]))
 def test_what_another_machine_rounds_otherwise_changes_no_file(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:

@@ -12,9 +12,9 @@ from optlaws import BSplines, InputError, Problem, SolverFailure, Window, via
 from optlaws.cli.app import exit_code
 from optlaws.cli.problem_options import options_of
 from optlaws.jobs.laws import fronts, solutions
-from optlaws.studies.points.axes import axes
-from optlaws.studies.points.study_file import entries as entries_of_point
-from optlaws.studies.points.study_file import read_study
+from optlaws.studies.points import StudyPoints
+from optlaws.studies.specification import entries as entries_of_point
+from optlaws.studies.specification import read_study
 from optlaws.synthesis.problem.fields import ENTRIES, FIELDS
 from optlaws.synthesis.problem.windows import read_window
 from optlaws.synthesis.solve import _neighbours
@@ -99,7 +99,7 @@ def in_a_front(base: Mapping[str, Any], one: Mapping[str, Any], asked: list[Prob
 
 def studied(data: Mapping[str, Any], asked: list[Problem]) -> None:
     study = read_study(data)
-    inputs = {name: value for axis in axes(study) for name, value in axis.inputs(0).items()}
+    inputs = StudyPoints.of(study).inputs(0)
     asked.append(Problem.from_dict(entries_of_point(study.problem.given(), inputs)))
 
 

@@ -28,6 +28,8 @@ from optlaws import (
     smoothstep,
     with_end_velocity,
 )
+from optlaws.balancing.dwells.parts import PartSegment
+from optlaws.balancing.loaders.segment import LoaderSegment
 from optlaws.laws.making.half_cycle import from_half
 from optlaws.laws.segments import (
     FractionalSegment,
@@ -37,8 +39,6 @@ from optlaws.laws.segments import (
     Segment,
     SineSegment,
 )
-from optlaws.mechanisms.dwell.parts import PartSegment
-from optlaws.mechanisms.loader.segment import LoaderSegment
 from tests.contracts.kinds import kinds
 
 Array = NDArray[np.float64]

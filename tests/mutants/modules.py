@@ -43,4 +43,26 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.laws.savin.savin": ("tests/laws/savin",),
     "optlaws.laws.catalogue.entry": ("tests/laws/catalogue",),
     "optlaws.laws.catalogue.tyr_codes": ("tests/laws/catalogue",),
+    "optlaws.formulas.slopes": ("tests/formulas/test_values.py",),
+    "optlaws.shown.showing": ("tests/test_showing.py",),
+    "optlaws.shown.steps": ("tests/test_showing.py",),
+    "optlaws.verification.reading": tuple(
+        f"tests/verification/test_reading.py::test_{name}"  # the others need results/
+        for name in (
+            "a_wrong_file_is_refused_and_says_why",
+            "a_file_that_is_not_there_is_refused",
+            "the_same_of_python_data",
+            "sizes_and_numbers_are_read_up_to_their_greatest",
+            "only_numbers_are_numbers",
+            "what_cannot_be_built_is_said_by_its_name",
+        )
+    ),
+    "optlaws.verification.machines.floors": ("tests/verification/machines/test_floors.py",),
+    "optlaws.synthesis.spaces.space": ("tests/synthesis/spaces/test_space.py",),
+    "optlaws.cli.mechanisms.dwell": ("tests/cli/mechanisms/test_loader_and_dwell.py",),
+    "optlaws.cycles.optimisation.optimal": (
+        "tests/cycles/optimisation/test_optimal.py",
+        "tests/cycles/optimisation/test_mean_force.py",
+    ),
+    "optlaws.cycles.optimisation.mean_force": ("tests/cycles/optimisation/test_mean_force.py",),
 }
