@@ -1,11 +1,8 @@
 """Sphinx configuration; pages are MyST Markdown, docstrings are in numpy style."""
 
 import logging
-import re
 import sys
 from pathlib import Path
-
-from sphinx.application import Sphinx
 
 import optlaws
 
@@ -16,6 +13,7 @@ author = copyright = "the optlaws developers"
 version = release = optlaws.__version__
 
 extensions = [
+    "docstrings",
     "mathml",
     "myst_parser",
     "public_names",
@@ -50,6 +48,7 @@ myst_heading_anchors = 3
 
 autodoc_member_order = "bysource"
 autodoc_typehints = "signature"
+python_use_unqualified_type_names = True
 napoleon_google_docstring = False
 napoleon_use_rtype = False
 # a property may be listed among the attributes as well: that is no second object
@@ -63,14 +62,19 @@ nitpick_ignore_regex = [("py:.*", r"(?!optlaws\.).*"), ("py:.*", r"optlaws\.(.*\
 nitpick_ignore_regex.append(("py:class", r"optlaws\.(cams|cycles|exports)\..*"))
 # what a solution keeps for its neighbours, and the engine that constants are written over; not public
 nitpick_ignore = [
-    ("py:class", "optlaws.cams.curves.jets.Jet"),
+    ("py:class", "optlaws.formulas.tree.Formula"),
+    ("py:class", "optlaws.formulas.arithmetic.Arithmetic"),
+    ("py:class", "optlaws.results.results.Struct"),
+    ("py:class", "optlaws.results.results.Spec"),
+    ("py:class", "optlaws.series.enclosures.interval_arrays.Interval"),
+    ("py:class", "optlaws.series.enclosures.jets.Jet"),
     ("py:class", "optlaws.cams.curves.motion_by_angle.Stretch"),
     ("py:class", "optlaws.cams.followers.contact.Contact"),
-    ("py:class", "optlaws.cams.followers.contact.FaceContact"),
-    ("py:class", "optlaws.cams.followers.contact.RollerContact"),
+    ("py:class", "optlaws.cams.followers.faces.FaceContact"),
+    ("py:class", "optlaws.cams.followers.rollers.RollerContact"),
     ("py:class", "optlaws.cams.followers.follower.Place"),
-    ("py:class", "optlaws.cycles.driven.drive.Drive"),
-    ("py:class", "optlaws.cycles.asked.conversion.Piece"),
+    ("py:class", "optlaws.cycles.drive.drive.Drive"),
+    ("py:class", "optlaws.motion.piece.Piece"),
     ("py:class", "optlaws.formulas.of_motion.Motion"),
     ("py:class", "optlaws.mechanisms.machine.dynamics.Drive"),
     ("py:class", "optlaws.mechanisms.machine.dynamics.Dynamics"),
@@ -94,13 +98,5 @@ suppress_warnings = ["ref.python"]
 html_theme = "furo"
 html_title = f"optlaws {version}"
 html_math_renderer = "mathml"
-
-
-def escape_bars(_app: Sphinx, _what: str, _name: str, _obj: object, _options: object, lines: list[str]) -> None:
-    """In docstrings |b| is a magnitude, not a substitution."""
-    lines[:] = [re.sub(r"(?<!\\)\|", r"\\|", line) for line in lines]
-
-
-def setup(app: Sphinx) -> None:
-    """Register the hook above, before napoleon's."""
-    app.connect("autodoc-process-docstring", escape_bars, priority=100)
+html_static_path = ["_static"]
+html_css_files = ["pages.css"]

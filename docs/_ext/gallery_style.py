@@ -7,6 +7,6 @@ def use(_configuration: dict[str, object], _file: str | Path) -> None:
     """Begin every example with the project's style."""
     import matplotlib as mpl
 
-    from optlaws import drawing
+    from optlaws.plots.style import STYLE
 
-    mpl.rcParams.update(drawing.STYLE)
+    mpl.rcParams.update(STYLE)

@@ -1,4 +1,4 @@
-"""The tree of modules in docs/architecture.md, made of the first lines of their docstrings.
+"""The rooms in docs/architecture.md: the folders of the package with the first lines of their docstrings.
 
 `python docs/_ext/module_tree.py` writes it again; tests/test_documents.py holds the page to it.
 """
@@ -20,11 +20,8 @@ def summary(file: Path) -> str:
 
 
 def lines(folder: Path, depth: int = 0) -> Iterator[str]:
-    """A line a folder and a line a module, modules before folders."""
+    """A line for each folder of Python modules, those within it below it."""
     yield _line(depth, f"{folder.name}/", summary(folder / "__init__.py"))
-    for module in sorted(folder.glob("*.py")):
-        if not module.name.startswith("__"):
-            yield _line(depth + 1, module.name, summary(module))
     for package in sorted(path.parent for path in folder.glob("*/__init__.py")):
         yield from lines(package, depth + 1)
 
@@ -34,12 +31,12 @@ def _line(depth: int, name: str, said: str) -> str:
 
 
 def tree() -> str:
-    """The whole tree as a block of text."""
+    """All rooms as a block of text."""
     return "\n".join(["```text", *lines(ROOT / "optlaws"), "```", ""])
 
 
 def page_with_tree(page: str) -> str:
-    """The page with the tree of today."""
+    """The page with the rooms of today."""
     before, _, rest = page.partition(BEGIN)
     _, _, after = rest.partition(END)
     return f"{before}{BEGIN}\n{tree()}\n{END}{after}"

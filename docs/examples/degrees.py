@@ -1,7 +1,7 @@
 """How near the limit of all laws one comes
 ========================================
 
-Richer Z, better laws, and what no law of any degree can beat.
+Richer Z, better laws, and the limit of all laws from rest to rest, of any degree.
 """
 
 import numpy as np

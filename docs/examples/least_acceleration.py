@@ -1,7 +1,7 @@
 """The law of least acceleration
 =============================
 
-At a given peak velocity, with the limits of its problem and the one that no law can beat.
+At a given peak velocity, with the bounds of its problem and the limit of all laws of its order.
 """
 
 from optlaws import Chebyshev, Problem, synthesize

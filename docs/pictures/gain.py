@@ -3,7 +3,8 @@
 from pathlib import Path
 from typing import Any
 
-from optlaws import Chebyshev, Comparison, Problem, at_most, catalogue, drawing, synthesize
+from optlaws import Chebyshev, Comparison, Problem, at_most, catalogue, synthesize
+from optlaws.plots.style import empty_figure, plot_style, save_picture
 
 PANELS = ((0, "displacement a", None), (1, "velocity b", "B"), (2, "acceleration c", "C"), (3, "jerk j", "J"))
 
@@ -22,8 +23,8 @@ def compared() -> Comparison:
 def draw(folder: Path) -> list[Path]:
     """Write gain.svg and gain.png into a folder."""
     found = compared()
-    with drawing.style():
-        figure = drawing.figure(9.2, 5.6)
+    with plot_style():
+        figure = empty_figure(9.2, 5.6)
         axes = figure.subplots(2, 2, sharex=True)
         artists: list[Any] = found.plot(list(axes.flat))
         for axis, (_, label, peak) in zip(axes.flat, PANELS, strict=True):
@@ -37,7 +38,7 @@ def draw(folder: Path) -> list[Path]:
             axis.set_xlabel("k (dimensionless time)")
         lines = [artist for artist in artists if artist in axes[0, 0].lines and len(artist.get_xdata()) > 1]
         figure.legend(lines, list(found.laws), loc="outside lower center", ncols=3)
-        return drawing.save_picture(figure, folder / "gain")
+        return save_picture(figure, folder / "gain")
 
 
 if __name__ == "__main__":
