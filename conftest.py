@@ -4,8 +4,10 @@ import gc
 import os
 import sys
 from collections.abc import Generator
+from contextlib import chdir
 from importlib import import_module
 from pathlib import Path
+from tempfile import TemporaryDirectory
 
 # Before anything imports matplotlib: tests, doctests and documents draw without a display.
 os.environ["MPLBACKEND"] = "Agg"
@@ -44,6 +46,15 @@ def pytest_collection() -> Generator[None, object, object]:
     finally:
         gc.freeze()
         gc.enable()
+
+
+@pytest.hookimpl(wrapper=True)
+def pytest_runtest_call(item: pytest.Item) -> Generator[None, object, object]:
+    """Run a docstring's example in a directory of its own: what it writes is not left in the repository."""
+    if not isinstance(item, pytest.DoctestItem):
+        return (yield)
+    with TemporaryDirectory() as directory, chdir(directory):
+        return (yield)
 
 
 def pytest_runtest_teardown() -> None:
