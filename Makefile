@@ -4,10 +4,10 @@ BIN := $(VENV)/bin
 UV := $(or $(wildcard $(BIN)/uv),$(shell command -v uv 2>/dev/null))
 RUN := $(VENV)/.stamp-run
 DEV := $(VENV)/.stamp-dev
-PROBLEMS := $(sort $(wildcard problems/*.toml))
+PROBLEMS := $(sort $(patsubst problems/%.toml,%,$(wildcard problems/*.toml)))
 # where a search of kinks stops is decided by rounding, which no two kinds of processors share
 UNSTEADY := own_search
-STEADY := $(filter-out $(UNSTEADY:%=problems/%.toml),$(PROBLEMS))
+STEADY := $(filter-out $(UNSTEADY),$(PROBLEMS))
 
 # More BLAS threads change the order of summation, and with it the last digits of a table.
 export OMP_NUM_THREADS := 1
@@ -30,7 +30,7 @@ help: ## list the targets
 	@sed -nE 's/^([a-z-]+):[^#]*## (.*)/  make \1|\2/p' Makefile | awk -F'|' '{ printf "%-22s %s\n", $$1, $$2 }'
 
 table: $(RUN) ## set everything up and regenerate the table of optimal laws
-	$(BIN)/optlaws run problems/optimal_table.toml
+	$(BIN)/optlaws run optimal_table
 
 test: $(DEV) ## run the tests, the doctests and the documents
 	$(BIN)/python -m pytest -n 2
@@ -66,9 +66,9 @@ results: $(RUN) ## regenerate results/ from every problem file
 # A run leaves every file that says the same as it is: what differs afterwards says something else.
 check-results: $(RUN) ## run every problem file on a copy of results/ and see that nothing in it changes
 	@set -e; top=$$(pwd); copy=$$(mktemp -d); trap 'rm -rf "$$copy"' EXIT; \
-	cp -R problems results "$$copy"; cd "$$copy"; rm -rf $(UNSTEADY:%=results/%); mkdir said; \
+	cp -R results "$$copy"; cd "$$copy"; rm -rf $(UNSTEADY:%=results/%); mkdir said; \
 	printf '%s\n' $(STEADY) | xargs -P 2 -I FILE sh -c \
-		'echo "optlaws run FILE"; "$$0" run FILE >said/$$(basename FILE)' "$$top/$(BIN)/optlaws"; \
+		'echo "optlaws run FILE"; "$$0" run FILE >said/FILE' "$$top/$(BIN)/optlaws"; \
 	grep -hx 'results/[^ ]*' said/* >written; \
 	LC_ALL=C sort written >made; find results -type f | LC_ALL=C sort >there; \
 	{ diff there made && diff -rq $(UNSTEADY:%=-x %) "$$top/results" results; } \
