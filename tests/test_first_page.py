@@ -1,14 +1,15 @@
 """The first page: its picture is what its script draws."""
 
 from pathlib import Path
+from shutil import copy
 
 from docs.pictures.gain import draw
-from optlaws.files.comparison import say_the_same
 from tests.documents import ROOT
 
 
 def test_the_picture_of_the_gain_is_current(tmp_path: Path) -> None:
+    kept = Path(copy(ROOT / "docs" / "pictures" / "gain.svg", tmp_path)).read_bytes()
     vector, raster = draw(tmp_path)
-    kept = (ROOT / "docs" / "pictures" / "gain.svg").read_bytes()
-    assert say_the_same(vector.read_bytes(), kept, "svg")
+    # a drawing that shows the same leaves the file as it is
+    assert vector.read_bytes() == kept
     assert raster.read_bytes().startswith(b"\x89PNG")

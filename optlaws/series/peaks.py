@@ -13,7 +13,8 @@ from optlaws.numbers import bounded
 
 Array = NDArray[np.float64]
 
-TIE = 1e-10
+#: of the peak: what optimal laws leave between peaks that should be equal is some 1e-10
+TIE = 1e-9
 POLISH_STEPS = 3
 POLISH_REACH = 1e-3
 POLISHED = 1e-12

@@ -271,7 +271,8 @@ def broken(problem: Problem, law: MotionLaw, allowed: float = 1e-8) -> list[str]
     for constant, asked in problem.bounded:
         value = float(judged.value(constant))
         found += [f"{constant.name} = {value!r} over {asked!r}"] * (value > asked.high * (1.0 + allowed))
-        found += [f"{constant.name} = {value!r} under {asked!r}"] * (value < asked.low * (1.0 - allowed))
+        lacks = asked.low > 0.0 and value < asked.low * (1.0 - allowed)
+        found += [f"{constant.name} = {value!r} under {asked!r}"] * lacks
     for window in problem.windows:
         found += window_broken(window, judged, allowed)
     return found

@@ -17,6 +17,9 @@ from optlaws.series import chebyshev
 
 Array = NDArray[np.float64]
 
+#: of the time: the end is a sum of the panels' lengths
+_ROUNDING = 1e-14
+
 
 @dataclass(frozen=True, eq=False, repr=False)
 class OutputCurve(Curve):
@@ -89,9 +92,10 @@ class OutputCurve(Curve):
 
     def _times(self, k: Any) -> Array:  # noqa: ANN401 - whatever users give
         places, (low, high) = real_times(k), self.interval
-        if places.size and not (low <= places.min() and places.max() <= high):
+        rounding = _ROUNDING * max(abs(low), abs(high))
+        if places.size and not (low - rounding <= places.min() and places.max() <= high + rounding):
             raise InputError(f"k must be in {low:g} to {high:g}, of which the motion is known, got {shortened(k)}")
-        return places
+        return np.clip(places, low, high)
 
     @kept_property
     def _series(self) -> dict[int, list[Array]]:

@@ -6,6 +6,7 @@ from dataclasses import replace
 from math import nextafter
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
@@ -32,10 +33,13 @@ from optlaws.synthesis.proof.directions import turned
 from optlaws.synthesis.proof.duality import summed
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 
+Array = NDArray[np.float64]
+
 _TANGENTS = 4
 _PLACES = 256
 _NEAR = 0.9
-_NO_NORM = 1e-300
+#: of the sum of magnitudes: a norm that is less is 0 but for rounding
+_APEX = 1e-11
 _NOTHING = 1e-14
 #: of the objective: a bound that leaves no more needs no other proof
 _ENOUGH = 5e-9
@@ -120,8 +124,7 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
         own = np.flatnonzero(optimum.family == i)
         direction: tuple[float, ...] = ()
         if isinstance(family, NormFamily):
-            image = family.matrix @ np.append(optimum.x, 1.0)
-            direction = tuple((image / max(float(np.linalg.norm(image)), _NO_NORM)).tolist())
+            direction = _direction(family, np.append(optimum.x, 1.0))
         for j, k in zip(own, family.k(optimum.u[own]), strict=True):
             if isinstance(family, ConeFamily):
                 direction = family.direction(optimum.x, float(optimum.u[j]))
@@ -133,7 +136,16 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
             place = float(min(max(k, 0.0), 1.0))
             contacts.append(Contact(family.name, float(optimum.s[j]), place, multiplier, direction))
     equations = tuple(model.program.stated_multipliers(optimum.equality_multipliers).tolist())
-    return _held(model, turned(model, Certificate(model.problem, tuple(contacts), equations, program, tangent)))
+    proof = _held(model, Certificate(model.problem, tuple(contacts), equations, program, tangent))
+    return _held(model, turned(model, proof))
+
+
+def _direction(family: NormFamily, x: Array) -> tuple[float, ...]:
+    """The unit vector along a norm's image; 0 where rounding alone is left of that, and every direction is as good."""
+    image = family.matrix @ x
+    length = float(np.linalg.norm(image))
+    known = length > _APEX * float(np.linalg.norm(np.abs(family.matrix) @ np.abs(x)))
+    return tuple((image / length if known else np.zeros_like(image)).tolist())
 
 
 def _held(model: Model, proof: Certificate) -> Certificate:

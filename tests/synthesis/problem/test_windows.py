@@ -1,5 +1,6 @@
 """Values and windows of a, b, c, j: kept on the whole interval, mirrored where symmetric, named in a contradiction."""
 
+from itertools import pairwise
 from typing import Any
 
 import numpy as np
@@ -62,7 +63,7 @@ def test_a_window_can_only_make_the_objective_greater() -> None:
         for h in (1.3, 1.2, 1.1, 1.0)
     ]
     objectives = [plain.objective, *(one.objective for one in narrowed)]
-    assert objectives == sorted(objectives)
+    assert all(before <= after * (1.0 + 1e-13) for before, after in pairwise(objectives))
     assert all(one.status == "optimal" for one in narrowed)
     wide = Problem(B=1.8, order=3, basis=Chebyshev(15), windows=(Window("b", high=2.0),))
     assert synthesize(wide).objective == pytest.approx(plain.objective, rel=1e-10)
