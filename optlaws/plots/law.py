@@ -31,6 +31,8 @@ PEAKS = (None, "B", "C", "J")
 
 _SAMPLES = 801
 _MARGIN = 0.08
+#: of the highest peak: others that are so near look as high; and of the interval: how near to it a place is its own
+_ALIKE, _BESIDE = 1e-4, 0.01
 #: curves drawn into one pair of axes, each by its peak
 _COLOURS = (GREY, GREEN, BLUES[3], WARM)
 _ABOVE: Any = {
@@ -150,12 +152,19 @@ def _with_peak(curve: Curve, axes: Axes, nu: int, style: dict[str, Any], *, titl
     if titled and not axes.get_title(loc="left"):
         axes.set_title(f"{name} = {peak.value:.7g} at k = {peak.k:.6g}", loc="left", fontsize=9.0)
     if isfinite(peak.value):
-        low, high = curve.extrema(nu)
-        height = high.value if high.value >= -low.value else low.value
-        place = high.k if high.value >= -low.value else low.k
-        yield from axes.plot([place], [height], "o", color=line.get_color(), markersize=4.0)
+        yield from axes.plot(*_first_peak(curve, nu, k, values), "o", color=line.get_color(), markersize=4.0)
     else:
         _keep_to(axes, values)
+
+
+def _first_peak(curve: Curve, nu: int, k: Array, values: Array) -> tuple[list[float], list[float]]:
+    """The first of the peaks that look equally high: which of them is the highest may be rounding."""
+    low, high = curve.extrema(nu)
+    peak = high if high.value >= -low.value else low
+    first = int(np.nanargmax(np.abs(values) >= (1.0 - _ALIKE) * abs(peak.value)))
+    if abs(peak.value) * (1.0 - _ALIKE) > abs(values[first]) or abs(k[first] - peak.k) < _BESIDE:
+        return [peak.k], [peak.value]
+    return [float(k[first])], [float(values[first])]
 
 
 def _sides(axes: Axes, k: Array, values: Array, colour: Any) -> Iterator[Artist]:  # noqa: ANN401 - matplotlib's

@@ -13,8 +13,7 @@ from optlaws.numbers import bounded
 
 Array = NDArray[np.float64]
 
-#: of the peak: what optimal laws leave between peaks that should be equal is some 1e-10
-TIE = 1e-9
+TIE = 1e-10
 POLISH_STEPS = 3
 POLISH_REACH = 1e-3
 POLISHED = 1e-12

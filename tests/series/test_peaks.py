@@ -98,11 +98,11 @@ def test_ties_go_to_the_smallest_k() -> None:
 
 def test_a_tie_is_relative_to_the_size() -> None:
     k = np.array([0.0, 0.5, 1.0])
-    values = np.array([-1000.0 + 5e-7, 1000.0 - 5e-7, 1000.0])
+    values = np.array([-1000.0 + 5e-8, 1000.0 - 5e-8, 1000.0])
     assert peak(k, values) == Peak(1000.0, 0.0)
-    assert extremes(k, values) == (Peak(-1000.0 + 5e-7, 0.0), Peak(1000.0, 0.5))
+    assert extremes(k, values) == (Peak(-1000.0 + 5e-8, 0.0), Peak(1000.0, 0.5))
     assert peak(k, values / 1e6).k == 0.0
-    assert peak(k, np.array([-1000.0 + 5e-6, 0.0, 1000.0])) == Peak(1000.0, 1.0)
+    assert peak(k, np.array([-1000.0 + 5e-7, 0.0, 1000.0])) == Peak(1000.0, 1.0)
 
 
 def test_extremes_of_nothing_are_plain_zeros() -> None:

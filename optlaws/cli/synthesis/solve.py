@@ -14,7 +14,7 @@ from optlaws.cli.show import constants_table, print_json, show, table
 _USUAL, _FREQUENCIES = "modified sine", (12.0, 32.0)
 
 
-@asks_for_a_problem(given={"degree": 9, "basis": "powers"})
+@asks_for_a_problem(given={"degree": 9, "basis": "chebyshev"})
 def solve(
     entries: dict[str, Any],
     *,

@@ -41,7 +41,8 @@ class Problem:
     bounds
         The same for any constant: `{"rms_c": at_most(4), "C_minus": at_most(5)}`, by its name or itself.
     basis
-        Basis of Z(k) with its degree: `Powers(9)`, `Chebyshev(9)`, `BSplines(8, 3)`.
+        Basis of Z(k) with its degree: `Powers(9)`, `Chebyshev(9)`, `BSplines(8, 3)`; `Chebyshev(9)` unless given, as
+        on the command line.
     monotone
         Ask b >= 0 too.
     symmetric
