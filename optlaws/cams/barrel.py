@@ -13,7 +13,15 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.extremes import FREE, UNDECIDED, UNDERCUT, Extreme, angle_of_tangent, enclosed_extremes
+from optlaws.cams.curves.extremes import (
+    FREE,
+    UNDECIDED,
+    UNDERCUT,
+    Extreme,
+    angle_of_tangent,
+    enclosed_extremes,
+    first_least,
+)
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.disc import sense
 from optlaws.cams.followers.follower import positive, shown
@@ -179,7 +187,7 @@ class BarrelCam:
 
             return enclosed_extremes(self.displacement, speed, 2)[0]
 
-        return min(rest(1.0), rest(-1.0), key=lambda enclosure: enclosure.low)
+        return first_least(rest(1.0), rest(-1.0))
 
     @property
     def undercut(self) -> str:

@@ -264,10 +264,13 @@ def least_of_others() -> Claim:
 
 @computation("optimal.from_starts")
 def from_starts() -> Claim:
-    """The spread of C that a minimiser finds from the paper's usual start and from its start for B = 1.969, there."""
+    """The spread of C that a minimiser finds from the paper's usual start and from its start for B = 1.969, there.
+
+    To a tenth: where such a search stops depends on the last digits of its steps.
+    """
     starts = {"usual": [1.0, 0.0, 0.0, 0.0], "chosen": [-1110.0, -333.0, -1111.0, 0.0]}
     peaks = [searched(1.969, z, 4)[0].constants.C.value for z in starts.values()]
-    return Claim(max(peaks) / min(peaks) - 1.0, ">=", 0.01)
+    return Claim(round(max(peaks) / min(peaks) - 1.0, 1), ">=", 0.01)
 
 
 @computation("optimal.search")

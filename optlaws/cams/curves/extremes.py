@@ -17,6 +17,7 @@ Function: TypeAlias = Callable[[Jet], Jet]
 
 _PARTS = 12
 TOLERANCE = 1e-10  # relative to the greatest magnitude
+_ALIKE = 1e-9  # so near to each other extremes are equal
 
 FREE, UNDERCUT, UNDECIDED = "free", "undercut", "undecided"
 
@@ -77,6 +78,19 @@ def enclosed_extremes(
         lambda angle, order: function(motion.jet(angle, order + lost)), motion.breaks, share=tolerance, parts=_PARTS
     )
     return Extreme(known.low, known.least, known.least_at), Extreme(known.most, known.high, known.most_at)
+
+
+def first_least(*known: Extreme) -> Extreme:
+    """The least of several extremes, and the first angle of those that are as low as one another.
+
+    Examples
+    --------
+    >>> first_least(Extreme(1.0, 1.0, 5.3), Extreme(1.0 + 1e-15, 1.0 + 1e-15, 0.2))
+    Extreme(low=1.0, high=1.0, angle=0.2)
+    """
+    low, high = min(extreme.low for extreme in known), min(extreme.high for extreme in known)
+    alike = high + _ALIKE * max(abs(low), abs(high))
+    return Extreme(low, high, min(extreme.angle for extreme in known if extreme.high <= alike))
 
 
 @dataclass(frozen=True)

@@ -31,6 +31,7 @@ Array = NDArray[np.float64]
 
 _SHARE = 1e-8
 _PARTS = 12
+_WAY = 1e-12  # of the stroke: what is less is rounding
 _FRICTION = ("contact", "guide", "overhang", "length")
 
 
@@ -109,7 +110,12 @@ class CamForces:
         places = [np.array(self.cam.displacement.breaks)]
         for stretch in self.cam.displacement.stretches:
             inner = stretch.segment.candidates(stretch.length, 0) if stretch.stroke else np.empty(0)
-            places.append(stretch.start + (stretch.stop - stretch.start) * inner)
+            if inner.size:
+                turns = stretch.start + (stretch.stop - stretch.start) * inner
+                ends = np.array([[stretch.start], [stretch.stop]])
+                way = np.abs(self.cam.displacement(turns) - self.cam.displacement(ends))
+                # roots of the velocity beside an end that is at rest are rounding
+                places.append(turns[(way > _WAY * abs(stretch.stroke)).all(axis=0)])
         return np.unique(np.concatenate(places))
 
     def follower_force(self, angle: Any) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays

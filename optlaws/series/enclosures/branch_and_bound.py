@@ -31,6 +31,8 @@ _STEPS, _SETTLED = 2, 1e-11
 _MOST = 50_000
 _NOTHING = 1e-200
 _TIE = 1e-10
+#: of the greatest magnitude: an extreme that is sampled to so little may be as good; and, after Newton's steps, is
+_NEAR_TIE, _AS_GOOD = 1e-7, 1e-9
 _TOP = 1e-3  # of the whole: ties so near are one extreme
 _NARROWED = 0.25
 _BLUR = 4.0
@@ -206,8 +208,8 @@ class _Search:
     def _reached(self, places: Array, values: Interval) -> None:
         low, high = values.low[np.isfinite(values.low)], values.high[np.isfinite(values.high)]
         size = max(np.abs(low).max(initial=0.0), np.abs(high).max(initial=0.0), _finite(self.least), _finite(self.most))
-        self.least, self.lows = _kept(self.least, self.lows, values.high, places, _TIE * size)
-        negative, self.highs = _kept(-self.most, self.highs, -values.low, places, _TIE * size)
+        self.least, self.lows = _kept(self.least, self.lows, values.high, places, _NEAR_TIE * size)
+        negative, self.highs = _kept(-self.most, self.highs, -values.low, places, _NEAR_TIE * size)
         self.most = -negative
 
     def take(self, cells: _Cells, done: NDArray[np.bool_]) -> None:
@@ -237,12 +239,31 @@ class _Search:
             raise SolverFailure(
                 "a function has no finite value where it is looked at: nothing is known of its extremes"
             )
-        tie = _TIE * max(abs(self.least), abs(self.most))
-        whole = float(self.edges[-1] - self.edges[0])
-        least, most = _first(self.lows, self.least + tie, whole), _first(self.highs, -self.most + tie, whole)
+        least, most = self._lowest(_TIE)
         if polished:
-            least, most = self._polished((least, most))
+            # of extremes as good as one another the first, however near to each of them a sample happened to be
+            least, most = (
+                first if first[0] <= known[0] + _AS_GOOD * max(abs(self.least), abs(self.most)) else known
+                for first, known in zip(
+                    self._polished(self._lowest(_NEAR_TIE)), self._polished((least, most)), strict=True
+                )
+            )
         return Extremes(*least, min(self.bottom, least[0]), -most[0], most[1], max(self.top, -most[0]))
+
+    def _lowest(self, tie: float) -> tuple[Valued, Valued]:
+        """The first of the least values, and of the greatest with the opposite sign, and where they are."""
+        whole, tie = float(self.edges[-1] - self.edges[0]), tie * max(abs(self.least), abs(self.most))
+        lowest = _first(self.lows, self.least + tie, whole), _first(self.highs, -self.most + tie, whole)
+        return self._on_edge(lowest[0], 1.0), self._on_edge(lowest[1], -1.0)
+
+    def _on_edge(self, lowest: Valued, sign: float) -> Valued:
+        """The first edge beside a lowest value that is as good: from there on a function may be flat."""
+        edges = self.edges[np.abs(self.edges - lowest[1]) <= _TOP * float(self.edges[-1] - self.edges[0])]
+        if not edges.size:
+            return lowest
+        value = _as_interval(self.function(Interval(edges, np.zeros(edges.shape)), 0).terms[0], len(edges)) * sign
+        good = np.flatnonzero(value.high <= lowest[0] + _AS_GOOD * max(abs(self.least), abs(self.most)))
+        return (float(value.high[good[0]]), float(edges[good[0]])) if good.size else lowest
 
     def _polished(self, known: tuple[Valued, Valued]) -> tuple[Valued, Valued]:
         """A place nearer to where the slope vanishes, where the value is no worse there."""
