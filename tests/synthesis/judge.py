@@ -21,6 +21,7 @@ from optlaws.mechanisms.machine.residual_boxes import ModeResidual
 from optlaws.mechanisms.spectrum.robust import Residual
 from optlaws.synthesis import Maximum
 from optlaws.synthesis.functionals.kinds import FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue, OfFormula
+from optlaws.synthesis.problem.expression import leaves
 from tests.formulas.by_python import by_python
 from tests.mechanisms.machine.stepped import machine_value
 from tests.synthesis.independent import DENSE
@@ -377,6 +378,9 @@ def judge(solution: Solution) -> None:
     # an objective that is 0 but for rounding is judged by what it is made of
     scale = problem.objective.scale
     nothing = 0.0 if abs(worth) > 1e-6 * scale else 1e-9 * scale
+    # amplitudes that a mode leaves are sums that cancel
+    amplitudes = [weight * term.scale for weight, term in leaves(problem.objective) if isinstance(term, ModeResidual)]
+    nothing = max(nothing, 1e-10 * max(amplitudes, default=0.0))
     assert abs(worth - solution.objective) <= 1e-9 * abs(worth) + nothing, f"{worth!r} is not {solution.objective!r}"
     assert solution.lower_bound <= solution.objective + 1e-11 * abs(solution.objective), problem
     assert solution.lower_bound == max(

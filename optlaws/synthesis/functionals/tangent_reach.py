@@ -43,6 +43,10 @@ def tangent_reach(space: LawSpace, plain: IntegralFamily, family: IntegralFamily
         The integral, and the same or its root: f, which is convex.
     """
     fixed, free = kept_directions(space)
+    if not free.size:
+        # one law is all there is
+        rule = space.quadrature(_ORDER)
+        return _ORDER, 0.0, _ROUNDED * float(rule.weights @ np.abs(rule.values @ np.append(fixed, 1.0)))
     with np.errstate(all="ignore"):
         lowest = _lowest(plain, fixed, free)
         bend = free.T @ _hessian(plain, lowest) @ free

@@ -47,9 +47,11 @@ def points(model: Model) -> Iterator[Array]:
 
 def _from_symmetric(model: Model) -> list[Array]:
     """Coordinates of the best symmetric law that the default start leads to: it belongs to the problem too."""
+    if not isinstance(model.space, PolynomialSpace):
+        return []
     half = model_of(replace(model.problem, symmetric=True))
     optimum = solve(half.program).optimum
-    if optimum is None or not isinstance(half.space, PolynomialSpace) or not isinstance(model.space, PolynomialSpace):
+    if optimum is None or not isinstance(half.space, PolynomialSpace):
         return []
     lifted = np.zeros(model.space.terms)
     lifted[np.isin(model.space.index, half.space.index)] = half.coordinates(optimum.x)

@@ -49,9 +49,16 @@ def greatest_values(model: Model, claim: float) -> dict[str, float]:
         bounds[VariableName.POWER_ROOT] = bounds[power.name] ** 0.5
     if "B" in model.places and not isfinite(bounds["B"]):
         # b is nowhere further from its mean, the stroke, than the integral of |c|
-        curved = min(bounds.get(name, inf) for name in ("C", "rms_c"))
-        bounds["B"] = abs(space.stroke) + min(curved, *_from_one_sign(problem, space, bounds))
+        bounds["B"] = abs(space.stroke) + _mean_of_acceleration(problem, space, bounds)
     return bounds
+
+
+def _mean_of_acceleration(problem: Problem, space: LawSpace, greatest: Mapping[str, float]) -> float:
+    """A bound of the integral of |c|: c is nowhere further from its mean than the integral of |j|."""
+    known = dict(means(problem, space, greatest))
+    if problem.conditions.order == 1:
+        return known.get(2, inf)
+    return min(known.get(2, inf), abs(space.velocity_change) + known.get(3, inf))
 
 
 def moments(model: Model, greatest: Mapping[str, float]) -> list[tuple[Array, Array]]:

@@ -54,12 +54,7 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
     """
     problem = model.problem
     if problem.convex:
-        proof = certificate(model, optimum, OBJECTIVE)
-        if not needs_tangents(model) or objective - proof.bound <= _ENOUGH * max(abs(objective), _ENOUGH):
-            return proof
-        several = by_tangents(model, optimum, objective)
-        several = None if several is None else _held(model, several)
-        return several if several is not None and several.bound > proof.bound else proof
+        return _of_convex(model, optimum, objective)
     if relaxed_power(problem) is None:
         loose = relaxed(problem, 0.0)
         state = solve(loose.program).optimum
@@ -87,6 +82,18 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
             break
         tangent = moved
     return best if best is not None else Certificate(problem, (), (), RELAXED, tangent)
+
+
+def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificate:
+    """The certificate of the optimum of a convex problem."""
+    proof = certificate(model, optimum, OBJECTIVE)
+    if objective - proof.bound <= _ENOUGH * max(abs(objective), _ENOUGH):
+        return proof
+    # constants that are nowhere below 0 bound their sum without a contact
+    proof = max(proof, Certificate(model.problem, (), ()), key=lambda known: known.bound)
+    several = by_tangents(model, optimum, objective) if needs_tangents(model) else None
+    several = None if several is None else _held(model, several)
+    return several if several is not None and several.bound > proof.bound else proof
 
 
 def _by_the_peak(problem: Problem) -> Certificate | None:

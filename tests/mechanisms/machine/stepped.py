@@ -179,10 +179,16 @@ def residual_value(constant: ModeResidual, pieces: Sequence[Chebyshev]) -> float
         def along(share: float, first: tuple[float, float] = first, last: tuple[float, float] = last) -> float:
             return size(*(a + share * (b - a) for a, b in zip(first, last, strict=True)))
 
-        best = int(np.argmax([along(float(s)) for s in places]))
-        around = (float(places[max(best - 1, 0)]), float(places[min(best + 1, 20)]))
-        finer = minimize_scalar(lambda s: -along(float(s)), bounds=around, method="bounded", options={"xatol": 1e-9})
-        grid.append(-float(finer.fun))
+        sizes = np.array([along(float(s)) for s in places])
+        grid.append(float(sizes.max()))
+        # in an optimum several are as high as one another
+        for best in np.flatnonzero(sizes >= 0.9 * sizes.max()):
+            around = (float(places[max(best - 1, 0)]), float(places[min(best + 1, 20)]))
+            options = {"xatol": 1e-9}
+            finer = minimize_scalar(
+                lambda s, along=along: -along(float(s)), bounds=around, method="bounded", options=options
+            )
+            grid.append(-float(finer.fun))
     return max(grid)
 
 

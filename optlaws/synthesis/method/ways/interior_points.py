@@ -14,12 +14,12 @@ from numpy.typing import NDArray
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.families.family import Family, LinearFamily, Points, Program
+from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Points, Program
 from optlaws.synthesis.families.kinked import KinkedIntegralFamily
 from optlaws.synthesis.method.on_points.conic import conic, optimum_on_points
 from optlaws.synthesis.method.on_points.grids import with_extrema
 from optlaws.synthesis.method.on_points.ipopt import Answer, solve_on_points
-from optlaws.synthesis.method.tolerances import LOST
+from optlaws.synthesis.method.tolerances import EXCESS, LOST
 from optlaws.synthesis.method.ways.identified import as_answered, optimum_near
 from optlaws.synthesis.method.ways.vertices import ByVertices
 from optlaws.synthesis.method.ways.way import Way, in_rounds
@@ -48,6 +48,9 @@ class ByInteriorPoints(Way[list[Points], ActiveSet]):
         How many at most; a linear program is given fewer.
     count, iterations, status
         The rounds so far, those of vertices included where they ended it, IPOPT's iterations, and its last word.
+    sound
+        The least answer that breaks no constraint anywhere, with its multipliers on the points: what is left where no
+        round shows an exact active set.
     """
 
     program: Program
@@ -57,6 +60,7 @@ class ByInteriorPoints(Way[list[Points], ActiveSet]):
     count: int = 0
     iterations: int = 0
     status: str = ""
+    sound: ActiveSet | None = None
 
     def __post_init__(self) -> None:
         if not self.program.curved:
@@ -72,13 +76,22 @@ class ByInteriorPoints(Way[list[Points], ActiveSet]):
         optimum = None if lost else optimum_near(self.program, self.holds, held, answer)
         if optimum is None and self._vertices_help(lost=lost):
             optimum = self._by_vertices(held)
-        if optimum is not None or lost:
+        if optimum is not None:
             return optimum, None
+        if lost:
+            return self.sound, None
+        # an optimum may be so flat that no exact active set shows: the contacts on the points are then an answer
+        conic_kinds = _only(self.program, LinearFamily, NormFamily, ConeFamily, KinkedIntegralFamily)
+        if conic_kinds and self.program.violation(answer.x) <= EXCESS and self._is_less(answer.x):
+            self.sound = as_answered(held, answer)
         if self.count == self.rounds:
-            # an optimum may be so flat that no exact active set shows: IPOPT's own contacts are then an answer
             flat = _only(self.program, LinearFamily, ConeFamily, KinkedIntegralFamily)
-            return (as_answered(held, answer) if flat else None), None
+            return self.sound or (as_answered(held, answer) if flat else None), None
         return None, with_extrema(self.program, held, answer.x)
+
+    def _is_less(self, x: Array) -> bool:
+        """Whether an answer is better than the sound one so far."""
+        return self.sound is None or bool(self.program.objective @ (x - self.sound.x) < 0.0)
 
     def _answer(self, points: list[Points]) -> Answer:
         """Clarabel's answer to a conic program; else, or where it has none, IPOPT's, the usual where no fine one is."""
