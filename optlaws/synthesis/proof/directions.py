@@ -14,7 +14,9 @@ from numpy.typing import NDArray
 from optlaws.synthesis.families.cone import ConeFamily
 from optlaws.synthesis.families.family import NormFamily
 from optlaws.synthesis.program.writer import Model
-from optlaws.synthesis.proof.certificate import Certificate, Contact, row_of
+from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.proof.duality import row_of
+from optlaws.synthesis.proof.nodes import Contact
 
 Array = NDArray[np.float64]
 
@@ -45,7 +47,7 @@ def turned(model: Model, proof: Certificate) -> Certificate:
         contact if image is None else _with_direction(contact, np.array(contact.direction) + next(parts))
         for contact, image in zip(proof.contacts, images, strict=True)
     )
-    better = replace(proof, contacts=contacts)
+    better = proof.with_leaf(contacts=contacts)
     return better if better.bound > proof.bound else proof
 
 

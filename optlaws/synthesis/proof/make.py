@@ -17,19 +17,18 @@ from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, relaxed, relaxed_power
-from optlaws.synthesis.proof.below_claim import least_values
 from optlaws.synthesis.proof.certificate import (
     OBJECTIVE,
     RELAXED,
     VIOLATION,
     Certificate,
-    Contact,
-    row_of,
     weighted_rows,
 )
 from optlaws.synthesis.proof.cuts import by_tangents, needs_tangents
 from optlaws.synthesis.proof.directions import turned
-from optlaws.synthesis.proof.duality import summed
+from optlaws.synthesis.proof.duality import row_of, summed
+from optlaws.synthesis.proof.nodes import Contact
+from optlaws.synthesis.proof.sublevel_bounds import least_values
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 
 _TANGENTS = 4
@@ -59,7 +58,7 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
     if relaxed_power(problem) is None:
         loose = relaxed(problem, 0.0)
         state = solve(loose.program).optimum
-        return Certificate(problem, (), (), RELAXED) if state is None else certificate(loose, state, RELAXED)
+        return Certificate.of_leaf(problem, program=RELAXED) if state is None else certificate(loose, state, RELAXED)
     tangent = _needed_root(model, optimum) or float(np.sqrt(objective))
     best: Certificate | None = None
     warm: ActiveSet | None = None
@@ -82,7 +81,7 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
         if abs(moved - tangent) < 1e-6 * tangent:
             break
         tangent = moved
-    return best if best is not None else Certificate(problem, (), (), RELAXED, tangent)
+    return best if best is not None else Certificate.of_leaf(problem, program=RELAXED, tangent=tangent)
 
 
 def _by_the_peak(problem: Problem) -> Certificate | None:
@@ -99,7 +98,7 @@ def _by_the_peak(problem: Problem) -> Certificate | None:
     )
     equations = [0.0] * len(loose.program.right)
     equations[loose.equation_names.index(velocity_at_peak(0.5))] = -pull
-    return Certificate(problem, contacts, tuple(equations), RELAXED, problem.B)
+    return Certificate.of_leaf(problem, contacts, equations, RELAXED, problem.B)
 
 
 def _needed_root(model: Model, optimum: ActiveSet) -> float:
@@ -132,8 +131,8 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
             multiplier = float(optimum.multipliers[j]) * (model.unit / family.unit)
             place = float(min(max(k, 0.0), 1.0))
             contacts.append(Contact(family.name, float(optimum.s[j]), place, multiplier, direction))
-    equations = tuple(model.program.stated_multipliers(optimum.equality_multipliers).tolist())
-    return _held(model, turned(model, Certificate(model.problem, tuple(contacts), equations, program, tangent)))
+    equations = model.program.stated_multipliers(optimum.equality_multipliers).tolist()
+    return _held(model, turned(model, Certificate.of_leaf(model.problem, contacts, equations, program, tangent)))
 
 
 def _held(model: Model, proof: Certificate) -> Certificate:
@@ -156,7 +155,7 @@ def _held(model: Model, proof: Certificate) -> Certificate:
             pull = -float(rows[most][place])
             greater = contacts[most].multiplier + _MORE * float(slope[place]) / pull
             contacts[most] = replace(contacts[most], multiplier=nextafter(greater, np.copysign(np.inf, slope[place])))
-    held = replace(proof, contacts=tuple(contacts))
+    held = proof.with_leaf(contacts=contacts)
     return held if held.bound > proof.bound else proof
 
 

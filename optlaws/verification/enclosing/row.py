@@ -8,7 +8,7 @@ from fractions import Fraction
 
 from flint import arb
 
-from optlaws.synthesis.proof.certificate import Contact
+from optlaws.synthesis.proof.nodes import Contact
 
 Names = Mapping[str, float | arb]
 

@@ -1,7 +1,7 @@
-"""Steps of power certificates with every rounding enclosed: boxes with sides rounded outward, sums of rows in balls.
+"""Trees over boxes with every rounding enclosed: boxes with sides rounded outward, sums of rows in balls.
 
 Nothing has to be corrected. What the multipliers leave of a coordinate costs its least value in the box, so that the
-steps prove what they prove, whatever they are.
+nodes prove what they prove, whatever they are.
 """
 
 from __future__ import annotations
@@ -9,15 +9,15 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from fractions import Fraction
+from math import isfinite
 
 from flint import arb, arb_mat
 
-from optlaws.synthesis.problem.expression import Expression, Maximum
-from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.proof.certificate import Certificate, Contact
-from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step
+from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.proof.nodes import Contact, Leaf, Split, Tightening
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.exact.rows import ExactRows
+from optlaws.verification.exact.sublevel_bounds import greatest_values
 
 Vector = list[arb]
 
@@ -46,12 +46,12 @@ class Box:
 
 
 class BoxSteps(ABC):
-    """The steps of a certificate, done again.
+    """The nodes of a certificate's tree, applied again.
 
     Parameters
     ----------
     certificate
-        Whose steps.
+        Whose tree.
 
     Raises
     ------
@@ -59,16 +59,17 @@ class BoxSteps(ABC):
         If the points do not determine the law.
     """
 
-    def __init__(self, certificate: PowerCertificate) -> None:
-        self.certificate, self.problem = certificate, certificate.problem
-        self.rows = ExactRows(Certificate(certificate.problem, (), ()))
-        self.points = [Fraction(k) for k in certificate.points]
+    def __init__(self, certificate: Certificate) -> None:
+        self.tree, self.problem, self.claim = certificate.tree, certificate.problem, certificate.claim or 0.0
+        self.rows = ExactRows(certificate)
+        self.points = [Fraction(k) for k in certificate.points or ()]
         velocities = [self.rows.space.values(1, k) for k in self.points]
         if len(velocities) != self.rows.space.terms:
             raise ZeroDivisionError
         self.inverse = arb_mat([row[:-1] for row in velocities]).inv()
         self.base = arb_mat(len(velocities), 1, [row[-1] for row in velocities])
-        self.greatest = greatest_of(self.problem, Fraction(certificate.claim))
+        sublevel = greatest_values(certificate, self.rows, self.claim)
+        self.greatest = {name: Fraction(most) for name, most in sublevel.items() if isfinite(most)}
         start, change, stroke = self.rows.space.bounds
         self.stroke = abs(arb(stroke))
         self.ends = [
@@ -94,19 +95,18 @@ class BoxSteps(ABC):
         """The row of a contact that depends on the box; None where it is no such row, or says nothing there."""
 
     def holds(self) -> bool:
-        """Whether the steps empty every box."""
+        """Whether the tree leaves no box."""
         boxes = [self.root()]
-        for step in self.certificate.steps:
-            if not boxes or not -1 <= step.variable < len(boxes[-1].low):
+        for node in self.tree:
+            moves = isinstance(node, Split | Tightening)
+            if not boxes or (moves and not 0 <= node.variable < len(boxes[-1].low)):
                 return False
             box = boxes.pop()
-            if isinstance(step, Cut):
-                if step.variable < 0:
-                    return False
-                at = ball(step.at)
-                boxes += [box.cut(step.variable, low=at), box.cut(step.variable, high=at)]
+            if isinstance(node, Split):
+                at = ball(node.at)
+                boxes += [box.cut(node.variable, low=at), box.cut(node.variable, high=at)]
             else:
-                boxes += self.moved(box, step)
+                boxes += self.moved(box, node)
         return not boxes
 
     def root(self) -> Box:
@@ -118,25 +118,25 @@ class BoxSteps(ABC):
         sides = [*brackets, *own]
         return Box([low.lower() for low, _ in sides], [high.upper() for _, high in sides])
 
-    def moved(self, box: Box, step: Step) -> list[Box]:
-        """The box after a step, none if it is empty."""
+    def moved(self, box: Box, node: Leaf) -> list[Box]:
+        """The box after a sum of rows, none if it is empty."""
         total = [arb(0)] * (len(box.low) + 1)
-        if step.variable >= 0:
-            total[step.variable] = arb(step.side)
-        parts = [(max(contact.multiplier, 0.0), self.contact(contact, box)) for contact in step.contacts]
+        if isinstance(node, Tightening):
+            total[node.variable] = arb(node.side)
+        parts = [(max(contact.multiplier, 0.0), self.contact(contact, box)) for contact in node.contacts]
         equations = [self.mapped(row.vector(self.rows.names)) for row in self.rows.equations]
-        parts += zip(step.equations, equations, strict=False)
+        parts += zip(node.equations, equations, strict=False)
         cost = [ball(self.rows.cost.get(name, 0.0)) for name in self.rows.names]
-        parts.append((max(step.claim, 0.0), [*[arb(0)] * len(self.points), *cost, -ball(self.certificate.claim)]))
+        parts.append((max(node.claim, 0.0), [*[arb(0)] * len(self.points), *cost, -ball(self.claim)]))
         for weight, row in parts:
             total = [x + ball(weight) * y for x, y in zip(total, row, strict=True)]
         least = box.least(total)
-        if step.variable < 0:
+        if not isinstance(node, Tightening):
             return [] if least > 0 else [box]
-        low, high = box.low[step.variable], box.high[step.variable]
-        if step.side > 0:
-            return [] if least > high else [box.cut(step.variable, low=low.max(least))]
-        return [] if -least < low else [box.cut(step.variable, high=high.min(-least))]
+        low, high = box.low[node.variable], box.high[node.variable]
+        if node.side > 0:
+            return [] if least > high else [box.cut(node.variable, low=low.max(least))]
+        return [] if -least < low else [box.cut(node.variable, high=high.min(-least))]
 
     def mapped(self, vector: Vector) -> Vector:
         """A row over the coordinates as one over the variables of a box."""
@@ -157,24 +157,3 @@ class BoxSteps(ABC):
         if row is not None:
             return self.mapped(row.vector(self.rows.names))
         return [arb(0)] * (len(box.low) + 1) if curved is None else curved
-
-
-def greatest_of(problem: Problem, claim: Fraction) -> dict[str, Fraction]:
-    """What the constants of the objective, and those that are bounded, are at most in laws below the claim."""
-    greatest: dict[str, Fraction] = {}
-
-    def spread(expression: Expression, most: Fraction) -> None:
-        for weight, term in expression.terms:
-            share = most / Fraction(weight)
-            greatest[repr(term)] = min(greatest.get(repr(term), share), share)
-            if isinstance(term, Maximum):
-                for part in term.parts:
-                    spread(part, share)
-
-    spread(problem.objective, claim)
-    for name in ("B", *(constant.name for constant, _ in problem.bounded)):
-        asked = problem.range(name)
-        if asked is not None and asked.high < float("inf"):
-            high = Fraction(asked.high)
-            greatest[name] = min(greatest.get(name, high), high)
-    return greatest

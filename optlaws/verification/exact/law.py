@@ -26,9 +26,9 @@ from optlaws.verification.enclosing.balls import ball, enclosed, rational
 from optlaws.verification.enclosing.pieces import ExactPiece, Extremes, PolynomialPiece, least_and_greatest
 from optlaws.verification.exact.formula_values import extremes_of, integral_of
 from optlaws.verification.exact.known_constants import Known, OfFormula, OfMachine, known
-from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
 from optlaws.verification.machines.mode_residuals import ExactModeResidual, ModeConstant
 from optlaws.verification.machines.outputs import ExactOutput, OutputRms
+from optlaws.verification.machines.residuals import ExactResidual, ResidualConstant
 
 
 class ExactLaw:

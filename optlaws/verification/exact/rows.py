@@ -29,7 +29,8 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.writer import relaxed_power
-from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate, Contact
+from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate
+from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
@@ -45,10 +46,10 @@ from optlaws.verification.exact.formula_rows import (
 from optlaws.verification.exact.known_constants import OfFormula, OfMachine, known
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.of_basis import exact_space
-from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
 from optlaws.verification.machines.certificate_rows import Corner, cone, mean, mode_edges, peak
 from optlaws.verification.machines.mode_residuals import ModeConstant
 from optlaws.verification.machines.outputs import OutputConstant, OutputRms, OutputRows
+from optlaws.verification.machines.residuals import ExactResidual, ResidualConstant
 
 _NEAR = Fraction(1, 10**9)
 
@@ -83,7 +84,7 @@ class ExactRows:
     def __init__(self, certificate: Certificate) -> None:
         self.problem = problem = certificate.problem
         self.space = exact_space(problem)
-        self.tangent = ball(certificate.tangent)
+        self.tangent = ball(certificate.tangent or 0.0)
         self.relaxed = certificate.program == RELAXED
         #: the one power whose root is a variable
         self.power = relaxed_power(problem) if self.relaxed else None

@@ -27,10 +27,10 @@ from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof.below_claim import asked_or_claimed, means
-from optlaws.synthesis.proof.certificate import Contact
+from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.beneath_integrals import Beneath
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
+from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed, means
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 
 Array = NDArray[np.float64]

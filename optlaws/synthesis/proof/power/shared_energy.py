@@ -20,10 +20,10 @@ from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.proof.below_claim import asked_or_claimed
-from optlaws.synthesis.proof.certificate import Contact
+from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
 from optlaws.synthesis.proof.power.lines_above import above_inverse, above_root
+from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed
 
 Array = NDArray[np.float64]
 

@@ -9,10 +9,20 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws import Chebyshev, InputError, MotionLaw, PowerCertificate, Problem, Solution, at_most, loader, synthesize
+from optlaws import (
+    Certificate,
+    Chebyshev,
+    InputError,
+    MotionLaw,
+    Problem,
+    Solution,
+    Tightening,
+    at_most,
+    loader,
+    synthesize,
+)
 from optlaws.balancing.loaders.constants import NAMES, D_loader
 from optlaws.synthesis.proof.power.box import Box, BoxRows
-from optlaws.synthesis.proof.power.certificate import Step
 from optlaws.synthesis.proof.power.lines_above import above_inverse, above_root
 from optlaws.synthesis.proof.power.rows_of_problem import rows_of
 from optlaws.synthesis.proof.power.search import _points
@@ -110,7 +120,7 @@ def test_the_best_law_is_proven(minimise: str) -> None:
     assert 0.0 <= solution.gap <= 1e-8
     proof = solution.power_certificate
     assert proof is not None
-    again = PowerCertificate.from_dict(json.loads(json.dumps(proof.to_dict())))
+    again = Certificate.from_dict(json.loads(json.dumps(proof.to_dict())))
     assert again.bound == proof.bound == solution.lower_bound
     # no law of the rest is below
     weights = {repr(term): weight for weight, term in solution.problem.objective.terms}
@@ -131,10 +141,10 @@ def test_what_is_not_proven_is_not_claimed() -> None:
     proof = proven("C_loader").power_certificate
     assert proof is not None
     assert replace(proof, claim=proof.claim * 1.001).bound == -np.inf
-    assert replace(proof, steps=proof.steps[:-1]).bound == -np.inf
+    assert replace(proof, tree=proof.tree[:-1]).bound == -np.inf
     assert replace(proof, problem=replace(PROBLEM, monotone=False)).bound == -np.inf
     assert replace(proof, problem=replace(PROBLEM, basis=Chebyshev(9))).bound == -np.inf
-    contacts = [contact for step in proof.steps if isinstance(step, Step) for contact in step.contacts]
+    contacts = [contact for node in proof.tree if isinstance(node, Tightening) for contact in node.contacts]
     assert {contact.constraint for contact in contacts} & {"C_loader, ++", "C_loader, -+"}
 
 

@@ -10,7 +10,7 @@ from flint import acb, acb_series, arb
 
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
-from optlaws.verification.exact.space import ExactSpace
+from optlaws.verification.machines.driving import Space
 from optlaws.verification.machines.velocity_transforms import (
     Ends,
     ends_of,
@@ -65,7 +65,7 @@ class ExactResidual:
         apart = nu * acb(ball(-self.damping)) + acb(ball(self.design_damping * self.design))
         return 1 - nu * nu * acb(square) + apart * w * acb(2 * square)
 
-    def rows(self, space: ExactSpace, place: Fraction) -> list[acb]:
+    def rows(self, space: Space, place: Fraction) -> list[acb]:
         """Amplitudes of a space's free functions and of its base law, at the frequency of a certificate's place."""
         nu = (1 - place) * self.low + place * self.high
         return self.amplitudes(acb(ball(nu)), space.breaks, ends_of(space))

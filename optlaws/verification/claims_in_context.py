@@ -11,13 +11,13 @@ from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.places import Entry
+from optlaws.verification.file_entries import Entry
 from optlaws.verification.reading import built
 from optlaws.verification.result import Claim, Verification
 from optlaws.verification.stated_numbers import near
 
 
-def said_around(entry: Entry, verification: Verification) -> Iterator[Claim]:
+def claims_in_context(entry: Entry, verification: Verification) -> Iterator[Claim]:
     """Status, problem, peak velocity and constants that stand around an entry, as claims.
 
     Raises

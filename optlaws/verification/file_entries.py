@@ -18,7 +18,6 @@ from optlaws.files.typed import typed
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proof.no_law import ground_of
-from optlaws.synthesis.proof.power.certificate import PowerCertificate
 
 Data = Mapping[str, Any]
 
@@ -235,9 +234,8 @@ def _no_law(row: Data, path: str) -> Iterator[tuple[str, Entry]]:
     if not isinstance(proof, Mapping):
         yield path, Entry({}, Around(status="infeasible"))
         return
-    kind: type[Certificate | PowerCertificate] = PowerCertificate if "steps" in proof else Certificate
     problem = problem_of(_stated(row.get("problem"), dict[str, Any], f"{path}.problem"))
-    ground = ground_of(problem, kind.from_dict(proof))
+    ground = ground_of(problem, Certificate.from_dict(proof))
     if ground is None:
         yield path, Entry({}, Around(status="infeasible"))
         return
