@@ -12,13 +12,15 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
+from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
+from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
+from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proven.front import ProvenFront
 from optlaws.synthesis.solution import measure
 from optlaws.synthesis.stored_solutions import read_solutions
-from optlaws.verification.claims_in_context import claims_in_context
 from optlaws.verification.conditions import excesses
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Proof, prove
@@ -28,7 +30,7 @@ from optlaws.verification.file_entries import NO_FILE, Entry, check_keys, entrie
 from optlaws.verification.proven_fronts import proven_front
 from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
-from optlaws.verification.stated_numbers import at_most, stated_constants, stated_numbers
+from optlaws.verification.stated_numbers import at_most, near, stated_constants, stated_numbers
 
 #: an optimum's greatest gap, the greatest correction that rounding explains, and the share that is no multiplier
 _GAP, _CORRECTION, _NOTHING = 1e-8, 1e-6, 1e-9
@@ -88,8 +90,12 @@ def _arrays(data: Mapping[str, Any]) -> Verification:
     return Verification(problem=None, bound=None, recomputed=(claim,))
 
 
+def _law(data: Mapping[str, Any]) -> ExactLaw:
+    return built(lambda entry: ExactLaw(MotionLaw.from_dict(entry)), data["law"], "law")
+
+
 def _law_alone(data: Mapping[str, Any]) -> Verification:
-    law = built(lambda entry: ExactLaw(MotionLaw.from_dict(entry)), data["law"], "law")
+    law = _law(data)
     constants = law.enclosures()
     return Verification(problem=None, bound=None, constants=constants, claims=tuple(stated_constants(data, law)))
 
@@ -106,7 +112,7 @@ def _solution(data: Mapping[str, Any]) -> Verification:
         if not isinstance(data[name], Mapping):
             raise InputError(f"{name} must be an object, got {shortened(data[name])}")
     problem = built(Problem.from_dict, data["problem"], "problem")
-    law = built(lambda entry: ExactLaw(MotionLaw.from_dict(entry)), data["law"], "law")
+    law = _law(data)
     proofs = {}
     for key in ("certificate", *beside):
         certificate = built(Certificate.from_dict, data[key], _name(key))
@@ -157,11 +163,14 @@ def _name(key: str) -> str:
 
 def _best(problem: Problem, proofs: Mapping[str, tuple[Certificate, Proof]]) -> tuple[Fraction | None, str]:
     """The highest bound that is proven of the problem, and by what if not by its first certificate."""
+    known = [
+        (proof.value, f" by {_name(key)}" if key in _BESIDE else "")
+        for key, (certificate, proof) in proofs.items()
+        if certificate.problem == problem and proof.value is not None
+    ]
     limit = exact_limit(problem)
-    known = [] if limit is None else [(limit, " by the limit of laws of any degree")]
-    for key, (certificate, proof) in reversed(proofs.items()):
-        if certificate.problem == problem and proof.value is not None:
-            known.insert(0, (proof.value, f" by {_name(key)}" if key in _BESIDE else ""))
+    if limit is not None:
+        known.append((limit, " by the limit of laws of any degree"))
     return max(known, key=lambda bound: bound[0], default=(None, ""))
 
 
@@ -240,3 +249,41 @@ def _of_gap(data: Mapping[str, Any], gap: float | None) -> Iterator[Claim]:
 
 def _shown(gap: float | None) -> str:
     return "not known" if gap is None else f"{gap:.1e}"
+
+
+def claims_in_context(entry: Entry, verification: Verification) -> Iterator[Claim]:
+    """Status, problem, peak velocity and constants that stand around an entry, as claims.
+
+    Raises
+    ------
+    InputError
+        If a problem around it is none, or a constant is unknown.
+    """
+    around, problem = entry.around, verification.problem
+    if around.status is not None:
+        own = "infeasible" if _no_law(verification, around.above) else entry.data.get("status")
+        yield Claim("the row's status", own == around.status, f"{around.status!r} stated, {own!r} inside")
+    if around.asked is not None:
+        asked = problem_of(around.asked)
+        yield Claim("the row's problem", asked == problem, f"{asked!r}")
+    if around.B is not None and problem is not None:
+        yield Claim("the row's B", around.B == problem.B, f"{around.B!r} stated, {problem.B!r} in the problem")
+    yield from _constants(entry)
+
+
+def _no_law(verification: Verification, above: float | None) -> bool:
+    """Whether no law exists: the constraints contradict each other, or a least value is above what is asked."""
+    bound = verification.bound
+    return verification.infeasible or (above is not None and bound is not None and bound > above)
+
+
+def _constants(entry: Entry) -> Iterator[Claim]:
+    if not entry.around.values:
+        return
+    if "law" not in entry.data:
+        raise InputError("values of a front claim something of a point without a law")
+    law = _law(entry.data)
+    for name, value in entry.around.values.items():
+        if name not in FUNCTIONALS:
+            raise InputError(unknown_key(name, FUNCTIONALS, "constant"))
+        yield near(f"the front's {name}", value, enclosed(law.term(FUNCTIONALS[name])))

@@ -173,7 +173,7 @@ class Certificate:
         rows = self._regions()
         if rows is None:
             return False
-        regions = list(rows.roots())
+        regions: list[Any] = [*rows.roots()]
         for node in self.tree:
             left = rows.after(regions.pop(), node) if regions else None
             if left is None:
@@ -197,6 +197,7 @@ class Certificate:
 
     def to_dict(self) -> dict[str, Any]:
         """Plain JSON-able dict with the recomputed bound (None where there is none): docs/reference/proof-format.md."""
+        own: dict[str, Any]
         if self.points is not None:
             own = {"claim": self.claim, "points": list(self.points), "steps": stored.steps(self.tree)}
         elif self.peak:

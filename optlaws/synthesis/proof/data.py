@@ -12,8 +12,7 @@ import msgspec
 from optlaws.errors import InputError
 from optlaws.files.typed import typed
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, Split, Tightening
-from optlaws.synthesis.proof.peaks.places import PlaceRange
+from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, PlaceRange, Split, Tightening
 
 Stated = TypeVar("Stated")
 
@@ -114,8 +113,9 @@ def stated_certificate(data: object) -> StatedLeaf | StatedBoxes | StatedPlaces:
         As `stated`.
     """
     keys = set(data) if hasattr(data, "keys") else set()
-    kind = StatedBoxes if "steps" in keys else StatedPlaces if "cells" in keys else StatedLeaf
-    return stated(data, kind, "certificate")
+    if "steps" in keys:
+        return stated(data, StatedBoxes, "certificate")
+    return stated(data, StatedPlaces if "cells" in keys else StatedLeaf, "certificate")
 
 
 def as_json(data: object) -> Any:  # noqa: ANN401 - JSON

@@ -6,6 +6,7 @@ from dataclasses import replace
 from math import nextafter
 
 import numpy as np
+from numpy.typing import NDArray
 
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.families.cone import ConeFamily
@@ -25,17 +26,20 @@ from optlaws.synthesis.proof.certificate import (
     weighted_rows,
 )
 from optlaws.synthesis.proof.cuts import by_tangents, needs_tangents
-from optlaws.synthesis.proof.directions import turned
 from optlaws.synthesis.proof.duality import row_of, summed
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.sublevel_bounds import least_values
 from optlaws.synthesis.spaces.bases import PolynomialBasis
+
+Array = NDArray[np.float64]
 
 _TANGENTS = 4
 _PLACES = 256
 _NEAR = 0.9
 _NO_NORM = 1e-300
 _NOTHING = 1e-14
+#: what may be left of the balance of a sum of rows, and which directions of a change count
+_BALANCED, _RANK = 1e-13, 1e-10
 #: of the objective: a bound that leaves no more needs no other proof
 _ENOUGH = 5e-9
 _MORE = 2.0  # times as much as rounding lets go
@@ -132,7 +136,7 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
             place = float(min(max(k, 0.0), 1.0))
             contacts.append(Contact(family.name, float(optimum.s[j]), place, multiplier, direction))
     equations = model.program.stated_multipliers(optimum.equality_multipliers).tolist()
-    return _held(model, turned(model, Certificate.of_leaf(model.problem, contacts, equations, program, tangent)))
+    return _held(model, _balanced(model, Certificate.of_leaf(model.problem, contacts, equations, program, tangent)))
 
 
 def _held(model: Model, proof: Certificate) -> Certificate:
@@ -171,3 +175,59 @@ def violation_certificate(model: Model, optimum: ActiveSet) -> Certificate:
 def lower_bound(proof: Certificate, limit: float | None) -> float:
     """The better of the certificate's bound and the limit."""
     return max(proof.bound, -np.inf if limit is None else limit) + 0.0
+
+
+def _balanced(model: Model, proof: Certificate) -> Certificate:
+    """The certificate with the least change of its directions that balances it; the better of both.
+
+    Parameters
+    ----------
+    found
+        The program that the certificate speaks of.
+    proof
+        A certificate, whose multipliers nearly balance.
+    """
+    if not any(contact.direction for contact in proof.contacts):
+        return proof
+    images = [_image(model, contact) for contact in proof.contacts]
+    slope = _slope(model, proof)
+    if all(image is None for image in images) or np.abs(slope).max(initial=0.0) <= _BALANCED:
+        return proof
+    pulls = [c.multiplier * image for c, image in zip(proof.contacts, images, strict=True) if image is not None]
+    change = np.linalg.lstsq(np.vstack(pulls).T, -slope, rcond=_RANK)[0]
+    parts = iter(np.split(change, np.cumsum([len(pull) for pull in pulls])[:-1]))
+    contacts = tuple(
+        contact if image is None else _with_direction(contact, np.array(contact.direction) + next(parts))
+        for contact, image in zip(proof.contacts, images, strict=True)
+    )
+    better = proof.with_leaf(contacts=contacts)
+    return better if better.bound > proof.bound else proof
+
+
+def _image(model: Model, contact: Contact) -> Array | None:
+    """What each component of a contact's direction stands for, in the coordinates; None where it has no direction."""
+    terms = model.space.terms
+    for family in model.program.families:
+        if family.name == contact.constraint and contact.multiplier > 0.0:
+            share = family.unit / model.unit
+            if isinstance(family, NormFamily):
+                return family.matrix[:, :terms] * share
+            if isinstance(family, ConeFamily):
+                columns = family.columns(np.clip(family.u(np.array([contact.k])), *family.domain))[0, 0, :terms] * share
+                return np.vstack([columns.real, columns.imag])
+    return None
+
+
+def _slope(model: Model, proof: Certificate) -> Array:
+    """What is left of the objective's slope and the contacts' in the coordinates."""
+    slope = model.program.objective.copy()
+    for contact in proof.contacts:
+        slope += max(contact.multiplier, 0.0) * row_of(model.program, contact)[0]
+    slope += model.program.equalities.T @ model.program.multipliers_of_equations(proof.equations)
+    return np.asarray(slope[: model.space.terms])
+
+
+def _with_direction(contact: Contact, direction: Array) -> Contact:
+    """A direction beyond length 1 is made one, and its multiplier greater."""
+    length = max(float(np.linalg.norm(direction)), 1.0)
+    return replace(contact, multiplier=contact.multiplier * length, direction=tuple((direction / length).tolist()))

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from fractions import Fraction
-from typing import Any
 
 from flint import arb, arb_poly, arb_series, ctx, fmpq_poly
 
-from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.balls import ball, series_length
 
 #: functions of k by their Taylor series; coefficients beyond what they are smooth to are not finite
 Functions = Callable[[arb_series], Sequence[arb_series]]
@@ -79,7 +77,7 @@ def _cells(
     """Cells, by centre and reach in what runs from -1 to 1, with Taylor series there and what is left of each."""
     terms, narrow = max(8, bits // 2), Fraction(1, 2**bits)
     middle, half = (ends[0] + ends[1]) / 2, (ends[1] - ends[0]) / 2
-    with _terms(terms + 1):
+    with series_length(terms + 1):
         size = 1 + sum((abs(value[0]) for value in _finite(functions(_place(middle, half, arb(0))))), arb(0))
         cells = [(Fraction(0), Fraction(1))]
         for _ in range(_MOST_CELLS):
@@ -111,14 +109,3 @@ def _place(centre: Fraction, reach: Fraction, off: arb) -> arb_series:
 
 def _finite(series: Sequence[arb_series]) -> list[arb_series]:
     return [value for value in series if value[0].is_finite()]
-
-
-@contextmanager
-def _terms(count: int) -> Iterator[None]:
-    """Series of so many terms."""
-    before: Any = ctx.cap
-    ctx.cap = count
-    try:
-        yield
-    finally:
-        ctx.cap = before

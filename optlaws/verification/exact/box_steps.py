@@ -98,8 +98,9 @@ class BoxSteps(ABC):
         """Whether the tree leaves no box."""
         boxes = [self.root()]
         for node in self.tree:
-            moves = isinstance(node, Split | Tightening)
-            if not boxes or (moves and not 0 <= node.variable < len(boxes[-1].low)):
+            if not boxes:
+                return False
+            if isinstance(node, Split | Tightening) and not 0 <= node.variable < len(boxes[-1].low):
                 return False
             box = boxes.pop()
             if isinstance(node, Split):

@@ -7,9 +7,8 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from math import factorial
-from typing import Any
 
-from flint import arb, arb_series, ctx, fmpq, fmpq_poly
+from flint import arb, arb_series, fmpq, fmpq_poly
 
 from optlaws.formulas.affine import degree
 from optlaws.formulas.arithmetic import evaluate
@@ -19,7 +18,7 @@ from optlaws.formulas.vocabulary import ORDERS
 from optlaws.synthesis.functionals.curved_rows import squared
 from optlaws.verification.enclosing.ball_formulas import BALLS, POLYNOMIALS, composed, series_of
 from optlaws.verification.enclosing.ball_pieces import bisected
-from optlaws.verification.enclosing.balls import ball, rational
+from optlaws.verification.enclosing.balls import ball, rational, series_length
 from optlaws.verification.enclosing.integrals import integrals
 from optlaws.verification.enclosing.on_parts import kinks, on_part
 from optlaws.verification.enclosing.pieces import Extremes, PolynomialPiece, between, least_and_greatest
@@ -128,9 +127,5 @@ class _Derivatives:
         return derivative
 
     def _series(self, k: arb) -> arb_series:
-        before: Any = ctx.cap
-        ctx.cap = _LENGTH
-        try:
+        with series_length(_LENGTH):
             return self.part.series(arb_series([k, arb(1)]))[0]
-        finally:
-            ctx.cap = before

@@ -307,8 +307,3 @@ def _piece(segment: Segment, start: Fraction, stop: Fraction) -> ExactPiece:
     if isinstance(segment, PowerSegment):
         return PowerPiece(start, stop, segment)
     raise InputError(f"exact verification knows no {segment.kind} segments")
-
-
-def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
-    """Floats below and above B, C, D, J and rms_c."""
-    return ExactLaw(law).enclosures()

@@ -6,15 +6,14 @@ On each piece the integral of exp(w (1-k)) b(k) is, by parts, a sum over b's der
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from fractions import Fraction
 from functools import reduce
 from itertools import pairwise
-from typing import Any, TypeVar
+from typing import TypeVar
 
-from flint import acb, acb_series, arb, arb_poly, ctx, fmpq
+from flint import acb, acb_series, arb, arb_poly, fmpq
 
-from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.balls import ball, series_length
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.machines.driving import Space
 from optlaws.verification.machines.highest import highest
@@ -95,7 +94,7 @@ def _parts(
     while left:
         low, high = left.pop()
         half = ball((high - low) / 2)
-        with _terms(_TERMS + 1):
+        with series_length(_TERMS + 1):
             centre = function(acb_series([acb(ball((low + high) / 2)), acb(half)]))
             rest = function(acb_series([acb(ball(low).union(ball(high))), acb(half)]))[_TERMS]
         off, size = abs(rest).upper(), abs(centre[0]) + abs(centre[1])
@@ -109,13 +108,3 @@ def _squared(series: list[acb]) -> arb_poly:
     """The squared magnitude of a polynomial of a real number."""
     real, imaginary = arb_poly([term.real for term in series]), arb_poly([term.imag for term in series])
     return real * real + imaginary * imaginary
-
-
-@contextmanager
-def _terms(count: int) -> Iterator[None]:
-    before: Any = ctx.cap
-    ctx.cap = count
-    try:
-        yield
-    finally:
-        ctx.cap = before

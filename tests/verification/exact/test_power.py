@@ -44,7 +44,8 @@ def test_what_is_false_or_unfinished_is_not_proven() -> None:
     assert exact_bound(replace(right, tree=right.tree[:-1])) is None
     assert exact_bound(replace(right, tree=(*right.tree, right.tree[-1]))) is None
     assert exact_bound(replace(right, tree=(Split(-1, 1.0), *right.tree))) is None
-    assert exact_bound(replace(right, points=right.points[:-1])) is None
-    assert exact_bound(replace(right, points=(right.points[1], *right.points[1:]))) is None
+    points = right.points or ()
+    assert exact_bound(replace(right, points=points[:-1])) is None
+    assert exact_bound(replace(right, points=(points[1], *points[1:]))) is None
     assert exact_bound(replace(right, problem=replace(FIRST, B=1.6))) is None
     assert exact_bound(replace(right, problem=replace(FIRST, minimise="C"))) is None

@@ -8,9 +8,8 @@ from typing import Any
 import mpmath  # type: ignore[import-untyped] # ships no types
 import pytest
 
-from optlaws import Chebyshev, Pieces, Problem, Solution, at_most, residual, synthesize
+from optlaws import Certificate, Chebyshev, Contact, Pieces, Problem, Solution, at_most, residual, synthesize
 from optlaws.laws import smoothstep
-from optlaws.synthesis.proof.certificate import Certificate, Contact
 from optlaws.verification import exact_bound, verify
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.law import ExactLaw

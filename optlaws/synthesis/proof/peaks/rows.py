@@ -19,8 +19,7 @@ from optlaws.synthesis.problem.constants import FUNCTIONALS, Peak
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.duality import lines_of, sum_of_rows
-from optlaws.synthesis.proof.nodes import Leaf, Node, Split, Tightening
-from optlaws.synthesis.proof.peaks.places import PlaceRange
+from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange, Split, Tightening
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, moments
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 

@@ -10,8 +10,7 @@ from optlaws.synthesis.problem.constants import Peak
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
 from optlaws.synthesis.proof.make import certificate
-from optlaws.synthesis.proof.nodes import Leaf, Node, Split
-from optlaws.synthesis.proof.peaks.places import PlaceRange
+from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange, Split
 from optlaws.synthesis.proof.peaks.rows import PeakRows
 
 _PROGRAMS = 1500

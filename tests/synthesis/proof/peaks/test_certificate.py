@@ -22,7 +22,7 @@ from optlaws import (
     synthesize,
 )
 from optlaws.synthesis.problem.constants import B, J
-from optlaws.synthesis.proof.peaks.places import PlaceRange
+from optlaws.synthesis.proof.nodes import PlaceRange
 from optlaws.synthesis.proof.peaks.rows import PeakRows
 from optlaws.verification import verify
 from tests.sampling import sampled
@@ -89,7 +89,7 @@ def test_it_survives_json(certificate: Certificate) -> None:
 
 def test_a_claim_above_what_a_law_has_is_not_proven(certificate: Certificate, fast: Solution) -> None:
     assert not replace(certificate, claim=fast.objective * (1.0 + 1e-7)).proven
-    assert replace(certificate, claim=0.9 * certificate.claim).proven
+    assert replace(certificate, claim=0.9 * certificate.bound).proven
 
 
 def leaves_of(certificate: Certificate) -> list[int]:

@@ -94,6 +94,6 @@ def test_what_is_tampered_with_proves_nothing() -> None:
     solution = synthesize(replace(PROBLEMS[1], basis=Chebyshev(3)), bound="tight")
     proof = solution.power_certificate
     assert proof is not None
-    assert replace(proof, claim=proof.claim * 1.01).bound == -np.inf
+    assert replace(proof, claim=proof.bound * 1.01).bound == -np.inf
     assert replace(proof, tree=proof.tree[:-1]).bound == -np.inf
     assert replace(proof, problem=replace(proof.problem, B=1.5)).bound == -np.inf

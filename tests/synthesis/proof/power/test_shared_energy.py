@@ -140,7 +140,7 @@ def test_a_bound_of_c_and_of_the_loader_are_part_of_the_proof() -> None:
 def test_what_is_not_proven_is_not_claimed() -> None:
     proof = proven("C_loader").power_certificate
     assert proof is not None
-    assert replace(proof, claim=proof.claim * 1.001).bound == -np.inf
+    assert replace(proof, claim=proof.bound * 1.001).bound == -np.inf
     assert replace(proof, tree=proof.tree[:-1]).bound == -np.inf
     assert replace(proof, problem=replace(PROBLEM, monotone=False)).bound == -np.inf
     assert replace(proof, problem=replace(PROBLEM, basis=Chebyshev(9))).bound == -np.inf
