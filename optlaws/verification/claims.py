@@ -26,7 +26,15 @@ from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.bound import Proof, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.limits import exact_limit
-from optlaws.verification.file_entries import NO_FILE, Entry, check_keys, entries, is_array, is_entry, is_proven_front
+from optlaws.verification.file_entries import (
+    NO_FILE,
+    FileEntry,
+    check_keys,
+    entries,
+    is_array,
+    is_entry,
+    is_proven_front,
+)
 from optlaws.verification.proven_fronts import proven_front
 from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
@@ -48,7 +56,7 @@ def verify(source: Mapping[str, Any] | Path | str) -> Verification:
             "neither a solution (problem, law, certificate) nor a certificate (problem, contacts) nor a law with its "
             f"constants: nothing to verify{inside}"
         )
-    return built(_entry, Entry(data), "the file")
+    return built(_entry, FileEntry(data), "the file")
 
 
 def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification]:
@@ -59,7 +67,7 @@ def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification
     return {path: built(_entry, entry, path or "the file") for path, entry in claimed.items()}
 
 
-def _entry(entry: Entry) -> Verification:
+def _entry(entry: FileEntry) -> Verification:
     if not entry.data:
         claim = Claim(f"{entry.around.status}", proven=False, detail="no certificate stands beside it")
         return Verification(problem=None, bound=None, claims=(claim,))
@@ -251,7 +259,7 @@ def _shown(gap: float | None) -> str:
     return "not known" if gap is None else f"{gap:.1e}"
 
 
-def claims_in_context(entry: Entry, verification: Verification) -> Iterator[Claim]:
+def claims_in_context(entry: FileEntry, verification: Verification) -> Iterator[Claim]:
     """Status, problem, peak velocity and constants that stand around an entry, as claims.
 
     Raises
@@ -277,7 +285,7 @@ def _no_law(verification: Verification, above: float | None) -> bool:
     return verification.infeasible or (above is not None and bound is not None and bound > above)
 
 
-def _constants(entry: Entry) -> Iterator[Claim]:
+def _constants(entry: FileEntry) -> Iterator[Claim]:
     if not entry.around.values:
         return
     if "law" not in entry.data:

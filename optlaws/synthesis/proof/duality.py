@@ -104,7 +104,7 @@ def sum_of_rows(model: Model, lines: list[Line], claim: float | None = None) -> 
 
 
 @dataclass(frozen=True, eq=False)
-class Sum:
+class RowSum:
     """The sum of weighted rows: its slope, exact in the variables beyond the coordinates, and what rounding hides.
 
     `value` is rounded down, the slope by each coordinate is off by its `blur` at most.
@@ -115,7 +115,7 @@ class Sum:
     blur: Array
 
 
-def summed(model: Model, lines: list[Line]) -> Sum:
+def summed(model: Model, lines: list[Line]) -> RowSum:
     """The objective and the weighted rows, added up."""
     lines = [line for line in lines if line[0] != 0.0]
     weights = np.array([weight for weight, _, _ in lines])
@@ -126,7 +126,7 @@ def summed(model: Model, lines: list[Line]) -> Sum:
     variables = list(model.places.values())
     # the entries of the variables are exact, and so is a sum that is zero
     slope[variables] = np.where(slope[variables] == 0.0, 0.0, np.nextafter(slope[variables], -inf))
-    return Sum(slope, float(total[-1] - hidden[-1]), hidden[: model.space.terms])
+    return RowSum(slope, float(total[-1] - hidden[-1]), hidden[: model.space.terms])
 
 
 def _weighted(weights: Array, rows: Array, start: Array) -> Array:
@@ -147,7 +147,7 @@ def _halves(values: Array) -> tuple[Array, Array]:
     return high, values - high
 
 
-def rounding_error_bound(model: Model, total: Sum, claim: float) -> float:
+def rounding_error_bound(model: Model, total: RowSum, claim: float) -> float:
     """Most that rounding in the slope can be worth, over all laws that contradict the claim."""
     terms, slope = model.space.terms, total.slope
     known = greatest_values(model, max(claim, 0.0))

@@ -14,7 +14,7 @@ Names = Mapping[str, float | arb]
 
 
 @dataclass(frozen=True, eq=False)
-class Row:
+class BallRow:
     """functions . (z, 1) + sum of constants + right; at most 0, or 0 for an equation, in every law of the problem."""
 
     functions: list[arb]
@@ -27,4 +27,4 @@ class Row:
         return [*free, *(arb(self.constants.get(name, 0.0)) for name in variables), base + self.right]
 
 
-Maker = Callable[[Contact, Fraction], Row]
+Maker = Callable[[Contact, Fraction], BallRow]

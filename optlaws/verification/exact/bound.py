@@ -23,7 +23,7 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
 from optlaws.synthesis.proof.nodes import Contact
 from optlaws.verification.enclosing.balls import ball, lower, upper
-from optlaws.verification.enclosing.row import Row
+from optlaws.verification.enclosing.row import BallRow
 from optlaws.verification.exact.power import tree_holds
 from optlaws.verification.exact.rows import ExactRows
 from optlaws.verification.exact.sublevel_bounds import greatest_values, least_objective, least_values, means
@@ -203,7 +203,7 @@ class _System:
             raise InputError("the number changes more than right sides of rows: nothing is proven along it")
         return [(other[-1] - here[-1]) / ball(self.along.width) for here, other in together]
 
-    def _take(self, contact: Contact, row: Row) -> None:
+    def _take(self, contact: Contact, row: BallRow) -> None:
         whole = weight = Fraction(contact.multiplier) / self.unit
         for near, k in self._neighbours(contact) if self.beside else ():
             moved = self.rows.row(near, k)

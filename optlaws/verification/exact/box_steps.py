@@ -23,19 +23,19 @@ Vector = list[arb]
 
 
 @dataclass(frozen=True, eq=False)
-class Box:
+class BallBox:
     """Points that are nowhere above the least values, and nowhere below the greatest."""
 
     low: Vector
     high: Vector
 
-    def cut(self, variable: int, *, low: arb | None = None, high: arb | None = None) -> Box:
+    def cut(self, variable: int, *, low: arb | None = None, high: arb | None = None) -> BallBox:
         """With a side of a variable moved."""
         sides = [list(self.low), list(self.high)]
         for values, value in zip(sides, (low, high), strict=True):
             if value is not None:
                 values[variable] = value
-        return Box(*sides)
+        return BallBox(*sides)
 
     def least(self, row: Vector) -> arb:
         """What a row, its constant last, is at least."""
@@ -91,7 +91,7 @@ class BoxSteps(ABC):
         """Between what values b(k) is in every law below the claim."""
 
     @abstractmethod
-    def curved(self, contact: Contact, box: Box) -> Vector | None:
+    def curved(self, contact: Contact, box: BallBox) -> Vector | None:
         """The row of a contact that depends on the box; None where it is no such row, or says nothing there."""
 
     def holds(self) -> bool:
@@ -110,16 +110,16 @@ class BoxSteps(ABC):
                 boxes += self.moved(box, node)
         return not boxes
 
-    def root(self) -> Box:
+    def root(self) -> BallBox:
         """The box of all laws of the problem whose objective is below the claim."""
         brackets = [self.outer(k) for k in self.points]
         asked = self.problem.range("B")
         of_B = ball(0 if asked is None else asked.low), self.B
         own = [of_B if name == "B" else self.own_sides(name) for name in self.rows.names]
         sides = [*brackets, *own]
-        return Box([low.lower() for low, _ in sides], [high.upper() for _, high in sides])
+        return BallBox([low.lower() for low, _ in sides], [high.upper() for _, high in sides])
 
-    def moved(self, box: Box, node: Leaf) -> list[Box]:
+    def moved(self, box: BallBox, node: Leaf) -> list[BallBox]:
         """The box after a sum of rows, none if it is empty."""
         total = [arb(0)] * (len(box.low) + 1)
         if isinstance(node, Tightening):
@@ -151,7 +151,7 @@ class BoxSteps(ABC):
         *free, base = self.rows.space.values(nu, k)
         return self.mapped([*free, *[arb(0)] * len(self.rows.names), base])
 
-    def contact(self, contact: Contact, box: Box) -> Vector:
+    def contact(self, contact: Contact, box: BallBox) -> Vector:
         """The row of a contact, at most 0; zeros where the problem asks for nothing of the kind."""
         curved = self.curved(contact, box)
         row = self.rows.row(contact) if curved is None else None

@@ -71,7 +71,7 @@ def value_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
 
 
 @dataclass(frozen=True)
-class _Part:
+class _FormulaPart:
     """A formula along a piece of a law, between two k without kinks of what depends on k alone."""
 
     formula: Formula
@@ -103,20 +103,20 @@ def _bent(formula: Formula) -> bool:
     return calls or any(isinstance(part, Table) and not part.names() <= {"k"} for part in formula.walk())
 
 
-def _parts(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Iterator[_Part]:
+def _parts(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Iterator[_FormulaPart]:
     """The pieces of the law within the formula's part, cut where what depends on k alone has kinks."""
     places = kinks(motion)
     for piece in pieces:
         low, high = max(piece.start, Fraction(motion.start)), min(piece.stop, Fraction(motion.stop))
         edges = sorted({low, high, *(k for k in places if low < k < high)}) if low < high else []
         for ends in pairwise(edges):
-            yield _Part(on_part(motion.formula, *ends), piece, *ends)
+            yield _FormulaPart(on_part(motion.formula, *ends), piece, *ends)
 
 
 class _Derivatives:
     """Derivatives of a formula along a piece, by Taylor series in balls."""
 
-    def __init__(self, part: _Part) -> None:
+    def __init__(self, part: _FormulaPart) -> None:
         self.part = part
         self._last: tuple[arb, arb_series] | None = None
 

@@ -27,7 +27,7 @@ from optlaws.verification.enclosing.pieces import ExactPiece, Extremes, Polynomi
 from optlaws.verification.exact.formula_values import extremes_of, integral_of
 from optlaws.verification.exact.known_constants import Known, OfFormula, OfMachine, known
 from optlaws.verification.machines.mode_residuals import ExactModeResidual, ModeConstant
-from optlaws.verification.machines.outputs import ExactOutput, OutputRms
+from optlaws.verification.machines.outputs import ExactOutput, KnownOutputRms
 from optlaws.verification.machines.residuals import ExactResidual, ResidualConstant
 
 
@@ -204,7 +204,7 @@ class ExactLaw:
             exact = ExactOutput(constant)
             if exact.impulsive and self._impulses(2):
                 return arb.pos_inf()
-            return (exact.rms if isinstance(constant, OutputRms) else exact.peak)(self.polynomials)
+            return (exact.rms if isinstance(constant, KnownOutputRms) else exact.peak)(self.polynomials)
 
     def of_formula(self, constant: OfFormula) -> arb:
         """A ball that holds a constant of a formula.

@@ -35,7 +35,7 @@ from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
-from optlaws.verification.enclosing.row import Maker, Names, Row
+from optlaws.verification.enclosing.row import BallRow, Maker, Names
 from optlaws.verification.exact.formula_rows import (
     formula_columns,
     norm_columns,
@@ -48,7 +48,7 @@ from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.of_basis import exact_space
 from optlaws.verification.machines.certificate_rows import Corner, cone, mean, mode_edges, peak
 from optlaws.verification.machines.mode_residuals import ModeConstant
-from optlaws.verification.machines.outputs import OutputConstant, OutputRms, OutputRows
+from optlaws.verification.machines.outputs import KnownOutput, KnownOutputRms, OutputRows
 from optlaws.verification.machines.residuals import ExactResidual, ResidualConstant
 
 _NEAR = Fraction(1, 10**9)
@@ -57,7 +57,7 @@ Place = Callable[[Fraction], list[arb]]
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class WindowPart:
     """A window on k <= 1/2 (or anywhere for unsymmetric laws) in exact numbers."""
 
     order: int
@@ -99,7 +99,7 @@ class ExactRows:
         self.names: list[str] = []
         self.cost: dict[str, float] = {}
         self._makers: dict[tuple[str, float], list[Maker]] = {}
-        self.equations: list[Row] = []
+        self.equations: list[BallRow] = []
         #: of what size each equation is, and each variable
         self.equation_scales: list[float] = []
         self.scales: dict[str, float] = {}
@@ -117,7 +117,7 @@ class ExactRows:
         """The laws in the coordinates in which they were sought, where a certificate's units come from."""
         return space_of(self.problem.basis, self.problem.conditions, symmetric=self.problem.symmetric)
 
-    def row(self, contact: Contact, k: Fraction | None = None) -> Row | None:
+    def row(self, contact: Contact, k: Fraction | None = None) -> BallRow | None:
         """The row of a contact, or of one like it at another k; None if the problem asks for nothing of the kind."""
         place = Fraction(contact.k) if k is None else k
         for make in self._makers.get((contact.constraint, contact.sign), ()):
@@ -129,7 +129,7 @@ class ExactRows:
         for sign in signs:
             self._makers.setdefault((name, sign), []).append(maker)
 
-    def _equal(self, row: Row, scale: float = 1.0) -> None:
+    def _equal(self, row: BallRow, scale: float = 1.0) -> None:
         self.equations.append(row)
         self.equation_scales.append(scale)
 
@@ -171,8 +171,8 @@ class ExactRows:
             self._single(names.at_least(constant.name), slack, 0.0)
 
     def _everywhere(self, name: str, values: Place, signs: tuple[float, ...], slack: Names, high: float = 0.0) -> None:
-        def make(contact: Contact, k: Fraction) -> Row:
-            return Row([value * contact.sign for value in values(k)], slack, -ball(high))
+        def make(contact: Contact, k: Fraction) -> BallRow:
+            return BallRow([value * contact.sign for value in values(k)], slack, -ball(high))
 
         self._add(name, make, signs)
 
@@ -206,11 +206,11 @@ class ExactRows:
             return
         start, stop = Fraction(motion.start), Fraction(motion.stop)
 
-        def make(contact: Contact, k: Fraction) -> Row:
+        def make(contact: Contact, k: Fraction) -> BallRow:
             if start < stop and not start - _NEAR <= k <= stop + _NEAR:
                 raise LookupError
             columns = tangent_columns(self.space, branch, contact.direction, min(max(k, start), stop))
-            return Row(columns, slack, -ball(high))
+            return BallRow(columns, slack, -ball(high))
 
         self.tangents.add(branch.name)
         self._add(branch.name, make, (branch.sign,))
@@ -223,12 +223,12 @@ class ExactRows:
         root = isinstance(constant, FormulaRms)
         unit = ball(constant.length).sqrt() if isinstance(constant, FormulaRms) else arb(1)
 
-        def make(contact: Contact, _: Fraction) -> Row:
+        def make(contact: Contact, _: Fraction) -> BallRow:
             squares = squared(motion) if root else motion
             if not root and switches(motion.formula, ORDERS):
-                return Row(straight_integral(self.space, motion, contact.direction), slack, -ball(high))
+                return BallRow(straight_integral(self.space, motion, contact.direction), slack, -ball(high))
             columns = tangent_integral(self.space, squares, contact.direction, root=root)
-            return Row([value / unit for value in columns], slack, -ball(high))
+            return BallRow([value / unit for value in columns], slack, -ball(high))
 
         self._add(name, make)
 
@@ -236,23 +236,23 @@ class ExactRows:
         """Rows of an affine formula on its part of the interval."""
         start, stop = Fraction(motion.start), Fraction(motion.stop)
 
-        def make(contact: Contact, k: Fraction) -> Row:
+        def make(contact: Contact, k: Fraction) -> BallRow:
             if start < stop and not start - _NEAR <= k <= stop + _NEAR:
                 raise LookupError
             columns = formula_columns(self.space, motion, min(max(k, start), stop))
-            return Row([entry * contact.sign for entry in columns], slack, -ball(high))
+            return BallRow([entry * contact.sign for entry in columns], slack, -ball(high))
 
         self._add(name, make, signs)
 
-    def _norm_of(self, constant: FormulaRms, contact: Contact, slack: Names, high: float) -> Row:
+    def _norm_of(self, constant: FormulaRms, contact: Contact, slack: Names, high: float) -> BallRow:
         """As `_norm`, with the values of a formula."""
         whole = ball(Fraction(constant.motion.stop) - Fraction(constant.motion.start))
         columns = norm_columns(self.space, constant.parts(symmetric=self.problem.symmetric), contact.direction)
-        return Row([value / whole.sqrt() for value in columns], slack, -ball(high))
+        return BallRow([value / whole.sqrt() for value in columns], slack, -ball(high))
 
     def _single(self, name: str, constants: Names, high: float | arb) -> None:
         nothing = [arb(0)] * (self.space.terms + 1)
-        self._add(name, lambda _, __: Row(nothing, constants, -arb(high)))
+        self._add(name, lambda _, __: BallRow(nothing, constants, -arb(high)))
 
     def _power(self, power: Power, slack: Names, high: float) -> None:
         """b² <= 2 D k wherever b(0) = 0, b² <= 2 D (1-k) wherever b(1) = 0; 2 t r - t² <= D for r the root of D.
@@ -273,22 +273,22 @@ class ExactRows:
         )
 
     def _from_rest(self, name: str, weights: tuple[Fraction, ...], way: Callable[[Fraction], Fraction]) -> None:
-        def make(contact: Contact, k: Fraction) -> Row:
+        def make(contact: Contact, k: Fraction) -> BallRow:
             velocities = self.space.combination(1, weights, k)
             left = ball(2 * way(k)).sqrt()
             row = [velocity * contact.sign / left if way(k) else arb(0) for velocity in velocities]
-            return Row(row, {VariableName.POWER_ROOT: -1.0})
+            return BallRow(row, {VariableName.POWER_ROOT: -1.0})
 
         self._add(name, make, (1.0, -1.0))
 
-    def _norm(self, nu: int, contact: Contact, slack: Names, high: float) -> Row:
+    def _norm(self, nu: int, contact: Contact, slack: Names, high: float) -> BallRow:
         """A direction times the values at Gauss points, each by the root of its weight: at most the norm (Cauchy)."""
         direction = [ball(value) for value in contact.direction]
         rule = self.space.gauss(nu, len(direction))
         length = sum((component * component for component in direction), arb(0)).sqrt()
         weights = [component * weight.sqrt() / length for component, (_, weight) in zip(direction, rule, strict=True)]
         columns = zip(*(column for column, _ in rule), strict=True)
-        return Row([sum(map(mul, weights, column), arb(0)) for column in columns], slack, -ball(high))
+        return BallRow([sum(map(mul, weights, column), arb(0)) for column in columns], slack, -ball(high))
 
     def _of_machine(self, constant: OfMachine, slack: Names, high: float) -> None:
         if isinstance(constant, ResidualConstant):
@@ -311,10 +311,10 @@ class ExactRows:
             self.cones.add(name)
             self._add(name, maker)
 
-    def _output(self, constant: OutputConstant, slack: Names, high: float) -> None:
+    def _output(self, constant: KnownOutput, slack: Names, high: float) -> None:
         output = self.outputs[constant.name] = OutputRows(constant, self.space)
         unit = ball(constant.unit(self._solved))
-        if not isinstance(constant, OutputRms):
+        if not isinstance(constant, KnownOutputRms):
             self._add(constant.name, peak(output, unit, slack, high), (1.0, -1.0))
             return
 
@@ -337,7 +337,7 @@ class ExactRows:
         for constant, wanted in problem.bounded:
             self._range(constant, wanted)
         for asked in self.space.conditions:
-            self._equal(Row(self.space.condition(asked), {}, -ball(asked.value)))
+            self._equal(BallRow(self.space.condition(asked), {}, -ball(asked.value)))
         for i, window in enumerate(problem.windows, 1):
             halves = (names.window(i), names.mirrored(names.window(i)))
             if window.motion is not None:
@@ -362,17 +362,17 @@ class ExactRows:
         problem, space, wanted = self.problem, self.space, self.problem.range("B")
         fixed = wanted.high if wanted is not None and wanted.fixed else None
         if fixed is not None and not problem.symmetric:
-            self._equal(Row([arb(0)] * (space.terms + 1), {"B": 1.0}, -ball(fixed)))
+            self._equal(BallRow([arb(0)] * (space.terms + 1), {"B": 1.0}, -ball(fixed)))
         if problem.peak_at is None:
             return
         peak = Fraction(problem.peak_at)
         self._everywhere(RowName.BELOW_PEAK, partial(space.chord, peak), (1.0,), {})
         if fixed is not None and problem.symmetric:
-            self._equal(Row(space.values(1, peak), {}, -ball(fixed)))
+            self._equal(BallRow(space.values(1, peak), {}, -ball(fixed)))
         elif problem.peak_is_variable:
-            self._equal(Row(space.values(1, peak), {"B": -1.0}))
+            self._equal(BallRow(space.values(1, peak), {"B": -1.0}))
         if not problem.symmetric:
-            self._equal(Row(space.values(2, peak)))
+            self._equal(BallRow(space.values(2, peak)))
 
     def _velocity(self) -> None:
         """Rows |b| <= B and the bounds of B."""
@@ -391,16 +391,16 @@ class ExactRows:
                 self._single(names.at_most("B"), {"B": 1.0}, ball(wanted.high))
             self._single(names.at_least("B"), {"B": -1.0}, -ball(wanted.low))
 
-    def _below_middle(self, contact: Contact, k: Fraction) -> Row:
+    def _below_middle(self, contact: Contact, k: Fraction) -> BallRow:
         pairs = zip(self.space.values(1, k), self.space.values(1, Fraction(1, 2)), strict=True)
-        return Row([velocity * contact.sign - middle for velocity, middle in pairs])
+        return BallRow([velocity * contact.sign - middle for velocity, middle in pairs])
 
     def _formula_window(self, window: Window, motion: Motion, halves: tuple[str, str]) -> None:
         separate = motion.halves() if self.problem.symmetric else (motion,)
         for part, name in zip(separate, halves, strict=False):
             if window.value:
                 columns = formula_columns(self.space, part, Fraction(part.start))
-                self._equal(Row(columns, {}, -ball(window.high)), window.scale)
+                self._equal(BallRow(columns, {}, -ball(window.high)), window.scale)
                 continue
             for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
                 branches = split(part, sign, names.window_side(name, sign)) if isfinite(bound) else None
@@ -408,37 +408,37 @@ class ExactRows:
                     if branch.convex:
                         self._branch(branch, {}, bound)
 
-    def _window(self, name: str, window: Window, part: Part) -> None:
+    def _window(self, name: str, window: Window, part: WindowPart) -> None:
         if window.value:
             values = self.space.values(part.order, part.start)
-            self._equal(Row(values, {}, -ball(part.high or Fraction(0))))
+            self._equal(BallRow(values, {}, -ball(part.high or Fraction(0))))
             return
 
-        def make(contact: Contact, k: Fraction) -> Row:
+        def make(contact: Contact, k: Fraction) -> BallRow:
             bound = part.high if contact.sign > 0.0 else part.low
             if bound is None or not part.start - _NEAR <= k <= part.stop + _NEAR:
                 raise LookupError
             values = self.space.values(part.order, min(max(k, part.start), part.stop))
-            return Row([value * contact.sign for value in values], {}, -contact.sign * ball(bound))
+            return BallRow([value * contact.sign for value in values], {}, -contact.sign * ball(bound))
 
         for sign in (1.0, -1.0):
             self._add(names.window_side(name, sign), make, (sign,))
 
 
-def parts(window: Window, *, symmetric: bool) -> Iterator[Part]:
+def parts(window: Window, *, symmetric: bool) -> Iterator[WindowPart]:
     """What a window asks; of symmetric laws, for which a(k) + a(1-k) = 1, on the first half only."""
     low, high = (Fraction(bound) if isfinite(bound) else None for bound in (window.low, window.high))
     start, stop = Fraction(window.start), Fraction(window.stop)
     half = Fraction(1, 2)
     if not symmetric or stop <= half:
-        yield Part(window.order, low, high, start, stop)
+        yield WindowPart(window.order, low, high, start, stop)
         return
     if start < half:
-        yield Part(window.order, low, high, start, half)
+        yield WindowPart(window.order, low, high, start, half)
     if window.order % 2 == 0:
         whole = 1 - window.order // 2
         low, high = (None if bound is None else whole - bound for bound in (high, low))
-    yield Part(window.order, low, high, 1 - stop, 1 - max(start, half))
+    yield WindowPart(window.order, low, high, 1 - stop, 1 - max(start, half))
 
 
 def _is_bounded(power: Power, problem: Problem) -> bool:

@@ -18,7 +18,7 @@ from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.verification.enclosing.balls import ball, upper
 from optlaws.verification.exact.rows import ExactRows
 from optlaws.verification.machines.floors import floor
-from optlaws.verification.machines.outputs import OutputConstant
+from optlaws.verification.machines.outputs import KnownOutput
 
 #: what makes up for the rounding of a few operations in doubles
 _ROUNDED = 1.0 + 2.0**-40
@@ -123,7 +123,7 @@ def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict
 
 def _sizes(problem: Problem, constant: Functional, name: str) -> Iterator[tuple[int, arb, arb]]:
     """Orders, factors and offsets: the mean of |a^(order)| is at most factor times the constant plus the offset."""
-    if name == VariableName.POWER_ROOT or not isinstance(constant, Power | OutputConstant):
+    if name == VariableName.POWER_ROOT or not isinstance(constant, Power | KnownOutput):
         space = space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
         # both are rounded
         for nu, factor, offset in constant.sizes(space):

@@ -14,7 +14,7 @@ from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
-from optlaws.verification.enclosing.row import Maker, Names, Row
+from optlaws.verification.enclosing.row import BallRow, Maker, Names
 from optlaws.verification.machines.driving import Space
 from optlaws.verification.machines.mode_residuals import ExactModeResidual, ModeConstant
 from optlaws.verification.machines.outputs import OutputRows
@@ -48,7 +48,7 @@ def cone(amplitudes: Callable[[Fraction], list[acb]], slack: Names, high: float,
     kept: dict[Fraction, list[acb]] = {}
     inside = _divided(slack, unit)
 
-    def make(contact: Contact, k: Fraction) -> Row:
+    def make(contact: Contact, k: Fraction) -> BallRow:
         if len(contact.direction) != 2:
             raise LookupError
         if k not in kept:
@@ -56,7 +56,7 @@ def cone(amplitudes: Callable[[Fraction], list[acb]], slack: Names, high: float,
         real, imaginary = (ball(value) for value in contact.direction)
         length = (real**2 + imaginary**2).sqrt().max(arb(1)) * unit
         row = [(amplitude.real * real + amplitude.imag * imaginary) / length for amplitude in kept[k]]
-        return Row(row, inside, -ball(high) / unit)
+        return BallRow(row, inside, -ball(high) / unit)
 
     return make
 
@@ -83,8 +83,8 @@ def peak(output: OutputRows, unit: arb, slack: Names, high: float) -> Maker:
     """An output at a time."""
     inside = _divided(slack, unit)
 
-    def make(contact: Contact, k: Fraction) -> Row:
-        return Row([contact.sign * value / unit for value in output.at(k)], inside, -ball(high) / unit)
+    def make(contact: Contact, k: Fraction) -> BallRow:
+        return BallRow([contact.sign * value / unit for value in output.at(k)], inside, -ball(high) / unit)
 
     return make
 
@@ -93,9 +93,9 @@ def mean(output: OutputRows, law_along: LawAlong, unit: arb, slack: Names, high:
     """An output times that of another law, which a direction says."""
     inside = _divided(slack, unit)
 
-    def make(contact: Contact, _: Fraction) -> Row:
+    def make(contact: Contact, _: Fraction) -> BallRow:
         law = law_along(contact.direction)
-        return Row([value / unit for value in output.beside(law)], inside, -ball(high) / unit)
+        return BallRow([value / unit for value in output.beside(law)], inside, -ball(high) / unit)
 
     return make
 

@@ -19,7 +19,7 @@ _NOTHING = fmpq_poly([0])
 _SYMBOLS = "abc"
 
 
-class StateSpace(Protocol):
+class StateSpaceMatrices(Protocol):
     """x' = A x + B w, y = C x + D w, as optlaws.mechanisms defines it."""
 
     @property
@@ -134,7 +134,7 @@ class Transfer(Rational):
         Which output.
     """
 
-    def __init__(self, machine: StateSpace, output: str) -> None:
+    def __init__(self, machine: StateSpaceMatrices, output: str) -> None:
         self.order = 0 if "a" in machine.inputs else 1
         self.characteristic, parts = transforms(machine, output)
         super().__init__(
@@ -143,7 +143,7 @@ class Transfer(Rational):
         )
 
 
-def transforms(machine: StateSpace, output: str) -> tuple[fmpq_poly, list[fmpq_poly]]:
+def transforms(machine: StateSpaceMatrices, output: str) -> tuple[fmpq_poly, list[fmpq_poly]]:
     """The characteristic polynomial p, and for each of a, b and c what is to be divided by p: C (s - A)^-1 B + D.
 
     Raises

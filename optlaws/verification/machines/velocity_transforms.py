@@ -16,7 +16,7 @@ from flint import acb, acb_series, arb, arb_poly, fmpq
 from optlaws.verification.enclosing.balls import ball, series_length
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.machines.driving import Space
-from optlaws.verification.machines.highest import highest
+from optlaws.verification.machines.greatest_magnitude import greatest_magnitude
 from optlaws.verification.machines.taylor_cells import root
 
 #: b and its derivatives at the start and at the end of a piece
@@ -82,7 +82,7 @@ def greatest_modulus(functions: Sequence[Callable[[acb_series], acb_series]], lo
     """A ball that holds the greatest magnitude of complex functions of a real number, given for Taylor series."""
     parts = [part for function in functions for part in _parts(function, low, high)]
     off = reduce(arb.max, (radius for _, radius in parts))
-    size = root(highest([(square, arb(0)) for square, _ in parts]))
+    size = root(greatest_magnitude([(square, arb(0)) for square, _ in parts]))
     return (size + arb(0, off)).max(arb(0))
 
 

@@ -19,7 +19,7 @@ _HOPELESS, _NEARLY, _HARDLY = 1.5, 4.0, 1e-9
 
 
 @dataclass(frozen=True, eq=False)
-class Search:
+class PlaceSearch:
     """How a search ended: with a certificate, or at a place where better laws seem to have the peak, or in vain."""
 
     certificate: Certificate | None = None
@@ -38,7 +38,7 @@ class _Part:
         return [_Part(places, warm, margin) for places in self.places.parts(self.places.k)]
 
 
-def search(problem: Problem, peak: Peak, claim: float) -> Search:
+def search(problem: Problem, peak: Peak, claim: float) -> PlaceSearch:
     """Split the places until no law below the claim can have the peak in any part."""
     rows = PeakRows(problem, peak, claim)
     tree: list[Node] = []
@@ -56,14 +56,14 @@ def search(problem: Problem, peak: Peak, claim: float) -> Search:
         if rows.excluded(places, leaf):
             tree.append(leaf)
         elif optimum is not None and most > rows.low:
-            return Search(better_at=places.k)
+            return PlaceSearch(better_at=places.k)
         elif left <= 0 or places.reach < _LEAST_REACH:
-            return Search()
+            return PlaceSearch()
         else:
             parts += part.halves(optimum, None if optimum is None else rows.low - most)
             tree.append(Split(0, places.k))
     proof = Certificate(problem, claim, tuple(tree), peak=peak.name)
-    return Search(certificate=proof if proof.proven else None)
+    return PlaceSearch(certificate=proof if proof.proven else None)
 
 
 def _too_wide(rows: PeakRows, part: _Part) -> bool:

@@ -55,19 +55,19 @@ def tightened(problem: Problem, objective: float, x: Array, explore: Explore) ->
     return None
 
 
-def searched(problem: Problem, claim: float, x: Array, budget: int, explore: Explore) -> Search:
+def searched(problem: Problem, claim: float, x: Array, budget: int, explore: Explore) -> BoxSearch:
     """The search for the proof of one claim, done; x are the variables of a law with an objective above it."""
     rows = rows_of(problem, claim, _points(problem, claim))
     if rows is None:
         raise InputError(f"nothing of {problem!r} can be bounded by boxes")
     rows.remember(np.append(rows.rows(1, rows.points) @ np.append(x, 1.0), x[rows.terms :]))
-    search = Search(rows, Grid(rows, x), budget, explore)
+    search = BoxSearch(rows, Grid(rows, x), budget, explore)
     search.run()
     return search
 
 
 @dataclass(eq=False)
-class Search:
+class BoxSearch:
     """A search for the proof of one claim.
 
     Attributes

@@ -10,8 +10,8 @@ from optlaws import Certificate, Chebyshev, Problem, at_most, peak, synthesize
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.proof.power.beneath_formulas import FormulaRows, applies
 from optlaws.synthesis.proof.power.box import Box
+from optlaws.synthesis.proof.power.formula_underestimators import FormulaRows, applies
 from optlaws.synthesis.proof.power.search import searched
 from optlaws.verification import verify
 from tests.sampling import sampled

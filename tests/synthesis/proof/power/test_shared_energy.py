@@ -23,9 +23,9 @@ from optlaws import (
 )
 from optlaws.balancing.loaders.constants import NAMES, D_loader
 from optlaws.synthesis.proof.power.box import Box, BoxRows
-from optlaws.synthesis.proof.power.lines_above import above_inverse, above_root
 from optlaws.synthesis.proof.power.rows_of_problem import rows_of
 from optlaws.synthesis.proof.power.search import _points
+from optlaws.synthesis.proof.power.secant_overestimators import secant_over_inverse, secant_over_root
 from optlaws.verification import verify
 from tests.sampling import examples
 
@@ -94,7 +94,7 @@ def test_lines_are_above_and_touch(B: float, t: float, first: float, last: float
     most = B / max(t * t, 0.02) * 0.999
     low, high = sorted((first * most, last * most))
     square = np.array([t * t])
-    line = above_root(B, square, np.array([low]), np.array([high]))
+    line = secant_over_root(B, square, np.array([low]), np.array([high]))
     q = low + (high - low) * np.linspace(0.0, 1.0, 4001) ** 3
     h = np.sqrt(q * (2.0 * B - t * t * q)) / (B - t * t * q)
     room = line.slope * q + line.height - h
@@ -103,7 +103,7 @@ def test_lines_are_above_and_touch(B: float, t: float, first: float, last: float
     assert room.min() <= 1e-4 * (1.0 + h.max())
     assert line.least[0] <= h.min() * (1.0 + 1e-12)
     assert line.greatest[0] >= h.max() * (1.0 - 1e-12)
-    inverse = above_inverse(np.array([1.0]), np.array([1.0 + last]))
+    inverse = secant_over_inverse(np.array([1.0]), np.array([1.0 + last]))
     b = np.linspace(1.0, 1.0 + last, 101)
     assert (inverse.slope * b + inverse.height - 1.0 / b).min() >= -1e-15
 

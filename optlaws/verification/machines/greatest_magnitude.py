@@ -16,7 +16,7 @@ _BITS, _NARROW, _NOTHING, _SHORTEST = 192, 2.0**-70, 2.0**-110, Fraction(1, 2**6
 _WHOLE = (Fraction(-1), Fraction(1))
 
 
-def highest(parts: Sequence[tuple[arb_poly, arb]], signs: Sequence[float] = (1.0, -1.0)) -> arb:
+def greatest_magnitude(parts: Sequence[tuple[arb_poly, arb]], signs: Sequence[float] = (1.0, -1.0)) -> arb:
     """A ball that holds the greatest magnitude of several functions on [-1, 1], or the greatest value of one sign.
 
     Parameters
@@ -29,15 +29,15 @@ def highest(parts: Sequence[tuple[arb_poly, arb]], signs: Sequence[float] = (1.0
     Examples
     --------
     >>> waves = [(arb_poly([0, 1, 0, -1]), arb(0)), (arb_poly([0.25]), arb(0))]
-    >>> peak = highest(waves)
+    >>> peak = greatest_magnitude(waves)
     >>> peak.overlaps(2 / arb(27).sqrt()), float(peak.rad()) < 1e-20
     (True, True)
-    >>> highest(waves[1:], (-1.0,))
+    >>> greatest_magnitude(waves[1:], (-1.0,))
     -0.250000000000000
     """
     with ctx.workprec(_BITS):
         size = sum((sum(map(abs, polynomial.coeffs()), off) for polynomial, off in parts), arb(0))
-        climb = _Climb(signs, size.upper())
+        climb = _BranchAndBound(signs, size.upper())
         for polynomial, off in parts:
             climb.seen(polynomial, off, [*_WHOLE, Fraction(0)])
         for polynomial, off in parts:
@@ -45,7 +45,7 @@ def highest(parts: Sequence[tuple[arb_poly, arb]], signs: Sequence[float] = (1.0
         return climb.least.union(climb.greatest.max(climb.least))
 
 
-class _Climb:
+class _BranchAndBound:
     """Bounds of the greatest value so far, from below and from above."""
 
     def __init__(self, signs: Sequence[float], size: arb) -> None:

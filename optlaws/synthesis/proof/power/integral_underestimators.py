@@ -39,7 +39,7 @@ _LEAST = 1e-300
 
 
 @dataclass(frozen=True, eq=False)
-class Bend:
+class CurvatureBound:
     """What bounds the second derivatives of an integral in a box.
 
     Attributes
@@ -80,7 +80,7 @@ class Bend:
         return float(0.5 * costs @ (ways @ off) ** 2)
 
 
-class Beneath:
+class ConvexUnderestimator:
     """Planes that the integral of a formula, or its root, is nowhere below in a box.
 
     Parameters
@@ -98,7 +98,7 @@ class Beneath:
         self.columns = np.stack([rows.mapped(column) for column in family.columns])
         self._blur = _RULE if motion.degree(dict.fromkeys(ORDERS, 1)) is None else _ROUNDED
         edges = rule_cells(rows.space, motion, _CELLS)
-        self._last: tuple[Box, Bend | None] | None = None
+        self._last: tuple[Box, CurvatureBound | None] | None = None
         self.middle, self.reach = (edges[:-1] + edges[1:]) / 2.0, np.diff(edges) / 2.0
 
     @kept_property
@@ -232,7 +232,7 @@ class Beneath:
         """The variables of a box with 1 beside them."""
         return np.concatenate([at, np.zeros(self.rows.size - len(at)), [1.0]])
 
-    def _bend(self, box: Box, limits: Mapping[str, float]) -> Bend | None:
+    def _bend(self, box: Box, limits: Mapping[str, float]) -> CurvatureBound | None:
         """What the second derivatives in a box can take; None where they have no bounds."""
         terms = self.rows.terms
         low, high = self.ranges(box, limits)
@@ -240,7 +240,7 @@ class Beneath:
         with np.errstate(all="ignore"):
             third = {} if self.family.convex else self._third(low, high)
             anywhere = np.zeros((terms, terms)) if self.family.convex else self._anywhere(low, high)
-        return Bend(low, high, middle, half, self._free(half), third, anywhere)
+        return CurvatureBound(low, high, middle, half, self._free(half), third, anywhere)
 
     def _free(self, half: Array) -> Array:
         """Directions, in units of the box, in which laws differ that keep the equations."""
@@ -284,7 +284,7 @@ class Beneath:
         costs, ways = bend.costs(min(forms, key=lambda form: bend.taken(bend.middle, form)))
         return np.asarray((costs * ways.sum(axis=1)) @ ways)
 
-    def _bend_of(self, box: Box, limits: Mapping[str, float]) -> Bend | None:
+    def _bend_of(self, box: Box, limits: Mapping[str, float]) -> CurvatureBound | None:
         if self._last is None or self._last[0] is not box:
             self._last = (box, self._bend(box, limits))
         return self._last[1]
@@ -299,7 +299,7 @@ class Beneath:
         row[-1] += float(self.family.weights @ values - (weighted * moved).sum()) - self._blur * size
         return np.asarray(row)
 
-    def _off(self, at: Array, bend: Bend) -> Array | None:
+    def _off(self, at: Array, bend: CurvatureBound) -> Array | None:
         """How far derivatives in the box may be from those of a law on the cells; None if it is not among them."""
         law, rows = self._law(at), []
         for low, high, series in zip(bend.low, bend.high, self._series, strict=True):

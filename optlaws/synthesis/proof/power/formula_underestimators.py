@@ -28,8 +28,8 @@ from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.nodes import Contact
-from optlaws.synthesis.proof.power.beneath_integrals import Beneath
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
+from optlaws.synthesis.proof.power.integral_underestimators import ConvexUnderestimator
 from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed, means
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 
@@ -180,7 +180,7 @@ class FormulaRows(BoxRows):
         return low, high
 
     @kept_property
-    def integrals(self) -> dict[str, Beneath]:
+    def integrals(self) -> dict[str, ConvexUnderestimator]:
         """What integrals are nowhere below, by the names of their rows."""
         formulas = {
             constant.name: constant
@@ -191,7 +191,9 @@ class FormulaRows(BoxRows):
         for family in self.model.program.families:
             if isinstance(family, IntegralFamily):
                 motion = formulas[family.name].motion
-                planes[names.plane(0, family.name)] = Beneath(self, family, squared(motion) if family.root else motion)
+                planes[names.plane(0, family.name)] = ConvexUnderestimator(
+                    self, family, squared(motion) if family.root else motion
+                )
         return planes
 
     @property
