@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict
 from typing import Any, TypeVar
 
@@ -112,10 +112,12 @@ def stated_certificate(data: object) -> StatedLeaf | StatedBoxes | StatedPlaces:
     InputError
         As `stated`.
     """
-    keys = set(data) if hasattr(data, "keys") else set()
+    keys = data.keys() if isinstance(data, Mapping) else ()
     if "steps" in keys:
         return stated(data, StatedBoxes, "certificate")
-    return stated(data, StatedPlaces if "cells" in keys else StatedLeaf, "certificate")
+    if "cells" in keys:
+        return stated(data, StatedPlaces, "certificate")
+    return stated(data, StatedLeaf, "certificate")
 
 
 def as_json(data: object) -> Any:  # noqa: ANN401 - JSON
