@@ -6,7 +6,6 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from math import factorial
 
 from flint import arb, arb_series, fmpq, fmpq_poly
 
@@ -16,15 +15,13 @@ from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.tree import Call, Formula, Table
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.synthesis.functionals.curved_rows import squared
+from optlaws.verification.enclosing.ball_extremes import extremes
 from optlaws.verification.enclosing.ball_formulas import BALLS, POLYNOMIALS, composed, series_of
-from optlaws.verification.enclosing.ball_pieces import bisected
-from optlaws.verification.enclosing.balls import ball, rational, series_length
+from optlaws.verification.enclosing.balls import ball, rational
 from optlaws.verification.enclosing.integrals import integrals
 from optlaws.verification.enclosing.on_parts import kinks, on_part
 from optlaws.verification.enclosing.pieces import Extremes, PolynomialPiece, between, least_and_greatest
 
-#: terms of a Taylor series: as many derivatives as bisection takes
-_LENGTH = 7
 #: binary places of an integral that count: more than a float has
 _BITS = 80
 
@@ -44,7 +41,7 @@ def extremes_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Extremes:
         if composed is not None:
             values += between(composed, fmpq(-1), fmpq(1))
         else:
-            values += bisected(_Derivatives(part), part.low, part.high)
+            values += extremes(lambda k, part=part: part.series(k)[0], part.low, part.high)
     return least_and_greatest(values)
 
 
@@ -111,21 +108,3 @@ def _parts(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Iterator[_Formu
         edges = sorted({low, high, *(k for k in places if low < k < high)}) if low < high else []
         for ends in pairwise(edges):
             yield _FormulaPart(on_part(motion.formula, *ends), piece, *ends)
-
-
-class _Derivatives:
-    """Derivatives of a formula along a piece, by Taylor series in balls."""
-
-    def __init__(self, part: _FormulaPart) -> None:
-        self.part = part
-        self._last: tuple[arb, arb_series] | None = None
-
-    def __call__(self, i: int, k: arb) -> arb:
-        if self._last is None or self._last[0] is not k:
-            self._last = (k, self._series(k))
-        derivative: arb = self._last[1][i] * factorial(i)
-        return derivative
-
-    def _series(self, k: arb) -> arb_series:
-        with series_length(_LENGTH):
-            return self.part.series(arb_series([k, arb(1)]))[0]

@@ -13,18 +13,18 @@ from typing import TypeVar
 
 from flint import acb, acb_series, arb, arb_poly, fmpq
 
-from optlaws.verification.enclosing.balls import ball, series_length
+from optlaws.verification.enclosing.ball_extremes import cells, greatest_magnitude
+from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.machines.driving import Space
-from optlaws.verification.machines.greatest_magnitude import greatest_magnitude
 from optlaws.verification.machines.taylor_cells import root
 
 #: b and its derivatives at the start and at the end of a piece
 Ends = tuple[list[fmpq], list[fmpq]]
 Number = TypeVar("Number", acb, acb_series)
 _HALF = Fraction(1, 2)
-#: terms of Taylor series, how little the others may add up to, of the function, and the shortest stretch
-_TERMS, _NOTHING, _SHORTEST = 24, 2.0**-80, Fraction(1, 2**20)
+#: how little what is left of Taylor polynomials may be, of the function, and the shortest stretch
+_NOTHING, _SHORTEST = 2.0**-80, Fraction(1, 2**20)
 
 
 def ends_of(space: Space) -> list[list[Ends]]:
@@ -90,18 +90,12 @@ def _parts(
     function: Callable[[acb_series], acb_series], low: Fraction, high: Fraction
 ) -> Iterator[tuple[arb_poly, arb]]:
     """Polynomials of which the squared magnitude is made, on short stretches, and how far the function is off."""
-    left = [(low, high)]
-    while left:
-        low, high = left.pop()
-        half = ball((high - low) / 2)
-        with series_length(_TERMS + 1):
-            centre = function(acb_series([acb(ball((low + high) / 2)), acb(half)]))
-            rest = function(acb_series([acb(ball(low).union(ball(high))), acb(half)]))[_TERMS]
-        off, size = abs(rest).upper(), abs(centre[0]) + abs(centre[1])
-        if not off <= _NOTHING * size and high - low > _SHORTEST:
-            left += [(low, (low + high) / 2), ((low + high) / 2, high)]
-            continue
-        yield _squared([centre[n] for n in range(_TERMS)]), off
+    for centre, rest in cells(function, acb_series, (low, high), 2 * _SHORTEST, _next_to_nothing):
+        yield _squared(centre), abs(rest).upper()
+
+
+def _next_to_nothing(centre: list[acb], rest: arb) -> bool:
+    return bool(rest <= _NOTHING * (abs(centre[0]) + abs(centre[1])))
 
 
 def _squared(series: list[acb]) -> arb_poly:

@@ -1,19 +1,87 @@
-"""The greatest magnitude of functions that are polynomials but for next to nothing, by branch and bound."""
+"""Extremes of functions with every rounding enclosed: Taylor polynomials on cells, and branch and bound over these."""
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import reduce
+from typing import Any
 
-from flint import arb, arb_poly, ctx
+from flint import arb, arb_poly, arb_series, ctx
 
-from optlaws.verification.enclosing.balls import ball
+from optlaws.verification.enclosing.balls import ball, series_length
+from optlaws.verification.enclosing.pieces import Extremes
 
 #: bits with which it is looked for; how narrow the value must be, of itself and of what the polynomials are made of;
 #: and how short a part is cut no further
 _BITS, _NARROW, _NOTHING, _SHORTEST = 192, 2.0**-70, 2.0**-110, Fraction(1, 2**60)
 _WHOLE = (Fraction(-1), Fraction(1))
+#: terms of Taylor polynomials; how little may be left of a function, of itself; and how short a cell is cut no further
+_TERMS, _LEFT, _LEAST = 24, 2.0**-80, Fraction(1, 2**70)
+
+#: a function by its Taylor series; coefficients beyond what it is smooth to are not finite
+Smooth = Callable[[arb_series], arb_series]
+
+
+def extremes(function: Smooth, start: Fraction, stop: Fraction) -> Extremes:
+    """Balls that hold the least and the greatest value of a function between two places.
+
+    Examples
+    --------
+    >>> least, greatest = extremes(lambda s: s.sin(), Fraction(0), Fraction(3))
+    >>> greatest.contains(1), float(greatest.rad()) < 1e-12
+    (True, True)
+    """
+    first, last = (function(arb_series([ball(k)]))[0] for k in (start, stop))
+    size = 1 + abs(first).max(abs(last)).upper()
+    parts = list(_polynomials(function, (start, stop), size * max(_LEFT, 2.0 ** (8 - ctx.prec))))
+    return -greatest_magnitude(parts, (-1.0,)), greatest_magnitude(parts, (1.0,))
+
+
+def _polynomials(function: Smooth, ends: tuple[Fraction, Fraction], most: arb) -> Iterator[tuple[arb_poly, arb]]:
+    """Taylor polynomials in what runs from -1 to 1 over each cell, and how far the function is off them."""
+    for centre, around in cells(function, arb_series, ends, _LEAST, lambda _, rest: bool(rest <= most)):
+        if centre and all(value.is_finite() for value in centre):
+            yield arb_poly(centre), abs(around).upper()
+        else:
+            yield arb_poly([around.mid()]), around.rad()
+
+
+def cells(
+    function: Callable[[Any], Any],
+    variable: Callable[[list[Any]], Any],
+    ends: tuple[Fraction, Fraction],
+    shortest: Fraction,
+    enough: Callable[[list[Any], arb], bool],
+) -> Iterator[tuple[list[Any], Any]]:
+    """Coefficients of a function's Taylor polynomial on each of many cells, and a ball that holds what is left of it.
+
+    The polynomial is of what runs from -1 to 1, and has as many terms as the function is smooth on the cell; where that
+    is none, what is left is the function.
+
+    Parameters
+    ----------
+    function, variable
+        The function of a series, and what makes a series of its coefficients.
+    ends
+        From where to where.
+    shortest
+        A cell that is shorter is cut no further.
+    enough
+        Whether a cell need not be cut, from its coefficients and the magnitude of what is left.
+    """
+    left = [ends]
+    while left:
+        low, high = left.pop()
+        middle, half = (low + high) / 2, ball((high - low) / 2)
+        with series_length(_TERMS + 1):
+            about, around = (function(variable([place, half])) for place in (ball(middle), ball(low).union(ball(high))))
+            terms = next((i for i in range(_TERMS, 0, -1) if around[i].is_finite()), 0)
+            centre = [about[i] for i in range(terms)]
+        if high - low < shortest or (centre and enough(centre, abs(around[terms]).upper())):
+            yield centre, around[terms]
+        else:
+            left += [(low, middle), (middle, high)]
 
 
 def greatest_magnitude(parts: Sequence[tuple[arb_poly, arb]], signs: Sequence[float] = (1.0, -1.0)) -> arb:
