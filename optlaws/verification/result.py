@@ -83,7 +83,7 @@ class Verification:
 
     @property
     def proven(self) -> bool:
-        """Whether every claim is."""
+        """Whether every claim of the file is proven."""
         return all(claim.proven for claim in self.claims)
 
     def to_dict(self) -> dict[str, Any]:

@@ -83,8 +83,9 @@ class Certificate:
             raise InputError(f"the claim of a certificate must be above 0, got {shortened(self.claim)}")
         if not all(0.0 <= k <= 1.0 for k in self.points or ()):
             raise InputError(f"the points of a certificate must be in [0, 1], got {shortened(self.points)}")
-        whole = self.points is None and not self.peak
-        if whole != (self.claim in {None, inf}) or (whole and not (len(self.tree) == 1 and type(self.tree[0]) is Leaf)):
+        one_leaf = len(self.tree) == 1 and type(self.tree[0]) is Leaf
+        divided = (self.points is not None) + bool(self.peak)
+        if divided > 1 or (divided == 0) != (self.claim in {None, inf}) or not (divided or one_leaf):
             raise InputError("a certificate is one leaf, or has a finite claim with points or a peak for its tree")
 
     @classmethod

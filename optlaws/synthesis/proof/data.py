@@ -18,7 +18,7 @@ Stated = TypeVar("Stated")
 
 
 class StatedContact(msgspec.Struct, forbid_unknown_fields=True):
-    """What `Contact` holds."""
+    """The entries of a contact in a file."""
 
     constraint: str
     sign: float
@@ -157,7 +157,7 @@ def problem_of(data: dict[str, Any]) -> Problem:
 
 
 def contact_of(entries: StatedContact) -> Contact:
-    """The contact that was stated.
+    """The contact that entries of a file describe.
 
     Raises
     ------

@@ -123,7 +123,7 @@ class PlaceRange(NamedTuple):
 
     @property
     def k(self) -> float:
-        """The middle."""
+        """The middle of the range."""
         return (self.low + self.high) / 2.0
 
     @property

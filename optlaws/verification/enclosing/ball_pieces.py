@@ -41,15 +41,15 @@ class SinePiece(ExactPiece):
         return self.at(nu, ball(k - self.start))
 
     def extremes(self, nu: int, start: Fraction, stop: Fraction) -> Extremes:
-        """Of Taylor polynomials on short cells."""
+        """The extremes of Taylor polynomials on short cells."""
         return extremes(lambda s: self.at(nu, s), start - self.start, stop - self.start)
 
     def power(self) -> Extremes:
-        """The same of the product."""
+        """The extremes of Taylor polynomials of the product b c."""
         return extremes(lambda s: self.at(1, s) * self.at(2, s), Fraction(0), self.stop - self.start)
 
     def square(self, nu: int) -> arb:
-        """By rigorous quadrature."""
+        """The integral of the square by rigorous quadrature."""
 
         def squared(s: acb, _: bool) -> acb:  # noqa: FBT001 - how FLINT calls it
             value = sum((_sine(sine, nu, s) for sine in self.sines), acb(0))
@@ -121,11 +121,11 @@ class PowerPiece(ExactPiece):
         return least_and_greatest([self.value(nu, start), self.value(nu, stop)])
 
     def power(self) -> Extremes:
-        """It is constant."""
+        """The one value of b c on the piece, twice."""
         return ball(self.rate / 2), ball(self.rate / 2)
 
     def square(self, nu: int) -> arb:
-        """In closed form."""
+        """The integral of the square in closed form."""
         m, rate = nu - 1, ball(self.rate)
         if not m:
             return ball((self.first + self.last) / 2 * (self.stop - self.start))

@@ -57,7 +57,7 @@ def enclosed(value: arb) -> tuple[float, float]:
 
 
 def at(polynomial: fmpq_poly, x: arb) -> arb:
-    """The polynomial's value."""
+    """The value of a polynomial at a ball."""
     value: arb = polynomial.numer()(x) / arb(polynomial.denom())
     return value
 

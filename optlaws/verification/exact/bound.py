@@ -45,7 +45,7 @@ _NEAR, _SHARE = Fraction(1, 2**20), Fraction(1, 2**22)
 
 @dataclass(frozen=True)
 class Proof:
-    """What a certificate proves.
+    """The bound that a certificate proves, and what it took.
 
     Attributes
     ----------

@@ -84,7 +84,7 @@ class ExactLaw:
 
     @property
     def polynomials(self) -> list[PolynomialPiece]:
-        """The pieces, all polynomials.
+        """The pieces of a law that is made of polynomials alone.
 
         Raises
         ------

@@ -24,7 +24,7 @@ _ZERO = fmpq_poly([0])
 
 
 def exact_space(problem: Problem) -> ExactSpace:
-    """The laws of a problem.
+    """The laws of a problem as a space in exact numbers.
 
     Raises
     ------

@@ -113,7 +113,7 @@ class _PowerProof(BoxSteps):
         return (low.max(arb(0)) if self.problem.monotone else low), high.min(self.B)
 
     def curved(self, contact: Contact, box: BallBox) -> Vector | None:
-        """The power's rows."""
+        """The row of the power at a contact, zeros where it says nothing."""
         if contact.constraint not in POWER_ROWS:
             return None
         return self.power(contact, box) or [arb(0)] * (len(box.low) + 1)

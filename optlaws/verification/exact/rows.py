@@ -299,7 +299,7 @@ class ExactRows:
             self._output(constant, slack, high)
 
     def _residual(self, constant: ResidualConstant, slack: Names, high: float) -> None:
-        """In units of the bound."""
+        """Rows of a residual at each frequency, in units of the bound."""
         amplitudes = partial(ExactResidual(constant).rows, self.space)
         self.cones.add(constant.name)
         self._add(constant.name, cone(amplitudes, slack, high, ball(high or 1.0)))

@@ -218,7 +218,7 @@ def values(polynomials: Functions, x: arb) -> list[arb]:
 
 
 def x_of(k: Fraction) -> arb:
-    """2k - 1."""
+    """The place x = 2k - 1 of a k."""
     return ball(2 * k - 1)
 
 

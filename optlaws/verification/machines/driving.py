@@ -35,17 +35,17 @@ class DrivenStretch:
 
     @property
     def stop(self) -> Fraction:
-        """Where it ends."""
+        """The time at which the stretch ends."""
         return self.start + self.length
 
     @property
     def first(self) -> list[fmpq]:
-        """The displacements where it begins."""
+        """The displacements where the stretch begins."""
         return [column(fmpq(0)) for column in self.columns]
 
     @property
     def last(self) -> list[fmpq]:
-        """The displacements where it ends."""
+        """The displacements where the stretch ends."""
         return [column(rational(self.length)) for column in self.columns]
 
 
@@ -86,7 +86,7 @@ def _mirrored(drive: DrivenStretch, middle: list[fmpq]) -> DrivenStretch:
 
 
 def rest(start: Fraction, length: Fraction, levels: Sequence[fmpq]) -> DrivenStretch:
-    """A dwell."""
+    """A stretch on which nothing moves."""
     return DrivenStretch(start, length, [fmpq_poly([level]) for level in levels])
 
 

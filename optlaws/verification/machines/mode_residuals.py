@@ -34,7 +34,7 @@ class ModeConstant(Protocol):
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name of the constant."""
 
     @property
     def machine(self) -> StateSpaceMatrices:
@@ -42,7 +42,7 @@ class ModeConstant(Protocol):
 
     @property
     def output(self) -> str:
-        """In which output."""
+        """The output in which the mode is seen."""
 
     @property
     def mode(self) -> int:
@@ -103,7 +103,7 @@ class ExactModeResidual:
 
     @kept_property
     def root(self) -> acb:
-        """The mean of these."""
+        """The mean of the roots that are the mode."""
         whole = sum(count for _, count in self.mode)
         return sum((root * count for root, count in self.mode), acb(0)) / whole
 

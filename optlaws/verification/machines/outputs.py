@@ -26,7 +26,7 @@ class KnownOutput(Protocol):
 
     @property
     def name(self) -> str:
-        """Its name."""
+        """The name of the constant."""
 
     @property
     def scale(self) -> float:
@@ -38,7 +38,7 @@ class KnownOutput(Protocol):
 
     @property
     def output(self) -> str:
-        """Which output."""
+        """The name of the machine's output."""
 
     @property
     def within(self) -> tuple[float, float]:
@@ -71,7 +71,7 @@ class KnownOutputPeak(KnownOutput, Protocol):
 
 @runtime_checkable
 class KnownOutputRms(KnownOutput, Protocol):
-    """A root mean square."""
+    """A root mean square of an output."""
 
     def along(self, space: LawSpace, direction: Sequence[float]) -> MotionLaw | None:
         """A law with whose output all others are multiplied: any will do, the optimal one is best."""

@@ -43,11 +43,11 @@ class Cell:
 
     @property
     def half(self) -> arb:
-        """Half its length."""
+        """Half the length of the cell."""
         return ball((self.stop - self.start) / 2)
 
     def polynomial(self, law: int = 0) -> arb_poly:
-        """One law's polynomial."""
+        """The polynomial of one of the laws."""
         return arb_poly([self.series[i, law] for i in range(self.series.nrows())])
 
 

@@ -44,7 +44,7 @@ class StateSpaceMatrices(Protocol):
 
     @property
     def outputs(self) -> tuple[str, ...]:
-        """Names of the outputs."""
+        """The names of the machine's outputs."""
 
 
 @dataclass(frozen=True)

@@ -56,7 +56,7 @@ class Places:
     rows: tuple[Array, ...]
 
     def joined(self, other: Places) -> Places:
-        """These places and others."""
+        """The places with others joined to them."""
         rows = tuple(np.vstack(pair) for pair in zip(self.rows, other.rows, strict=True))
         return Places(np.append(self.k, other.k), rows)
 
@@ -94,7 +94,7 @@ class BoxRows(ABC):
         """The box of all laws of the problem whose objective is below the claim."""
 
     def roots(self) -> list[Box]:
-        """That box alone."""
+        """The regions at the root of a tree: that box alone."""
         return [self.root()]
 
     @abstractmethod

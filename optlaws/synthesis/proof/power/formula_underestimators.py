@@ -266,11 +266,11 @@ class FormulaRows(BoxRows):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of every plane."""
+        """The names of all planes that there may be."""
         return tuple(dict.fromkeys(name for name, _ in self._planes))
 
     def kinds(self, box: Box) -> list[tuple[str, float]]:
-        """Every plane with its sign."""
+        """The names of all planes with their signs."""
         del box
         return list(self._planes)
 

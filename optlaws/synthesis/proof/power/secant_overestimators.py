@@ -26,7 +26,7 @@ class SecantOverestimator:
     greatest: Array
 
     def where(self, good: NDArray[np.bool_]) -> SecantOverestimator:
-        """Zero elsewhere."""
+        """The lines where they are good, zero elsewhere."""
         return SecantOverestimator(
             *(np.where(good, part, 0.0) for part in (self.slope, self.height, self.least, self.greatest))
         )
