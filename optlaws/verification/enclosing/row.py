@@ -1,8 +1,8 @@
-"""A row of a certificate in balls."""
+"""Rows of a certificate in balls, and the limits that they set."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field
 from fractions import Fraction
 
@@ -25,6 +25,21 @@ class BallRow:
         """Coefficients of z and of the named constants, then what is constant."""
         *free, base = self.functions
         return [*free, *(arb(self.constants.get(name, 0.0)) for name in variables), base + self.right]
+
+
+@dataclass(frozen=True, eq=False)
+class UpperLimit:
+    """A sum of named constants, their signs turned, and a number, which a function of the law is at most."""
+
+    constants: Names = field(default_factory=dict)
+    high: float | arb = 0.0
+
+    def row(self, functions: Iterable[arb], unit: arb | None = None) -> BallRow:
+        """The row of a function of the law, in a unit if one is given."""
+        if unit is None:
+            return BallRow(list(functions), self.constants, -arb(self.high))
+        constants = {name: arb(value) / unit for name, value in self.constants.items()}
+        return BallRow([value / unit for value in functions], constants, -arb(self.high) / unit)
 
 
 Maker = Callable[[Contact, Fraction], BallRow]
