@@ -11,7 +11,18 @@ from typing import Any
 
 import pytest
 
-from optlaws import BoundaryConditions, Certificate, Chebyshev, Contact, Problem, at_least, at_most
+from optlaws import (
+    BoundaryConditions,
+    Certificate,
+    Chebyshev,
+    Contact,
+    InputError,
+    Leaf,
+    Problem,
+    Split,
+    at_least,
+    at_most,
+)
 from optlaws.synthesis.problem.named_constants import expression
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model
 from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, means, spread
@@ -246,3 +257,40 @@ def test_what_constants_are_at_least_where_the_velocity_changes(minimise: str, l
     )
     space = _model(Certificate.of_leaf(slowing, (), ())).space
     assert least_values(slowing, space) == pytest.approx(least)
+
+
+# --- what is no tree ---
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda problem: Certificate(problem, None, ()),
+        lambda problem: Certificate(problem, None, (Leaf(), Leaf())),
+        lambda problem: Certificate(problem, None, (Split(0, 0.5),)),
+        lambda problem: Certificate(problem, 5.0, (Leaf(),)),
+        lambda problem: Certificate(problem, None, (Leaf(),), points=(0.5,)),
+        lambda problem: Certificate(problem, inf, (Leaf(),), peak="B"),
+        lambda problem: Certificate(problem, 5.0, (Leaf(),), points=(0.5,), peak="B"),
+        lambda problem: Certificate(problem, 5.0, (Leaf(),), points=(1.5,)),
+        lambda problem: Certificate(problem, -5.0, (Leaf(),), points=(0.5,)),
+        lambda problem: Certificate(problem, float("nan"), (Leaf(),), points=(0.5,)),
+        lambda problem: Certificate(problem, None, (Leaf(),), tangent=inf),
+        lambda problem: Certificate.of_leaf(problem, program="wishful"),
+        lambda _: Leaf(equations=(inf,)),
+        lambda _: Leaf(claim=float("nan")),
+    ],
+)
+def test_what_is_neither_a_leaf_nor_a_tree_with_a_claim_is_refused(made: Any) -> None:  # noqa: ANN401
+    with pytest.raises(InputError):
+        made(small())
+
+
+def test_a_claim_is_what_the_kind_of_proof_says() -> None:
+    good = Certificate.of_leaf(small(), (c_at(-GAUSS, 1.0),))
+    assert (good.claim, good.program, good.proven) == (None, "objective", True)
+    none = Certificate.of_leaf(small(C=at_most(4.0)), (c_at(-GAUSS, 1.0),), (), VIOLATION)
+    assert (none.claim, none.program, none.bound, none.proves_infeasible) == (inf, "violation", -inf, True)
+    assert not good.with_leaf(contacts=()).proves_infeasible
+    assert Certificate.from_dict(none.to_dict()) == none
+    assert Certificate.from_dict(good.to_dict()) == good

@@ -7,7 +7,7 @@ from fractions import Fraction
 import pytest
 
 from optlaws import BoundaryConditions, Certificate, Chebyshev, Problem, Split, synthesize
-from optlaws.verification import exact_bound
+from optlaws.verification import exact_bound, verify
 
 FIRST = Problem(B=1.641, order=4, basis=Chebyshev(5), minimise="D")
 PROBLEMS = [
@@ -49,3 +49,13 @@ def test_what_is_false_or_unfinished_is_not_proven() -> None:
     assert exact_bound(replace(right, points=(points[1], *points[1:]))) is None
     assert exact_bound(replace(right, problem=replace(FIRST, B=1.6))) is None
     assert exact_bound(replace(right, problem=replace(FIRST, minimise="C"))) is None
+
+
+def test_each_place_of_a_file_takes_any_kind_of_certificate() -> None:
+    data = json.loads(json.dumps(synthesize(FIRST, bound="tight").to_dict()))
+    turned = {**data, "certificate": data["power_certificate"], "power_certificate": data["certificate"]}
+    for file in (data, turned, {**turned, "power_certificate": None}, data["power_certificate"]):
+        verification = verify(file)
+        assert verification.proven
+        assert verification.bound == data["lower_bound"]
+    assert not verify({**turned, "certificate": data["certificate"], "power_certificate": None}).proven

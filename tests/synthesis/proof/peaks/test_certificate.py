@@ -116,6 +116,17 @@ def test_every_cell_of_a_file_is_needed(certificate: Certificate) -> None:
     assert Certificate.from_dict({**data, "cells": data["cells"][::-1]}) == certificate
 
 
+def test_cells_may_meet_anywhere(certificate: Certificate) -> None:
+    data = json.loads(json.dumps(certificate.to_dict()))
+    easy = next(cell for cell in data["cells"] if cell["reach"] > 0.01)
+    parts = [{**easy, "k": easy["k"] - 0.75 * easy["reach"], "reach": 0.25 * easy["reach"]}]
+    parts += [{**easy, "k": easy["k"] + 0.25 * easy["reach"], "reach": 0.75 * easy["reach"]}]
+    other = Certificate.from_dict({**data, "cells": [*(cell for cell in data["cells"] if cell is not easy), *parts]})
+    assert len(other.tree) == len(certificate.tree) + 2
+    assert sorted(map(str, other.to_dict()["cells"])) != sorted(map(str, data["cells"]))
+    assert Certificate.from_dict(other.to_dict()) == other
+
+
 def narrowest(certificate: Certificate) -> int:
     """The number, among the cells, of the narrowest: where the law has its peak."""
     cells = certificate.to_dict()["cells"]
