@@ -16,8 +16,9 @@ from optlaws.verification.enclosing.pieces import Extremes
 #: and how short a part is cut no further
 _BITS, _NARROW, _NOTHING, _SHORTEST = 192, 2.0**-70, 2.0**-110, Fraction(1, 2**60)
 _WHOLE = (Fraction(-1), Fraction(1))
-#: terms of Taylor polynomials; how little may be left of a function, of itself; and how short a cell is cut no further
-_TERMS, _LEFT, _LEAST = 24, 2.0**-80, Fraction(1, 2**70)
+#: terms of Taylor polynomials; how little may be left of a function, of itself; how short a cell is cut no further, and
+#: after how many none is
+_TERMS, _LEFT, _LEAST, _MOST = 24, 2.0**-80, Fraction(1, 2**70), 1 << 12
 
 #: a function by its Taylor series; coefficients beyond what it is smooth to are not finite
 Smooth = Callable[[arb_series], arb_series]
@@ -34,17 +35,10 @@ def extremes(function: Smooth, start: Fraction, stop: Fraction) -> Extremes:
     """
     first, last = (function(arb_series([ball(k)]))[0] for k in (start, stop))
     size = 1 + abs(first).max(abs(last)).upper()
-    parts = list(_polynomials(function, (start, stop), size * max(_LEFT, 2.0 ** (8 - ctx.prec))))
+    most = size * max(_LEFT, 2.0 ** (8 - ctx.prec))
+    several = cells(function, arb_series, (start, stop), _LEAST, lambda _, rest: bool(rest <= most))
+    parts = [(arb_poly(centre), rest) for centre, rest in several]
     return -greatest_magnitude(parts, (-1.0,)), greatest_magnitude(parts, (1.0,))
-
-
-def _polynomials(function: Smooth, ends: tuple[Fraction, Fraction], most: arb) -> Iterator[tuple[arb_poly, arb]]:
-    """Taylor polynomials in what runs from -1 to 1 over each cell, and how far the function is off them."""
-    for centre, around in cells(function, arb_series, ends, _LEAST, lambda _, rest: bool(rest <= most)):
-        if centre and all(value.is_finite() for value in centre):
-            yield arb_poly(centre), abs(around).upper()
-        else:
-            yield arb_poly([around.mid()]), around.rad()
 
 
 def cells(
@@ -53,11 +47,11 @@ def cells(
     ends: tuple[Fraction, Fraction],
     shortest: Fraction,
     enough: Callable[[list[Any], arb], bool],
-) -> Iterator[tuple[list[Any], Any]]:
-    """Coefficients of a function's Taylor polynomial on each of many cells, and a ball that holds what is left of it.
+) -> Iterator[tuple[list[Any], arb]]:
+    """Coefficients of a function's Taylor polynomial on each of many cells, and how far the function is off it.
 
     The polynomial is of what runs from -1 to 1, and has as many terms as the function is smooth on the cell; where that
-    is none, what is left is the function.
+    is none, it is a number.
 
     Parameters
     ----------
@@ -68,18 +62,21 @@ def cells(
     shortest
         A cell that is shorter is cut no further.
     enough
-        Whether a cell need not be cut, from its coefficients and the magnitude of what is left.
+        Whether a cell need not be cut, from its coefficients and how far the function is off.
     """
-    left = [ends]
+    left, count = [ends], 0
     while left:
         low, high = left.pop()
         middle, half = (low + high) / 2, ball((high - low) / 2)
         with series_length(_TERMS + 1):
             about, around = (function(variable([place, half])) for place in (ball(middle), ball(low).union(ball(high))))
             terms = next((i for i in range(_TERMS, 0, -1) if around[i].is_finite()), 0)
-            centre = [about[i] for i in range(terms)]
-        if high - low < shortest or (centre and enough(centre, abs(around[terms]).upper())):
-            yield centre, around[terms]
+            centre, rest = [about[i] for i in range(terms)], abs(around[terms]).upper()
+        if not centre or not all(value.is_finite() for value in centre):
+            centre, rest = [around[0].mid()], around[0].rad()
+        count += 1
+        if high - low < shortest or count > _MOST or enough(centre, rest):
+            yield centre, rest
         else:
             left += [(low, middle), (middle, high)]
 

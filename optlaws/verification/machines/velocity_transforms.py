@@ -91,11 +91,11 @@ def _parts(
 ) -> Iterator[tuple[arb_poly, arb]]:
     """Polynomials of which the squared magnitude is made, on short stretches, and how far the function is off."""
     for centre, rest in cells(function, acb_series, (low, high), 2 * _SHORTEST, _next_to_nothing):
-        yield _squared(centre), abs(rest).upper()
+        yield _squared(centre), rest
 
 
 def _next_to_nothing(centre: list[acb], rest: arb) -> bool:
-    return bool(rest <= _NOTHING * (abs(centre[0]) + abs(centre[1])))
+    return bool(rest <= _NOTHING * sum(map(abs, centre[:2]), arb(0)))
 
 
 def _squared(series: list[acb]) -> arb_poly:
