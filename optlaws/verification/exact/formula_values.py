@@ -35,14 +35,7 @@ def extremes_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Extremes:
         # where a norm vanishes it has no derivative, but its square has
         least, greatest = extremes_of(squared(motion), pieces)
         return least.max(arb(0)).sqrt(), greatest.max(arb(0)).sqrt()
-    values: list[arb] = []
-    for part in _parts(motion, pieces):
-        composed = part.polynomial()
-        if composed is not None:
-            values += between(composed, fmpq(-1), fmpq(1))
-        else:
-            values += extremes(lambda k, part=part: part.series(k)[0], part.low, part.high)
-    return least_and_greatest(values)
+    return least_and_greatest([value for part in _parts(motion, pieces) for value in part.extremes()])
 
 
 def integral_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
@@ -85,6 +78,13 @@ class _FormulaPart:
         names = {name: self.piece.derivative(nu)(y) for name, nu in ORDERS.items() if name in self.formula.names()}
         polynomial: fmpq_poly = evaluate(self.formula, {**names, "k": k}, POLYNOMIALS)
         return polynomial
+
+    def extremes(self) -> Extremes:
+        """Balls that hold the least and the greatest value between the two k."""
+        composed = self.polynomial()
+        if composed is not None:
+            return between(composed, fmpq(-1), fmpq(1))
+        return extremes(lambda k: self.series(k)[0], self.low, self.high)
 
     def series(self, k: arb_series) -> tuple[arb_series]:
         """Its Taylor series, to as many terms as series have."""

@@ -292,7 +292,7 @@ class ExactRows:
         """Rows of a residual at each frequency, in units of the bound."""
         amplitudes = partial(ExactResidual(constant).rows, self.space)
         self.cones.add(constant.name)
-        self._add(constant.name, cone(amplitudes, limit, ball(limit.high or 1.0)))
+        self._add(constant.name, cone(amplitudes, limit, arb(limit.high or 1.0)))
 
     def _mode(self, constant: ModeConstant, limit: UpperLimit) -> None:
         edges = mode_edges(constant, self.space, self._solved, limit)
