@@ -22,6 +22,9 @@ _TERMS, _LEFT, _LEAST, _MOST = 24, 2.0**-80, Fraction(1, 2**70), 1 << 12
 
 #: a function by its Taylor series; coefficients beyond what it is smooth to are not finite
 Smooth = Callable[[arb_series], arb_series]
+Ends = tuple[Fraction, Fraction]
+#: coefficients of a polynomial, and how far a function is off it at most
+Taylor = tuple[list[Any], arb]
 
 
 def extremes(function: Smooth, start: Fraction, stop: Fraction) -> Extremes:
@@ -35,50 +38,66 @@ def extremes(function: Smooth, start: Fraction, stop: Fraction) -> Extremes:
     """
     first, last = (function(arb_series([ball(k)]))[0] for k in (start, stop))
     size = 1 + abs(first).max(abs(last)).upper()
+    if not size.is_finite():
+        return arb.nan(), arb.nan()
     most = size * max(_LEFT, 2.0 ** (8 - ctx.prec))
-    several = cells(function, arb_series, (start, stop), _LEAST, lambda _, rest: bool(rest <= most))
-    parts = [(arb_poly(centre), rest) for centre, rest in several]
+
+    def enough(parts: Sequence[Taylor], _: Fraction) -> bool:
+        return bool(parts[0][1] <= most)
+
+    several = cells(lambda s: [function(s)], arb_series, (start, stop), _LEAST, enough)
+    parts = [(arb_poly(centre), rest) for _, [(centre, rest)] in several]
     return -greatest_magnitude(parts, (-1.0,)), greatest_magnitude(parts, (1.0,))
 
 
 def cells(
-    function: Callable[[Any], Any],
+    functions: Callable[[Any], Sequence[Any]],
     variable: Callable[[list[Any]], Any],
-    ends: tuple[Fraction, Fraction],
+    ends: Ends,
     shortest: Fraction,
-    enough: Callable[[list[Any], arb], bool],
-) -> Iterator[tuple[list[Any], arb]]:
-    """Coefficients of a function's Taylor polynomial on each of many cells, and how far the function is off it.
+    enough: Callable[[Sequence[Taylor], Fraction], bool],
+    *,
+    terms: int = _TERMS,
+) -> Iterator[tuple[Ends, list[Taylor]]]:
+    """Many cells with the Taylor polynomials of functions there, and how far these are off.
 
-    The polynomial is of what runs from -1 to 1, and has as many terms as the function is smooth on the cell; where that
+    A polynomial is of what runs from -1 to 1 over the cell, and has as many terms as the function is smooth; where that
     is none, it is a number.
 
     Parameters
     ----------
-    function, variable
-        The function of a series, and what makes a series of its coefficients.
+    functions, variable
+        The functions of a series, and what makes a series of its coefficients.
     ends
         From where to where.
     shortest
         A cell that is shorter is cut no further.
     enough
-        Whether a cell need not be cut, from its coefficients and how far the function is off.
+        Whether a cell need not be cut, from the polynomials and its length.
+    terms
+        How many terms there are at most.
     """
     left, count = [ends], 0
     while left:
         low, high = left.pop()
         middle, half = (low + high) / 2, ball((high - low) / 2)
-        with series_length(_TERMS + 1):
-            about, around = (function(variable([place, half])) for place in (ball(middle), ball(low).union(ball(high))))
-            terms = next((i for i in range(_TERMS, 0, -1) if around[i].is_finite()), 0)
-            centre, rest = [about[i] for i in range(terms)], abs(around[terms]).upper()
-        if not centre or not all(value.is_finite() for value in centre):
-            centre, rest = [around[0].mid()], around[0].rad()
+        with series_length(terms + 1):
+            places = ball(middle), ball(low).union(ball(high))
+            pairs = zip(*(functions(variable([place, half])) for place in places), strict=True)
+            parts = [_taylor(about, around, terms) for about, around in pairs]
         count += 1
-        if high - low < shortest or count > _MOST or enough(centre, rest):
-            yield centre, rest
+        if high - low < shortest or count > _MOST or enough(parts, high - low):
+            yield (low, high), parts
         else:
             left += [(low, middle), (middle, high)]
+
+
+def _taylor(about: Any, around: Any, terms: int) -> Taylor:  # noqa: ANN401 - series
+    smooth = next((i for i in range(terms, 0, -1) if around[i].is_finite()), 0)
+    centre = [about[i] for i in range(smooth)]
+    if smooth and all(value.is_finite() for value in centre):
+        return centre, abs(around[smooth]).upper()
+    return [around[0].mid()], around[0].rad()
 
 
 def greatest_magnitude(parts: Sequence[tuple[arb_poly, arb]], signs: Sequence[float] = (1.0, -1.0)) -> arb:

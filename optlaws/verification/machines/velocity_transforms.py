@@ -13,7 +13,7 @@ from typing import TypeVar
 
 from flint import acb, acb_series, arb, arb_poly, fmpq
 
-from optlaws.verification.enclosing.ball_extremes import cells, greatest_magnitude
+from optlaws.verification.enclosing.ball_extremes import Taylor, cells, greatest_magnitude
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.machines.driving import Space
@@ -90,11 +90,12 @@ def _parts(
     function: Callable[[acb_series], acb_series], low: Fraction, high: Fraction
 ) -> Iterator[tuple[arb_poly, arb]]:
     """Polynomials of which the squared magnitude is made, on short stretches, and how far the function is off."""
-    for centre, rest in cells(function, acb_series, (low, high), 2 * _SHORTEST, _next_to_nothing):
-        yield _squared(centre), rest
+    several = cells(lambda nu: [function(nu)], acb_series, (low, high), 2 * _SHORTEST, _next_to_nothing)
+    yield from ((_squared(centre), rest) for _, [(centre, rest)] in several)
 
 
-def _next_to_nothing(centre: list[acb], rest: arb) -> bool:
+def _next_to_nothing(parts: Sequence[Taylor], _: Fraction) -> bool:
+    centre, rest = parts[0]
     return bool(rest <= _NOTHING * sum(map(abs, centre[:2]), arb(0)))
 
 
