@@ -16,8 +16,8 @@ from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.machines.driving import Space
-from optlaws.verification.machines.transfer import Rational, StateSpaceMatrices, roots, transforms
-from optlaws.verification.machines.velocity_transforms import ends_of, ends_of_piece, greatest_modulus
+from optlaws.verification.machines.transfer import MachineConstant, Rational, roots, transforms
+from optlaws.verification.machines.velocity_transforms import ends_of, ends_of_law, greatest_modulus
 from optlaws.verification.machines.velocity_transforms import transforms as velocity_transforms
 
 Number = TypeVar("Number", acb, acb_series)
@@ -29,20 +29,8 @@ _VIBRATING, _SAME, _APART = 1e-6, 1e-6, 1e-9
 
 
 @runtime_checkable
-class ModeConstant(Protocol):
+class ModeConstant(MachineConstant, Protocol):
     """What the residual of a mode is made of (optlaws.mechanisms defines it)."""
-
-    @property
-    def name(self) -> str:
-        """The name of the constant."""
-
-    @property
-    def machine(self) -> StateSpaceMatrices:
-        """The machine whose residual it is."""
-
-    @property
-    def output(self) -> str:
-        """The output in which the mode is seen."""
 
     @property
     def mode(self) -> int:
@@ -148,16 +136,13 @@ class ExactModeResidual:
 
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that holds the greatest over the box, at the precision at work."""
-        breaks = [pieces[0].start, *(piece.stop for piece in pieces)]
-        ends = [[ends_of_piece(piece) for piece in pieces]]
+        breaks, ends = ends_of_law(pieces)
 
         def amplitude(edge: ExactEdge, place: Number) -> Number:
             return velocity_transforms(edge.root(place), breaks, ends)[0]
 
-        if self.edges[0].single:
-            return self.share * abs(amplitude(self.edges[0], acb(0)))
         along = [partial(amplitude, edge) for edge in self.edges]
-        return self.share * greatest_modulus(along, Fraction(0), Fraction(1))
+        return self.share * greatest_modulus(along, Fraction(0), Fraction(0 if self.edges[0].single else 1))
 
 
 def vibrations(poles: Sequence[tuple[acb, int]]) -> list[list[tuple[acb, int]]]:

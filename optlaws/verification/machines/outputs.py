@@ -17,28 +17,16 @@ from optlaws.verification.machines import driving
 from optlaws.verification.machines.driving import DrivenStretch, Space
 from optlaws.verification.machines.output_motion import OutputMotion, response
 from optlaws.verification.machines.taylor_cells import greatest_value, moments, products, root
-from optlaws.verification.machines.transfer import StateSpaceMatrices, Transfer
+from optlaws.verification.machines.transfer import MachineConstant, Transfer
 
 
 @runtime_checkable
-class KnownOutput(Protocol):
+class KnownOutput(MachineConstant, Protocol):
     """What a constant of a machine's output is made of (optlaws.mechanisms defines it)."""
-
-    @property
-    def name(self) -> str:
-        """The name of the constant."""
 
     @property
     def scale(self) -> float:
         """The size of the output while a smooth law drives the machine, a power of 2."""
-
-    @property
-    def machine(self) -> StateSpaceMatrices:
-        """The machine whose output it is."""
-
-    @property
-    def output(self) -> str:
-        """The name of the machine's output."""
 
     @property
     def within(self) -> tuple[float, float]:

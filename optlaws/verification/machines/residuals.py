@@ -14,7 +14,7 @@ from optlaws.verification.machines.driving import Space
 from optlaws.verification.machines.velocity_transforms import (
     Ends,
     ends_of,
-    ends_of_piece,
+    ends_of_law,
     greatest_modulus,
     transforms,
 )
@@ -72,9 +72,5 @@ class ExactResidual:
 
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that holds the greatest magnitude over the interval of frequencies, at the precision at work."""
-        breaks = [pieces[0].start, *(piece.stop for piece in pieces)]
-        ends = [[ends_of_piece(piece) for piece in pieces]]
-        if self.low == self.high:
-            magnitude: arb = abs(self.amplitudes(acb(ball(self.low)), breaks, ends)[0])
-            return magnitude
+        breaks, ends = ends_of_law(pieces)
         return greatest_modulus([lambda nu: self.amplitudes(nu, breaks, ends)[0]], self.low, self.high)

@@ -47,6 +47,22 @@ class StateSpaceMatrices(Protocol):
         """The names of the machine's outputs."""
 
 
+class MachineConstant(Protocol):
+    """What every constant of a machine is made of."""
+
+    @property
+    def name(self) -> str:
+        """The name of the constant."""
+
+    @property
+    def machine(self) -> StateSpaceMatrices:
+        """The machine whose output it speaks of."""
+
+    @property
+    def output(self) -> str:
+        """The name of the output."""
+
+
 @dataclass(frozen=True)
 class Pole:
     """A root of the denominator, real or above the real line, with what it does to the output.

@@ -9,7 +9,7 @@ from collections.abc import Callable, Iterator, Sequence
 from fractions import Fraction
 from functools import reduce
 from itertools import pairwise
-from typing import TypeVar
+from typing import Any, TypeVar
 
 from flint import acb, acb_series, arb, arb_poly, fmpq
 
@@ -44,10 +44,14 @@ def ends_of(space: Space) -> list[list[Ends]]:
     ]
 
 
-def ends_of_piece(piece: PolynomialPiece) -> Ends:
-    """The derivatives at the ends of a stored law's piece."""
-    orders = range(1, piece.derivative(0).degree() + 1)
-    return [piece.exact(nu, piece.start) for nu in orders], [piece.exact(nu, piece.stop) for nu in orders]
+def ends_of_law(pieces: Sequence[PolynomialPiece]) -> tuple[list[Fraction], list[list[Ends]]]:
+    """The breaks of a stored law, and the derivatives at the ends of its pieces."""
+    breaks = [pieces[0].start, *(piece.stop for piece in pieces)]
+    ends = []
+    for piece in pieces:
+        orders = range(1, piece.derivative(0).degree() + 1)
+        ends.append(([piece.exact(nu, piece.start) for nu in orders], [piece.exact(nu, piece.stop) for nu in orders]))
+    return breaks, [ends]
 
 
 def transforms(w: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]) -> list[Number]:
@@ -78,8 +82,11 @@ def _sum(powers: Sequence[Number], values: Sequence[fmpq], nothing: Number) -> N
     return sum((power * acb(arb(value)) for power, value in zip(powers, values, strict=False) if value != 0), nothing)
 
 
-def greatest_modulus(functions: Sequence[Callable[[acb_series], acb_series]], low: Fraction, high: Fraction) -> arb:
-    """A ball that holds the greatest magnitude of complex functions of a real number, given for Taylor series."""
+def greatest_modulus(functions: Sequence[Callable[[Any], Any]], low: Fraction, high: Fraction) -> arb:
+    """A ball that holds the greatest magnitude of complex functions of a real number, given for numbers and series."""
+    if low == high:
+        sizes: list[arb] = [abs(function(acb(ball(low)))) for function in functions]
+        return reduce(arb.max, sizes)
     parts = [part for function in functions for part in _parts(function, low, high)]
     off = reduce(arb.max, (radius for _, radius in parts))
     size = root(greatest_magnitude([(square, arb(0)) for square, _ in parts]))

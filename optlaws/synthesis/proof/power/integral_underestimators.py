@@ -146,11 +146,15 @@ class ConvexUnderestimator:
     def least(self, box: Box, limits: Mapping[str, float]) -> float:
         """What the integral is at least in a box whatever else holds."""
         low, high = self.ranges(replace(box, low=self._lawful(box.low), high=self._lawful(box.high)), limits)
-        within = {name: Interval(*ends) for name, *ends in zip(self.family.names, low, high, strict=True)}
-        within["k"] = Interval(self.middle - self.reach, self.middle + self.reach)
+        within = self._intervals(low, high)
         least = np.broadcast_to(enclosed(self.motion.formula, within).low, self.middle.shape)
         least_there = float(least @ (2.0 * self.reach))
         return least_there - _BLUR * float(np.abs(least) @ self.reach)
+
+    def _intervals(self, low: Array, high: Array) -> dict[str, Interval]:
+        """The ranges of the derivatives and of k on the cells."""
+        within = {name: Interval(*ends) for name, *ends in zip(self.family.names, low, high, strict=True)}
+        return within | {"k": Interval(self.middle - self.reach, self.middle + self.reach)}
 
     def _lawful(self, side: Array) -> Array:
         """A side of a box with nothing for what is no velocity."""
@@ -158,9 +162,7 @@ class ConvexUnderestimator:
 
     def _third(self, low: Array, high: Array) -> dict[tuple[int, int, int], Array]:
         """Greatest magnitudes of third derivatives of the formula on the cells, for names in ascending order."""
-        used = self.family.names
-        within = {name: Interval(*ends) for name, *ends in zip(used, low, high, strict=True)}
-        within["k"] = Interval(self.middle - self.reach, self.middle + self.reach)
+        within = self._intervals(low, high)
         planes = {}
         for key, formula in self._third_formulas.items():
             ends = enclosed(formula, within)
@@ -169,8 +171,7 @@ class ConvexUnderestimator:
 
     def _anywhere(self, low: Array, high: Array) -> Array:
         """A form over the velocities that second derivatives of the integral are nowhere below in the ranges."""
-        within = {name: Interval(*ends) for name, *ends in zip(self.family.names, low, high, strict=True)}
-        within["k"] = Interval(self.middle - self.reach, self.middle + self.reach)
+        within = self._intervals(low, high)
         count, widths = len(self.family.names), np.maximum(high - low, _LEAST)
         bend = np.zeros((count, count, len(self.middle)))
         for i, j in combinations_with_replacement(range(count), 2):
