@@ -36,7 +36,7 @@ def refused(error: InfeasibleProblem, problem: Problem) -> str:
         assert "its limit is" in str(error)
         return "infeasible"
     assert isinstance(error.proof, Certificate)
-    if isinstance(error.proof, Certificate) and error.proof.proves_infeasible:
+    if error.proof.proves_infeasible:
         return "infeasible"
     # the least D of the problem is proven to be above what is asked
     asked = problem.range("D")
