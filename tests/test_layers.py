@@ -99,6 +99,7 @@ SEVERAL = {
     "space",
     "splines",
     "study",
+    "sublevel_bounds",
     "summary",
     "table",
     "tables",
@@ -114,11 +115,12 @@ CHECKERS = (
     "optlaws.verification",
     "optlaws.synthesis.proof.certificate",
     "optlaws.synthesis.proof.data",
-    "optlaws.synthesis.proof.below_claim",
+    "optlaws.synthesis.proof.sublevel_bounds",
     "optlaws.synthesis.proof.duality",
     "optlaws.synthesis.proof.farkas",
-    "optlaws.synthesis.proof.peaks.certificate",
-    "optlaws.synthesis.proof.power.certificate",
+    "optlaws.synthesis.proof.peaks.rows",
+    "optlaws.synthesis.proof.power.box",
+    "optlaws.synthesis.proof.nodes",
 )
 MUST_NOT_IMPORT = {
     "errors": {"casadi", "matplotlib", "scipy"},

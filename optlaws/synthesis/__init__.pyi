@@ -30,9 +30,10 @@ from optlaws.synthesis.problem.ranges import between as between
 from optlaws.synthesis.problem.windows import Window as Window
 from optlaws.synthesis.problem.windows import via as via
 from optlaws.synthesis.proof.certificate import Certificate as Certificate
-from optlaws.synthesis.proof.certificate import Contact as Contact
-from optlaws.synthesis.proof.peaks.certificate import PeakCertificate as PeakCertificate
-from optlaws.synthesis.proof.power.certificate import PowerCertificate as PowerCertificate
+from optlaws.synthesis.proof.nodes import Contact as Contact
+from optlaws.synthesis.proof.nodes import Leaf as Leaf
+from optlaws.synthesis.proof.nodes import Split as Split
+from optlaws.synthesis.proof.nodes import Tightening as Tightening
 from optlaws.synthesis.proven.front import FrontPoint as FrontPoint
 from optlaws.synthesis.proven.front import ProvenFront as ProvenFront
 from optlaws.synthesis.proven.refine import proven_front as proven_front
@@ -75,12 +76,11 @@ __all__ = [
     "FrontPoint",
     "Functional",
     "J",
+    "Leaf",
     "Maximum",
-    "PeakCertificate",
     "Pieces",
     "PiecewiseBasis",
     "PolynomialBasis",
-    "PowerCertificate",
     "Powers",
     "Problem",
     "ProblemArray",
@@ -88,8 +88,10 @@ __all__ = [
     "Range",
     "Solution",
     "SolutionArray",
+    "Split",
     "Status",
     "Term",
+    "Tightening",
     "Window",
     "acceleration_limit",
     "at_least",

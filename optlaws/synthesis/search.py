@@ -22,12 +22,11 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import Worth, shortfalls, worth
 from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof import mirroring
+from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.infeasible import failure
 from optlaws.synthesis.proof.make import certify, lower_bound
 from optlaws.synthesis.proof.peaks import search as places
-from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
 from optlaws.synthesis.proof.peaks.rows import peak_of
-from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.proof.power.search import tightened
 from optlaws.synthesis.solution import NOTHING, Solution, Status, measure
 
@@ -80,8 +79,8 @@ class Search:
     tight: bool = False
     warm: ActiveSet | None = None
     attempts: list[Attempt] = field(default_factory=list)
-    power: PowerCertificate | None = None
-    peaks: PeakCertificate | None = None
+    power: Certificate | None = None
+    peaks: Certificate | None = None
     began: float = field(default_factory=perf_counter)
 
     @property

@@ -18,8 +18,6 @@ from optlaws.shown.summary import Row, Summary
 from optlaws.synthesis.families.active_set import ActiveSet
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
-from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.spaces.bases import PolynomialBasis, Powers
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
 
@@ -123,8 +121,8 @@ class Solution:
     iterations: int
     seconds: float = field(compare=False)
     starts: tuple[float, ...] = ()
-    power_certificate: PowerCertificate | None = field(default=None, repr=False)
-    peak_certificate: PeakCertificate | None = field(default=None, repr=False)
+    power_certificate: Certificate | None = field(default=None, repr=False)
+    peak_certificate: Certificate | None = field(default=None, repr=False)
     active_set: ActiveSet = field(repr=False, kw_only=True, compare=False)
 
     if not TYPE_CHECKING:

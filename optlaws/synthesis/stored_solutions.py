@@ -32,8 +32,6 @@ from optlaws.synthesis.program.writer import Model, model_of
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import as_json, problem_of, stated
 from optlaws.synthesis.proof.no_law import beyond_limit, proof_of_no_law
-from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
-from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.solution import Solution, Status
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 from optlaws.synthesis.spaces.splines import PiecewiseBasis
@@ -255,8 +253,8 @@ class _Reading:
             iterations=row.iterations,
             seconds=row.seconds,
             starts=row.starts,
-            power_certificate=_read(PowerCertificate.from_dict, row.power_certificate),
-            peak_certificate=_read(PeakCertificate.from_dict, row.peak_certificate),
+            power_certificate=_read(Certificate.from_dict, row.power_certificate),
+            peak_certificate=_read(Certificate.from_dict, row.peak_certificate),
             active_set=_active_set(kept.active_set, model_of(problem).program),
         )
 
@@ -351,13 +349,8 @@ def _check_numbers(row: StatedSolution, problem: Problem, law: MotionLaw) -> Non
 
 def _proven(row: StatedSolution, problem: Problem) -> Iterator[float]:
     """What the row's proofs prove of its problem in doubles."""
-    readers: tuple[tuple[Callable[[Plain], Certificate | PowerCertificate | PeakCertificate], Plain | None], ...] = (
-        (Certificate.from_dict, row.certificate),
-        (PowerCertificate.from_dict, row.power_certificate),
-        (PeakCertificate.from_dict, row.peak_certificate),
-    )
-    for read, data in readers:
-        proof = _read(read, data)
+    for data in (row.certificate, row.power_certificate, row.peak_certificate):
+        proof = _read(Certificate.from_dict, data)
         if proof is not None and proof.problem != problem:
             raise InputError("a proof beside its law is of another problem")
         if proof is not None:
@@ -445,8 +438,7 @@ def _error(row: StatedError, problem: Callable[[], Problem]) -> OptlawsError:
         if not beyond_limit(problem()):
             raise InputError("it is said to have no law, but no proof stands beside it")
         return InfeasibleProblem(row.error, problem=problem(), tried=row.tried)
-    kind: Any = PowerCertificate if "steps" in row.proof else Certificate
-    proof = proof_of_no_law(problem(), kind.from_dict(row.proof))
+    proof = proof_of_no_law(problem(), Certificate.from_dict(row.proof))
     if proof is None:
         raise InputError("it is said to have no law, but its proof does not show that of its problem")
     return InfeasibleProblem(row.error, problem=problem(), tried=row.tried, proof=proof)

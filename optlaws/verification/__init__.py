@@ -121,10 +121,10 @@ def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
     (3.464101615137754, 3.464101615137755)
     """
     _need_flint()
-    from optlaws.verification.exact import law as exact_law
+    from optlaws.verification.exact.law import ExactLaw
 
     with _precision:
-        return exact_law.enclosures(law)
+        return ExactLaw(law).enclosures()
 
 
 def _need_flint() -> None:

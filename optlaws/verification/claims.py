@@ -12,30 +12,38 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import MotionLaw
+from optlaws.suggest import unknown_key
 from optlaws.synthesis.limits.rounding import rounded_down, rounded_up
-from optlaws.synthesis.problem.expression import leaves
+from optlaws.synthesis.problem.constants import FUNCTIONALS
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
-from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
-from optlaws.synthesis.proof.power.certificate import PowerCertificate
+from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proven.front import ProvenFront
 from optlaws.synthesis.solution import measure
 from optlaws.synthesis.stored_solutions import read_solutions
 from optlaws.verification.conditions import excesses
 from optlaws.verification.enclosing.balls import enclosed
-from optlaws.verification.exact.bound import Proof, never_negative, prove
+from optlaws.verification.exact.bound import Proof, prove
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.limits import exact_limit
-from optlaws.verification.exact.power import prove_power
-from optlaws.verification.places import NO_FILE, Entry, check_keys, entries, is_array, is_entry, is_proven_front
+from optlaws.verification.file_entries import (
+    NO_FILE,
+    FileEntry,
+    check_keys,
+    entries,
+    is_array,
+    is_entry,
+    is_proven_front,
+)
 from optlaws.verification.proven_fronts import proven_front
 from optlaws.verification.reading import built, number, read
 from optlaws.verification.result import Claim, Verification
-from optlaws.verification.said_around import said_around
-from optlaws.verification.stated_numbers import at_most, stated_constants, stated_numbers
+from optlaws.verification.stated_numbers import at_most, near, stated_constants, stated_numbers
 
 #: an optimum's greatest gap, the greatest correction that rounding explains, and the share that is no multiplier
 _GAP, _CORRECTION, _NOTHING = 1e-8, 1e-6, 1e-9
+#: where further certificates of a solution are
+_BESIDE = ("power_certificate", "peak_certificate")
 
 
 def verify(source: Mapping[str, Any] | Path | str) -> Verification:
@@ -48,7 +56,7 @@ def verify(source: Mapping[str, Any] | Path | str) -> Verification:
             "neither a solution (problem, law, certificate) nor a certificate (problem, contacts) nor a law with its "
             f"constants: nothing to verify{inside}"
         )
-    return built(_entry, Entry(data), "the file")
+    return built(_entry, FileEntry(data), "the file")
 
 
 def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification]:
@@ -59,13 +67,13 @@ def verify_all(source: Mapping[str, Any] | Path | str) -> dict[str, Verification
     return {path: built(_entry, entry, path or "the file") for path, entry in claimed.items()}
 
 
-def _entry(entry: Entry) -> Verification:
+def _entry(entry: FileEntry) -> Verification:
     if not entry.data:
         claim = Claim(f"{entry.around.status}", proven=False, detail="no certificate stands beside it")
         return Verification(problem=None, bound=None, claims=(claim,))
     check_keys(entry.data)
     alone = _alone(entry.data)
-    return replace(alone, claims=(*alone.claims, *said_around(entry, alone)))
+    return replace(alone, claims=(*alone.claims, *claims_in_context(entry, alone)))
 
 
 def _alone(data: Mapping[str, Any]) -> Verification:
@@ -75,11 +83,7 @@ def _alone(data: Mapping[str, Any]) -> Verification:
         return proven_front(built(ProvenFront.from_dict, data, "the proven front"), number(data, "gap"))
     if "certificate" in data:
         return _solution(data)
-    if "contacts" in data:
-        return _certificate_alone(built(Certificate.from_dict, data, "the certificate"), data)
-    if "steps" in data:
-        return _power_alone(built(PowerCertificate.from_dict, data, "the power certificate"), data)
-    return _law_alone(data)
+    return _law_alone(data) if "law" in data else _certificate_alone(data)
 
 
 def _arrays(data: Mapping[str, Any]) -> Verification:
@@ -94,61 +98,37 @@ def _arrays(data: Mapping[str, Any]) -> Verification:
     return Verification(problem=None, bound=None, recomputed=(claim,))
 
 
+def _law(data: Mapping[str, Any]) -> ExactLaw:
+    return built(lambda entry: ExactLaw(MotionLaw.from_dict(entry)), data["law"], "law")
+
+
 def _law_alone(data: Mapping[str, Any]) -> Verification:
-    law = built(lambda entry: ExactLaw(MotionLaw.from_dict(entry)), data["law"], "law")
+    law = _law(data)
     constants = law.enclosures()
     return Verification(problem=None, bound=None, constants=constants, claims=tuple(stated_constants(data, law)))
 
 
-def _power_alone(certificate: PowerCertificate, data: Mapping[str, Any]) -> Verification:
-    proven = _power(certificate)
-    bound = None if proven is None else rounded_down(proven)
-    return Verification(problem=certificate.problem, bound=bound, claims=tuple(_of_power(certificate, proven, data)))
-
-
-def _power(certificate: PowerCertificate) -> Fraction | None:
-    # of a sum the steps count on constants of at least 0
-    alone = len(list(leaves(certificate.problem.objective))) == 1
-    return prove_power(certificate) if alone or never_negative(certificate.problem) else None
-
-
-def _of_power(certificate: PowerCertificate, proven: Fraction | None, data: Mapping[str, Any]) -> Iterator[Claim]:
-    left = "no law has" if proven is not None else "the steps do not show that no law has"
-    yield Claim("steps", proven is not None, f"{left} an objective below {certificate.claim!r}")
-    if data.get("bound") is not None:
-        scale = certificate.problem.objective.scale
-        yield at_most("the power certificate's bound", number(data, "bound"), proven, scale)
-
-
-def _certificate_alone(certificate: Certificate, data: Mapping[str, Any]) -> Verification:
+def _certificate_alone(data: Mapping[str, Any]) -> Verification:
+    certificate = built(Certificate.from_dict, data, "the certificate")
     proof = prove(certificate)
-    claims = [*_certificate(proof, certificate), *_bound(proof, certificate, data)]
-    return _verification(certificate.problem, certificate, proof, claims)
-
-
-def _bound(proof: Proof, certificate: Certificate, data: Mapping[str, Any]) -> Iterator[Claim]:
-    if certificate.program == VIOLATION:
-        value = float(proof.value or 0)
-        yield Claim("no law exists", value > 0.0, f"the constraints contradict each other by {value:.6g}")
-    elif data.get("bound") is not None:
-        scale = certificate.problem.objective.scale
-        yield at_most("the certificate's bound", number(data, "bound"), proof.value, scale)
+    return _verification(certificate.problem, certificate, proof, list(_proof_claims(proof, certificate, data)))
 
 
 def _solution(data: Mapping[str, Any]) -> Verification:
-    for name in ("problem", "law", "certificate"):
+    beside = [key for key in _BESIDE if data.get(key) is not None]
+    for name in ("problem", "law", "certificate", *beside):
         if not isinstance(data[name], Mapping):
-            raise InputError(f"{name} must be an object, got {data[name]!r}")
+            raise InputError(f"{name} must be an object, got {shortened(data[name])}")
     problem = built(Problem.from_dict, data["problem"], "problem")
-    certificate = built(Certificate.from_dict, data["certificate"], "certificate")
-    if certificate.program == VIOLATION:
-        raise InputError("a proof that no law exists beside a law: verify the certificate alone")
-    law = built(lambda entry: ExactLaw(MotionLaw.from_dict(entry)), data["law"], "law")
-    same = certificate.problem == problem
-    proof = prove(certificate)
+    law = _law(data)
+    proofs = {}
+    for key in ("certificate", *beside):
+        certificate = built(Certificate.from_dict, data[key], _name(key))
+        if certificate.program == VIOLATION:
+            raise InputError("a proof that no law exists beside a law: verify the certificate alone")
+        proofs[key] = certificate, prove(certificate)
     objective = enclosed(law.sum(problem.objective))
-    power, power_claims = _beside(data.get("power_certificate"), problem)
-    bound, source = _best(proof.value if same else None, power, exact_limit(problem))
+    bound, source = _best(problem, proofs)
     gap = None
     if bound is not None and objective[1] < inf:
         size = Fraction(measure(objective[1], problem.objective.scale))
@@ -162,20 +142,20 @@ def _solution(data: Mapping[str, Any]) -> Verification:
         ),
         *stated_numbers(data, problem, law, objective),
         *stated_constants(data, law),
-        _same("the certificate's problem", certificate.problem, problem),
-        *_certificate(proof, certificate, accurate=data.get("status") != "inaccurate"),
-        *_bound(proof, certificate, data["certificate"]),
-        *power_claims,
-        *_of_places(data.get("peak_certificate"), problem),
     ]
+    for key, (certificate, proof) in proofs.items():
+        same = certificate.problem == problem
+        detail = "the file's" if same else f"another: {certificate.problem!r}"
+        claims.append(Claim(f"{_name(key)}'s problem", same, detail))
+        accurate = data.get("status") != "inaccurate"
+        claims += _proof_claims(proof, certificate, data[key], _name(key), accurate=accurate)
     if data.get("lower_bound") is not None:
         scale = problem.objective.scale
         claims.append(at_most("the lower bound", number(data, "lower_bound"), bound, scale, source))
     claims += _of_gap(data, gap)
     return _verification(
         problem,
-        certificate,
-        proof,
+        *proofs["certificate"],
         claims,
         bound=None if bound is None else rounded_down(bound),
         objective=objective,
@@ -183,6 +163,23 @@ def _solution(data: Mapping[str, Any]) -> Verification:
         constants=constants,
         excesses={condition.name: condition.by for condition in conditions},
     )
+
+
+def _name(key: str) -> str:
+    return f"the {key.replace('_', ' ')}"
+
+
+def _best(problem: Problem, proofs: Mapping[str, tuple[Certificate, Proof]]) -> tuple[Fraction | None, str]:
+    """The highest bound that is proven of the problem, and by what if not by its first certificate."""
+    known = [
+        (proof.value, f" by {_name(key)}" if key in _BESIDE else "")
+        for key, (certificate, proof) in proofs.items()
+        if certificate.problem == problem and proof.value is not None
+    ]
+    limit = exact_limit(problem)
+    if limit is not None:
+        known.append((limit, " by the limit of laws of any degree"))
+    return max(known, key=lambda bound: bound[0], default=(None, ""))
 
 
 def _verification(
@@ -204,7 +201,34 @@ def _verification(
     )
 
 
-def _certificate(proof: Proof, certificate: Certificate, *, accurate: bool = True) -> Iterator[Claim]:
+def _proof_claims(
+    proof: Proof,
+    certificate: Certificate,
+    data: Mapping[str, Any],
+    name: str = "the certificate",
+    *,
+    accurate: bool = True,
+) -> Iterator[Claim]:
+    """What a certificate says by its leaves, and by its bound."""
+    if certificate.peak:
+        held = "holds" if certificate.proven else "does not hold"
+        unchecked = "proofs over the places of a peak are not checked in exact arithmetic yet"
+        yield Claim(name, proven=False, detail=f"it {held} in double precision; {unchecked}")
+        return
+    if certificate.points is None:
+        yield from _leaf_claims(proof, certificate, accurate=accurate)
+    else:
+        left = "no law has" if proof.value is not None else "the steps do not show that no law has"
+        yield Claim("steps", proof.value is not None, f"{left} an objective below {certificate.claim!r}")
+    if certificate.program == VIOLATION:
+        value = float(proof.value or 0)
+        yield Claim("no law exists", value > 0.0, f"the constraints contradict each other by {value:.6g}")
+    elif data.get("bound") is not None:
+        scale = certificate.problem.objective.scale
+        yield at_most(f"{name}'s bound", number(data, "bound"), proof.value, scale)
+
+
+def _leaf_claims(proof: Proof, certificate: Certificate, *, accurate: bool) -> Iterator[Claim]:
     count = len(certificate.contacts)
     greatest = max((abs(contact.multiplier) for contact in certificate.contacts), default=0.0)
     negative = [contact for contact in certificate.contacts if contact.multiplier < -_NOTHING * greatest]
@@ -231,41 +255,43 @@ def _of_gap(data: Mapping[str, Any], gap: float | None) -> Iterator[Claim]:
         yield Claim("the status", far, f"{data['status']!r} stated, the proven gap is {_shown(gap)}")
 
 
-def _beside(data: object, problem: Problem) -> tuple[Fraction | None, list[Claim]]:
-    """What a power certificate beside the other one proves."""
-    if data is None:
-        return None, []
-    if not isinstance(data, Mapping):
-        raise InputError(f"power_certificate must be an object, got {data!r}")
-    certificate = built(PowerCertificate.from_dict, data, "the power certificate")
-    proven = _power(certificate)
-    same = certificate.problem == problem
-    claims = [_same("the power certificate's problem", certificate.problem, problem)]
-    return proven if same else None, [*claims, *_of_power(certificate, proven, data)]
-
-
-def _of_places(data: object, problem: Problem) -> Iterator[Claim]:
-    """What is said of a proof over the places of a peak, which is not checked in exact arithmetic."""
-    if data is None:
-        return
-    if not isinstance(data, Mapping):
-        raise InputError(f"peak_certificate must be an object, got {shortened(data)}")
-    certificate = built(PeakCertificate.from_dict, data, "the peak certificate")
-    yield _same("the peak certificate's problem", certificate.problem, problem)
-    held = "holds" if certificate.proven else "does not hold"
-    detail = f"it {held} in double precision; proofs over the places of a peak are not checked in exact arithmetic yet"
-    yield Claim("the peak certificate", proven=False, detail=detail)
-
-
-def _same(name: str, stated: Problem, other: Problem) -> Claim:
-    return Claim(name, stated == other, "the file's" if stated == other else f"another: {stated!r}")
-
-
-def _best(proven: Fraction | None, power: Fraction | None, limit: Fraction | None) -> tuple[Fraction | None, str]:
-    sources = ((proven, ""), (power, " by the power certificate"), (limit, " by the limit of laws of any degree"))
-    known = [(value, source) for value, source in sources if value is not None]
-    return max(known, key=lambda bound: bound[0], default=(None, ""))
-
-
 def _shown(gap: float | None) -> str:
     return "not known" if gap is None else f"{gap:.1e}"
+
+
+def claims_in_context(entry: FileEntry, verification: Verification) -> Iterator[Claim]:
+    """Status, problem, peak velocity and constants that stand around an entry, as claims.
+
+    Raises
+    ------
+    InputError
+        If a problem around it is none, or a constant is unknown.
+    """
+    around, problem = entry.around, verification.problem
+    if around.status is not None:
+        own = "infeasible" if _no_law(verification, around.above) else entry.data.get("status")
+        yield Claim("the row's status", own == around.status, f"{around.status!r} stated, {own!r} inside")
+    if around.asked is not None:
+        asked = problem_of(around.asked)
+        yield Claim("the row's problem", asked == problem, f"{asked!r}")
+    if around.B is not None and problem is not None:
+        yield Claim("the row's B", around.B == problem.B, f"{around.B!r} stated, {problem.B!r} in the problem")
+    yield from _constants(entry)
+
+
+def _no_law(verification: Verification, above: float | None) -> bool:
+    """Whether no law exists: the constraints contradict each other, or a least value is above what is asked."""
+    bound = verification.bound
+    return verification.infeasible or (above is not None and bound is not None and bound > above)
+
+
+def _constants(entry: FileEntry) -> Iterator[Claim]:
+    if not entry.around.values:
+        return
+    if "law" not in entry.data:
+        raise InputError("values of a front claim something of a point without a law")
+    law = _law(entry.data)
+    for name, value in entry.around.values.items():
+        if name not in FUNCTIONALS:
+            raise InputError(unknown_key(name, FUNCTIONALS, "constant"))
+        yield near(f"the front's {name}", value, enclosed(law.term(FUNCTIONALS[name])))

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
 from math import inf, isfinite
+from typing import NamedTuple
 
 from flint import arb, ctx, fmpq_poly, fmpz_poly
 
@@ -16,11 +17,13 @@ from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
+from optlaws.synthesis.spaces.bases import Basis, Pieces, PolynomialBasis
 from optlaws.synthesis.spaces.pieces.periodic import PeriodicPieces
+from optlaws.synthesis.spaces.splines import PiecewiseBasis
 from optlaws.verification.enclosing.balls import ball, rational, upper
 from optlaws.verification.enclosing.pieces import Extremes, PolynomialPiece, between, least_and_greatest
 from optlaws.verification.exact.law import ExactLaw
-from optlaws.verification.law_shape import shape_of
+from optlaws.verification.exact.of_basis import unknown_basis
 
 #: what an optimum may break a constraint by, in units of the constraint's bound
 _TOLERANCE = 1e-9
@@ -89,7 +92,7 @@ def _repeated(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
 
 def _shape(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
     """The law's degree, and where it is piecewise its breaks and how smooth it is there."""
-    shape = shape_of(problem.basis, problem.order)
+    shape = _shape_of(problem.basis, problem.order)
     beyond = [abs(term) for piece in law.polynomials for term in piece.stored[max(shape.degree - 1, 0) :]]
     yield _of("terms beyond the degree", arb(sum(beyond)), _size(law, 0), _ROUNDING)
     if len(shape.breaks) != len(law.breaks):
@@ -193,3 +196,22 @@ def _windows(problem: Problem, law: ExactLaw) -> Iterator[Excess]:
             )
         if isfinite(window.low):
             yield _of(names.window_side(names.window(i), -1.0), ball(window.low) - least, abs(window.low), least=own)
+
+
+class _Shape(NamedTuple):
+    """Degree of a(k) on each piece, the breaks, and up to which order its derivatives are continuous there."""
+
+    degree: int
+    breaks: list[Fraction]
+    continuity: int
+
+
+def _shape_of(basis: Basis, order: int) -> _Shape:
+    if isinstance(basis, PolynomialBasis):
+        # without a Z there are 2l conditions, with one l more powers at either end
+        return _Shape(2 * order + basis.degree, [Fraction(0), Fraction(1)], 0)
+    if isinstance(basis, PiecewiseBasis | Pieces):
+        # of pieces the end conditions are equations
+        beside = 0 if isinstance(basis, Pieces) else 2 * order
+        return _Shape(beside + basis.degree, [Fraction(k) for k in basis.breaks], basis.continuity)
+    raise unknown_basis(basis)

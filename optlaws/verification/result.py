@@ -66,7 +66,7 @@ class Verification:
     >>> from optlaws import smoothstep, Certificate, Contact
     >>> from optlaws.verification import verify
     >>> problem = Problem(order=2)
-    >>> verify(Certificate(problem, (Contact("C", 1.0, 0.0, 1.0),), ()).to_dict()).bound
+    >>> verify(Certificate.of_leaf(problem, [Contact("C", 1.0, 0.0, 1.0)]).to_dict()).bound
     0.0
     """
 
@@ -83,7 +83,7 @@ class Verification:
 
     @property
     def proven(self) -> bool:
-        """Whether every claim is."""
+        """Whether every claim of the file is proven."""
         return all(claim.proven for claim in self.claims)
 
     def to_dict(self) -> dict[str, Any]:

@@ -56,7 +56,7 @@ def values(jumping: Solution) -> dict[str, Any]:
         "Problem": jumping.problem,
         "Basis": jumping.problem.basis,
         "Certificate": jumping.certificate,
-        "PowerCertificate": synthesize(
+        "Certificate of boxes": synthesize(
             Problem(order=2, basis=Powers(3), B=1.8, minimise="D"), bound="tight"
         ).power_certificate,
         "Front": pareto_front(replace(JUMPS, B=None), points=2, between=(1.7, 1.9)),

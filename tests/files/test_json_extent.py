@@ -9,7 +9,7 @@ from typing import Any
 
 import pytest
 
-from optlaws import Axes, Cycle, InputError, Machine, MotionLaw, Problem, open_study, read_law
+from optlaws import Axes, Cycle, InputError, Machine, MotionLaw, Problem, at_least, open_study, read_law
 from optlaws.files import reading, writing
 from optlaws.mechanisms.machine.output_constants import output_peak
 from optlaws.verification import verify, verify_all
@@ -92,12 +92,13 @@ def test_a_name_that_no_file_can_have_is_no_law(name: str) -> None:
 
 def test_certificates_whose_numbers_leave_double_precision_are_refused() -> None:
     from optlaws import Certificate
-    from optlaws.synthesis.proof.peaks.certificate import Cell
 
     with pytest.raises(InputError, match="tangent of a certificate must be finite"):
-        Certificate(Problem(B=1.6, order=2, minimise="D"), (), (), "relaxed", 1.6e300)
-    with pytest.raises(InputError, match="reach in"):
-        Cell(0.5, 1.6e300, 1.0, (), ())
+        Certificate.of_leaf(Problem(B=1.6, order=2, minimise="D"), (), (), "relaxed", 1.6e300)
+    peak = {"problem": Problem(B=at_least(2.2), order=3, minimise="rms_c").to_dict(), "constant": "B", "claim": 1.0}
+    cell = {"k": 0.5, "reach": 1.6e300, "sign": 1.0, "contacts": [], "equations": []}
+    with pytest.raises(InputError, match="its cells"):
+        Certificate.from_dict({**peak, "cells": [cell]})
 
 
 @pytest.mark.parametrize("duration", [1e-320, 1e-200])

@@ -13,8 +13,8 @@ TESTS: dict[str, tuple[str, ...]] = {
     "optlaws.series.peaks": ("tests/series/test_peaks.py", "tests/laws/test_exactness.py"),
     "optlaws.synthesis.proof.certificate": BOUNDS,
     "optlaws.synthesis.proof.duality": BOUNDS,
-    "optlaws.synthesis.proof.below_claim": BOUNDS,
-    "optlaws.synthesis.proof.power.certificate": (
+    "optlaws.synthesis.proof.sublevel_bounds": BOUNDS,
+    "optlaws.synthesis.proof.power.box": (
         "tests/synthesis/proof/power/test_certificate_by_hand.py",
         "tests/synthesis/proof/power/test_certificate.py",
     ),

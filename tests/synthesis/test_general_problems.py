@@ -12,7 +12,6 @@ from optlaws import (
     Certificate,
     Chebyshev,
     InfeasibleProblem,
-    PowerCertificate,
     Problem,
     SolverFailure,
     at_most,
@@ -36,8 +35,8 @@ def refused(error: InfeasibleProblem, problem: Problem) -> str:
         # a constant is asked to be below its closed form: the message says which
         assert "its limit is" in str(error)
         return "infeasible"
-    assert isinstance(error.proof, Certificate | PowerCertificate)
-    if isinstance(error.proof, Certificate) and error.proof.proves_infeasible:
+    assert isinstance(error.proof, Certificate)
+    if error.proof.proves_infeasible:
         return "infeasible"
     # the least D of the problem is proven to be above what is asked
     asked = problem.range("D")

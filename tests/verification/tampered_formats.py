@@ -46,8 +46,6 @@ from optlaws import (
     synthesize_array,
 )
 from optlaws.studies.executor import Serial
-from optlaws.synthesis.proof.peaks.certificate import PeakCertificate
-from optlaws.synthesis.proof.power.certificate import PowerCertificate
 from optlaws.synthesis.proven.front import ProvenFront
 from optlaws.verification import Verification, verify_all
 from tests.verification.tampering import Data, Path, changed, overstated, value_at, wrong_constants
@@ -423,12 +421,12 @@ def formats() -> dict[str, Callable[[], Format]]:
         ),
         "power certificate": lambda: certificate(
             _given(synthesize(power, bound="tight").power_certificate),
-            PowerCertificate.from_dict,
+            Certificate.from_dict,
             synthesize(power, bound="tight").objective,
         ),
         "peak certificate": lambda: certificate(
             _given(synthesize(held_up, bound="tight").peak_certificate),
-            PeakCertificate.from_dict,
+            Certificate.from_dict,
             synthesize(held_up, bound="tight").objective,
             verified=False,
         ),

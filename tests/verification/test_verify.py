@@ -222,7 +222,7 @@ def test_whatever_a_certificate_says_no_bound_exceeds_the_optimum(problem: Probl
         )
         for contact in certificate.contacts
     )
-    bound = exact_bound(replace(certificate, contacts=contacts))
+    bound = exact_bound(certificate.with_leaf(contacts=contacts))
     assert bound is None or bound <= solution["objective"] * (1.0 + 1e-12)
 
 
@@ -280,7 +280,7 @@ def test_a_verification_is_plain_data() -> None:
 def test_a_row_that_needs_rest_at_the_ends_counts_for_nothing_without(B: float) -> None:
     problem = Problem(order=1, B=B, basis=Chebyshev(7), minimise="D")
     solution = synthesize(problem)
-    claim = Certificate(
+    claim = Certificate.of_leaf(
         problem, (Contact("b / sqrt(2k)", 1.0, 0.5, 2.0), Contact("tangent", 1.0, 1.0, 1.0)), (-2.0,), "relaxed", 1.0
     )
     for certificate in (solution.certificate, claim):

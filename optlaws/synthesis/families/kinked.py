@@ -37,7 +37,7 @@ class Stretch:
 
 
 @dataclass(frozen=True, eq=False)
-class Split:
+class KinkSplit:
     """What the stretches of a law make of the integral: its sum, and its slope as a row.
 
     `places`, `columns` and `weights` are those of Gauss's rule, and belong to the stretches one after the other.
@@ -77,7 +77,7 @@ class KinkedIntegralFamily(IntegralFamily):
     units: Array
     edges: tuple[float, ...]
     length: int
-    _known: dict[bytes, Split] = field(default_factory=dict, repr=False)
+    _known: dict[bytes, KinkSplit] = field(default_factory=dict, repr=False)
 
     @kept_property
     def _switches(self) -> tuple[list[Formula], list[Formula]]:
@@ -98,7 +98,7 @@ class KinkedIntegralFamily(IntegralFamily):
     def _names(self, point: Array, k: Array, columns: Array) -> dict[str, Array]:
         return {**dict(zip(self.names, columns @ point, strict=True)), "k": k}
 
-    def split(self, x: Array) -> Split:
+    def split(self, x: Array) -> KinkSplit:
         """The stretches of a law, and the integral over them."""
         key = x.tobytes()
         if key not in self._known:
@@ -106,7 +106,7 @@ class KinkedIntegralFamily(IntegralFamily):
             self._known[key] = self._split(np.append(x, 1.0))
         return self._known[key]
 
-    def _split(self, point: Array) -> Split:
+    def _split(self, point: Array) -> KinkSplit:
         stretches = self._stretches(point)
         x, share = gauss(self.length)
         low, width = (
@@ -114,7 +114,7 @@ class KinkedIntegralFamily(IntegralFamily):
         )
         k, weights = (low + width * (x + 1.0) / 2.0).ravel(), (share * width / 2.0).ravel()
         columns = self.columns_at(k)
-        split = Split(stretches, 0.0, np.zeros(len(point)), columns, self._names(point, k, columns), weights)
+        split = KinkSplit(stretches, 0.0, np.zeros(len(point)), columns, self._names(point, k, columns), weights)
         total, slope = 0.0, split.slope
         for i, stretch in enumerate(stretches):
             names, own, weights = split.of(i)
@@ -178,7 +178,7 @@ class KinkedIntegralFamily(IntegralFamily):
             matrix = slope * matrix - np.outer(own.slope[:-1], own.slope[:-1]) / (4.0 * size**3)
         return np.asarray(matrix * float(weights.sum()))
 
-    def _moved(self, own: Split, point: Array) -> Array:
+    def _moved(self, own: KinkSplit, point: Array) -> Array:
         """What it adds that the kinks between stretches move: each is where the formulas beside it have one value."""
         k = np.array([right.low for right in own.stretches[1:]])
         columns, turns = self.columns_at(k), self.columns_at(k, 1)

@@ -1,16 +1,15 @@
-"""Lower bounds that stand by themselves: contacts and multipliers, checked by weak duality with numpy alone.
+"""Lower bounds that stand by themselves: trees of contacts and multipliers, checked with numpy alone.
 
 Every law of the problem, with its own constants as variables, obeys the rows of the program. Added up with multipliers
 m >= 0 (any sign for equations) to the objective they give an affine function of the coordinates of the law, and its
-value is a lower bound of the objective wherever it is constant. The multipliers are such that it hardly varies; what
-rounding leaves of its dependence is charged against the bound, for which the law's coordinates are bounded through
-their Legendre moments: a law that contradicts the claim has a small objective, so small constants.
+value is a lower bound of the objective wherever it is constant. A convex problem needs one such sum, a leaf. Others are
+split into regions, of which leaves show that no law below a claim is in them.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass, replace
+from dataclasses import dataclass, replace
 from math import inf, isfinite
 from typing import Any
 
@@ -21,15 +20,15 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.numbers import bounded
-from optlaws.synthesis.families.cone import ConeFamily
-from optlaws.synthesis.families.curved import OfFormula
-from optlaws.synthesis.families.energy import EnergyFamily
-from optlaws.synthesis.families.family import LinearFamily, NormFamily, Program
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, least_violation, model_of, relaxed
-from optlaws.synthesis.proof.data import StatedCertificate, StatedContact, problem_of, stated
-from optlaws.synthesis.proof.duality import sum_of_rows
-from optlaws.synthesis.proof.farkas import surplus
+from optlaws.synthesis.proof import data as stored
+from optlaws.synthesis.proof.duality import Line, lines_of, row_of, sum_of_rows
+from optlaws.synthesis.proof.farkas import farkas_margin
+from optlaws.synthesis.proof.nodes import Contact, Leaf, Node
+from optlaws.synthesis.proof.peaks.rows import PeakRows, peak_of, roots_of
+from optlaws.synthesis.proof.power.box import BoxRows
+from optlaws.synthesis.proof.power.rows_of_problem import rows_of
 
 Array = NDArray[np.float64]
 
@@ -39,58 +38,24 @@ _NEAR, _SHARE = 2.0**-12, 2.0**-14
 
 
 @dataclass(frozen=True)
-class Contact:
-    """A constraint at one k: which family of rows, with which sign, and its multiplier (dimensionless).
-
-    `direction` belongs to an RMS and to a complex amplitude: the unit vector by which its size is bounded from below;
-    to the peak velocity of a loader: the coordinates of the law whose tangent bounds it.
-
-    Examples
-    --------
-    >>> Contact("C", 1.0, 0.25, 0.5).multiplier
-    0.5
-    """
-
-    constraint: str
-    sign: float
-    k: float
-    multiplier: float
-    direction: tuple[float, ...] = ()
-
-    def __post_init__(self) -> None:
-        finite = all(map(isfinite, (self.multiplier, *self.direction)))
-        if not 0.0 <= self.k <= 1.0 or not finite or abs(self.sign) != 1.0:
-            raise InputError(
-                f"a contact needs k in [0, 1], a sign 1 or -1, a finite multiplier and direction, got {shortened(self)}"
-            )
-
-
-def contact_of(entries: StatedContact) -> Contact:
-    """The contact that was stated.
-
-    Raises
-    ------
-    InputError
-        If its k, sign, multiplier or direction is none.
-    """
-    return Contact(entries.constraint, entries.sign, entries.k, entries.multiplier, entries.direction)
-
-
-@dataclass(frozen=True)
 class Certificate:
-    """Contacts and multipliers that prove a lower bound of a problem's objective, or that it has no law.
+    """A tree of leaves, splits and tightenings that proves a lower bound of an objective, or that there is no law.
 
     Attributes
     ----------
     problem
         Of which problem it speaks: of every law of it, symmetric or not if that is not asked.
-    contacts, equations
-        Multipliers of the rows that bind, and of the program's equations.
-    program
-        "objective", or "relaxed" for a problem that is not convex: the bound is then that of a convex program
-        that every law of the problem obeys too; or "violation" for a proof that no law exists.
+    claim
+        What no law's objective is below; None for what the only leaf proves, infinite where there is no law at all.
+    tree
+        Each node before those below it, the part below a split before the part above: a node is applied to the region
+        that was cut off last, and the claim is proven where no region is left.
     tangent
-        Where the relaxed program replaces D by its tangent.
+        Of a problem that is not convex: where the convex program that its laws obey too replaces D by its tangent.
+    points
+        The k at which regions bound the velocity; beside these velocities they bound the program's own variables.
+    peak
+        The constant that is bounded from below, if regions are places at which laws may have its peak.
 
     Examples
     --------
@@ -98,43 +63,150 @@ class Certificate:
     >>> solution = optlaws.synthesize(optlaws.Problem(B=1.859, order=4, basis=optlaws.Chebyshev(9)))
     >>> bool(solution.certificate.bound <= solution.constants.C.value)
     True
+    >>> power = optlaws.synthesize(optlaws.Problem(B=1.641, order=4, minimise="D"), bound="tight")
+    >>> power.power_certificate.bound == power.lower_bound, len(power.power_certificate.tree) > 1
+    (True, True)
     """
 
     problem: Problem
-    contacts: tuple[Contact, ...]
-    equations: tuple[float, ...]
-    program: str = OBJECTIVE
-    tangent: float = 0.0
+    claim: float | None
+    tree: tuple[Node, ...]
+    tangent: float | None = None
+    points: tuple[float, ...] | None = None
+    peak: str = ""
 
     def __post_init__(self) -> None:
-        if self.program not in {OBJECTIVE, RELAXED, VIOLATION}:
-            raise InputError(
-                f"program of a certificate must be objective, relaxed or violation, got {shortened(self.program)}"
-            )
         # rows have the square of the tangent
-        if not all(map(isfinite, (*self.equations, self.tangent * self.tangent))):
-            raise InputError("the equations' multipliers and the tangent of a certificate must be finite numbers")
+        if self.tangent is not None and not isfinite(self.tangent * self.tangent):
+            raise InputError("the tangent of a certificate must be finite, and its square too")
+        if self.claim is not None and not self.claim > 0.0:
+            raise InputError(f"the claim of a certificate must be above 0, got {shortened(self.claim)}")
+        if not all(0.0 <= k <= 1.0 for k in self.points or ()):
+            raise InputError(f"the points of a certificate must be in [0, 1], got {shortened(self.points)}")
+        one_leaf = len(self.tree) == 1 and type(self.tree[0]) is Leaf
+        divided = (self.points is not None) + bool(self.peak)
+        if divided > 1 or (divided == 0) != (self.claim in {None, inf}) or not (divided or one_leaf):
+            raise InputError("a certificate is one leaf, or has a finite claim with points or a peak for its tree")
+
+    @classmethod
+    def of_leaf(
+        cls,
+        problem: Problem,
+        contacts: Sequence[Contact] = (),
+        equations: Sequence[float] = (),
+        program: str = OBJECTIVE,
+        tangent: float = 0.0,
+    ) -> Certificate:
+        """The certificate of one sum of rows: of the problem's own program, its relaxed one, or of their violation.
+
+        Raises
+        ------
+        InputError
+            If there is no such program, or a number is not finite.
+
+        Examples
+        --------
+        >>> Certificate.of_leaf(Problem(order=2), (Contact("C", 1.0, 0.0, 1.0),)).program
+        'objective'
+        """
+        if program not in {OBJECTIVE, RELAXED, VIOLATION} or not isfinite(tangent):
+            raise InputError(
+                "the program of a certificate must be objective, relaxed or violation, and its tangent finite, got "
+                f"{shortened(program)} and {shortened(tangent)}"
+            )
+        leaf = Leaf(tuple(contacts), tuple(equations))
+        return cls(problem, inf if program == VIOLATION else None, (leaf,), tangent if program == RELAXED else None)
+
+    @property
+    def program(self) -> str:
+        """Which program's rows a leaf adds up: "objective", "relaxed" or "violation"."""
+        return VIOLATION if self.claim == inf else OBJECTIVE if self.tangent is None else RELAXED
+
+    @property
+    def leaf(self) -> Leaf:
+        """The last sum of rows: the only one where nothing is split."""
+        last = self.tree[-1] if self.tree else None
+        return last if isinstance(last, Leaf) else Leaf()
+
+    @property
+    def contacts(self) -> tuple[Contact, ...]:
+        """The contacts of all leaves and tightenings, in the order of the tree."""
+        return tuple(contact for node in self.tree if isinstance(node, Leaf) for contact in node.contacts)
+
+    @property
+    def equations(self) -> tuple[float, ...]:
+        """The equations' multipliers of the leaf."""
+        return self.leaf.equations
+
+    def with_leaf(
+        self, *, contacts: Sequence[Contact] | None = None, equations: Sequence[float] | None = None
+    ) -> Certificate:
+        """The certificate with other contacts or equations in its last leaf.
+
+        Examples
+        --------
+        >>> proof = Certificate.of_leaf(Problem(order=2), (Contact("C", 1.0, 0.0, 1.0),))
+        >>> proof.with_leaf(contacts=()).contacts
+        ()
+        """
+        own = self.leaf
+        changed = replace(
+            own,
+            contacts=own.contacts if contacts is None else tuple(contacts),
+            equations=own.equations if equations is None else tuple(equations),
+        )
+        return replace(self, tree=(*self.tree[:-1], changed))
 
     @kept_property
     def bound(self) -> float:
-        """The proven lower bound of the objective, recomputed from the contacts by numpy; -inf for a mere violation."""
-        return excess(self) if self.program != VIOLATION else -inf
+        """The proven lower bound of the objective, recomputed by numpy; minus infinity where none is proven."""
+        if self.claim is None:
+            return excess(self)
+        return self.claim if self.proven and self.claim < inf else -inf
 
     @kept_property
+    def proven(self) -> bool:
+        """Whether the tree proves its claim: whether it leaves no region of the laws below it."""
+        if self.claim is None:
+            return self.bound > -inf
+        if self.claim == inf:
+            return excess(self) > 0.0
+        rows = self._regions()
+        if rows is None:
+            return False
+        regions: list[Any] = [*rows.roots()]
+        for node in self.tree:
+            left = rows.after(regions.pop(), node) if regions else None
+            if left is None:
+                return False
+            regions += left
+        return not regions
+
+    @property
     def proves_infeasible(self) -> bool:
         """Whether the contacts contradict each other (Farkas): every law breaks one by more than 0."""
-        return self.program == VIOLATION and excess(self) > 0.0
+        return self.claim == inf and self.proven
+
+    def _regions(self) -> BoxRows | PeakRows | None:
+        """The rows of regions; None where nothing of the problem can be bounded so."""
+        claim = self.claim or 0.0
+        if self.points is not None:
+            rows = rows_of(self.problem, claim, self.points)
+            return rows if rows is not None and rows.regular else None
+        peak = peak_of(self.problem, self.peak)
+        return None if peak is None else PeakRows(self.problem, peak, claim)
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict with the recomputed bound (None where there is none)."""
-        return {
-            "problem": self.problem.to_dict(),
-            "program": self.program,
-            "tangent": self.tangent,
-            "contacts": [asdict(contact) for contact in self.contacts],
-            "equations": list(self.equations),
-            "bound": bounded(self.bound),
-        }
+        """Plain JSON-able dict with the recomputed bound (None where there is none): docs/reference/proof-format.md."""
+        own: dict[str, Any]
+        if self.points is not None:
+            own = {"claim": self.claim, "points": list(self.points), "steps": stored.steps(self.tree)}
+        elif self.peak:
+            cells = stored.cells(self.tree, roots_of(self.problem, self.peak))
+            own = {"constant": self.peak, "claim": self.claim, "cells": cells}
+        else:
+            own = {"program": self.program, "tangent": self.tangent or 0.0, **stored.sum_of(self.leaf)}
+        return {"problem": self.problem.to_dict(), **own, "bound": bounded(self.bound)}
 
     @classmethod
     def from_dict(cls, data: Mapping[str, Any]) -> Certificate:
@@ -145,47 +217,46 @@ class Certificate:
         InputError
             If an entry is missing or wrong.
         """
-        entries = stated(data, StatedCertificate, "certificate")
-        contacts = tuple(map(contact_of, entries.contacts))
-        return cls(problem_of(entries.problem), contacts, entries.equations, entries.program, entries.tangent)
+        entries = stored.stated_certificate(data)
+        problem = stored.problem_of(entries.problem)
+        if isinstance(entries, stored.StatedLeaf):
+            contacts = tuple(map(stored.contact_of, entries.contacts))
+            return cls.of_leaf(problem, contacts, entries.equations, entries.program, entries.tangent)
+        if isinstance(entries, stored.StatedBoxes):
+            return cls(problem, entries.claim, stored.tree_of_steps(entries.steps), points=entries.points)
+        tree = stored.tree_of_cells(entries.cells, roots_of(problem, entries.constant))
+        return cls(problem, entries.claim, tree, peak=entries.constant)
 
 
 def excess(certificate: Certificate) -> float:
-    """Least value over all laws of the problem of the objective plus the contacts' residuals; a lower bound.
+    """Least value over all laws of the problem of the objective plus the leaf's residuals; a lower bound.
 
     Negative multipliers count as zero, and so do contacts that the problem does not ask for. Multipliers so large that
     their sum is beyond double precision prove nothing: the bound is then minus infinity.
     """
     with np.errstate(over="ignore", invalid="ignore"):
-        value = _excess(certificate)
+        model, lines = weighted_rows(certificate)
+        value = float(model.unit * sum_of_rows(model, lines))
+        if certificate.program == VIOLATION and not value > 0.0:
+            value = max(value, _contradiction(certificate, model))
     return value if isfinite(value) else -inf
 
 
-def _excess(certificate: Certificate) -> float:
-    model, lines = weighted_rows(certificate)
-    plain = float(model.unit * sum_of_rows(model, lines))
-    if certificate.program != VIOLATION or plain > 0.0:
-        return plain
-    return max(plain, _surplus(certificate, model.program))
-
-
-def weighted_rows(certificate: Certificate) -> tuple[Model, list[tuple[float, Array, float]]]:
-    """The program of a certificate, and its rows as `lines_of` gives them."""
+def weighted_rows(certificate: Certificate) -> tuple[Model, list[Line]]:
+    """The program of a certificate of one leaf, and its rows as `lines_of` gives them."""
     model = _model(certificate)
-    return model, lines_of(model.program, certificate.contacts, certificate.equations)
+    return model, lines_of(model.program, certificate.leaf)
 
 
-def lines_of(
-    program: Program, contacts: Sequence[Contact], equations: Sequence[float]
-) -> list[tuple[float, Array, float]]:
-    """Contacts and the program's equations as weights, rows and right sides; negative multipliers of contacts are 0."""
-    lines = [(max(contact.multiplier, 0.0), *row_of(program, contact)) for contact in contacts]
-    own = program.multipliers_of_equations(equations).tolist()
-    return [*lines, *zip(own, program.equalities, program.right.tolist(), strict=False)]
+def _model(certificate: Certificate) -> Model:
+    if certificate.tangent is not None:
+        return relaxed(certificate.problem, certificate.tangent)
+    return least_violation(certificate.problem) if certificate.program == VIOLATION else model_of(certificate.problem)
 
 
-def _surplus(certificate: Certificate, program: Program) -> float:
+def _contradiction(certificate: Certificate, model: Model) -> float:
     """The same for a contradiction, with the multipliers corrected where nothing bounds the law."""
+    program = model.program
     rows, right, multipliers = [], [], []
     for contact in certificate.contacts:
         for k, share in _neighbourhood(contact):
@@ -199,7 +270,7 @@ def _surplus(certificate: Certificate, program: Program) -> float:
     together = np.vstack([np.empty((0, program.size)), *rows, program.equalities[: len(equations)]])
     # every row has t to spare, and a law keeps to it with t = 0
     free = program.objective == 0.0
-    return surplus(
+    return farkas_margin(
         together[:, free],
         np.array([*right, *program.right[: len(equations)]]),
         np.array([*multipliers, *program.multipliers_of_equations(equations)]),
@@ -213,57 +284,3 @@ def _neighbourhood(contact: Contact) -> list[tuple[float, float]]:
     if contact.direction or not _NEAR < k < 1.0 - _NEAR:
         return [(k, 1.0)]
     return [(k, 1.0 - 2.0 * _SHARE), (k - _NEAR, _SHARE), (k + _NEAR, _SHARE)]
-
-
-def _model(certificate: Certificate) -> Model:
-    if certificate.program == RELAXED:
-        return relaxed(certificate.problem, certificate.tangent)
-    if certificate.program == VIOLATION:
-        return least_violation(certificate.problem)
-    return model_of(certificate.problem)
-
-
-def _at_most_one(direction: Sequence[float]) -> Array:
-    """A direction whose length is at most 1, which bounds a norm too where it is shorter; one that overflows is 0."""
-    given = np.array(direction)
-    with np.errstate(over="ignore"):
-        return np.asarray(given / max(float(np.linalg.norm(given)), 1.0))
-
-
-def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
-    """The row of a contact and its right side: row . x <= right for every law of the problem.
-
-    It is the problem's own row, in the program's variables and in units of its objective.
-    """
-    for family in program.families:
-        if family.name != contact.constraint or contact.sign not in family.signs:
-            continue
-        share = family.unit / program.unit
-        u = np.clip(family.u(np.array([contact.k])), *family.domain)
-        if isinstance(family, LinearFamily):
-            rows, right = family.rows(u, np.array([contact.sign]))
-            return rows[0] * share, float(right[0]) * share
-        if isinstance(family, NormFamily) and len(contact.direction) == len(family.matrix):
-            row = _at_most_one(contact.direction) @ family.matrix
-            return share * (row[:-1] - family.slack), share * (family.bound - float(row[-1]))
-        if isinstance(family, ConeFamily) and len(contact.direction) == 2:
-            row = family.tangent(float(u[0]), _at_most_one(contact.direction))
-            return share * (row[:-1] - family.slack), share * (family.bound - float(row[-1]))
-        if isinstance(family, OfFormula):
-            tangent = family.tangent_row(float(u[0]), contact.sign, contact.direction)
-            if tangent is not None:
-                return share * (tangent[:-1] - family.slack), share * (family.bound - float(tangent[-1]))
-        if isinstance(family, EnergyFamily) and family.convex and len(contact.direction) <= program.size:
-            row = family.minorant(_on_equations(program, np.array(contact.direction)))
-            return share * (row[:-1] - family.slack), share * (family.bound - float(row[-1]))
-    return np.zeros(program.size), 0.0
-
-
-def _on_equations(program: Program, coordinates: Array) -> Array:
-    """Variables with these coordinates, or the nearest that keep the program's equations."""
-    x = np.zeros(program.size)
-    x[: len(coordinates)] = coordinates
-    for _ in range(2):
-        off = program.right - program.equalities @ x
-        x += np.linalg.lstsq(program.equalities, off, rcond=None)[0]
-    return x

@@ -19,7 +19,8 @@ from optlaws.synthesis.method.on_points.flat import Table
 from optlaws.synthesis.method.on_points.grids import first_points, with_extrema
 from optlaws.synthesis.method.on_points.highs import vertex_on_points
 from optlaws.synthesis.program.writer import Model
-from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate, Contact
+from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.proof.nodes import Contact
 
 Array = NDArray[np.float64]
 
@@ -126,4 +127,4 @@ class _Tangents:
             if own[0] > 0.0:
                 contacts.append(Contact(kinked.name, 1.0, 0.0, float(own[0]) * (unit / kinked.unit), point))
         stated = self.model.program.stated_multipliers(np.asarray(equations))
-        return Certificate(self.model.problem, tuple(contacts), tuple(stated.tolist()), OBJECTIVE)
+        return Certificate.of_leaf(self.model.problem, contacts, stated.tolist())

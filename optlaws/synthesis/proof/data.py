@@ -1,8 +1,10 @@
-"""Certificates as plain data: which keys they have, and of which type each value is."""
+"""Certificates as plain data: which keys they have, of which type each value is, and which tree they write down."""
 
 from __future__ import annotations
 
 import json
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import asdict
 from typing import Any, TypeVar
 
 import msgspec
@@ -10,12 +12,13 @@ import msgspec
 from optlaws.errors import InputError
 from optlaws.files.typed import typed
 from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, PlaceRange, Split, Tightening
 
 Stated = TypeVar("Stated")
 
 
 class StatedContact(msgspec.Struct, forbid_unknown_fields=True):
-    """What `Contact` holds."""
+    """The entries of a contact in a file."""
 
     constraint: str
     sign: float
@@ -24,8 +27,8 @@ class StatedContact(msgspec.Struct, forbid_unknown_fields=True):
     direction: tuple[float, ...] = ()
 
 
-class StatedCertificate(msgspec.Struct, forbid_unknown_fields=True):
-    """What `Certificate.to_dict` writes."""
+class StatedLeaf(msgspec.Struct, forbid_unknown_fields=True):
+    """A certificate of one leaf."""
 
     problem: dict[str, Any]
     program: str
@@ -37,7 +40,7 @@ class StatedCertificate(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class StatedStep(msgspec.Struct, forbid_unknown_fields=True):
-    """What `Step` holds, or a `Cut`, which has nothing but a variable and a place."""
+    """A leaf or a tightening of a box, or a split, which has nothing but a variable and a place."""
 
     variable: int
     side: int | None = None
@@ -47,8 +50,8 @@ class StatedStep(msgspec.Struct, forbid_unknown_fields=True):
     at: float | None = None
 
 
-class StatedPowerCertificate(msgspec.Struct, forbid_unknown_fields=True):
-    """What `PowerCertificate.to_dict` writes."""
+class StatedBoxes(msgspec.Struct, forbid_unknown_fields=True):
+    """A certificate whose regions are boxes of velocities and constants: its tree, node by node."""
 
     problem: dict[str, Any]
     claim: float
@@ -59,7 +62,7 @@ class StatedPowerCertificate(msgspec.Struct, forbid_unknown_fields=True):
 
 
 class StatedCell(msgspec.Struct, forbid_unknown_fields=True):
-    """What `Cell` holds."""
+    """A leaf over the places within reach of k, at which the peak has a sign."""
 
     k: float
     reach: float
@@ -68,8 +71,8 @@ class StatedCell(msgspec.Struct, forbid_unknown_fields=True):
     equations: tuple[float, ...]
 
 
-class StatedPeakCertificate(msgspec.Struct, forbid_unknown_fields=True):
-    """What `PeakCertificate.to_dict` writes."""
+class StatedPlaces(msgspec.Struct, forbid_unknown_fields=True):
+    """A certificate whose regions are places of a peak: its leaves, which say where it is split."""
 
     problem: dict[str, Any]
     constant: str
@@ -99,6 +102,22 @@ def stated(data: object, kind: type[Stated], name: str) -> Stated:
         return typed(as_json(data), kind)
     except (TypeError, ValueError, RecursionError) as error:
         raise InputError(f"this is not a {name}: {error}") from None
+
+
+def stated_certificate(data: object) -> StatedLeaf | StatedBoxes | StatedPlaces:
+    """The entries of a certificate, in whichever of three ways its tree is written.
+
+    Raises
+    ------
+    InputError
+        As `stated`.
+    """
+    keys = data.keys() if isinstance(data, Mapping) else ()
+    if "steps" in keys:
+        return stated(data, StatedBoxes, "certificate")
+    if "cells" in keys:
+        return stated(data, StatedPlaces, "certificate")
+    return stated(data, StatedLeaf, "certificate")
 
 
 def as_json(data: object) -> Any:  # noqa: ANN401 - JSON
@@ -135,3 +154,105 @@ def problem_of(data: dict[str, Any]) -> Problem:
         return Problem.from_dict(data)
     except (ArithmeticError, AttributeError, KeyError, RecursionError, TypeError, ValueError) as error:
         raise InputError(f"problem: {error}") from None
+
+
+def contact_of(entries: StatedContact) -> Contact:
+    """The contact that entries of a file describe.
+
+    Raises
+    ------
+    InputError
+        If its k, sign, multiplier or direction is none.
+    """
+    return Contact(entries.constraint, entries.sign, entries.k, entries.multiplier, entries.direction)
+
+
+def sum_of(leaf: Leaf) -> dict[str, Any]:
+    """The contacts and equations of a leaf as plain data."""
+    return {"contacts": [asdict(contact) for contact in leaf.contacts], "equations": list(leaf.equations)}
+
+
+def steps(tree: Sequence[Node]) -> list[dict[str, Any]]:
+    """The nodes of a tree over boxes as plain data; a leaf is a step of the variable -1."""
+    return [asdict(node) if isinstance(node, Split) else _step(node) for node in tree]
+
+
+def _step(node: Leaf) -> dict[str, Any]:
+    moved = (node.variable, node.side) if isinstance(node, Tightening) else (-1, 1)
+    own = sum_of(node)
+    for contact in own["contacts"]:
+        if not contact["direction"]:
+            del contact["direction"]
+    return {"variable": moved[0], "side": moved[1], **own, "claim": node.claim}
+
+
+def tree_of_steps(entries: Sequence[StatedStep]) -> tuple[Node, ...]:
+    """The tree whose nodes were stated.
+
+    Raises
+    ------
+    InputError
+        If an entry is no leaf, no tightening and no split.
+    """
+    return tuple(map(_node, entries))
+
+
+def _node(entries: StatedStep) -> Node:
+    own = (entries.side, entries.contacts, entries.equations, entries.claim)
+    if entries.at is not None and own == (None, None, None, None):
+        return Split(entries.variable, entries.at)
+    if entries.at is not None or None in own:
+        raise InputError("this is not a certificate: a step has side, contacts, equations and claim, a split has at")
+    contacts, equations, claim = tuple(map(contact_of, entries.contacts or ())), entries.equations or (), entries.claim
+    tightening = Tightening(contacts, equations, claim or 0.0, variable=entries.variable, side=entries.side or 0)
+    return tightening if entries.variable != -1 else Leaf(contacts, equations, claim or 0.0)
+
+
+def cells(tree: Sequence[Node], roots: Sequence[PlaceRange]) -> list[dict[str, Any]]:
+    """The leaves of a tree over the places of a peak as plain data, each with its range."""
+    ranges, written = list(roots), []
+    for node in tree:
+        if not ranges:
+            break
+        here = ranges.pop()
+        if isinstance(node, Split):
+            ranges += here.parts(node.at)
+        else:
+            written.append({"k": here.k, "reach": here.reach, "sign": here.sign, **sum_of(node)})
+    return written
+
+
+def tree_of_cells(entries: Sequence[StatedCell], roots: Sequence[PlaceRange]) -> tuple[Node, ...]:
+    """The tree whose leaves were stated with their ranges.
+
+    Raises
+    ------
+    InputError
+        If their ranges are not those into which splits can divide the places of the peak.
+    """
+    left = [(PlaceRange(cell.sign, cell.k - cell.reach, cell.k + cell.reach), cell) for cell in entries]
+    nodes: list[Node] = []
+    for root in reversed(roots):
+        nodes += _divided(root, sorted((pair for pair in left if root.holds(pair[0])), key=lambda pair: pair[0].low))
+        left = [pair for pair in left if not root.holds(pair[0])]
+    if left:
+        raise InputError("this is not a certificate: its cells are not those places at which the peak may be")
+    return tuple(nodes)
+
+
+def _divided(root: PlaceRange, leaves: list[tuple[PlaceRange, StatedCell]]) -> Iterator[Node]:
+    """A range divided down to the leaves in it, given in ascending order, in the middle where they allow it."""
+    ranges = [(root, leaves)]
+    while ranges:
+        here, inside = ranges.pop()
+        if len(inside) == 1 and inside[0][0] == here:
+            cell = inside[0][1]
+            yield Leaf(tuple(map(contact_of, cell.contacts)), cell.equations)
+            continue
+        edges = [place.high for place, _ in inside[:-1]]
+        if not edges or not here.low < edges[0] <= edges[-1] < here.high:
+            raise InputError("this is not a certificate: its cells leave out places of the peak, or overlap")
+        first = min(range(len(edges)), key=lambda i: abs(edges[i] - here.k))
+        yield Split(0, edges[first])
+        above, below = here.parts(edges[first])
+        ranges += [(above, inside[first + 1 :]), (below, inside[: first + 1])]

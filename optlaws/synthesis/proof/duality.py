@@ -1,4 +1,4 @@
-"""The sum of weighted rows: what it proves of an objective by weak duality, every rounding counted against it.
+"""Rows of contacts, and their weighted sum: what it proves by weak duality, every rounding counted against it.
 
 What rounding leaves of the sum's dependence on the law is charged, for which laws that contradict the claim must be
 bounded.
@@ -6,16 +6,24 @@ bounded.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from math import fsum, inf
 
 import numpy as np
 from numpy.typing import NDArray
 
+from optlaws.synthesis.families.cone import ConeFamily
+from optlaws.synthesis.families.curved import OfFormula
+from optlaws.synthesis.families.energy import EnergyFamily
+from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily, Program
 from optlaws.synthesis.program.writer import Model
-from optlaws.synthesis.proof.below_claim import greatest_values, least_values, moments
+from optlaws.synthesis.proof.nodes import Contact, Leaf
+from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, moments
 
 Array = NDArray[np.float64]
+#: a multiplier, a row and its right side
+Line = tuple[float, Array, float]
 
 _FACING = {"C_plus": "C_minus", "C_minus": "C_plus"}
 #: roundings in a row before it is weighted, and of the sum
@@ -23,7 +31,63 @@ _UNIT = 9 * 2.0**-53
 _SPLIT = 2.0**27 + 1.0
 
 
-def sum_of_rows(model: Model, lines: list[tuple[float, Array, float]], claim: float | None = None) -> float:
+def lines_of(program: Program, leaf: Leaf) -> list[Line]:
+    """Contacts and the program's equations as weights, rows and right sides; negative multipliers of contacts are 0."""
+    lines = [(max(contact.multiplier, 0.0), *row_of(program, contact)) for contact in leaf.contacts]
+    own = program.multipliers_of_equations(leaf.equations).tolist()
+    return [*lines, *zip(own, program.equalities, program.right.tolist(), strict=False)]
+
+
+def row_of(program: Program, contact: Contact) -> tuple[Array, float]:
+    """The row of a contact and its right side: row . x <= right for every law of the problem.
+
+    It is the problem's own row, in the program's variables and in units of its objective.
+    """
+    for family in program.families:
+        if family.name != contact.constraint or contact.sign not in family.signs:
+            continue
+        share = family.unit / program.unit
+        u = np.clip(family.u(np.array([contact.k])), *family.domain)
+        if isinstance(family, LinearFamily):
+            rows, right = family.rows(u, np.array([contact.sign]))
+            return rows[0] * share, float(right[0]) * share
+        row = _tangent(program, family, contact, u)
+        if row is not None:
+            return share * (row[:-1] - family.slack), share * (family.bound - float(row[-1]))
+    return np.zeros(program.size), 0.0
+
+
+def _tangent(program: Program, family: Family, contact: Contact, u: Array) -> Array | None:
+    """A row that a family which is not linear is nowhere below, by the contact's direction; None where it is none."""
+    if isinstance(family, NormFamily) and len(contact.direction) == len(family.matrix):
+        return _at_most_one(contact.direction) @ family.matrix
+    if isinstance(family, ConeFamily) and len(contact.direction) == 2:
+        return family.tangent(float(u[0]), _at_most_one(contact.direction))
+    if isinstance(family, OfFormula):
+        return family.tangent_row(float(u[0]), contact.sign, contact.direction)
+    if isinstance(family, EnergyFamily) and family.convex and len(contact.direction) <= program.size:
+        return family.minorant(_on_equations(program, np.array(contact.direction)))
+    return None
+
+
+def _at_most_one(direction: Sequence[float]) -> Array:
+    """A direction whose length is at most 1, which bounds a norm too where it is shorter; one that overflows is 0."""
+    given = np.array(direction)
+    with np.errstate(over="ignore"):
+        return np.asarray(given / max(float(np.linalg.norm(given)), 1.0))
+
+
+def _on_equations(program: Program, coordinates: Array) -> Array:
+    """Variables with these coordinates, or the nearest that keep the program's equations."""
+    x = np.zeros(program.size)
+    x[: len(coordinates)] = coordinates
+    for _ in range(2):
+        off = program.right - program.equalities @ x
+        x += np.linalg.lstsq(program.equalities, off, rcond=None)[0]
+    return x
+
+
+def sum_of_rows(model: Model, lines: list[Line], claim: float | None = None) -> float:
     """What the program's objective cannot be below by weighted rows, in laws of an objective up to the claim.
 
     Parameters
@@ -36,11 +100,11 @@ def sum_of_rows(model: Model, lines: list[tuple[float, Array, float]], claim: fl
         Without it what the sum itself says.
     """
     total = summed(model, lines)
-    return total.value - charge(model, total, model.unit * total.value if claim is None else claim)
+    return total.value - rounding_error_bound(model, total, model.unit * total.value if claim is None else claim)
 
 
 @dataclass(frozen=True, eq=False)
-class Sum:
+class RowSum:
     """The sum of weighted rows: its slope, exact in the variables beyond the coordinates, and what rounding hides.
 
     `value` is rounded down, the slope by each coordinate is off by its `blur` at most.
@@ -51,7 +115,7 @@ class Sum:
     blur: Array
 
 
-def summed(model: Model, lines: list[tuple[float, Array, float]]) -> Sum:
+def summed(model: Model, lines: list[Line]) -> RowSum:
     """The objective and the weighted rows, added up."""
     lines = [line for line in lines if line[0] != 0.0]
     weights = np.array([weight for weight, _, _ in lines])
@@ -62,7 +126,7 @@ def summed(model: Model, lines: list[tuple[float, Array, float]]) -> Sum:
     variables = list(model.places.values())
     # the entries of the variables are exact, and so is a sum that is zero
     slope[variables] = np.where(slope[variables] == 0.0, 0.0, np.nextafter(slope[variables], -inf))
-    return Sum(slope, float(total[-1] - hidden[-1]), hidden[: model.space.terms])
+    return RowSum(slope, float(total[-1] - hidden[-1]), hidden[: model.space.terms])
 
 
 def _weighted(weights: Array, rows: Array, start: Array) -> Array:
@@ -83,7 +147,7 @@ def _halves(values: Array) -> tuple[Array, Array]:
     return high, values - high
 
 
-def charge(model: Model, total: Sum, claim: float) -> float:
+def rounding_error_bound(model: Model, total: RowSum, claim: float) -> float:
     """Most that rounding in the slope can be worth, over all laws that contradict the claim."""
     terms, slope = model.space.terms, total.slope
     known = greatest_values(model, max(claim, 0.0))

@@ -20,7 +20,7 @@ _GREATEST = 1e12
 _ROUNDS = 3
 
 
-def surplus(rows: Array, right: Array, multipliers: Array, count: int) -> float:
+def farkas_margin(rows: Array, right: Array, multipliers: Array, count: int) -> float:
     """By how much rows . x <= right contradict each other, weighed by multipliers; not above 0 if that is not shown.
 
     Parameters
@@ -34,7 +34,7 @@ def surplus(rows: Array, right: Array, multipliers: Array, count: int) -> float:
 
     Examples
     --------
-    >>> surplus(np.array([[1.0], [-1.0]]), np.array([0.0, -0.25]), np.array([1.0, 1.0]), 2)
+    >>> farkas_margin(np.array([[1.0], [-1.0]]), np.array([0.0, -0.25]), np.array([1.0, 1.0]), 2)
     0.25
     """
     if not len(rows):

@@ -149,7 +149,7 @@ def _disagreement(elastic: Model) -> Certificate | None:
     if weights is None:
         return None
     stated = tuple(elastic.program.stated_multipliers(weights).tolist())
-    proof = Certificate(elastic.problem, (), stated, VIOLATION)
+    proof = Certificate.of_leaf(elastic.problem, (), stated, VIOLATION)
     return proof if proof.proves_infeasible else None
 
 

@@ -18,19 +18,17 @@ from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.problem.constants import D
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, relaxed, relaxed_power
-from optlaws.synthesis.proof.below_claim import least_values
 from optlaws.synthesis.proof.certificate import (
     OBJECTIVE,
     RELAXED,
     VIOLATION,
     Certificate,
-    Contact,
-    row_of,
     weighted_rows,
 )
 from optlaws.synthesis.proof.cuts import by_tangents, needs_tangents
-from optlaws.synthesis.proof.directions import turned
-from optlaws.synthesis.proof.duality import summed
+from optlaws.synthesis.proof.duality import row_of, summed
+from optlaws.synthesis.proof.nodes import Contact
+from optlaws.synthesis.proof.sublevel_bounds import least_values
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 
 Array = NDArray[np.float64]
@@ -41,6 +39,8 @@ _NEAR = 0.9
 #: of the sum of magnitudes: a norm that is less is 0 but for rounding
 _APEX = 1e-11
 _NOTHING = 1e-14
+#: what may be left of the balance of a sum of rows, and which directions of a change count
+_BALANCED, _RANK = 1e-13, 1e-10
 #: of the objective: a bound that leaves no more needs no other proof
 _ENOUGH = 5e-9
 _MORE = 2.0  # times as much as rounding lets go
@@ -58,7 +58,7 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
     if relaxed_power(problem) is None:
         loose = relaxed(problem, 0.0)
         state = solve(loose.program).optimum
-        return Certificate(problem, (), (), RELAXED) if state is None else certificate(loose, state, RELAXED)
+        return Certificate.of_leaf(problem, program=RELAXED) if state is None else certificate(loose, state, RELAXED)
     tangent = _needed_root(model, optimum) or float(np.sqrt(objective))
     best: Certificate | None = None
     warm: ActiveSet | None = None
@@ -81,7 +81,7 @@ def certify(model: Model, optimum: ActiveSet, objective: float, limit: float | N
         if abs(moved - tangent) < 1e-6 * tangent:
             break
         tangent = moved
-    return best if best is not None else Certificate(problem, (), (), RELAXED, tangent)
+    return best if best is not None else Certificate.of_leaf(problem, program=RELAXED, tangent=tangent)
 
 
 def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificate:
@@ -90,7 +90,7 @@ def _of_convex(model: Model, optimum: ActiveSet, objective: float) -> Certificat
     if objective - proof.bound <= _ENOUGH * max(abs(objective), _ENOUGH):
         return proof
     # constants that are nowhere below 0 bound their sum without a contact
-    proof = max(proof, Certificate(model.problem, (), ()), key=lambda known: known.bound)
+    proof = max(proof, Certificate.of_leaf(model.problem), key=lambda known: known.bound)
     several = by_tangents(model, optimum, objective) if needs_tangents(model) else None
     several = None if several is None else _held(model, several)
     return several if several is not None and several.bound > proof.bound else proof
@@ -110,7 +110,7 @@ def _by_the_peak(problem: Problem) -> Certificate | None:
     )
     equations = [0.0] * len(loose.program.right)
     equations[loose.equation_names.index(velocity_at_peak(0.5))] = -pull
-    return Certificate(problem, contacts, tuple(equations), RELAXED, problem.B)
+    return Certificate.of_leaf(problem, contacts, equations, RELAXED, problem.B)
 
 
 def _needed_root(model: Model, optimum: ActiveSet) -> float:
@@ -142,9 +142,9 @@ def certificate(model: Model, optimum: ActiveSet, program: str, tangent: float =
             multiplier = float(optimum.multipliers[j]) * (model.unit / family.unit)
             place = float(min(max(k, 0.0), 1.0))
             contacts.append(Contact(family.name, float(optimum.s[j]), place, multiplier, direction))
-    equations = tuple(model.program.stated_multipliers(optimum.equality_multipliers).tolist())
-    proof = _held(model, Certificate(model.problem, tuple(contacts), equations, program, tangent))
-    return _held(model, turned(model, proof))
+    equations = model.program.stated_multipliers(optimum.equality_multipliers).tolist()
+    proof = _held(model, Certificate.of_leaf(model.problem, contacts, equations, program, tangent))
+    return _held(model, _balanced(model, proof))
 
 
 def _direction(family: NormFamily, x: Array) -> tuple[float, ...]:
@@ -175,7 +175,7 @@ def _held(model: Model, proof: Certificate) -> Certificate:
             pull = -float(rows[most][place])
             greater = contacts[most].multiplier + _MORE * float(slope[place]) / pull
             contacts[most] = replace(contacts[most], multiplier=nextafter(greater, np.copysign(np.inf, slope[place])))
-    held = replace(proof, contacts=tuple(contacts))
+    held = proof.with_leaf(contacts=contacts)
     return held if held.bound > proof.bound else proof
 
 
@@ -191,3 +191,59 @@ def violation_certificate(model: Model, optimum: ActiveSet) -> Certificate:
 def lower_bound(proof: Certificate, limit: float | None) -> float:
     """The better of the certificate's bound and the limit."""
     return max(proof.bound, -np.inf if limit is None else limit) + 0.0
+
+
+def _balanced(model: Model, proof: Certificate) -> Certificate:
+    """The certificate with the least change of its directions that balances it; the better of both.
+
+    Parameters
+    ----------
+    found
+        The program that the certificate speaks of.
+    proof
+        A certificate, whose multipliers nearly balance.
+    """
+    if not any(contact.direction for contact in proof.contacts):
+        return proof
+    images = [_image(model, contact) for contact in proof.contacts]
+    slope = _slope(model, proof)
+    if all(image is None for image in images) or np.abs(slope).max(initial=0.0) <= _BALANCED:
+        return proof
+    pulls = [c.multiplier * image for c, image in zip(proof.contacts, images, strict=True) if image is not None]
+    change = np.linalg.lstsq(np.vstack(pulls).T, -slope, rcond=_RANK)[0]
+    parts = iter(np.split(change, np.cumsum([len(pull) for pull in pulls])[:-1]))
+    contacts = tuple(
+        contact if image is None else _with_direction(contact, np.array(contact.direction) + next(parts))
+        for contact, image in zip(proof.contacts, images, strict=True)
+    )
+    better = proof.with_leaf(contacts=contacts)
+    return better if better.bound > proof.bound else proof
+
+
+def _image(model: Model, contact: Contact) -> Array | None:
+    """What each component of a contact's direction stands for, in the coordinates; None where it has no direction."""
+    terms = model.space.terms
+    for family in model.program.families:
+        if family.name == contact.constraint and contact.multiplier > 0.0:
+            share = family.unit / model.unit
+            if isinstance(family, NormFamily):
+                return family.matrix[:, :terms] * share
+            if isinstance(family, ConeFamily):
+                columns = family.columns(np.clip(family.u(np.array([contact.k])), *family.domain))[0, 0, :terms] * share
+                return np.vstack([columns.real, columns.imag])
+    return None
+
+
+def _slope(model: Model, proof: Certificate) -> Array:
+    """What is left of the objective's slope and the contacts' in the coordinates."""
+    slope = model.program.objective.copy()
+    for contact in proof.contacts:
+        slope += max(contact.multiplier, 0.0) * row_of(model.program, contact)[0]
+    slope += model.program.equalities.T @ model.program.multipliers_of_equations(proof.equations)
+    return np.asarray(slope[: model.space.terms])
+
+
+def _with_direction(contact: Contact, direction: Array) -> Contact:
+    """A direction beyond length 1 is made one, and its multiplier greater."""
+    length = max(float(np.linalg.norm(direction)), 1.0)
+    return replace(contact, multiplier=contact.multiplier * length, direction=tuple((direction / length).tolist()))

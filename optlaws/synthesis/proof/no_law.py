@@ -13,12 +13,9 @@ from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.fields import CONSTANTS
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
-from optlaws.synthesis.proof.power.certificate import PowerCertificate
 
 #: of a limit, which is computed in doubles
 _ROUNDING = 1e-12
-
-Proof = Certificate | PowerCertificate
 
 
 class Ground(NamedTuple):
@@ -67,9 +64,9 @@ def least_of(problem: Problem, constant: Functional) -> Problem:
     return replace(problem, minimise=constant.expression(), bounds=others)
 
 
-def ground_of(problem: Problem, proof: Proof) -> Ground | None:
+def ground_of(problem: Problem, proof: Certificate) -> Ground | None:
     """What a proof of this kind would have to show of a problem; None where it can show nothing."""
-    if isinstance(proof, Certificate) and proof.program == VIOLATION:
+    if proof.program == VIOLATION:
         return Ground(convex_part(problem), None)
     return next(
         (ground for ground in _least_values(problem) if ground.problem.objective == proof.problem.objective), None
@@ -82,7 +79,7 @@ def _least_values(problem: Problem) -> Iterator[Ground]:
             yield Ground(least_of(problem, constant), limits.high)
 
 
-def proof_of_no_law(problem: Problem, proof: object) -> Proof | None:
+def proof_of_no_law(problem: Problem, proof: object) -> Certificate | None:
     """The proof as one of this very problem, if its multipliers show that the problem has no law; else None.
 
     Multipliers that prove it of one problem mostly prove it of those beyond: what they prove is affine in the numbers.
@@ -98,17 +95,14 @@ def proof_of_no_law(problem: Problem, proof: object) -> Proof | None:
     >>> proof_of_no_law(further, proof).problem.B, proof_of_no_law(other, proof)
     (1.04, None)
     """
-    if not isinstance(proof, Certificate | PowerCertificate):
+    if not isinstance(proof, Certificate):
         return None
     ground = ground_of(problem, proof)
     if ground is None:
         return None
     try:
         moved = proof if proof.problem == ground.problem else replace(proof, problem=ground.problem)
-        if ground.above is None:
-            shown = isinstance(moved, Certificate) and moved.proves_infeasible
-        else:
-            shown = moved.bound > ground.above
+        shown = moved.proves_infeasible if ground.above is None else moved.bound > ground.above
     except (ArithmeticError, IndexError, InputError, ValueError):
         return None
     return moved if shown else None

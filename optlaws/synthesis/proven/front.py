@@ -19,8 +19,9 @@ from optlaws.laws.making.between import law_between
 from optlaws.numbers import bounded, real
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.evaluation import worth
-from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate, Contact, contact_of
-from optlaws.synthesis.proof.data import StatedContact, problem_of, stated
+from optlaws.synthesis.proof.certificate import OBJECTIVE, Certificate
+from optlaws.synthesis.proof.data import StatedContact, contact_of, problem_of, stated
+from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proven.interval_gaps import interval_gaps
 from optlaws.synthesis.proven.lazily import Lazily
 from optlaws.synthesis.proven.line import lower_line
@@ -286,7 +287,7 @@ class ProvenFront:
         for certificate, factor in zip(self.certificates[i : i + 2], (1.0 - share, share), strict=True):
             contacts += [replace(c, multiplier=c.multiplier * factor) for c in certificate.contacts if factor > 0.0]
             equations += factor * np.array(certificate.equations)
-        proof = Certificate(problem, tuple(contacts), tuple(equations.tolist()))
+        proof = Certificate.of_leaf(problem, contacts, equations.tolist())
         return FrontPoint(value, problem, self.laws[i + best], sums[best], proof)
 
     def _outside(self, value: object) -> InputError:
@@ -355,7 +356,7 @@ def front_of(stated_front: StatedFront) -> ProvenFront:
     """
     number = RunningNumber(problem_of(stated_front.problem), stated_front.runs)
     proofs = [
-        Certificate(number.at(point.at), tuple(map(contact_of, point.contacts)), point.equations)
+        Certificate.of_leaf(number.at(point.at), tuple(map(contact_of, point.contacts)), point.equations)
         for point in stated_front.points
     ]
     laws = tuple(MotionLaw.from_dict(point.law) for point in stated_front.points)

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from optlaws.errors import InputError
 from optlaws.synthesis.proof.certificate import Certificate, weighted_rows
-from optlaws.synthesis.proof.duality import charge, summed
+from optlaws.synthesis.proof.duality import rounding_error_bound, summed
 from optlaws.synthesis.proven.running import RunningNumber
 
 Array = NDArray[np.float64]
@@ -50,7 +50,7 @@ def lower_line(certificate: Certificate, at: float, number: RunningNumber, ends:
     rates, rounding = _rates(number, ends, *(rows for _, rows in there))
     value, slope = model.unit * total.value, -float(model.unit * (weights @ rates))
     most = max(claim, *(value + slope * (end - at) for end in ends))
-    hidden = max(charge(moved, total, most) for moved, _ in there)
+    hidden = max(rounding_error_bound(moved, total, most) for moved, _ in there)
     lost = model.unit * (hidden + float(np.abs(weights) @ rounding))
     return Line(value - lost if isfinite(lost) else -inf, slope)
 

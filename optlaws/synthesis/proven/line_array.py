@@ -11,7 +11,7 @@ from optlaws.synthesis.arrays.judging.sums import sums_of_rows
 from optlaws.synthesis.arrays.rows import weighted
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof.below_claim import greatest_values, least_values, moments
+from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, moments
 from optlaws.synthesis.proven.running import RunningNumber
 from optlaws.synthesis.solved_parts import Part
 

@@ -2,25 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
 from fractions import Fraction
-from math import comb, prod
+from math import prod
 from typing import TypeVar
 
-from flint import acb, arb, ctx
+from flint import acb, arb, arb_series
 
 from optlaws.laws.segments.constant_power import PowerSegment
 from optlaws.laws.segments.sine import SineSegment
+from optlaws.verification.enclosing.ball_extremes import extremes
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import ExactPiece, Extremes, least_and_greatest
 
-#: when a ball is narrow enough, and after how many tries it is taken as it is
-_NARROW, _MOST = 2.0**-70, 1 << 12
-#: how many terms Taylor's formula takes beside its rest
-_TERMS = 6
-
-Ball = TypeVar("Ball", arb, acb)
-Derivative = Callable[[int, arb], arb]
+Ball = TypeVar("Ball", arb, acb, arb_series)
 
 
 class SinePiece(ExactPiece):
@@ -38,28 +32,24 @@ class SinePiece(ExactPiece):
         super().__init__(start, stop)
         self.sines = sines
 
-    def at(self, nu: int, s: arb) -> arb:
-        """The derivative of order nu at the time s since the start."""
-        return sum((_sine(sine, nu, s) for sine in self.sines), arb(0))
+    def at(self, nu: int, s: Ball) -> Ball:
+        """The derivative of order nu at the time s since the start, or its Taylor series."""
+        return sum((_sine(sine, nu, s) for sine in self.sines), s * 0)
 
     def value(self, nu: int, k: Fraction) -> arb:
         """The derivative of order nu at k."""
         return self.at(nu, ball(k - self.start))
 
     def extremes(self, nu: int, start: Fraction, stop: Fraction) -> Extremes:
-        """By bisection until the slope has one sign, or next to nothing is left."""
-        return bisected(lambda i, s: self.at(nu + i, s), start - self.start, stop - self.start)
+        """The extremes of Taylor polynomials on short cells."""
+        return extremes(lambda s: self.at(nu, s), start - self.start, stop - self.start)
 
     def power(self) -> Extremes:
-        """By bisection, with the derivatives of b c by Leibniz's rule."""
-
-        def product(i: int, s: arb) -> arb:
-            return sum((comb(i, j) * self.at(1 + j, s) * self.at(2 + i - j, s) for j in range(i + 1)), arb(0))
-
-        return bisected(product, Fraction(0), self.stop - self.start)
+        """The extremes of Taylor polynomials of the product b c."""
+        return extremes(lambda s: self.at(1, s) * self.at(2, s), Fraction(0), self.stop - self.start)
 
     def square(self, nu: int) -> arb:
-        """By rigorous quadrature."""
+        """The integral of the square by rigorous quadrature."""
 
         def squared(s: acb, _: bool) -> acb:  # noqa: FBT001 - how FLINT calls it
             value = sum((_sine(sine, nu, s) for sine in self.sines), acb(0))
@@ -131,11 +121,11 @@ class PowerPiece(ExactPiece):
         return least_and_greatest([self.value(nu, start), self.value(nu, stop)])
 
     def power(self) -> Extremes:
-        """It is constant."""
+        """The one value of b c on the piece, twice."""
         return ball(self.rate / 2), ball(self.rate / 2)
 
     def square(self, nu: int) -> arb:
-        """In closed form."""
+        """The integral of the square in closed form."""
         m, rate = nu - 1, ball(self.rate)
         if not m:
             return ball((self.first + self.last) / 2 * (self.stop - self.start))
@@ -147,52 +137,3 @@ class PowerPiece(ExactPiece):
         if m == 1:
             return factor * ball(self.last / self.first).log()
         return factor * (ball(self.last) ** (2 - 2 * m) - ball(self.first) ** (2 - 2 * m)) / (2 - 2 * m)
-
-
-def bisected(derivative: Derivative, start: Fraction, stop: Fraction) -> Extremes:
-    """Balls that hold the least and the greatest value of a function, given with its derivatives of any order.
-
-    Examples
-    --------
-    >>> waves = (lambda s: s.sin(), lambda s: s.cos(), lambda s: -s.sin(), lambda s: -s.cos())
-    >>> least, greatest = bisected(lambda i, s: waves[i % 4](s), Fraction(0), Fraction(3))
-    >>> greatest.contains(1), float(greatest.rad()) < 1e-12
-    (True, True)
-    """
-    values = [derivative(0, ball(start)), derivative(0, ball(stop))]
-    size = 1.0 + max(float(abs(value).upper()) for value in values)
-    narrow = size * max(_NARROW, 2.0 ** (8 - ctx.prec))
-    left = [(start, stop)]
-    for count in range(1 << 20):
-        if not left:
-            break
-        low, high = left.pop()
-        middle = (low + high) / 2
-        x, centre = ball(low).union(ball(high)), ball(middle)
-        # Taylor's formula about the middle: sharp where several derivatives vanish together
-        order, rest = _bounded(derivative, x)
-        jet = [derivative(i, centre) for i in range(order)]
-        if jet and not _taylor([*jet[1:], rest], x - centre).contains(0):
-            continue
-        whole = _taylor([*jet, rest], x - centre)
-        if float(whole.rad()) < narrow or count > _MOST:
-            values.append(whole)
-        else:
-            left += [(low, middle), (middle, high)]
-    return least_and_greatest(values)
-
-
-def _bounded(derivative: Derivative, x: arb) -> tuple[int, arb]:
-    """The highest derivative that counts and is bounded over a ball, and its values; beside a kink few are."""
-    for order in range(_TERMS, 0, -1):
-        rest = derivative(order, x)
-        if rest.is_finite():
-            return order, rest
-    return 0, derivative(0, x)
-
-
-def _taylor(derivatives: list[arb], off: arb) -> arb:
-    total = arb(0)
-    for i, derivative in reversed(list(enumerate(derivatives))):
-        total = derivative + total * off / (i + 1)
-    return total

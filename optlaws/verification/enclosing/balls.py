@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from fractions import Fraction
 from math import ceil, floor, inf
+from typing import Any
 
 from flint import arb, ctx, fmpq, fmpq_poly
 
@@ -54,9 +57,20 @@ def enclosed(value: arb) -> tuple[float, float]:
 
 
 def at(polynomial: fmpq_poly, x: arb) -> arb:
-    """The polynomial's value."""
+    """The value of a polynomial at a ball."""
     value: arb = polynomial.numer()(x) / arb(polynomial.denom())
     return value
+
+
+@contextmanager
+def series_length(count: int) -> Iterator[None]:
+    """Taylor series of so many terms."""
+    before: Any = ctx.cap
+    ctx.cap = count
+    try:
+        yield
+    finally:
+        ctx.cap = before
 
 
 def _end(value: arb, *, upper: bool = False) -> arb:

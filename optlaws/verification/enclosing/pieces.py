@@ -69,7 +69,7 @@ class PolynomialPiece(ExactPiece):
         return integral - integral(-1) + start
 
     def raised(self, by: fmpq) -> None:
-        """Add to the displacement."""
+        """Raise the displacement of the whole piece by a number."""
         self._derivatives[0] += by
 
     def derivative(self, nu: int) -> fmpq_poly:
@@ -79,7 +79,7 @@ class PolynomialPiece(ExactPiece):
         return self._derivatives[nu]
 
     def local(self, k: Fraction) -> fmpq:
-        """The y of a k."""
+        """The place y of a k, which runs from -1 to 1 over the piece."""
         return self.rate * rational(k - self.start) - 1
 
     def exact(self, nu: int, k: Fraction) -> fmpq:
@@ -91,11 +91,11 @@ class PolynomialPiece(ExactPiece):
         return arb(self.exact(nu, k))
 
     def extremes(self, nu: int, start: Fraction, stop: Fraction) -> Extremes:
-        """Every stationary point is isolated."""
+        """The extremes among the ends and all stationary points, which are isolated."""
         return between(self.derivative(nu), self.local(start), self.local(stop))
 
     def power(self) -> Extremes:
-        """By the product's stationary points."""
+        """The extremes of b c, by the stationary points of the product."""
         return self.combined_power((Fraction(1),))
 
     def combination(self, nu: int, weights: tuple[Fraction, ...]) -> fmpq_poly:
@@ -111,7 +111,7 @@ class PolynomialPiece(ExactPiece):
         return between(self.combination(1, weights) * self.combination(2, weights), fmpq(-1), fmpq(1))
 
     def square(self, nu: int) -> arb:
-        """Exact."""
+        """The exact integral of the square of a derivative."""
         integral = (self.derivative(nu) * self.derivative(nu)).integral()
         return arb((integral(1) - integral(-1)) / self.rate)
 

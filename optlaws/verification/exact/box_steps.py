@@ -1,7 +1,7 @@
-"""Steps of power certificates with every rounding enclosed: boxes with sides rounded outward, sums of rows in balls.
+"""Trees over boxes with every rounding enclosed: boxes with sides rounded outward, sums of rows in balls.
 
 Nothing has to be corrected. What the multipliers leave of a coordinate costs its least value in the box, so that the
-steps prove what they prove, whatever they are.
+nodes prove what they prove, whatever they are.
 """
 
 from __future__ import annotations
@@ -9,33 +9,33 @@ from __future__ import annotations
 from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from fractions import Fraction
+from math import isfinite
 
 from flint import arb, arb_mat
 
-from optlaws.synthesis.problem.expression import Expression, Maximum
-from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.proof.certificate import Certificate, Contact
-from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step
+from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.proof.nodes import Contact, Leaf, Split, Tightening
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.exact.rows import ExactRows
+from optlaws.verification.exact.sublevel_bounds import greatest_values
 
 Vector = list[arb]
 
 
 @dataclass(frozen=True, eq=False)
-class Box:
+class BallBox:
     """Points that are nowhere above the least values, and nowhere below the greatest."""
 
     low: Vector
     high: Vector
 
-    def cut(self, variable: int, *, low: arb | None = None, high: arb | None = None) -> Box:
+    def cut(self, variable: int, *, low: arb | None = None, high: arb | None = None) -> BallBox:
         """With a side of a variable moved."""
         sides = [list(self.low), list(self.high)]
         for values, value in zip(sides, (low, high), strict=True):
             if value is not None:
                 values[variable] = value
-        return Box(*sides)
+        return BallBox(*sides)
 
     def least(self, row: Vector) -> arb:
         """What a row, its constant last, is at least."""
@@ -46,12 +46,12 @@ class Box:
 
 
 class BoxSteps(ABC):
-    """The steps of a certificate, done again.
+    """The nodes of a certificate's tree, applied again.
 
     Parameters
     ----------
     certificate
-        Whose steps.
+        Whose tree.
 
     Raises
     ------
@@ -59,16 +59,17 @@ class BoxSteps(ABC):
         If the points do not determine the law.
     """
 
-    def __init__(self, certificate: PowerCertificate) -> None:
-        self.certificate, self.problem = certificate, certificate.problem
-        self.rows = ExactRows(Certificate(certificate.problem, (), ()))
-        self.points = [Fraction(k) for k in certificate.points]
+    def __init__(self, certificate: Certificate) -> None:
+        self.tree, self.problem, self.claim = certificate.tree, certificate.problem, certificate.claim or 0.0
+        self.rows = ExactRows(certificate)
+        self.points = [Fraction(k) for k in certificate.points or ()]
         velocities = [self.rows.space.values(1, k) for k in self.points]
         if len(velocities) != self.rows.space.terms:
             raise ZeroDivisionError
         self.inverse = arb_mat([row[:-1] for row in velocities]).inv()
         self.base = arb_mat(len(velocities), 1, [row[-1] for row in velocities])
-        self.greatest = greatest_of(self.problem, Fraction(certificate.claim))
+        sublevel = greatest_values(certificate, self.rows, self.claim)
+        self.greatest = {name: Fraction(most) for name, most in sublevel.items() if isfinite(most)}
         start, change, stroke = self.rows.space.bounds
         self.stroke = abs(arb(stroke))
         self.ends = [
@@ -90,53 +91,53 @@ class BoxSteps(ABC):
         """Between what values b(k) is in every law below the claim."""
 
     @abstractmethod
-    def curved(self, contact: Contact, box: Box) -> Vector | None:
+    def curved(self, contact: Contact, box: BallBox) -> Vector | None:
         """The row of a contact that depends on the box; None where it is no such row, or says nothing there."""
 
     def holds(self) -> bool:
-        """Whether the steps empty every box."""
+        """Whether the tree leaves no box."""
         boxes = [self.root()]
-        for step in self.certificate.steps:
-            if not boxes or not -1 <= step.variable < len(boxes[-1].low):
+        for node in self.tree:
+            if not boxes:
+                return False
+            if isinstance(node, Split | Tightening) and not 0 <= node.variable < len(boxes[-1].low):
                 return False
             box = boxes.pop()
-            if isinstance(step, Cut):
-                if step.variable < 0:
-                    return False
-                at = ball(step.at)
-                boxes += [box.cut(step.variable, low=at), box.cut(step.variable, high=at)]
+            if isinstance(node, Split):
+                at = ball(node.at)
+                boxes += [box.cut(node.variable, low=at), box.cut(node.variable, high=at)]
             else:
-                boxes += self.moved(box, step)
+                boxes += self.moved(box, node)
         return not boxes
 
-    def root(self) -> Box:
+    def root(self) -> BallBox:
         """The box of all laws of the problem whose objective is below the claim."""
         brackets = [self.outer(k) for k in self.points]
         asked = self.problem.range("B")
         of_B = ball(0 if asked is None else asked.low), self.B
         own = [of_B if name == "B" else self.own_sides(name) for name in self.rows.names]
         sides = [*brackets, *own]
-        return Box([low.lower() for low, _ in sides], [high.upper() for _, high in sides])
+        return BallBox([low.lower() for low, _ in sides], [high.upper() for _, high in sides])
 
-    def moved(self, box: Box, step: Step) -> list[Box]:
-        """The box after a step, none if it is empty."""
+    def moved(self, box: BallBox, node: Leaf) -> list[BallBox]:
+        """The box after a sum of rows, none if it is empty."""
         total = [arb(0)] * (len(box.low) + 1)
-        if step.variable >= 0:
-            total[step.variable] = arb(step.side)
-        parts = [(max(contact.multiplier, 0.0), self.contact(contact, box)) for contact in step.contacts]
+        if isinstance(node, Tightening):
+            total[node.variable] = arb(node.side)
+        parts = [(max(contact.multiplier, 0.0), self.contact(contact, box)) for contact in node.contacts]
         equations = [self.mapped(row.vector(self.rows.names)) for row in self.rows.equations]
-        parts += zip(step.equations, equations, strict=False)
+        parts += zip(node.equations, equations, strict=False)
         cost = [ball(self.rows.cost.get(name, 0.0)) for name in self.rows.names]
-        parts.append((max(step.claim, 0.0), [*[arb(0)] * len(self.points), *cost, -ball(self.certificate.claim)]))
+        parts.append((max(node.claim, 0.0), [*[arb(0)] * len(self.points), *cost, -ball(self.claim)]))
         for weight, row in parts:
             total = [x + ball(weight) * y for x, y in zip(total, row, strict=True)]
         least = box.least(total)
-        if step.variable < 0:
+        if not isinstance(node, Tightening):
             return [] if least > 0 else [box]
-        low, high = box.low[step.variable], box.high[step.variable]
-        if step.side > 0:
-            return [] if least > high else [box.cut(step.variable, low=low.max(least))]
-        return [] if -least < low else [box.cut(step.variable, high=high.min(-least))]
+        low, high = box.low[node.variable], box.high[node.variable]
+        if node.side > 0:
+            return [] if least > high else [box.cut(node.variable, low=low.max(least))]
+        return [] if -least < low else [box.cut(node.variable, high=high.min(-least))]
 
     def mapped(self, vector: Vector) -> Vector:
         """A row over the coordinates as one over the variables of a box."""
@@ -150,31 +151,10 @@ class BoxSteps(ABC):
         *free, base = self.rows.space.values(nu, k)
         return self.mapped([*free, *[arb(0)] * len(self.rows.names), base])
 
-    def contact(self, contact: Contact, box: Box) -> Vector:
+    def contact(self, contact: Contact, box: BallBox) -> Vector:
         """The row of a contact, at most 0; zeros where the problem asks for nothing of the kind."""
         curved = self.curved(contact, box)
         row = self.rows.row(contact) if curved is None else None
         if row is not None:
             return self.mapped(row.vector(self.rows.names))
         return [arb(0)] * (len(box.low) + 1) if curved is None else curved
-
-
-def greatest_of(problem: Problem, claim: Fraction) -> dict[str, Fraction]:
-    """What the constants of the objective, and those that are bounded, are at most in laws below the claim."""
-    greatest: dict[str, Fraction] = {}
-
-    def spread(expression: Expression, most: Fraction) -> None:
-        for weight, term in expression.terms:
-            share = most / Fraction(weight)
-            greatest[repr(term)] = min(greatest.get(repr(term), share), share)
-            if isinstance(term, Maximum):
-                for part in term.parts:
-                    spread(part, share)
-
-    spread(problem.objective, claim)
-    for name in ("B", *(constant.name for constant, _ in problem.bounded)):
-        asked = problem.range(name)
-        if asked is not None and asked.high < float("inf"):
-            high = Fraction(asked.high)
-            greatest[name] = min(greatest.get(name, high), high)
-    return greatest

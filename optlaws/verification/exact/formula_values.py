@@ -6,10 +6,8 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from fractions import Fraction
 from itertools import pairwise
-from math import factorial
-from typing import Any
 
-from flint import arb, arb_series, ctx, fmpq, fmpq_poly
+from flint import arb, arb_series, fmpq, fmpq_poly
 
 from optlaws.formulas.affine import degree
 from optlaws.formulas.arithmetic import evaluate
@@ -17,15 +15,13 @@ from optlaws.formulas.of_motion import Motion
 from optlaws.formulas.tree import Call, Formula, Table
 from optlaws.formulas.vocabulary import ORDERS
 from optlaws.synthesis.functionals.curved_rows import squared
+from optlaws.verification.enclosing.ball_extremes import extremes
 from optlaws.verification.enclosing.ball_formulas import BALLS, POLYNOMIALS, composed, series_of
-from optlaws.verification.enclosing.ball_pieces import bisected
 from optlaws.verification.enclosing.balls import ball, rational
 from optlaws.verification.enclosing.integrals import integrals
 from optlaws.verification.enclosing.on_parts import kinks, on_part
 from optlaws.verification.enclosing.pieces import Extremes, PolynomialPiece, between, least_and_greatest
 
-#: terms of a Taylor series: as many derivatives as bisection takes
-_LENGTH = 7
 #: binary places of an integral that count: more than a float has
 _BITS = 80
 
@@ -39,14 +35,7 @@ def extremes_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Extremes:
         # where a norm vanishes it has no derivative, but its square has
         least, greatest = extremes_of(squared(motion), pieces)
         return least.max(arb(0)).sqrt(), greatest.max(arb(0)).sqrt()
-    values: list[arb] = []
-    for part in _parts(motion, pieces):
-        composed = part.polynomial()
-        if composed is not None:
-            values += between(composed, fmpq(-1), fmpq(1))
-        else:
-            values += bisected(_Derivatives(part), part.low, part.high)
-    return least_and_greatest(values)
+    return least_and_greatest([value for part in _parts(motion, pieces) for value in part.extremes()])
 
 
 def integral_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
@@ -72,7 +61,7 @@ def value_of(motion: Motion, pieces: Sequence[PolynomialPiece]) -> arb:
 
 
 @dataclass(frozen=True)
-class _Part:
+class _FormulaPart:
     """A formula along a piece of a law, between two k without kinks of what depends on k alone."""
 
     formula: Formula
@@ -90,6 +79,13 @@ class _Part:
         polynomial: fmpq_poly = evaluate(self.formula, {**names, "k": k}, POLYNOMIALS)
         return polynomial
 
+    def extremes(self) -> Extremes:
+        """Balls that hold the least and the greatest value between the two k."""
+        composed = self.polynomial()
+        if composed is not None:
+            return between(composed, fmpq(-1), fmpq(1))
+        return extremes(lambda k: self.series(k)[0], self.low, self.high)
+
     def series(self, k: arb_series) -> tuple[arb_series]:
         """Its Taylor series, to as many terms as series have."""
         y = (k - ball(self.piece.start)) * arb(self.piece.rate) - 1
@@ -104,33 +100,11 @@ def _bent(formula: Formula) -> bool:
     return calls or any(isinstance(part, Table) and not part.names() <= {"k"} for part in formula.walk())
 
 
-def _parts(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Iterator[_Part]:
+def _parts(motion: Motion, pieces: Sequence[PolynomialPiece]) -> Iterator[_FormulaPart]:
     """The pieces of the law within the formula's part, cut where what depends on k alone has kinks."""
     places = kinks(motion)
     for piece in pieces:
         low, high = max(piece.start, Fraction(motion.start)), min(piece.stop, Fraction(motion.stop))
         edges = sorted({low, high, *(k for k in places if low < k < high)}) if low < high else []
         for ends in pairwise(edges):
-            yield _Part(on_part(motion.formula, *ends), piece, *ends)
-
-
-class _Derivatives:
-    """Derivatives of a formula along a piece, by Taylor series in balls."""
-
-    def __init__(self, part: _Part) -> None:
-        self.part = part
-        self._last: tuple[arb, arb_series] | None = None
-
-    def __call__(self, i: int, k: arb) -> arb:
-        if self._last is None or self._last[0] is not k:
-            self._last = (k, self._series(k))
-        derivative: arb = self._last[1][i] * factorial(i)
-        return derivative
-
-    def _series(self, k: arb) -> arb_series:
-        before: Any = ctx.cap
-        ctx.cap = _LENGTH
-        try:
-            return self.part.series(arb_series([k, arb(1)]))[0]
-        finally:
-            ctx.cap = before
+            yield _FormulaPart(on_part(motion.formula, *ends), piece, *ends)

@@ -10,13 +10,13 @@ from optlaws.synthesis.problem.combined import CombinedPeak, CombinedPower
 from optlaws.synthesis.problem.constants import Peak, PeakJerk, Power, RootMeanSquare
 from optlaws.synthesis.problem.expression import Term
 from optlaws.synthesis.problem.named_constants import is_named
-from optlaws.verification.exact.residuals import ResidualConstant
 from optlaws.verification.machines.mode_residuals import ModeConstant
-from optlaws.verification.machines.outputs import OutputConstant
+from optlaws.verification.machines.outputs import KnownOutput
+from optlaws.verification.machines.residuals import ResidualConstant
 
 OfFormula = FormulaIntegral | FormulaPeak | FormulaRms | FormulaValue
 _OF_FORMULAS = {FormulaIntegral, FormulaPeak, FormulaRms, FormulaValue}
-OfMachine = ResidualConstant | ModeConstant | OutputConstant
+OfMachine = ResidualConstant | ModeConstant | KnownOutput
 Known = Peak | Power | RootMeanSquare | CombinedPeak | OfMachine | OfFormula
 
 _OF_CAMS = tuple(f"{name}_cam(" for name in ("B", "C", "C_plus", "C_minus", "D", "J"))

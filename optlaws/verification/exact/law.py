@@ -26,9 +26,9 @@ from optlaws.verification.enclosing.balls import ball, enclosed, rational
 from optlaws.verification.enclosing.pieces import ExactPiece, Extremes, PolynomialPiece, least_and_greatest
 from optlaws.verification.exact.formula_values import extremes_of, integral_of
 from optlaws.verification.exact.known_constants import Known, OfFormula, OfMachine, known
-from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
 from optlaws.verification.machines.mode_residuals import ExactModeResidual, ModeConstant
-from optlaws.verification.machines.outputs import ExactOutput, OutputRms
+from optlaws.verification.machines.outputs import ExactOutput, KnownOutputRms
+from optlaws.verification.machines.residuals import ExactResidual, ResidualConstant
 
 
 class ExactLaw:
@@ -84,7 +84,7 @@ class ExactLaw:
 
     @property
     def polynomials(self) -> list[PolynomialPiece]:
-        """The pieces, all polynomials.
+        """The pieces of a law that is made of polynomials alone.
 
         Raises
         ------
@@ -204,7 +204,7 @@ class ExactLaw:
             exact = ExactOutput(constant)
             if exact.impulsive and self._impulses(2):
                 return arb.pos_inf()
-            return (exact.rms if isinstance(constant, OutputRms) else exact.peak)(self.polynomials)
+            return (exact.rms if isinstance(constant, KnownOutputRms) else exact.peak)(self.polynomials)
 
     def of_formula(self, constant: OfFormula) -> arb:
         """A ball that holds a constant of a formula.
@@ -307,8 +307,3 @@ def _piece(segment: Segment, start: Fraction, stop: Fraction) -> ExactPiece:
     if isinstance(segment, PowerSegment):
         return PowerPiece(start, stop, segment)
     raise InputError(f"exact verification knows no {segment.kind} segments")
-
-
-def enclosures(law: MotionLaw) -> dict[str, tuple[float, float]]:
-    """Floats below and above B, C, D, J and rms_c."""
-    return ExactLaw(law).enclosures()

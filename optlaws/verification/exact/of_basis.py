@@ -24,7 +24,7 @@ _ZERO = fmpq_poly([0])
 
 
 def exact_space(problem: Problem) -> ExactSpace:
-    """The laws of a problem.
+    """The laws of a problem as a space in exact numbers.
 
     Raises
     ------
@@ -42,7 +42,12 @@ def exact_space(problem: Problem) -> ExactSpace:
 
 @singledispatch
 def _space(basis: Basis, problem: Problem) -> ExactSpace:  # noqa: ARG001 - of a known basis
-    raise InputError(
+    raise unknown_basis(basis)
+
+
+def unknown_basis(basis: Basis) -> InputError:
+    """The error to raise for a basis of a kind that nobody has put into exact arithmetic."""
+    return InputError(
         f"exact verification knows laws with Z in polynomials or in splines, and laws of pieces, not {basis!r}"
     )
 

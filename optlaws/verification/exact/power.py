@@ -1,4 +1,4 @@
-"""Power certificates in exact arithmetic: of D, and of peaks of formulas that are not convex."""
+"""Trees over boxes in exact arithmetic: of D, and of peaks of formulas that are not convex."""
 
 from __future__ import annotations
 
@@ -22,23 +22,24 @@ from optlaws.synthesis.functionals.kinds import FormulaPeak, FormulaValue
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
-from optlaws.synthesis.proof.certificate import Contact
-from optlaws.synthesis.proof.power import beneath_formulas
-from optlaws.synthesis.proof.power.beneath_formulas import PEAKS, Way
-from optlaws.synthesis.proof.power.certificate import PowerCertificate
+from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.proof.nodes import Contact
+from optlaws.synthesis.proof.power import formula_underestimators
+from optlaws.synthesis.proof.power.formula_underestimators import PEAKS, Way
 from optlaws.synthesis.proof.power.rows import POWER_ROWS, applies
 from optlaws.verification.enclosing.ball_formulas import BALLS
 from optlaws.verification.enclosing.balls import ball
-from optlaws.verification.exact.box_steps import Box, BoxSteps, Vector
+from optlaws.verification.exact.box_steps import BallBox, BoxSteps, Vector
 from optlaws.verification.exact.known_constants import known
+from optlaws.verification.exact.sublevel_bounds import never_negative
 from optlaws.verification.machines.floors import floor
 
 _BITS = 256
 _DEEPEST = 5
 
 
-def prove_power(certificate: PowerCertificate) -> Fraction | None:
-    """The claim of a power certificate if its steps prove it with every rounding enclosed, else None.
+def tree_holds(certificate: Certificate) -> bool:
+    """Whether the tree of a certificate over boxes leaves none with every rounding enclosed.
 
     Raises
     ------
@@ -49,27 +50,28 @@ def prove_power(certificate: PowerCertificate) -> Fraction | None:
     --------
     >>> from optlaws import Problem, synthesize
     >>> solution = synthesize(Problem(B=1.641, order=4, minimise="D"), bound="tight")
-    >>> float(prove_power(solution.power_certificate)) == solution.lower_bound
+    >>> tree_holds(solution.power_certificate)
     True
     """
     for constant in sorted(certificate.problem.constants, key=repr):
         known(constant)
     kind = _kind(certificate.problem)
-    if kind is None:
-        return None
+    # of a sum the nodes count on constants of at least 0
+    alone = len(list(leaves(certificate.problem.objective))) == 1
+    if kind is None or not (alone or never_negative(certificate.problem)):
+        return False
     with ctx.workprec(_BITS):
         try:
-            proven = kind(certificate).holds()
+            return kind(certificate).holds()
         except ZeroDivisionError:
             # the points do not determine the law
-            proven = False
-    return Fraction(certificate.claim) if proven else None
+            return False
 
 
 def _kind(problem: Problem) -> type[BoxSteps] | None:
     if applies(problem):
         return _PowerProof
-    return _FormulaProof if beneath_formulas.applies(problem) else None
+    return _FormulaProof if formula_underestimators.applies(problem) else None
 
 
 class _PowerProof(BoxSteps):
@@ -110,13 +112,13 @@ class _PowerProof(BoxSteps):
         assert high is not None  # noqa: S101
         return (low.max(arb(0)) if self.problem.monotone else low), high.min(self.B)
 
-    def curved(self, contact: Contact, box: Box) -> Vector | None:
-        """The power's rows."""
+    def curved(self, contact: Contact, box: BallBox) -> Vector | None:
+        """The row of the power at a contact, zeros where it says nothing."""
         if contact.constraint not in POWER_ROWS:
             return None
         return self.power(contact, box) or [arb(0)] * (len(box.low) + 1)
 
-    def power(self, contact: Contact, box: Box) -> Vector | None:
+    def power(self, contact: Contact, box: BallBox) -> Vector | None:
         """S c <= D / |b| by the chord of 1 / |b|; None where the box does not keep b from zero."""
         k = Fraction(contact.k)
         velocity = self.derivative(1, k)
@@ -166,7 +168,7 @@ class _FormulaProof(BoxSteps):
                 low, high = low.max(velocity - reach), high.min(velocity + reach)
         return low, high
 
-    def curved(self, contact: Contact, box: Box) -> Vector | None:
+    def curved(self, contact: Contact, box: BallBox) -> Vector | None:
         """A plane that the formula is nowhere below."""
         branch_there = self._branches.get((contact.constraint, contact.sign))
         if branch_there is None:
@@ -204,7 +206,7 @@ class _FormulaProof(BoxSteps):
                     branches[names.plane(i, branch.name), branch.sign] = (branch, way, slack, high)
         return branches
 
-    def _range(self, name: str, row: Vector, box: Box, k: Fraction) -> tuple[arb, arb]:
+    def _range(self, name: str, row: Vector, box: BallBox, k: Fraction) -> tuple[arb, arb]:
         low, high = box.least(row), -box.least([-x for x in row])
         bound = self.outer(k) if name == "b" else None
         if bound is None and (most := self.greatest.get(PEAKS.get(name, ""))) is not None:

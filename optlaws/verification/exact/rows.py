@@ -29,12 +29,13 @@ from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.problem.ranges import Range
 from optlaws.synthesis.problem.windows import Window
 from optlaws.synthesis.program.writer import relaxed_power
-from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate, Contact
+from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, Certificate
+from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.of_basis import space_of
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
-from optlaws.verification.enclosing.row import Maker, Names, Row
+from optlaws.verification.enclosing.row import BallRow, Maker, Names, UpperLimit
 from optlaws.verification.exact.formula_rows import (
     formula_columns,
     norm_columns,
@@ -45,10 +46,10 @@ from optlaws.verification.exact.formula_rows import (
 from optlaws.verification.exact.known_constants import OfFormula, OfMachine, known
 from optlaws.verification.exact.law import ExactLaw
 from optlaws.verification.exact.of_basis import exact_space
-from optlaws.verification.exact.residuals import ExactResidual, ResidualConstant
 from optlaws.verification.machines.certificate_rows import Corner, cone, mean, mode_edges, peak
 from optlaws.verification.machines.mode_residuals import ModeConstant
-from optlaws.verification.machines.outputs import OutputConstant, OutputRms, OutputRows
+from optlaws.verification.machines.outputs import KnownOutput, KnownOutputRms, OutputRows
+from optlaws.verification.machines.residuals import ExactResidual, ResidualConstant
 
 _NEAR = Fraction(1, 10**9)
 
@@ -56,7 +57,7 @@ Place = Callable[[Fraction], list[arb]]
 
 
 @dataclass(frozen=True, eq=False)
-class Part:
+class WindowPart:
     """A window on k <= 1/2 (or anywhere for unsymmetric laws) in exact numbers."""
 
     order: int
@@ -83,7 +84,7 @@ class ExactRows:
     def __init__(self, certificate: Certificate) -> None:
         self.problem = problem = certificate.problem
         self.space = exact_space(problem)
-        self.tangent = ball(certificate.tangent)
+        self.tangent = ball(certificate.tangent or 0.0)
         self.relaxed = certificate.program == RELAXED
         #: the one power whose root is a variable
         self.power = relaxed_power(problem) if self.relaxed else None
@@ -98,7 +99,7 @@ class ExactRows:
         self.names: list[str] = []
         self.cost: dict[str, float] = {}
         self._makers: dict[tuple[str, float], list[Maker]] = {}
-        self.equations: list[Row] = []
+        self.equations: list[BallRow] = []
         #: of what size each equation is, and each variable
         self.equation_scales: list[float] = []
         self.scales: dict[str, float] = {}
@@ -116,7 +117,7 @@ class ExactRows:
         """The laws in the coordinates in which they were sought, where a certificate's units come from."""
         return space_of(self.problem.basis, self.problem.conditions, symmetric=self.problem.symmetric)
 
-    def row(self, contact: Contact, k: Fraction | None = None) -> Row | None:
+    def row(self, contact: Contact, k: Fraction | None = None) -> BallRow | None:
         """The row of a contact, or of one like it at another k; None if the problem asks for nothing of the kind."""
         place = Fraction(contact.k) if k is None else k
         for make in self._makers.get((contact.constraint, contact.sign), ()):
@@ -128,7 +129,7 @@ class ExactRows:
         for sign in signs:
             self._makers.setdefault((name, sign), []).append(maker)
 
-    def _equal(self, row: Row, scale: float = 1.0) -> None:
+    def _equal(self, row: BallRow, scale: float = 1.0) -> None:
         self.equations.append(row)
         self.equation_scales.append(scale)
 
@@ -141,119 +142,110 @@ class ExactRows:
         for leaf in constants:
             if not isinstance(leaf, Functional) or [repr(other) for other in constants].count(repr(leaf)) > 1:
                 raise InputError(f"there are no exact rows for {leaf!r}: it is no constant, or shares its name")
-            self._bounded(leaf, {leaf.name: -1.0}, 0.0)
+            self._bounded(leaf, UpperLimit({leaf.name: -1.0}))
         for term in maxima:
             for i, part in enumerate(term.parts, 1):
                 self._single(names.maximum_part(i, repr(term)), {**part.weights(), repr(term): -1.0}, 0.0)
 
-    def _bounded(self, leaf: Functional, slack: Names, high: float) -> None:
-        """Rows of `leaf <= -slack + high`."""
+    def _bounded(self, leaf: Functional, limit: UpperLimit) -> None:
+        """Rows of `leaf <= limit`."""
         constant = known(leaf)
         if isinstance(constant, Combined):
             constant.check(self._solved)
         if isinstance(constant, CombinedPeak):
             for name, weights, sides in constant.sides(symmetric=self.problem.symmetric):
-                self._everywhere(name, partial(self.space.combination, constant.nu, weights), sides, slack, high)
+                self._everywhere(name, partial(self.space.combination, constant.nu, weights), sides, limit)
         elif isinstance(constant, OfMachine):
-            self._of_machine(constant, slack, high)
+            self._of_machine(constant, limit)
         elif isinstance(constant, OfFormula):
-            self._of_formula(constant, slack, high)
+            self._of_formula(constant, limit)
         elif isinstance(constant, RootMeanSquare):
-            self._add(constant.name, lambda contact, _: self._norm(constant.nu, contact, slack, high))
+            self._add(constant.name, lambda contact, _: self._norm(constant.nu, contact, limit))
         elif isinstance(constant, Peak):
             # one sign of a derivative that is odd about 1/2 is, over the whole interval, both signs over the half
             signs = (1.0, -1.0) if self.problem.symmetric and constant.nu % 2 == 0 else constant.signs
-            self._everywhere(constant.name, partial(self.space.values, constant.nu), signs, slack, high)
+            self._everywhere(constant.name, partial(self.space.values, constant.nu), signs, limit)
         elif constant == self.power:
-            self._power(constant, slack, high)
-        elif self.relaxed and slack:
-            self._single(names.at_least(constant.name), slack, 0.0)
+            self._power(constant, limit)
+        elif self.relaxed and limit.constants:
+            self._single(names.at_least(constant.name), limit.constants, 0.0)
 
-    def _everywhere(self, name: str, values: Place, signs: tuple[float, ...], slack: Names, high: float = 0.0) -> None:
-        def make(contact: Contact, k: Fraction) -> Row:
-            return Row([value * contact.sign for value in values(k)], slack, -ball(high))
+    def _everywhere(self, name: str, values: Place, signs: tuple[float, ...], limit: UpperLimit) -> None:
+        self._add(name, lambda contact, k: limit.row(value * contact.sign for value in values(k)), signs)
 
-        self._add(name, make, signs)
-
-    def _of_formula(self, constant: OfFormula, slack: Names, high: float) -> None:
+    def _of_formula(self, constant: OfFormula, limit: UpperLimit) -> None:
         symmetric = self.problem.symmetric
         if not constant.convex:
-            self._beneath(constant, slack, high)
+            self._beneath(constant, limit)
         elif isinstance(constant, FormulaRms | FormulaIntegral):
-            self._integral(constant, slack, high)
+            self._integral(constant, limit)
         elif isinstance(constant, FormulaPeak) and constant.affine:
             for side in formula_sides(constant.motion, constant.name, constant.signs, symmetric=symmetric):
-                self._part(side.name, side.motion, side.signs, slack, high)
+                self._part(side.name, side.motion, side.signs, limit)
         else:
             for branch in constant.branches(symmetric=symmetric):
-                self._branch(branch, slack, high)
+                self._branch(branch, limit)
 
-    def _beneath(self, constant: OfFormula, slack: Names, high: float) -> None:
+    def _beneath(self, constant: OfFormula, limit: UpperLimit) -> None:
         """Of what is not convex: convex rows beneath, and what it is at least."""
         if isinstance(constant, FormulaPeak):
             for branch in constant.beneath(boxes_of(self.problem), symmetric=self.problem.symmetric):
-                self._branch(branch, slack, high)
+                self._branch(branch, limit)
         floor = constant.floor(self.problem.conditions)
-        if isfinite(floor) and slack:
-            self._single(names.at_least(constant.name), slack, -ball(floor))
+        if isfinite(floor) and limit.constants:
+            self._single(names.at_least(constant.name), limit.constants, -ball(floor))
 
-    def _branch(self, branch: Branch, slack: Names, high: float) -> None:
+    def _branch(self, branch: Branch, limit: UpperLimit) -> None:
         """Rows of an affine formula, or the tangents of a convex one."""
         motion = branch.motion
         if motion.affine is not None:
-            self._part(branch.name, motion, (branch.sign,), slack, high)
+            self._part(branch.name, motion, (branch.sign,), limit)
             return
         start, stop = Fraction(motion.start), Fraction(motion.stop)
 
-        def make(contact: Contact, k: Fraction) -> Row:
-            if start < stop and not start - _NEAR <= k <= stop + _NEAR:
-                raise LookupError
-            columns = tangent_columns(self.space, branch, contact.direction, min(max(k, start), stop))
-            return Row(columns, slack, -ball(high))
+        def make(contact: Contact, k: Fraction) -> BallRow:
+            return limit.row(tangent_columns(self.space, branch, contact.direction, _clamped(k, start, stop)))
 
         self.tangents.add(branch.name)
         self._add(branch.name, make, (branch.sign,))
 
-    def _integral(self, constant: FormulaRms | FormulaIntegral, slack: Names, high: float) -> None:
+    def _integral(self, constant: FormulaRms | FormulaIntegral, limit: UpperLimit) -> None:
         motion, name = constant.motion, constant.name
         if isinstance(constant, FormulaRms) and constant.affine:
-            self._add(name, lambda contact, _: self._norm_of(constant, contact, slack, high))
+            self._add(name, lambda contact, _: self._norm_of(constant, contact, limit))
             return
         root = isinstance(constant, FormulaRms)
         unit = ball(constant.length).sqrt() if isinstance(constant, FormulaRms) else arb(1)
 
-        def make(contact: Contact, _: Fraction) -> Row:
-            squares = squared(motion) if root else motion
+        def make(contact: Contact, _: Fraction) -> BallRow:
             if not root and switches(motion.formula, ORDERS):
-                return Row(straight_integral(self.space, motion, contact.direction), slack, -ball(high))
+                return limit.row(straight_integral(self.space, motion, contact.direction))
+            squares = squared(motion) if root else motion
             columns = tangent_integral(self.space, squares, contact.direction, root=root)
-            return Row([value / unit for value in columns], slack, -ball(high))
+            return limit.row(value / unit for value in columns)
 
         self._add(name, make)
 
-    def _part(self, name: str, motion: Motion, signs: tuple[float, ...], slack: Names, high: float) -> None:
+    def _part(self, name: str, motion: Motion, signs: tuple[float, ...], limit: UpperLimit) -> None:
         """Rows of an affine formula on its part of the interval."""
         start, stop = Fraction(motion.start), Fraction(motion.stop)
 
-        def make(contact: Contact, k: Fraction) -> Row:
-            if start < stop and not start - _NEAR <= k <= stop + _NEAR:
-                raise LookupError
-            columns = formula_columns(self.space, motion, min(max(k, start), stop))
-            return Row([entry * contact.sign for entry in columns], slack, -ball(high))
+        def values(k: Fraction) -> list[arb]:
+            return formula_columns(self.space, motion, _clamped(k, start, stop))
 
-        self._add(name, make, signs)
+        self._everywhere(name, values, signs, limit)
 
-    def _norm_of(self, constant: FormulaRms, contact: Contact, slack: Names, high: float) -> Row:
+    def _norm_of(self, constant: FormulaRms, contact: Contact, limit: UpperLimit) -> BallRow:
         """As `_norm`, with the values of a formula."""
         whole = ball(Fraction(constant.motion.stop) - Fraction(constant.motion.start))
         columns = norm_columns(self.space, constant.parts(symmetric=self.problem.symmetric), contact.direction)
-        return Row([value / whole.sqrt() for value in columns], slack, -ball(high))
+        return limit.row(value / whole.sqrt() for value in columns)
 
     def _single(self, name: str, constants: Names, high: float | arb) -> None:
-        nothing = [arb(0)] * (self.space.terms + 1)
-        self._add(name, lambda _, __: Row(nothing, constants, -arb(high)))
+        row = UpperLimit(constants, high).row([arb(0)] * (self.space.terms + 1))
+        self._add(name, lambda _, __: row)
 
-    def _power(self, power: Power, slack: Names, high: float) -> None:
+    def _power(self, power: Power, limit: UpperLimit) -> None:
         """b² <= 2 D k wherever b(0) = 0, b² <= 2 D (1-k) wherever b(1) = 0; 2 t r - t² <= D for r the root of D.
 
         For the power of a combination b is the combination; where it is not symmetric though the law is, the rows of
@@ -267,54 +259,53 @@ class ExactRows:
             self._from_rest(RowName.FROM_END, mirrored, lambda k: k)
         elif start is not None and change is not None and start + change == 0:
             self._from_rest(RowName.FROM_END, weights, lambda k: 1 - k)
-        self._single(
-            RowName.TANGENT, {VariableName.POWER_ROOT: 2 * self.tangent, **slack}, ball(high) + self.tangent**2
-        )
+        constants = {VariableName.POWER_ROOT: 2 * self.tangent, **limit.constants}
+        self._single(RowName.TANGENT, constants, arb(limit.high) + self.tangent**2)
 
     def _from_rest(self, name: str, weights: tuple[Fraction, ...], way: Callable[[Fraction], Fraction]) -> None:
-        def make(contact: Contact, k: Fraction) -> Row:
+        def make(contact: Contact, k: Fraction) -> BallRow:
             velocities = self.space.combination(1, weights, k)
             left = ball(2 * way(k)).sqrt()
             row = [velocity * contact.sign / left if way(k) else arb(0) for velocity in velocities]
-            return Row(row, {VariableName.POWER_ROOT: -1.0})
+            return BallRow(row, {VariableName.POWER_ROOT: -1.0})
 
         self._add(name, make, (1.0, -1.0))
 
-    def _norm(self, nu: int, contact: Contact, slack: Names, high: float) -> Row:
+    def _norm(self, nu: int, contact: Contact, limit: UpperLimit) -> BallRow:
         """A direction times the values at Gauss points, each by the root of its weight: at most the norm (Cauchy)."""
         direction = [ball(value) for value in contact.direction]
         rule = self.space.gauss(nu, len(direction))
         length = sum((component * component for component in direction), arb(0)).sqrt()
         weights = [component * weight.sqrt() / length for component, (_, weight) in zip(direction, rule, strict=True)]
         columns = zip(*(column for column, _ in rule), strict=True)
-        return Row([sum(map(mul, weights, column), arb(0)) for column in columns], slack, -ball(high))
+        return limit.row(sum(map(mul, weights, column), arb(0)) for column in columns)
 
-    def _of_machine(self, constant: OfMachine, slack: Names, high: float) -> None:
+    def _of_machine(self, constant: OfMachine, limit: UpperLimit) -> None:
         if isinstance(constant, ResidualConstant):
-            self._residual(constant, slack, high)
+            self._residual(constant, limit)
         elif isinstance(constant, ModeConstant):
-            self._mode(constant, slack, high)
+            self._mode(constant, limit)
         else:
-            self._output(constant, slack, high)
+            self._output(constant, limit)
 
-    def _residual(self, constant: ResidualConstant, slack: Names, high: float) -> None:
-        """In units of the bound."""
+    def _residual(self, constant: ResidualConstant, limit: UpperLimit) -> None:
+        """Rows of a residual at each frequency, in units of the bound."""
         amplitudes = partial(ExactResidual(constant).rows, self.space)
         self.cones.add(constant.name)
-        self._add(constant.name, cone(amplitudes, slack, high, ball(high or 1.0)))
+        self._add(constant.name, cone(amplitudes, limit, arb(limit.high or 1.0)))
 
-    def _mode(self, constant: ModeConstant, slack: Names, high: float) -> None:
-        edges = mode_edges(constant, self.space, self._solved, slack, high)
+    def _mode(self, constant: ModeConstant, limit: UpperLimit) -> None:
+        edges = mode_edges(constant, self.space, self._solved, limit)
         self.corners.update(edges.corners)
         for name, maker in edges.makers.items():
             self.cones.add(name)
             self._add(name, maker)
 
-    def _output(self, constant: OutputConstant, slack: Names, high: float) -> None:
+    def _output(self, constant: KnownOutput, limit: UpperLimit) -> None:
         output = self.outputs[constant.name] = OutputRows(constant, self.space)
         unit = ball(constant.unit(self._solved))
-        if not isinstance(constant, OutputRms):
-            self._add(constant.name, peak(output, unit, slack, high), (1.0, -1.0))
+        if not isinstance(constant, KnownOutputRms):
+            self._add(constant.name, peak(output, unit, limit), (1.0, -1.0))
             return
 
         def law_along(direction: Sequence[float]) -> Sequence[PolynomialPiece]:
@@ -323,20 +314,20 @@ class ExactRows:
                 raise LookupError
             return ExactLaw(law).polynomials
 
-        self._add(constant.name, mean(output, law_along, unit, slack, high))
+        self._add(constant.name, mean(output, law_along, unit, limit))
 
     def _constraints(self) -> None:
         problem = self.problem
         self._peak()
         self._velocity()
         if problem.monotone:
-            self._everywhere(RowName.FORWARD, partial(self.space.values, 1), (-1.0,), {})
+            self._everywhere(RowName.FORWARD, partial(self.space.values, 1), (-1.0,), UpperLimit())
             if self.space.divided:
-                self._everywhere(RowName.RATIO, self.space.ratio, (1.0,), {})
+                self._everywhere(RowName.RATIO, self.space.ratio, (1.0,), UpperLimit())
         for constant, wanted in problem.bounded:
             self._range(constant, wanted)
         for asked in self.space.conditions:
-            self._equal(Row(self.space.condition(asked), {}, -ball(asked.value)))
+            self._equal(BallRow(self.space.condition(asked), {}, -ball(asked.value)))
         for i, window in enumerate(problem.windows, 1):
             halves = (names.window(i), names.mirrored(names.window(i)))
             if window.motion is not None:
@@ -348,30 +339,30 @@ class ExactRows:
     def _range(self, constant: Functional, wanted: Range) -> None:
         name = constant.name
         if name in self.names and wanted.low > 0.0:
-            self._single(names.at_least(name), {name: -1.0}, -ball(wanted.low))
+            self._single(names.at_least(name), {name: -1.0}, -wanted.low)
         if not isfinite(wanted.high):
             return
         if name in self.names:
-            self._single(names.at_most(name), {name: 1.0}, ball(wanted.high))
+            self._single(names.at_most(name), {name: 1.0}, wanted.high)
         else:
-            self._bounded(constant, {}, wanted.high)
+            self._bounded(constant, UpperLimit(high=wanted.high))
 
     def _peak(self) -> None:
         """What makes b greatest at one k, and B its value there."""
         problem, space, wanted = self.problem, self.space, self.problem.range("B")
         fixed = wanted.high if wanted is not None and wanted.fixed else None
         if fixed is not None and not problem.symmetric:
-            self._equal(Row([arb(0)] * (space.terms + 1), {"B": 1.0}, -ball(fixed)))
+            self._equal(BallRow([arb(0)] * (space.terms + 1), {"B": 1.0}, -ball(fixed)))
         if problem.peak_at is None:
             return
         peak = Fraction(problem.peak_at)
-        self._everywhere(RowName.BELOW_PEAK, partial(space.chord, peak), (1.0,), {})
+        self._everywhere(RowName.BELOW_PEAK, partial(space.chord, peak), (1.0,), UpperLimit())
         if fixed is not None and problem.symmetric:
-            self._equal(Row(space.values(1, peak), {}, -ball(fixed)))
+            self._equal(BallRow(space.values(1, peak), {}, -ball(fixed)))
         elif problem.peak_is_variable:
-            self._equal(Row(space.values(1, peak), {"B": -1.0}))
+            self._equal(BallRow(space.values(1, peak), {"B": -1.0}))
         if not problem.symmetric:
-            self._equal(Row(space.values(2, peak)))
+            self._equal(BallRow(space.values(2, peak)))
 
     def _velocity(self) -> None:
         """Rows |b| <= B and the bounds of B."""
@@ -379,7 +370,7 @@ class ExactRows:
         if wanted is None:
             return
         if problem.peak_is_variable:
-            self._everywhere(RowName.VELOCITY, partial(self.space.values, 1), (1.0, -1.0), {"B": -1.0})
+            self._everywhere(RowName.VELOCITY, partial(self.space.values, 1), (1.0, -1.0), UpperLimit({"B": -1.0}))
         elif wanted.fixed:
             self._add(RowName.VELOCITY, self._below_middle, (1.0, -1.0))
         else:
@@ -387,57 +378,57 @@ class ExactRows:
             return
         if not wanted.fixed:
             if isfinite(wanted.high):
-                self._single(names.at_most("B"), {"B": 1.0}, ball(wanted.high))
-            self._single(names.at_least("B"), {"B": -1.0}, -ball(wanted.low))
+                self._single(names.at_most("B"), {"B": 1.0}, wanted.high)
+            self._single(names.at_least("B"), {"B": -1.0}, -wanted.low)
 
-    def _below_middle(self, contact: Contact, k: Fraction) -> Row:
+    def _below_middle(self, contact: Contact, k: Fraction) -> BallRow:
         pairs = zip(self.space.values(1, k), self.space.values(1, Fraction(1, 2)), strict=True)
-        return Row([velocity * contact.sign - middle for velocity, middle in pairs])
+        return BallRow([velocity * contact.sign - middle for velocity, middle in pairs])
 
     def _formula_window(self, window: Window, motion: Motion, halves: tuple[str, str]) -> None:
         separate = motion.halves() if self.problem.symmetric else (motion,)
         for part, name in zip(separate, halves, strict=False):
             if window.value:
                 columns = formula_columns(self.space, part, Fraction(part.start))
-                self._equal(Row(columns, {}, -ball(window.high)), window.scale)
+                self._equal(BallRow(columns, {}, -ball(window.high)), window.scale)
                 continue
             for sign, bound in ((1.0, window.high), (-1.0, -window.low)):
                 branches = split(part, sign, names.window_side(name, sign)) if isfinite(bound) else None
                 for branch in branches or []:
                     if branch.convex:
-                        self._branch(branch, {}, bound)
+                        self._branch(branch, UpperLimit(high=bound))
 
-    def _window(self, name: str, window: Window, part: Part) -> None:
+    def _window(self, name: str, window: Window, part: WindowPart) -> None:
         if window.value:
             values = self.space.values(part.order, part.start)
-            self._equal(Row(values, {}, -ball(part.high or Fraction(0))))
+            self._equal(BallRow(values, {}, -ball(part.high or Fraction(0))))
             return
 
-        def make(contact: Contact, k: Fraction) -> Row:
+        def make(contact: Contact, k: Fraction) -> BallRow:
             bound = part.high if contact.sign > 0.0 else part.low
             if bound is None or not part.start - _NEAR <= k <= part.stop + _NEAR:
                 raise LookupError
             values = self.space.values(part.order, min(max(k, part.start), part.stop))
-            return Row([value * contact.sign for value in values], {}, -contact.sign * ball(bound))
+            return BallRow([value * contact.sign for value in values], {}, -contact.sign * ball(bound))
 
         for sign in (1.0, -1.0):
             self._add(names.window_side(name, sign), make, (sign,))
 
 
-def parts(window: Window, *, symmetric: bool) -> Iterator[Part]:
+def parts(window: Window, *, symmetric: bool) -> Iterator[WindowPart]:
     """What a window asks; of symmetric laws, for which a(k) + a(1-k) = 1, on the first half only."""
     low, high = (Fraction(bound) if isfinite(bound) else None for bound in (window.low, window.high))
     start, stop = Fraction(window.start), Fraction(window.stop)
     half = Fraction(1, 2)
     if not symmetric or stop <= half:
-        yield Part(window.order, low, high, start, stop)
+        yield WindowPart(window.order, low, high, start, stop)
         return
     if start < half:
-        yield Part(window.order, low, high, start, half)
+        yield WindowPart(window.order, low, high, start, half)
     if window.order % 2 == 0:
         whole = 1 - window.order // 2
         low, high = (None if bound is None else whole - bound for bound in (high, low))
-    yield Part(window.order, low, high, 1 - stop, 1 - max(start, half))
+    yield WindowPart(window.order, low, high, 1 - stop, 1 - max(start, half))
 
 
 def _is_bounded(power: Power, problem: Problem) -> bool:
@@ -452,3 +443,10 @@ def _maxima(expression: Expression) -> Iterator[Maximum]:
             yield term
             for part in term.parts:
                 yield from _maxima(part)
+
+
+def _clamped(k: Fraction, start: Fraction, stop: Fraction) -> Fraction:
+    """A place on a part of the interval; LookupError where it is beyond the ends by more than rounding."""
+    if start < stop and not start - _NEAR <= k <= stop + _NEAR:
+        raise LookupError
+    return min(max(k, start), stop)

@@ -16,7 +16,7 @@ from optlaws.verification.enclosing.balls import at, ball, rational
 Functions = list[fmpq_poly]
 
 
-class Bounds(NamedTuple):
+class EndValues(NamedTuple):
     """What the end conditions alone say of every law: b(0), b(1) - b(0) (None where they are free) and the stroke."""
 
     start_velocity: fmpq | None
@@ -166,13 +166,13 @@ class ExactSpace:
         return [[divmod(velocity, weight)[0] / -middle for velocity in part] for part in b]
 
     @kept_property
-    def bounds(self) -> Bounds:
+    def bounds(self) -> EndValues:
         """What the end conditions say."""
         start, end = ([rational(Fraction(v)) for v in part] for part in _ends(self.problem))
         stroke = end[0] - start[0]
         if len(start) == 1:
-            return Bounds(None, None, stroke)
-        return Bounds(start[1], end[1] - start[1], stroke)
+            return EndValues(None, None, stroke)
+        return EndValues(start[1], end[1] - start[1], stroke)
 
     def moments(self, nu: int) -> list[list[fmpq]]:
         """Integrals over k of the derivatives of order nu times functions that are at most 1 in magnitude.
@@ -218,7 +218,7 @@ def values(polynomials: Functions, x: arb) -> list[arb]:
 
 
 def x_of(k: Fraction) -> arb:
-    """2k - 1."""
+    """The place x = 2k - 1 of a k."""
     return ball(2 * k - 1)
 
 

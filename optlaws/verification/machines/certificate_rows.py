@@ -10,11 +10,11 @@ from math import hypot
 
 from flint import acb, arb
 
-from optlaws.synthesis.proof.certificate import Contact
+from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
-from optlaws.verification.enclosing.row import Maker, Names, Row
+from optlaws.verification.enclosing.row import BallRow, Maker, UpperLimit
 from optlaws.verification.machines.driving import Space
 from optlaws.verification.machines.mode_residuals import ExactModeResidual, ModeConstant
 from optlaws.verification.machines.outputs import OutputRows
@@ -43,32 +43,30 @@ class ModeEdges:
     corners: Mapping[Corner, tuple[Corner, float]]
 
 
-def cone(amplitudes: Callable[[Fraction], list[acb]], slack: Names, high: float, unit: arb) -> Maker:
+def cone(amplitudes: Callable[[Fraction], list[acb]], limit: UpperLimit, unit: arb) -> Maker:
     """A direction times a complex amplitude is at most its magnitude."""
     kept: dict[Fraction, list[acb]] = {}
-    inside = _divided(slack, unit)
 
-    def make(contact: Contact, k: Fraction) -> Row:
+    def make(contact: Contact, k: Fraction) -> BallRow:
         if len(contact.direction) != 2:
             raise LookupError
         if k not in kept:
             kept[k] = amplitudes(k)
         real, imaginary = (ball(value) for value in contact.direction)
-        length = (real**2 + imaginary**2).sqrt().max(arb(1)) * unit
-        row = [(amplitude.real * real + amplitude.imag * imaginary) / length for amplitude in kept[k]]
-        return Row(row, inside, -ball(high) / unit)
+        length = (real**2 + imaginary**2).sqrt().max(arb(1))
+        return limit.row(((value.real * real + value.imag * imaginary) / length for value in kept[k]), unit)
 
     return make
 
 
-def mode_edges(constant: ModeConstant, space: Space, solved: LawSpace, slack: Names, high: float) -> ModeEdges:
+def mode_edges(constant: ModeConstant, space: Space, solved: LawSpace, limit: UpperLimit) -> ModeEdges:
     """A cone for each edge of the box, in the units of the certificate."""
     exact = ExactModeResidual(constant)
-    count = len(exact.edges)
-    units = [constant.unit(solved, i, high, sought=bool(slack)) for i in range(count)]
+    count, sought = len(exact.edges), bool(limit.constants)
+    units = [constant.unit(solved, i, float(limit.high), sought=sought) for i in range(count)]
     named = [f"{constant.name}, edge {i + 1}" if i else constant.name for i in range(count)]
     makers = {
-        name: cone(partial(exact.rows, space, i), slack, high, ball(unit))
+        name: cone(partial(exact.rows, space, i), limit, ball(unit))
         for i, (name, unit) in enumerate(zip(named, units, strict=True))
     }
     corners = {
@@ -79,29 +77,14 @@ def mode_edges(constant: ModeConstant, space: Space, solved: LawSpace, slack: Na
     return ModeEdges(makers, corners)
 
 
-def peak(output: OutputRows, unit: arb, slack: Names, high: float) -> Maker:
+def peak(output: OutputRows, unit: arb, limit: UpperLimit) -> Maker:
     """An output at a time."""
-    inside = _divided(slack, unit)
-
-    def make(contact: Contact, k: Fraction) -> Row:
-        return Row([contact.sign * value / unit for value in output.at(k)], inside, -ball(high) / unit)
-
-    return make
+    return lambda contact, k: limit.row((contact.sign * value for value in output.at(k)), unit)
 
 
-def mean(output: OutputRows, law_along: LawAlong, unit: arb, slack: Names, high: float) -> Maker:
+def mean(output: OutputRows, law_along: LawAlong, unit: arb, limit: UpperLimit) -> Maker:
     """An output times that of another law, which a direction says."""
-    inside = _divided(slack, unit)
-
-    def make(contact: Contact, _: Fraction) -> Row:
-        law = law_along(contact.direction)
-        return Row([value / unit for value in output.beside(law)], inside, -ball(high) / unit)
-
-    return make
-
-
-def _divided(slack: Names, unit: arb) -> Names:
-    return {name: ball(value) / unit if isinstance(value, float) else value / unit for name, value in slack.items()}
+    return lambda contact, _: limit.row(output.beside(law_along(contact.direction)), unit)
 
 
 def together(contacts: Iterable[Contact], corners: Mapping[Corner, tuple[Corner, float]]) -> list[Contact]:

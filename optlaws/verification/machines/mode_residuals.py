@@ -16,8 +16,8 @@ from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.machines.driving import Space
-from optlaws.verification.machines.transfer import Rational, StateSpace, roots, transforms
-from optlaws.verification.machines.velocity_transforms import ends_of, ends_of_piece, greatest_modulus
+from optlaws.verification.machines.transfer import MachineConstant, Rational, roots, transforms
+from optlaws.verification.machines.velocity_transforms import ends_of, ends_of_law, greatest_modulus
 from optlaws.verification.machines.velocity_transforms import transforms as velocity_transforms
 
 Number = TypeVar("Number", acb, acb_series)
@@ -29,20 +29,8 @@ _VIBRATING, _SAME, _APART = 1e-6, 1e-6, 1e-9
 
 
 @runtime_checkable
-class ModeConstant(Protocol):
+class ModeConstant(MachineConstant, Protocol):
     """What the residual of a mode is made of (optlaws.mechanisms defines it)."""
-
-    @property
-    def name(self) -> str:
-        """Its name."""
-
-    @property
-    def machine(self) -> StateSpace:
-        """The machine whose residual it is."""
-
-    @property
-    def output(self) -> str:
-        """In which output."""
 
     @property
     def mode(self) -> int:
@@ -61,7 +49,7 @@ class ModeConstant(Protocol):
 
 
 @dataclass(frozen=True)
-class Edge:
+class ExactEdge:
     """Roots i nu exp(i angle) between two corners (nu, angle), sin(angle) being the damping ratio."""
 
     first: Corner
@@ -103,7 +91,7 @@ class ExactModeResidual:
 
     @kept_property
     def root(self) -> acb:
-        """The mean of these."""
+        """The mean of the roots that are the mode."""
         whole = sum(count for _, count in self.mode)
         return sum((root * count for root, count in self.mode), acb(0)) / whole
 
@@ -128,18 +116,18 @@ class ExactModeResidual:
         return abs(2 * total)
 
     @kept_property
-    def edges(self) -> list[Edge]:
+    def edges(self) -> list[ExactEdge]:
         """The edges of the box, one where it is thin, as optlaws.mechanisms numbers them."""
         own = (-self.root.real / abs(self.root)).asin()
         spread, dampings = Fraction(self.constant.spread), self.constant.dampings
         low, high = abs(self.root) * ball(1 - spread), abs(self.root) * ball(1 + spread)
         least, most = (own, own) if dampings is None else (ball(damping).asin() for damping in dampings)
         if dampings is None or dampings[0] == dampings[1]:
-            return [Edge((low, least), (high, least), single=not spread)]
+            return [ExactEdge((low, least), (high, least), single=not spread)]
         if not spread:
-            return [Edge((low, least), (low, most))]
+            return [ExactEdge((low, least), (low, most))]
         lower, upper = ((low, least), (high, least)), ((low, most), (high, most))
-        return [Edge(*lower), Edge(lower[1], upper[1]), Edge(*upper), Edge(lower[0], upper[0])]
+        return [ExactEdge(*lower), ExactEdge(lower[1], upper[1]), ExactEdge(*upper), ExactEdge(lower[0], upper[0])]
 
     def rows(self, space: Space, edge: int, place: Fraction) -> list[acb]:
         """Amplitudes of a space's free functions and of its base law, at a place of an edge from 0 to 1."""
@@ -148,16 +136,13 @@ class ExactModeResidual:
 
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that holds the greatest over the box, at the precision at work."""
-        breaks = [pieces[0].start, *(piece.stop for piece in pieces)]
-        ends = [[ends_of_piece(piece) for piece in pieces]]
+        breaks, ends = ends_of_law(pieces)
 
-        def amplitude(edge: Edge, place: Number) -> Number:
+        def amplitude(edge: ExactEdge, place: Number) -> Number:
             return velocity_transforms(edge.root(place), breaks, ends)[0]
 
-        if self.edges[0].single:
-            return self.share * abs(amplitude(self.edges[0], acb(0)))
         along = [partial(amplitude, edge) for edge in self.edges]
-        return self.share * greatest_modulus(along, Fraction(0), Fraction(1))
+        return self.share * greatest_modulus(along, Fraction(0), Fraction(0 if self.edges[0].single else 1))
 
 
 def vibrations(poles: Sequence[tuple[acb, int]]) -> list[list[tuple[acb, int]]]:

@@ -11,14 +11,14 @@ from flint import acb, acb_mat, arb, arb_mat, fmpq
 
 from optlaws.errors import InputError
 from optlaws.verification.enclosing.balls import ball, rational
-from optlaws.verification.machines.driving import Drive
+from optlaws.verification.machines.driving import DrivenStretch
 from optlaws.verification.machines.transfer import Pole, Transfer
 
 States = list[acb_mat]
 
 
 @dataclass(frozen=True, eq=False)
-class Stretch:
+class OutputStretch:
     """The output on a stretch: polynomials of the time since it began, and for each pole s^l/l! exp(root s) times rows.
 
     Attributes
@@ -38,7 +38,7 @@ class Stretch:
 
 
 @dataclass(frozen=True, eq=False)
-class Motion:
+class OutputMotion:
     """Outputs of several laws over consecutive stretches.
 
     Attributes
@@ -52,10 +52,10 @@ class Motion:
     """
 
     poles: Sequence[Pole]
-    stretches: Sequence[Stretch]
+    stretches: Sequence[OutputStretch]
     laws: int
 
-    def raised(self, by: arb, columns: Sequence[int]) -> Motion:
+    def raised(self, by: arb, columns: Sequence[int]) -> OutputMotion:
         """The motion with a number added to some of the outputs."""
         if by == 0:
             return self
@@ -80,7 +80,7 @@ class Motion:
         return total
 
 
-def response(transfer: Transfer, drives: Sequence[Drive], *, repeats: bool = False) -> Motion:
+def response(transfer: Transfer, drives: Sequence[DrivenStretch], *, repeats: bool = False) -> OutputMotion:
     """The output over consecutive drives, at the precision at work.
 
     Parameters
@@ -100,7 +100,7 @@ def response(transfer: Transfer, drives: Sequence[Drive], *, repeats: bool = Fal
     chains = _Chains(transfer, len(drives[0].columns))
     driven = [_driving(drive, transfer.order) for drive in drives]
     states = chains.returned(driven) if repeats else chains.settled(drives[0])
-    return Motion(chains.poles, list(chains.moved(driven, states)), chains.laws)
+    return OutputMotion(chains.poles, list(chains.moved(driven, states)), chains.laws)
 
 
 class _Chains:
@@ -110,7 +110,7 @@ class _Chains:
         self.transfer, self.poles, self.laws = transfer, transfer.poles(), laws
         self.last: States = []
 
-    def settled(self, first: Drive) -> States:
+    def settled(self, first: DrivenStretch) -> States:
         """The states of rest where a drive begins."""
         levels = first.first if self.transfer.order == 0 else [fmpq(0)] * self.laws
         if any(level != 0 for level in levels) and self.transfer.characteristic(fmpq(0)) == 0:
@@ -125,27 +125,27 @@ class _Chains:
             states.append(acb_mat(rows))
         return states
 
-    def moved(self, driven: Sequence[Drive], states: States) -> Iterator[Stretch]:
+    def moved(self, driven: Sequence[DrivenStretch], states: States) -> Iterator[OutputStretch]:
         """The output on each stretch, from given states on; leaves the last ones."""
         for drive in driven:
             derivatives = _derivatives(drive)
             forced = [_forced(pole, derivatives, drive) for pole in self.poles]
             away = [state - part for state, (part, _) in zip(states, forced, strict=True)]
             free = [acb_mat(_weighted(pole, rows)) for pole, rows in zip(self.poles, away, strict=True)]
-            yield Stretch(drive.start, drive.length, self._polynomials(drive), free)
+            yield OutputStretch(drive.start, drive.length, self._polynomials(drive), free)
             states = [
                 part + _propagated(pole, ball(drive.length), rows)
                 for pole, rows, (_, part) in zip(self.poles, away, forced, strict=True)
             ]
         self.last = states
 
-    def returned(self, driven: Sequence[Drive]) -> States:
+    def returned(self, driven: Sequence[DrivenStretch]) -> States:
         """The states that come back after a cycle."""
         list(self.moved(driven, [acb_mat(len(pole.shares), self.laws) for pole in self.poles]))
         period = ball(driven[-1].stop - driven[0].start)
         return [_returned(pole, period, rows) for pole, rows in zip(self.poles, self.last, strict=True)]
 
-    def _polynomials(self, drive: Drive) -> arb_mat:
+    def _polynomials(self, drive: DrivenStretch) -> arb_mat:
         """What the output is apart from free motion: the transfer function's series at 0, applied to the law."""
         powers = _coefficients(drive)
         count, zeros = len(powers), self.transfer.zeros
@@ -158,18 +158,20 @@ class _Chains:
         return arb_mat(turn) * arb_mat(powers)
 
 
-def _driving(drive: Drive, order: int) -> Drive:
+def _driving(drive: DrivenStretch, order: int) -> DrivenStretch:
     """The derivative that drives the machine."""
-    return Drive(drive.start, drive.length, [column.derivative() for column in drive.columns]) if order else drive
+    return (
+        DrivenStretch(drive.start, drive.length, [column.derivative() for column in drive.columns]) if order else drive
+    )
 
 
-def _coefficients(drive: Drive) -> list[list[arb]]:
+def _coefficients(drive: DrivenStretch) -> list[list[arb]]:
     """A row for each power of time, a column for each law."""
     count = max(1, *(len(column.coeffs()) for column in drive.columns))
     return [[arb(column[i]) for column in drive.columns] for i in range(count)]
 
 
-def _derivatives(drive: Drive) -> tuple[acb_mat, acb_mat]:
+def _derivatives(drive: DrivenStretch) -> tuple[acb_mat, acb_mat]:
     """All derivatives of the columns where a stretch begins and where it ends, a row for each order."""
     first: list[list[acb]] = []
     last: list[list[acb]] = []
@@ -181,7 +183,7 @@ def _derivatives(drive: Drive) -> tuple[acb_mat, acb_mat]:
     return acb_mat(first), acb_mat(last)
 
 
-def _forced(pole: Pole, derivatives: tuple[acb_mat, acb_mat], drive: Drive) -> tuple[acb_mat, acb_mat]:
+def _forced(pole: Pole, derivatives: tuple[acb_mat, acb_mat], drive: DrivenStretch) -> tuple[acb_mat, acb_mat]:
     """A motion of the chain that is a polynomial: where the stretch begins and where it ends."""
     if pole.root == 0:
         return _integrated(pole, drive)
@@ -194,7 +196,7 @@ def _forced(pole: Pole, derivatives: tuple[acb_mat, acb_mat], drive: Drive) -> t
     return turn * first, turn * last
 
 
-def _integrated(pole: Pole, drive: Drive) -> tuple[acb_mat, acb_mat]:
+def _integrated(pole: Pole, drive: DrivenStretch) -> tuple[acb_mat, acb_mat]:
     columns, rows = drive.columns, []
     for _ in pole.shares:
         columns = [column.integral() for column in columns]

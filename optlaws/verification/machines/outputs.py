@@ -14,31 +14,19 @@ from optlaws.synthesis.spaces.space import LawSpace
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.machines import driving
-from optlaws.verification.machines.driving import Drive, Space
-from optlaws.verification.machines.output_motion import Motion, response
+from optlaws.verification.machines.driving import DrivenStretch, Space
+from optlaws.verification.machines.output_motion import OutputMotion, response
 from optlaws.verification.machines.taylor_cells import greatest_value, moments, products, root
-from optlaws.verification.machines.transfer import StateSpace, Transfer
+from optlaws.verification.machines.transfer import MachineConstant, Transfer
 
 
 @runtime_checkable
-class OutputConstant(Protocol):
+class KnownOutput(MachineConstant, Protocol):
     """What a constant of a machine's output is made of (optlaws.mechanisms defines it)."""
-
-    @property
-    def name(self) -> str:
-        """Its name."""
 
     @property
     def scale(self) -> float:
         """The size of the output while a smooth law drives the machine, a power of 2."""
-
-    @property
-    def machine(self) -> StateSpace:
-        """The machine whose output it is."""
-
-    @property
-    def output(self) -> str:
-        """Which output."""
 
     @property
     def within(self) -> tuple[float, float]:
@@ -61,7 +49,7 @@ class OutputConstant(Protocol):
 
 
 @runtime_checkable
-class OutputPeak(OutputConstant, Protocol):
+class KnownOutputPeak(KnownOutput, Protocol):
     """A greatest magnitude, or one of one side."""
 
     @property
@@ -70,8 +58,8 @@ class OutputPeak(OutputConstant, Protocol):
 
 
 @runtime_checkable
-class OutputRms(OutputConstant, Protocol):
-    """A root mean square."""
+class KnownOutputRms(KnownOutput, Protocol):
+    """A root mean square of an output."""
 
     def along(self, space: LawSpace, direction: Sequence[float]) -> MotionLaw | None:
         """A law with whose output all others are multiplied: any will do, the optimal one is best."""
@@ -86,7 +74,7 @@ class ExactOutput:
         Which output, of which machine, when.
     """
 
-    def __init__(self, constant: OutputConstant) -> None:
+    def __init__(self, constant: KnownOutput) -> None:
         self.constant = constant
         self.start, self.stop = map(Fraction, constant.within)
         self.transfer = Transfer(constant.machine, constant.output)
@@ -101,16 +89,16 @@ class ExactOutput:
         """Whether the acceleration is part of the output: it has no bound where the velocity jumps."""
         return self.transfer.order + self.transfer.direct.degree() > 1
 
-    def response(self, rise: Sequence[Drive], laws: Sequence[int]) -> Motion:
+    def response(self, rise: Sequence[DrivenStretch], laws: Sequence[int]) -> OutputMotion:
         """The output at the precision at work; to columns that are laws, and no parts of one, the offset is added."""
         return self._moved(rise).raised(ball(self.constant.offset), laws)
 
     @property
     def both(self) -> bool:
         """Whether the output is small wherever the constant is, on both sides."""
-        return not isinstance(self.constant, OutputPeak) or len(self.constant.signs) == 2
+        return not isinstance(self.constant, KnownOutputPeak) or len(self.constant.signs) == 2
 
-    def _moved(self, rise: Sequence[Drive]) -> Motion:
+    def _moved(self, rise: Sequence[DrivenStretch]) -> OutputMotion:
         if self.constant.cycle is not None:
             dwell, pause = map(Fraction, self.constant.cycle)
             return response(self.transfer, driving.cycle(rise, dwell, pause), repeats=True)
@@ -120,7 +108,7 @@ class ExactOutput:
 
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that holds the greatest magnitude under a stored law, or that of one side."""
-        signs = self.constant.signs if isinstance(self.constant, OutputPeak) else (1.0, -1.0)
+        signs = self.constant.signs if isinstance(self.constant, KnownOutputPeak) else (1.0, -1.0)
         return greatest_value(self.response(driving.of_pieces(pieces), [0]), self.start, self.stop, signs)
 
     def rms(self, pieces: Sequence[PolynomialPiece]) -> arb:
@@ -140,11 +128,11 @@ class OutputRows:
         The laws.
     """
 
-    def __init__(self, constant: OutputConstant, space: Space) -> None:
+    def __init__(self, constant: KnownOutput, space: Space) -> None:
         self.exact, self.space = ExactOutput(constant), space
 
     @kept_property
-    def _response(self) -> Motion:
+    def _response(self) -> OutputMotion:
         rise = driving.of_space(self.space)
         return self.exact.response(rise, [len(rise[0].columns) - 1])
 

@@ -10,9 +10,9 @@ from math import comb, factorial
 from flint import acb, acb_mat, arb, arb_mat, arb_poly
 
 from optlaws.errors import InputError
+from optlaws.verification.enclosing.ball_extremes import greatest_magnitude
 from optlaws.verification.enclosing.balls import ball
-from optlaws.verification.machines.highest import highest
-from optlaws.verification.machines.output_motion import Motion, Stretch
+from optlaws.verification.machines.output_motion import OutputMotion, OutputStretch
 from optlaws.verification.machines.transfer import Pole
 
 #: terms of the polynomials, beside those that the law itself needs
@@ -43,15 +43,15 @@ class Cell:
 
     @property
     def half(self) -> arb:
-        """Half its length."""
+        """Half the length of the cell."""
         return ball((self.stop - self.start) / 2)
 
     def polynomial(self, law: int = 0) -> arb_poly:
-        """One law's polynomial."""
+        """The polynomial of one of the laws."""
         return arb_poly([self.series[i, law] for i in range(self.series.nrows())])
 
 
-def cells(motion: Motion, start: Fraction, stop: Fraction) -> Iterator[Cell]:
+def cells(motion: OutputMotion, start: Fraction, stop: Fraction) -> Iterator[Cell]:
     """Cells from one time to another.
 
     Raises
@@ -74,7 +74,7 @@ def cells(motion: Motion, start: Fraction, stop: Fraction) -> Iterator[Cell]:
                 raise InputError(f"the output vibrates too fast to be enclosed: more than {_MOST} pieces")
 
 
-def _cell(motion: Motion, stretch: Stretch, low: Fraction, high: Fraction) -> Cell | None:
+def _cell(motion: OutputMotion, stretch: OutputStretch, low: Fraction, high: Fraction) -> Cell | None:
     """What the output is between two times of a stretch; None where so many terms do not suffice."""
     centre, half = ball((low + high) / 2 - stretch.start), ball((high - low) / 2)
     whole = ball(low - stretch.start).union(ball(high - stretch.start))
@@ -141,13 +141,13 @@ def _shifted(polynomials: arb_mat, centre: arb, half: arb, count: int) -> arb_ma
     return arb_mat(turn) * polynomials
 
 
-def greatest_value(motion: Motion, start: Fraction, stop: Fraction, signs: Sequence[float] = (1.0, -1.0)) -> arb:
+def greatest_value(motion: OutputMotion, start: Fraction, stop: Fraction, signs: Sequence[float] = (1.0, -1.0)) -> arb:
     """A ball that holds the greatest magnitude of a single law's output between two times, or that of one side."""
     parts = [(cell.polynomial(), cell.off[0]) for cell in cells(motion, start, stop)]
-    return highest(parts, signs)
+    return greatest_magnitude(parts, signs)
 
 
-def products(motion: Motion, start: Fraction, stop: Fraction) -> list[arb]:
+def products(motion: OutputMotion, start: Fraction, stop: Fraction) -> list[arb]:
     """Balls that hold the integrals between two times of each law's output times that of the last law."""
     total = [arb(0)] * motion.laws
     for cell in cells(motion, start, stop):
@@ -168,7 +168,7 @@ def _integrals(cell: Cell) -> list[arb]:
     return places
 
 
-def moments(motion: Motion, start: Fraction, stop: Fraction, count: int) -> list[list[arb]]:
+def moments(motion: OutputMotion, start: Fraction, stop: Fraction, count: int) -> list[list[arb]]:
     """Balls that hold the means between two times of each law's output times Legendre's polynomials."""
     total = arb_mat(count, motion.laws)
     for cell in cells(motion, start, stop):

@@ -19,7 +19,7 @@ _NOTHING = fmpq_poly([0])
 _SYMBOLS = "abc"
 
 
-class StateSpace(Protocol):
+class StateSpaceMatrices(Protocol):
     """x' = A x + B w, y = C x + D w, as optlaws.mechanisms defines it."""
 
     @property
@@ -44,7 +44,23 @@ class StateSpace(Protocol):
 
     @property
     def outputs(self) -> tuple[str, ...]:
-        """Names of the outputs."""
+        """The names of the machine's outputs."""
+
+
+class MachineConstant(Protocol):
+    """What every constant of a machine is made of."""
+
+    @property
+    def name(self) -> str:
+        """The name of the constant."""
+
+    @property
+    def machine(self) -> StateSpaceMatrices:
+        """The machine whose output it speaks of."""
+
+    @property
+    def output(self) -> str:
+        """The name of the output."""
 
 
 @dataclass(frozen=True)
@@ -134,7 +150,7 @@ class Transfer(Rational):
         Which output.
     """
 
-    def __init__(self, machine: StateSpace, output: str) -> None:
+    def __init__(self, machine: StateSpaceMatrices, output: str) -> None:
         self.order = 0 if "a" in machine.inputs else 1
         self.characteristic, parts = transforms(machine, output)
         super().__init__(
@@ -143,7 +159,7 @@ class Transfer(Rational):
         )
 
 
-def transforms(machine: StateSpace, output: str) -> tuple[fmpq_poly, list[fmpq_poly]]:
+def transforms(machine: StateSpaceMatrices, output: str) -> tuple[fmpq_poly, list[fmpq_poly]]:
     """The characteristic polynomial p, and for each of a, b and c what is to be divided by p: C (s - A)^-1 B + D.
 
     Raises

@@ -6,26 +6,25 @@ On each piece the integral of exp(w (1-k)) b(k) is, by parts, a sum over b's der
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
-from contextlib import contextmanager
 from fractions import Fraction
 from functools import reduce
 from itertools import pairwise
 from typing import Any, TypeVar
 
-from flint import acb, acb_series, arb, arb_poly, ctx, fmpq
+from flint import acb, acb_series, arb, arb_poly, fmpq
 
+from optlaws.verification.enclosing.ball_extremes import Taylor, cells, greatest_magnitude
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
 from optlaws.verification.machines.driving import Space
-from optlaws.verification.machines.highest import highest
 from optlaws.verification.machines.taylor_cells import root
 
 #: b and its derivatives at the start and at the end of a piece
 Ends = tuple[list[fmpq], list[fmpq]]
 Number = TypeVar("Number", acb, acb_series)
 _HALF = Fraction(1, 2)
-#: terms of Taylor series, how little the others may add up to, of the function, and the shortest stretch
-_TERMS, _NOTHING, _SHORTEST = 24, 2.0**-80, Fraction(1, 2**20)
+#: how little what is left of Taylor polynomials may be, of the function, and the shortest stretch
+_NOTHING, _SHORTEST = 2.0**-80, Fraction(1, 2**20)
 
 
 def ends_of(space: Space) -> list[list[Ends]]:
@@ -45,10 +44,14 @@ def ends_of(space: Space) -> list[list[Ends]]:
     ]
 
 
-def ends_of_piece(piece: PolynomialPiece) -> Ends:
-    """The derivatives at the ends of a stored law's piece."""
-    orders = range(1, piece.derivative(0).degree() + 1)
-    return [piece.exact(nu, piece.start) for nu in orders], [piece.exact(nu, piece.stop) for nu in orders]
+def ends_of_law(pieces: Sequence[PolynomialPiece]) -> tuple[list[Fraction], list[list[Ends]]]:
+    """The breaks of a stored law, and the derivatives at the ends of its pieces."""
+    breaks = [pieces[0].start, *(piece.stop for piece in pieces)]
+    ends = []
+    for piece in pieces:
+        orders = range(1, piece.derivative(0).degree() + 1)
+        ends.append(([piece.exact(nu, piece.start) for nu in orders], [piece.exact(nu, piece.stop) for nu in orders]))
+    return breaks, [ends]
 
 
 def transforms(w: Number, breaks: Sequence[Fraction], columns: Sequence[Sequence[Ends]]) -> list[Number]:
@@ -79,11 +82,14 @@ def _sum(powers: Sequence[Number], values: Sequence[fmpq], nothing: Number) -> N
     return sum((power * acb(arb(value)) for power, value in zip(powers, values, strict=False) if value != 0), nothing)
 
 
-def greatest_modulus(functions: Sequence[Callable[[acb_series], acb_series]], low: Fraction, high: Fraction) -> arb:
-    """A ball that holds the greatest magnitude of complex functions of a real number, given for Taylor series."""
+def greatest_modulus(functions: Sequence[Callable[[Any], Any]], low: Fraction, high: Fraction) -> arb:
+    """A ball that holds the greatest magnitude of complex functions of a real number, given for numbers and series."""
+    if low == high:
+        sizes: list[arb] = [abs(function(acb(ball(low)))) for function in functions]
+        return reduce(arb.max, sizes)
     parts = [part for function in functions for part in _parts(function, low, high)]
     off = reduce(arb.max, (radius for _, radius in parts))
-    size = root(highest([(square, arb(0)) for square, _ in parts]))
+    size = root(greatest_magnitude([(square, arb(0)) for square, _ in parts]))
     return (size + arb(0, off)).max(arb(0))
 
 
@@ -91,31 +97,16 @@ def _parts(
     function: Callable[[acb_series], acb_series], low: Fraction, high: Fraction
 ) -> Iterator[tuple[arb_poly, arb]]:
     """Polynomials of which the squared magnitude is made, on short stretches, and how far the function is off."""
-    left = [(low, high)]
-    while left:
-        low, high = left.pop()
-        half = ball((high - low) / 2)
-        with _terms(_TERMS + 1):
-            centre = function(acb_series([acb(ball((low + high) / 2)), acb(half)]))
-            rest = function(acb_series([acb(ball(low).union(ball(high))), acb(half)]))[_TERMS]
-        off, size = abs(rest).upper(), abs(centre[0]) + abs(centre[1])
-        if not off <= _NOTHING * size and high - low > _SHORTEST:
-            left += [(low, (low + high) / 2), ((low + high) / 2, high)]
-            continue
-        yield _squared([centre[n] for n in range(_TERMS)]), off
+    several = cells(lambda nu: [function(nu)], acb_series, (low, high), 2 * _SHORTEST, _next_to_nothing)
+    yield from ((_squared(centre), rest) for _, [(centre, rest)] in several)
+
+
+def _next_to_nothing(parts: Sequence[Taylor], _: Fraction) -> bool:
+    centre, rest = parts[0]
+    return bool(rest <= _NOTHING * sum(map(abs, centre[:2]), arb(0)))
 
 
 def _squared(series: list[acb]) -> arb_poly:
     """The squared magnitude of a polynomial of a real number."""
     real, imaginary = arb_poly([term.real for term in series]), arb_poly([term.imag for term in series])
     return real * real + imaginary * imaginary
-
-
-@contextmanager
-def _terms(count: int) -> Iterator[None]:
-    before: Any = ctx.cap
-    ctx.cap = count
-    try:
-        yield
-    finally:
-        ctx.cap = before

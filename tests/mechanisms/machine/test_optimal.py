@@ -32,7 +32,7 @@ from optlaws import (
 )
 from optlaws.mechanisms.machine.output_constants import output_peak, output_rms
 from optlaws.synthesis.problem.named_constants import named
-from optlaws.synthesis.proof.below_claim import means
+from optlaws.synthesis.proof.sublevel_bounds import means
 from optlaws.synthesis.spaces.of_basis import space_of
 from tests.sampling import sampled
 from tests.synthesis.judge import Judged

@@ -10,7 +10,7 @@ from optlaws.synthesis.families.family import ProductFamily
 from optlaws.synthesis.method.exchange import solve
 from optlaws.synthesis.method.units import units_of
 from optlaws.synthesis.program.writer import model_of
-from optlaws.verification.exact.bound import exact_bound
+from optlaws.verification import exact_bound
 from tests.synthesis.judge import Judged
 
 GREAT = (1e4, 1e6, 1e9)

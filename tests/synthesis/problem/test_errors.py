@@ -316,7 +316,7 @@ def test_a_law_without_a_meeting_bound_is_not_called_optimal(monkeypatch: pytest
 
     def poor(*args: Any) -> Certificate:  # noqa: ANN401
         found = honest(*args)
-        return replace(found, contacts=found.contacts[:-1])
+        return found.with_leaf(contacts=found.contacts[:-1])
 
     monkeypatch.setattr(search, "certify", poor)
     solution = synthesize(problem())

@@ -22,7 +22,6 @@ from optlaws import (
     Contact,
     InfeasibleProblem,
     InputError,
-    PowerCertificate,
     Problem,
     Solution,
     SolverFailure,
@@ -213,7 +212,7 @@ ROUNDING = 1 + 1e-13
 def altered(certificate: Certificate, index: int, change: Callable[[Contact], Contact]) -> Certificate:
     contacts = list(certificate.contacts)
     contacts[index] = change(contacts[index])
-    return replace(certificate, contacts=tuple(contacts))
+    return certificate.with_leaf(contacts=tuple(contacts))
 
 
 @given(problem=one_of, which=st.integers(0, 30), factor=st.floats(-3.0, 3.0))
@@ -247,12 +246,12 @@ def test_without_one_contact_it_proves_nothing_false(problem: Problem) -> None:
     solution = solution_of(problem)
     contacts = solution.certificate.contacts
     for i in range(len(contacts)):
-        forged = replace(solution.certificate, contacts=contacts[:i] + contacts[i + 1 :])
+        forged = solution.certificate.with_leaf(contacts=contacts[:i] + contacts[i + 1 :])
         assert forged.bound <= solution.objective * ROUNDING
         assert not forged.proves_infeasible
     for nothing in (
-        replace(solution.certificate, contacts=()),
-        replace(solution.certificate, contacts=(), equations=()),
+        solution.certificate.with_leaf(contacts=()),
+        solution.certificate.with_leaf(contacts=(), equations=()),
     ):
         assert nothing.bound <= solution.objective / 2
         assert not nothing.proves_infeasible
@@ -267,10 +266,10 @@ def test_an_equation_that_is_weighed_otherwise_proves_nothing_false(
     if weights:
         i = which % len(weights)
         weights[i] = weights[i] * factor + shift
-    forged = replace(solution.certificate, equations=tuple(weights))
+    forged = solution.certificate.with_leaf(equations=tuple(weights))
     assert forged.bound <= solution.objective * ROUNDING
-    assert replace(solution.certificate, equations=()).bound <= solution.objective * ROUNDING
-    assert replace(solution.certificate, equations=(*weights, 3.0)).bound <= solution.objective * ROUNDING
+    assert solution.certificate.with_leaf(equations=()).bound <= solution.objective * ROUNDING
+    assert solution.certificate.with_leaf(equations=(*weights, 3.0)).bound <= solution.objective * ROUNDING
 
 
 @given(problem=one_of, which=st.integers(0, 30), other=st.integers(0, 30))
@@ -308,7 +307,8 @@ def test_another_direction_of_an_rms_proves_nothing_false(seed: int, size: float
 def test_as_a_proof_of_another_kind_it_proves_nothing_false(problem: Problem, program: str) -> None:
     solution = solution_of(problem)
     try:
-        forged = replace(solution.certificate, program=program)
+        proof = solution.certificate
+        forged = Certificate.of_leaf(proof.problem, proof.contacts, proof.equations, program, proof.tangent or 0.0)
         assert forged.bound <= solution.objective * ROUNDING
         assert not forged.proves_infeasible
     except InputError:
@@ -357,7 +357,7 @@ def test_invented_contacts_prove_nothing_false(
         for name in names
         if name != "rms_c"
     )
-    forged = replace(solution_of(problem).certificate, contacts=contacts, equations=tuple(weights))
+    forged = solution_of(problem).certificate.with_leaf(contacts=contacts, equations=tuple(weights))
     assert forged.bound <= solution_of(problem).objective * ROUNDING
     assert not forged.proves_infeasible
 
@@ -517,7 +517,7 @@ def test_junk_anywhere_in_a_certificate_is_an_input_error_or_proves_no_more(kind
                 place = place[key]
             place[path[-1]] = junk
             try:
-                made = (Certificate if kind == "certificate" else PowerCertificate).from_dict(data)
+                made = Certificate.from_dict(data)
             except InputError:
                 continue
             assert made.bound <= solution.objective, (path, junk)

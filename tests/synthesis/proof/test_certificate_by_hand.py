@@ -11,10 +11,21 @@ from typing import Any
 
 import pytest
 
-from optlaws import BoundaryConditions, Certificate, Chebyshev, Contact, Problem, at_least, at_most
+from optlaws import (
+    BoundaryConditions,
+    Certificate,
+    Chebyshev,
+    Contact,
+    InputError,
+    Leaf,
+    Problem,
+    Split,
+    at_least,
+    at_most,
+)
 from optlaws.synthesis.problem.named_constants import expression
-from optlaws.synthesis.proof.below_claim import greatest_values, least_values, means, spread
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION, _model
+from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, means, spread
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 #: roots of P3 and of P3'
@@ -35,7 +46,7 @@ def small(**asked: Any) -> Problem:  # noqa: ANN401
 
 
 def bound(problem: Problem, *contacts: Contact, equations: tuple[float, ...] = ()) -> float:
-    return Certificate(problem, contacts, equations).bound
+    return Certificate.of_leaf(problem, contacts, equations).bound
 
 
 def c_at(x: float, multiplier: float) -> Contact:
@@ -110,7 +121,7 @@ def test_an_rms_in_a_direction() -> None:
     # c of the base law lies along P1: no direction proves more than its length, and P1 proves it whole
     problem = small(minimise="rms_c")
     matrix = next(
-        family for family in _model(Certificate(problem, (), ())).program.families if family.name == "rms_c"
+        family for family in _model(Certificate.of_leaf(problem, (), ())).program.families if family.name == "rms_c"
     ).matrix  # type: ignore[attr-defined]
     along = matrix[:, -1] / sqrt(float(matrix[:, -1] @ matrix[:, -1]))
     for length, share in ((1.0, 1.0), (0.5, 0.5), (2.0, 1.0)):
@@ -176,15 +187,15 @@ ENDS = BoundaryConditions((0, 0.5), (1, -1.0))
 def test_the_greatest_constants_of_laws_that_contradict_a_claim(
     problem: Problem, claim: float, wanted: dict[str, float]
 ) -> None:
-    certificate = Certificate(problem, (), ())
+    certificate = Certificate.of_leaf(problem, (), ())
     greatest = greatest_values(_model(certificate), max(claim, 0.0))
     assert {name: size for name, size in greatest.items() if size < inf} == pytest.approx(wanted, rel=1e-15)
 
 
 def test_the_greatest_constants_of_other_programs() -> None:
-    violated = Certificate(small(C=at_most(4.0)), (), (), VIOLATION)
+    violated = Certificate.of_leaf(small(C=at_most(4.0)), (), (), VIOLATION)
     assert greatest_values(_model(violated), 7.0) == {"t": 0.0, "C": 4.0}
-    power = Certificate(small(B=1.6, minimise="2*D"), (), (), RELAXED, 1.0)
+    power = Certificate.of_leaf(small(B=1.6, minimise="2*D"), (), (), RELAXED, 1.0)
     assert greatest_values(_model(power), 18.0) == pytest.approx({"D": 9.0, "root of D": 3.0, "B": 1.6}, rel=1e-15)
 
 
@@ -204,7 +215,7 @@ def test_the_greatest_constants_of_other_programs() -> None:
     ids=repr,
 )
 def test_the_mean_size_of_derivatives(problem: Problem, greatest: dict[str, float], wanted: dict[int, float]) -> None:
-    certificate = Certificate(problem, (), ())
+    certificate = Certificate.of_leaf(problem, (), ())
     assert dict(means(certificate.problem, _model(certificate).space, greatest)) == pytest.approx(wanted, rel=1e-12)
 
 
@@ -212,7 +223,7 @@ def test_a_power_bounds_the_mean_velocity_only_from_rest() -> None:
     moving = Problem(boundary=BoundaryConditions((0, 0.5), (1, 0)), symmetric=False, basis=Chebyshev(1))
     free = Problem(order=1, basis=Chebyshev(1))
     for problem in (moving, free):
-        certificate = Certificate(problem, (), ())
+        certificate = Certificate.of_leaf(problem, (), ())
         assert 1 not in dict(means(certificate.problem, _model(certificate).space, {"D": 9.0}))
 
 
@@ -220,10 +231,10 @@ def test_a_power_bounds_the_mean_velocity_only_from_rest() -> None:
 def test_a_contradiction_is_worth_what_the_base_law_breaks(x: float) -> None:
     # C <= 4 cannot be: c of every law is -6x at the root of P3, 4.65
     problem = small(C=at_most(4.0))
-    proof = Certificate(problem, (Contact("C", 1.0, at(x), 1.0),), (), VIOLATION)
+    proof = Certificate.of_leaf(problem, (Contact("C", 1.0, at(x), 1.0),), (), VIOLATION)
     assert proof.proves_infeasible == (x == -GAUSS)
-    assert not Certificate(small(C=at_most(4.7)), proof.contacts, (), VIOLATION).proves_infeasible
-    assert not Certificate(small(C=at_least(4.0)), proof.contacts, (), VIOLATION).proves_infeasible
+    assert not Certificate.of_leaf(small(C=at_most(4.7)), proof.contacts, (), VIOLATION).proves_infeasible
+    assert not Certificate.of_leaf(small(C=at_least(4.0)), proof.contacts, (), VIOLATION).proves_infeasible
 
 
 @pytest.mark.parametrize(
@@ -244,5 +255,42 @@ def test_what_constants_are_at_least_where_the_velocity_changes(minimise: str, l
     slowing = Problem(
         boundary=BoundaryConditions((0, 2), (1, 0)), symmetric=False, basis=Chebyshev(1), minimise=minimise
     )
-    space = _model(Certificate(slowing, (), ())).space
+    space = _model(Certificate.of_leaf(slowing, (), ())).space
     assert least_values(slowing, space) == pytest.approx(least)
+
+
+# --- what is no tree ---
+
+
+@pytest.mark.parametrize(
+    "made",
+    [
+        lambda problem: Certificate(problem, None, ()),
+        lambda problem: Certificate(problem, None, (Leaf(), Leaf())),
+        lambda problem: Certificate(problem, None, (Split(0, 0.5),)),
+        lambda problem: Certificate(problem, 5.0, (Leaf(),)),
+        lambda problem: Certificate(problem, None, (Leaf(),), points=(0.5,)),
+        lambda problem: Certificate(problem, inf, (Leaf(),), peak="B"),
+        lambda problem: Certificate(problem, 5.0, (Leaf(),), points=(0.5,), peak="B"),
+        lambda problem: Certificate(problem, 5.0, (Leaf(),), points=(1.5,)),
+        lambda problem: Certificate(problem, -5.0, (Leaf(),), points=(0.5,)),
+        lambda problem: Certificate(problem, float("nan"), (Leaf(),), points=(0.5,)),
+        lambda problem: Certificate(problem, None, (Leaf(),), tangent=inf),
+        lambda problem: Certificate.of_leaf(problem, program="wishful"),
+        lambda _: Leaf(equations=(inf,)),
+        lambda _: Leaf(claim=float("nan")),
+    ],
+)
+def test_what_is_neither_a_leaf_nor_a_tree_with_a_claim_is_refused(made: Any) -> None:  # noqa: ANN401
+    with pytest.raises(InputError):
+        made(small())
+
+
+def test_a_claim_is_what_the_kind_of_proof_says() -> None:
+    good = Certificate.of_leaf(small(), (c_at(-GAUSS, 1.0),))
+    assert (good.claim, good.program, good.proven) == (None, "objective", True)
+    none = Certificate.of_leaf(small(C=at_most(4.0)), (c_at(-GAUSS, 1.0),), (), VIOLATION)
+    assert (none.claim, none.program, none.bound, none.proves_infeasible) == (inf, "violation", -inf, True)
+    assert not good.with_leaf(contacts=()).proves_infeasible
+    assert Certificate.from_dict(none.to_dict()) == none
+    assert Certificate.from_dict(good.to_dict()) == good

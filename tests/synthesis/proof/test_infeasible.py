@@ -23,7 +23,7 @@ from optlaws import (
 )
 from optlaws.synthesis.method.equations import contradiction, independent
 from optlaws.synthesis.proof.certificate import Certificate
-from optlaws.synthesis.proof.farkas import surplus
+from optlaws.synthesis.proof.farkas import farkas_margin
 from optlaws.verification.exact.bound import prove
 
 CONTRADICTIONS = [
@@ -94,7 +94,7 @@ def test_contradictory_conditions_are_named_and_proven(problem: Problem, named: 
 def test_the_proof_is_of_the_right_sides_asked() -> None:
     proof = CONTRADICTIONS[0][0], synthesize_fails(CONTRADICTIONS[0][0])
     agreeing = Problem(order=3, windows=(via("a", 0.3, at=0.3), via("a", 0.3, at=0.3)))
-    moved = Certificate(agreeing, proof[1].contacts, proof[1].equations, "violation")
+    moved = Certificate.of_leaf(agreeing, proof[1].contacts, proof[1].equations, "violation")
     assert proof[1].proves_infeasible
     assert not moved.proves_infeasible
     assert (prove(moved).value or 0) <= 0
@@ -145,13 +145,13 @@ def test_rows_contradict_each_other_only_by_what_their_multipliers_show() -> Non
     # x <= 0, y <= 0, x + y >= s
     for least in (1.0, 1e-6):
         right = np.array([0.0, 0.0, -least])
-        assert surplus(rows, right, np.ones(3), 3) == pytest.approx(least)
-        assert surplus(rows, right, np.array([1.0, 1.0 + 1e-9, 1.0]), 3) == pytest.approx(least)
-        assert surplus(rows, right, np.array([1.0, 0.5, 1.0]), 3) <= least * (1.0 + 1e-12)
-    assert surplus(rows, np.array([0.0, 0.0, 1.0]), np.ones(3), 3) < 0.0
+        assert farkas_margin(rows, right, np.ones(3), 3) == pytest.approx(least)
+        assert farkas_margin(rows, right, np.array([1.0, 1.0 + 1e-9, 1.0]), 3) == pytest.approx(least)
+        assert farkas_margin(rows, right, np.array([1.0, 0.5, 1.0]), 3) <= least * (1.0 + 1e-12)
+    assert farkas_margin(rows, np.array([0.0, 0.0, 1.0]), np.ones(3), 3) < 0.0
     # without the second row there is a law, and no multipliers say otherwise
-    assert surplus(rows[[0, 2]], np.array([0.0, -1.0]), np.ones(2), 2) < 0.0
-    assert surplus(rows[:0], np.empty(0), np.empty(0), 0) == 0.0
+    assert farkas_margin(rows[[0, 2]], np.array([0.0, -1.0]), np.ones(2), 2) < 0.0
+    assert farkas_margin(rows[:0], np.empty(0), np.empty(0), 0) == 0.0
 
 
 def test_nothing_is_printed_by_the_solver_whatever_comes_of_it() -> None:

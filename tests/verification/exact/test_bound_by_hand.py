@@ -13,17 +13,17 @@ import pytest
 from optlaws import BoundaryConditions, Certificate, Chebyshev, Contact, Problem, at_least, at_most
 from optlaws.synthesis.problem.named_constants import expression
 from optlaws.synthesis.proof.certificate import RELAXED, VIOLATION
-from optlaws.verification.exact.bound import (
+from optlaws.verification import exact_bound
+from optlaws.verification.exact.bound import prove
+from optlaws.verification.exact.rows import ExactRows
+from optlaws.verification.exact.sublevel_bounds import (
     _spread,
-    exact_bound,
     greatest_values,
     least_objective,
     least_values,
     means,
     never_negative,
-    prove,
 )
-from optlaws.verification.exact.rows import ExactRows
 
 pytestmark = pytest.mark.filterwarnings("ignore::optlaws.errors.NotNormalised")
 GAUSS, FLAT = sqrt(0.6), sqrt(0.2)
@@ -45,13 +45,13 @@ def j_at(x: float, multiplier: float) -> Contact:
 
 
 def proven(problem: Problem, *contacts: Contact, equations: tuple[float, ...] = ()) -> float:
-    value = exact_bound(Certificate(problem, contacts, equations))
+    value = exact_bound(Certificate.of_leaf(problem, contacts, equations))
     assert value is not None
     return float(value)
 
 
 def test_the_bound_of_one_contact_is_exact() -> None:
-    proof = prove(Certificate(small(), (c_at(-GAUSS, 1.0),), ()))
+    proof = prove(Certificate.of_leaf(small(), (c_at(-GAUSS, 1.0),), ()))
     assert float(proof.value or 0) == pytest.approx(C_BASE, rel=1e-14)
     assert (proof.charge, proof.negative, proof.unknown) == (0.0, 0, 0)
     # the place is moved in effect by a rounding of the root, and no multiplier by more
@@ -85,22 +85,22 @@ def test_a_fixed_b_makes_every_place_a_contact() -> None:
 
 def test_contacts_that_do_not_count_are_counted() -> None:
     others = (c_at(-0.3, -2.0), c_at(-0.2, -1.0), Contact("J", 1.0, 0.2, 1.0), Contact("nothing", 1.0, 0.2, 1.0))
-    proof = prove(Certificate(small(), (c_at(-GAUSS, 1.0), *others), ()))
+    proof = prove(Certificate.of_leaf(small(), (c_at(-GAUSS, 1.0), *others), ()))
     assert (proof.negative, proof.unknown) == (2, 2)
     assert float(proof.value or 0) == pytest.approx(C_BASE, rel=1e-14)
 
 
 def test_without_contacts_a_constant_is_at_least_0() -> None:
-    assert prove(Certificate(small(), (), ())).value == 0
-    assert prove(Certificate(small(C=at_most(4.0)), (), (), VIOLATION)).value in {None, 0}
+    assert prove(Certificate.of_leaf(small(), (), ())).value == 0
+    assert prove(Certificate.of_leaf(small(C=at_most(4.0)), (), (), VIOLATION)).value in {None, 0}
 
 
 def test_a_contradiction_is_measured() -> None:
     contact = c_at(-GAUSS, 1.0)
-    value = exact_bound(Certificate(small(C=at_most(4.0)), (contact,), (), VIOLATION))
+    value = exact_bound(Certificate.of_leaf(small(C=at_most(4.0)), (contact,), (), VIOLATION))
     assert value is not None
     assert value > 0
-    feasible = exact_bound(Certificate(small(C=at_most(4.7)), (contact,), (), VIOLATION))
+    feasible = exact_bound(Certificate.of_leaf(small(C=at_most(4.7)), (contact,), (), VIOLATION))
     assert feasible is None or feasible <= 0
 
 
@@ -161,7 +161,7 @@ def test_a_term_beside_one_that_may_be_anything_is_unknown() -> None:
     ids=repr,
 )
 def test_the_greatest_constants_of_laws_that_contradict_a_claim(problem: Problem, wanted: dict[str, float]) -> None:
-    certificate = Certificate(problem, (), (), RELAXED if "D" in wanted else "objective")
+    certificate = Certificate.of_leaf(problem, (), (), RELAXED if "D" in wanted else "objective")
     greatest = greatest_values(certificate, ExactRows(certificate), 5.0)
     finite = {name: value for name, value in greatest.items() if value < inf}
     assert finite == pytest.approx(wanted, rel=1e-14)
@@ -169,7 +169,7 @@ def test_the_greatest_constants_of_laws_that_contradict_a_claim(problem: Problem
 
 
 def test_a_contradiction_has_no_claim() -> None:
-    certificate = Certificate(small(C=at_most(4.0)), (), (), VIOLATION)
+    certificate = Certificate.of_leaf(small(C=at_most(4.0)), (), (), VIOLATION)
     assert greatest_values(certificate, ExactRows(certificate), 7.0) == {"C": 4.0}
 
 
@@ -196,7 +196,7 @@ def test_a_contradiction_has_no_claim() -> None:
 def test_the_mean_size_of_derivatives(problem: Problem, greatest: dict[str, float], wanted: dict[int, float]) -> None:
     # the root of D is a variable of relaxed programs alone
     program = "relaxed" if "root of D" in greatest else "objective"
-    mean_values = means(problem, ExactRows(Certificate(problem, (), (), program, 1.0)), greatest)
+    mean_values = means(problem, ExactRows(Certificate.of_leaf(problem, (), (), program, 1.0)), greatest)
     assert {nu: float(one) for nu, one in mean_values.items()} == pytest.approx(wanted, rel=1e-14)
 
 
@@ -205,7 +205,7 @@ def test_peaks_of_one_sign_may_be_negative_where_the_velocity_changes() -> None:
     assert never_negative(small(**MOVING))
     turned = small(**MOVING, minimise="2*C_plus + 3*max(C_minus, C_plus)")
     assert not never_negative(turned)
-    rows = ExactRows(Certificate(turned, (), ()))
+    rows = ExactRows(Certificate.of_leaf(turned, (), ()))
     least = least_values(turned, rows)
     assert (least["C_plus"], least["C_minus"], least["max(C_minus, C_plus)"]) == (-1.5, 1.5, 1.5)
     assert least_objective(turned, rows) == Fraction(3, 2)

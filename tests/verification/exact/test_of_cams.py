@@ -79,7 +79,7 @@ def test_no_bound_of_other_multipliers_exceeds_the_optimum(factor: float) -> Non
     solution = damped()
     first, *others = solution.certificate.contacts
     moved = (replace(first, multiplier=factor * first.multiplier), *others)
-    bound = exact_bound(replace(solution.certificate, contacts=moved))
+    bound = exact_bound(solution.certificate.with_leaf(contacts=moved))
     assert bound is None or bound <= Fraction(solution.objective) * (1 + Fraction(1, 10**12))
 
 

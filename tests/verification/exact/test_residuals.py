@@ -8,9 +8,8 @@ from typing import Any
 import mpmath  # type: ignore[import-untyped] # ships no types
 import pytest
 
-from optlaws import Chebyshev, Pieces, Problem, Solution, at_most, residual, synthesize
+from optlaws import Certificate, Chebyshev, Contact, Pieces, Problem, Solution, at_most, residual, synthesize
 from optlaws.laws import smoothstep
-from optlaws.synthesis.proof.certificate import Certificate, Contact
 from optlaws.verification import exact_bound, verify
 from optlaws.verification.enclosing.balls import enclosed
 from optlaws.verification.exact.law import ExactLaw
@@ -69,7 +68,7 @@ def test_rows_of_all_bases_give_the_amplitude_of_their_base_law() -> None:
     for symmetric in (True, False):
         pieces = Problem(order=4, minimise=INTERVAL, symmetric=symmetric, basis=Pieces([0, 0.5, 1], 7, 3))
         whole = replace(pieces, basis=Chebyshev(3))
-        first, second = (ExactRows(Certificate(one, (), ())).row(contact) for one in (whole, pieces))
+        first, second = (ExactRows(Certificate.of_leaf(one, (), ())).row(contact) for one in (whole, pieces))
         assert first is not None
         assert second is not None
         # k^4, k^5, k^6 and k^7 with the weights of the smoothstep, then nothing from the middle on
@@ -99,5 +98,5 @@ def test_no_longer_direction_proves_more(stretch: float) -> None:
         replace(contact, direction=tuple(stretch * value for value in contact.direction))
         for contact in solution.certificate.contacts
     )
-    bound = exact_bound(replace(solution.certificate, contacts=longer))
+    bound = exact_bound(solution.certificate.with_leaf(contacts=longer))
     assert bound is None or bound <= Fraction(solution.objective) * (1 + Fraction(1, 10**10))

@@ -14,7 +14,7 @@ from optlaws.synthesis.arrays.programs import Numbers, Path
 from optlaws.synthesis.arrays.rows import Structure, weighted
 from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.program.writer import Model
-from optlaws.synthesis.proof.below_claim import greatest_values, least_values, moments
+from optlaws.synthesis.proof.sublevel_bounds import greatest_values, least_values, moments
 
 Array = NDArray[np.float64]
 

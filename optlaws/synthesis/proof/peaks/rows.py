@@ -1,4 +1,10 @@
-"""The rows of a problem under a claim, and what they say of a derivative at one place and around it."""
+"""The rows of a problem under a claim, and what they say of a derivative at one place and around it.
+
+Where a peak is held up its place is not known, and the problem is not convex. But for each place k the greatest value
+that laws below the claim can have there is a convex problem, and contacts bound it. At a peak inside the interval the
+slope is 0, so the value beside it is less by the curvature at most, which the claim bounds too: places around k can
+have no peak if the bound at k and that remainder do not reach what is asked.
+"""
 
 from __future__ import annotations
 
@@ -12,9 +18,9 @@ from optlaws.synthesis.families.family import LinearFamily
 from optlaws.synthesis.problem.constants import FUNCTIONALS, Peak
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof.below_claim import greatest_values, moments
-from optlaws.synthesis.proof.certificate import Contact, lines_of
-from optlaws.synthesis.proof.duality import sum_of_rows
+from optlaws.synthesis.proof.duality import lines_of, sum_of_rows
+from optlaws.synthesis.proof.nodes import Leaf, Node, PlaceRange, Split, Tightening
+from optlaws.synthesis.proof.sublevel_bounds import greatest_values, moments
 from optlaws.synthesis.spaces.bases import PolynomialBasis
 
 Array = NDArray[np.float64]
@@ -22,6 +28,8 @@ Array = NDArray[np.float64]
 CLAIM = "claim"
 #: more than the rounding of the claim's own row, and of the curvature
 _UPWARD, _AMPLE = 1.0 + 2.0**-50, 1.0 + 2.0**-20
+#: of what is asked: more than the rounding of the sums can be
+_ROUNDING = 1e-12
 
 
 def peak_of(problem: Problem, name: str) -> Peak | None:
@@ -30,6 +38,20 @@ def peak_of(problem: Problem, name: str) -> Peak | None:
     if not isinstance(constant, Peak) or asked is None or asked.low <= 0.0:
         return None
     return constant if problem.convex and isinstance(problem.basis, PolynomialBasis) else None
+
+
+def roots_of(problem: Problem, name: str) -> list[PlaceRange]:
+    """The places at which laws may have a peak, the last ones first: an end, where the slope need not be 0, alone.
+
+    The first half says all if laws are symmetric, or if their mirror images are laws too.
+    """
+    peak = peak_of(problem, name)
+    if peak is None:
+        return []
+    half = problem.symmetric or problem.mirrored
+    ranges = ((0.0, 0.5), (0.0, 0.0)) if half else ((0.0, 1.0), (0.0, 0.0), (1.0, 1.0))
+    signs = (1.0, -1.0) if half and peak.nu % 2 == 0 else peak.signs
+    return [PlaceRange(sign, *ends) for sign in reversed(signs) for ends in ranges]
 
 
 class PeakRows:
@@ -58,25 +80,22 @@ class PeakRows:
         self._moments = moments(self.model, greatest_values(self.model, claim))
         self._curvatures: dict[float, list[float]] = {}
 
-    @property
-    def half(self) -> bool:
-        """Whether the first half says all: laws are symmetric, or their mirror images are laws too."""
-        return self.problem.symmetric or self.problem.mirrored
+    def roots(self) -> list[PlaceRange]:
+        """The places at which laws may have the peak."""
+        return roots_of(self.problem, self.peak.name)
 
-    @property
-    def stop(self) -> float:
-        """The end of the places to look at."""
-        return 0.5 if self.half else 1.0
+    def after(self, here: PlaceRange, node: Node) -> list[PlaceRange] | None:
+        """The ranges that a node leaves of one; None where it is no node of places."""
+        if isinstance(node, Split):
+            return here.parts(node.at) if node.variable == 0 and here.low < node.at < here.high else None
+        if isinstance(node, Tightening):
+            return None
+        return [] if self.excluded(here, node) else [here]
 
-    @property
-    def ends(self) -> tuple[float, ...]:
-        """Places at which a peak need not have slope 0."""
-        return (0.0,) if self.half else (0.0, 1.0)
-
-    @property
-    def signs(self) -> tuple[float, ...]:
-        """The signs with which the derivative may have its peak in these places."""
-        return (1.0, -1.0) if self.half and self.peak.nu % 2 == 0 else self.peak.signs
+    def excluded(self, here: PlaceRange, leaf: Leaf) -> bool:
+        """Whether a leaf shows that no law below the claim has the peak within a range."""
+        most = self.upper(here.k, here.sign, leaf) + self.remainder(here.k, here.reach)
+        return most < self.low * (1.0 - _ROUNDING)
 
     def at(self, k: float, sign: float) -> tuple[Model, float]:
         """The program that minimises -sign times the derivative at k, and the constant part of the derivative."""
@@ -86,12 +105,12 @@ class PeakRows:
         program = replace(self._program, objective=objective, unit=1.0)
         return replace(self.model, program=program), sign * float(row[-1])
 
-    def upper(self, k: float, sign: float, contacts: tuple[Contact, ...], equations: tuple[float, ...]) -> float:
+    def upper(self, k: float, sign: float, leaf: Leaf) -> float:
         """Most that sign times the derivative at k can be in laws below the claim, by weak duality."""
         model, base = self.at(k, sign)
         program = model.program
         # as a row, the rounding of the objective is counted too
-        lines = [*lines_of(program, contacts, equations), (1.0, program.objective, 0.0)]
+        lines = [*lines_of(program, leaf), (1.0, program.objective, 0.0)]
         nothing = replace(model, program=replace(program, objective=np.zeros(program.size)))
         with np.errstate(over="ignore", invalid="ignore"):
             least = sum_of_rows(nothing, lines, self.claim)

@@ -17,11 +17,14 @@ from optlaws.kept import kept_property
 from optlaws.synthesis.families.family import Family
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.proof.certificate import Contact, row_of
+from optlaws.synthesis.proof.duality import row_of
+from optlaws.synthesis.proof.nodes import Contact, Leaf, Node, Split, Tightening
 
 Array = NDArray[np.float64]
 
 _WORST = 1e10
+#: of the sum of all magnitudes: more than the rounding errors of the sums can be
+_ROUNDING = 1e-13
 
 
 @dataclass(frozen=True, eq=False)
@@ -53,7 +56,7 @@ class Places:
     rows: tuple[Array, ...]
 
     def joined(self, other: Places) -> Places:
-        """These places and others."""
+        """The places with others joined to them."""
         rows = tuple(np.vstack(pair) for pair in zip(self.rows, other.rows, strict=True))
         return Places(np.append(self.k, other.k), rows)
 
@@ -89,6 +92,10 @@ class BoxRows(ABC):
     @abstractmethod
     def root(self) -> Box:
         """The box of all laws of the problem whose objective is below the claim."""
+
+    def roots(self) -> list[Box]:
+        """The regions at the root of a tree: that box alone."""
+        return [self.root()]
 
     @abstractmethod
     def brackets_at(self, k: Array) -> tuple[Array, Array]:
@@ -205,3 +212,39 @@ class BoxRows(ABC):
         """The objective less the claim, at most 0."""
         nothing = np.zeros(self.extra)
         return np.concatenate([self.model.program.objective, nothing, [-self.claim / self.model.unit]])
+
+    def after(self, box: Box, node: Node) -> list[Box] | None:
+        """The boxes that a node leaves of one; None where it speaks of no variable of theirs."""
+        if isinstance(node, Split | Tightening) and not 0 <= node.variable < self.size:
+            return None
+        if isinstance(node, Split):
+            return [box.cut(node.variable, 1, node.at), box.cut(node.variable, -1, node.at)]
+        return self.moved(box, node)
+
+    def moved(self, box: Box, node: Leaf) -> list[Box]:
+        """The box after a sum of rows moved its side; none where it is empty.
+
+        Rows that the problem does not ask for, and negative multipliers of rows, count as zero.
+        """
+        value = self.least_sum(box, node)
+        if not isinstance(node, Tightening):
+            return [] if value > 0.0 else [box]
+        side = node.side * value
+        low, high = float(box.low[node.variable]), float(box.high[node.variable])
+        if (node.side > 0 and side > high) or (node.side < 0 and side < low):
+            return []
+        return [box.cut(node.variable, node.side, side)] if low < side < high else [box]
+
+    def least_sum(self, box: Box, node: Leaf) -> float:
+        """What side times the variable is at least in the box: the sum of the rows is at most 0, so it can join."""
+        equations = self.equations()[: len(node.equations)]
+        joined = np.vstack([self.of_contacts(node.contacts, box), equations, self.objective()])
+        multipliers = [max(contact.multiplier, 0.0) for contact in node.contacts]
+        weights = np.array([*multipliers, *node.equations[: len(equations)], max(node.claim, 0.0)])
+        own = np.zeros(self.size + 1)
+        if isinstance(node, Tightening):
+            own[node.variable] = float(node.side)
+        total = own + weights @ joined
+        size = np.abs(own) + np.abs(weights) @ np.abs(joined)
+        greatest = np.append(np.maximum(np.abs(box.low), np.abs(box.high)), 1.0)
+        return float(box.extent(total[None])[0][0]) - _ROUNDING * float(size @ greatest)

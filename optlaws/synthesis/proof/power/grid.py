@@ -12,9 +12,8 @@ from numpy.polynomial.chebyshev import chebpts2
 from numpy.typing import NDArray
 
 from optlaws.synthesis.families.family import Family, LinearFamily, NormFamily
-from optlaws.synthesis.proof.certificate import Contact
+from optlaws.synthesis.proof.nodes import Contact, Leaf, Tightening
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
-from optlaws.synthesis.proof.power.certificate import Step
 
 Array = NDArray[np.float64]
 
@@ -164,8 +163,8 @@ class Grid:
             kept,
         )
 
-    def step(self, box: Box, variable: int, side: int) -> tuple[Step | None, Array | None]:
-        """The step that a linear program proves, and its answer; the emptiness of the box where it has none."""
+    def node(self, box: Box, variable: int, side: int) -> tuple[Leaf | None, Array | None]:
+        """The tightening that a linear program proves, and its answer; a leaf where it has none."""
         linear, size = self.scaled(box), self.rows.size
         goal = np.zeros(size)
         goal[variable] = side
@@ -177,9 +176,10 @@ class Grid:
         half = (box.high - box.low) / 2.0
         weights = (-answer.ineqlin.marginals * half[variable], -answer.eqlin.marginals * half[variable])
         point = (box.low + box.high) / 2.0 + half * answer.x
-        return self._step(box, linear, (variable, side), weights), point
+        leaf = self._leaf(box, linear, weights)
+        return Tightening(leaf.contacts, leaf.equations, leaf.claim, variable=variable, side=side), point
 
-    def _empty(self, box: Box, linear: Linear) -> Step | None:
+    def _empty(self, box: Box, linear: Linear) -> Leaf | None:
         """Multipliers of the least common violation of the rows."""
         count, size = linear.matrix.shape
         goal = np.append(np.zeros(size), 1.0)
@@ -188,9 +188,9 @@ class Grid:
         answer = _solved(goal, (matrix, linear.right), (equal, linear.equal_right), inf)
         if answer.x is None:
             return None
-        return self._step(box, linear, (-1, 1), (-answer.ineqlin.marginals, -answer.eqlin.marginals))
+        return self._leaf(box, linear, (-answer.ineqlin.marginals, -answer.eqlin.marginals))
 
-    def _step(self, box: Box, linear: Linear, move: tuple[int, int], weights: tuple[Array, Array]) -> Step:
+    def _leaf(self, box: Box, linear: Linear, weights: tuple[Array, Array]) -> Leaf:
         multipliers = np.maximum(weights[0], 0.0) / linear.length
         least = _LIGHT * float(multipliers.max(initial=0.0))
         contacts = []
@@ -203,4 +203,4 @@ class Grid:
                 else:
                     contacts.append(contact)
         equations = tuple((weights[1] / linear.equal_length).tolist())
-        return Step(*move, tuple(contacts), equations, objective)
+        return Leaf(tuple(contacts), equations, objective)

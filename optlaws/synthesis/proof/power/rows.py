@@ -19,8 +19,8 @@ from optlaws.synthesis.problem.constants import D, Peak
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof.below_claim import asked_or_claimed
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
+from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 
 Array = NDArray[np.float64]
@@ -84,7 +84,7 @@ class PowerRows(BoxRows):
         return Places(k, (self.derivative(1, k), self.derivative(2, k)))
 
     def curved(self, box: Box, places: Places, name: str, signs: Array) -> Array:
-        """The power's rows."""
+        """The rows of the power in a box, for places and signs."""
         velocity, acceleration = places.rows
         return self.power(box, (places.k, velocity, acceleration), signs, least=name == RowName.POWER_FROM_LEAST)
 
@@ -153,7 +153,7 @@ class Anchors:
     high: Array
 
     def joined(self, k: Array, low: Array, high: Array) -> Anchors:
-        """With more of them."""
+        """The anchors with more of them joined."""
         return Anchors(*(np.concatenate(pair) for pair in ((self.k, k), (self.low, low), (self.high, high))))
 
 

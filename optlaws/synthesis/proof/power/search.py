@@ -11,8 +11,9 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
+from optlaws.synthesis.proof.certificate import Certificate
+from optlaws.synthesis.proof.nodes import Node, Split
 from optlaws.synthesis.proof.power.box import Box, BoxRows
-from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step, moved_by
 from optlaws.synthesis.proof.power.grid import Grid
 from optlaws.synthesis.proof.power.rows_of_problem import rows_of
 
@@ -34,7 +35,7 @@ _TINY = 1e-300
 _FLAT = 1e-9
 
 
-def tightened(problem: Problem, objective: float, x: Array, explore: Explore) -> PowerCertificate | None:
+def tightened(problem: Problem, objective: float, x: Array, explore: Explore) -> Certificate | None:
     """The certificate of the highest claim that can be proven; None if none can, or if there is a better law.
 
     Parameters
@@ -54,19 +55,19 @@ def tightened(problem: Problem, objective: float, x: Array, explore: Explore) ->
     return None
 
 
-def searched(problem: Problem, claim: float, x: Array, budget: int, explore: Explore) -> Search:
+def searched(problem: Problem, claim: float, x: Array, budget: int, explore: Explore) -> BoxSearch:
     """The search for the proof of one claim, done; x are the variables of a law with an objective above it."""
     rows = rows_of(problem, claim, _points(problem, claim))
     if rows is None:
         raise InputError(f"nothing of {problem!r} can be bounded by boxes")
     rows.remember(np.append(rows.rows(1, rows.points) @ np.append(x, 1.0), x[rows.terms :]))
-    search = Search(rows, Grid(rows, x), budget, explore)
+    search = BoxSearch(rows, Grid(rows, x), budget, explore)
     search.run()
     return search
 
 
 @dataclass(eq=False)
-class Search:
+class BoxSearch:
     """A search for the proof of one claim.
 
     Attributes
@@ -83,12 +84,12 @@ class Search:
     grid: Grid
     left: int
     explore: Explore
-    certificate: PowerCertificate | None = None
+    certificate: Certificate | None = None
     overtaken: bool = False
 
     def __post_init__(self) -> None:
         root = self.rows.root()
-        self._steps: list[Step | Cut] = []
+        self._tree: list[Node] = []
         self._root_width = np.maximum(root.high - root.low, _TINY)
         wide = [i for i in range(self.rows.terms) if self._root_width[i] > _FLAT]
         # where the rows leave one law alone, one coordinate shows that it is not better
@@ -109,10 +110,10 @@ class Search:
                 worth = (box.high - box.low) / self._root_width
             variable = max(self._variables, key=worth.__getitem__)
             at = float(box.low[variable] + box.high[variable]) / 2.0
-            self._steps.append(Cut(variable, at))
+            self._tree.append(Split(variable, at))
             boxes += [box.cut(variable, 1, at), box.cut(variable, -1, at)]
         points = tuple(self.rows.points.tolist())
-        proof = PowerCertificate(self.rows.problem, self.rows.claim, points, tuple(self._steps))
+        proof = Certificate(self.rows.problem, self.rows.claim, tuple(self._tree), points=points)
         self.certificate = proof if proof.proven else None
 
     def _shrunk(self, box: Box) -> Box | None:
@@ -134,14 +135,16 @@ class Search:
         self.left -= 1
         if self.left < 0:
             return box
-        step, point = self.grid.step(box, variable, side)
+        node, point = self.grid.node(box, variable, side)
         if point is not None:
             self.rows.remember(point)
             width = float((box.high - box.low)[: self.rows.terms].max())
             self.grid.exchange(self._variables_of(point), _SPACING * width)
-        moved = box if step is None else moved_by(self.rows, box, step)
-        if step is not None and moved is not box:
-            self._steps.append(step)
+        if node is None:
+            return box
+        moved = next(iter(self.rows.moved(box, node)), None)
+        if moved is not box:
+            self._tree.append(node)
         return moved
 
     def _variables_of(self, values: Array) -> Array:

@@ -20,10 +20,10 @@ from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.proof.below_claim import asked_or_claimed
-from optlaws.synthesis.proof.certificate import Contact
+from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
-from optlaws.synthesis.proof.power.lines_above import above_inverse, above_root
+from optlaws.synthesis.proof.power.secant_overestimators import secant_over_inverse, secant_over_root
+from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed
 
 Array = NDArray[np.float64]
 
@@ -184,10 +184,10 @@ class EnergyRows(BoxRows):
         low, high = np.where(good, low, 0.5 * self.B), np.where(good, high, 0.5 * self.B)
         if family.divided:
             square = (1.0 - 2.0 * places.k) ** 2
-            line = above_root(self.B, square, *self._below_range(box, square, below, (low, high)))
+            line = secant_over_root(self.B, square, *self._below_range(box, square, below, (low, high)))
             own, shape, share = fall, below, 0.5
         else:
-            line, own, shape, share = above_inverse(low, high), acceleration, velocity, 4.0
+            line, own, shape, share = secant_over_inverse(low, high), acceleration, velocity, 4.0
         good &= np.isfinite(line.greatest)
         line = line.where(good)
         product, bounds = self._product(box, family, planes[1])

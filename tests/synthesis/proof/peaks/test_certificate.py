@@ -7,9 +7,22 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws import BoundaryConditions, Chebyshev, InputError, Pieces, Problem, Solution, at_least, at_most, synthesize
+from optlaws import (
+    BoundaryConditions,
+    Certificate,
+    Chebyshev,
+    InputError,
+    Leaf,
+    Pieces,
+    Problem,
+    Solution,
+    Split,
+    at_least,
+    at_most,
+    synthesize,
+)
 from optlaws.synthesis.problem.constants import B, J
-from optlaws.synthesis.proof.peaks.certificate import Cell, PeakCertificate, excluded
+from optlaws.synthesis.proof.nodes import PlaceRange
 from optlaws.synthesis.proof.peaks.rows import PeakRows
 from optlaws.verification import verify
 from tests.sampling import sampled
@@ -26,7 +39,7 @@ def fast() -> Solution:
 
 
 @pytest.fixture(scope="module")
-def certificate(fast: Solution) -> PeakCertificate:
+def certificate(fast: Solution) -> Certificate:
     assert fast.peak_certificate is not None
     return fast.peak_certificate
 
@@ -68,44 +81,89 @@ def test_no_law_with_its_peak_at_a_place_is_better(fast: Solution) -> None:
     assert places[-1] == pytest.approx(fast.objective, rel=1e-8)
 
 
-def test_it_survives_json(certificate: PeakCertificate) -> None:
-    again = PeakCertificate.from_dict(json.loads(json.dumps(certificate.to_dict())))
+def test_it_survives_json(certificate: Certificate) -> None:
+    again = Certificate.from_dict(json.loads(json.dumps(certificate.to_dict())))
     assert again == certificate
     assert again.bound == certificate.claim
 
 
-def test_a_claim_above_what_a_law_has_is_not_proven(certificate: PeakCertificate, fast: Solution) -> None:
+def test_a_claim_above_what_a_law_has_is_not_proven(certificate: Certificate, fast: Solution) -> None:
     assert not replace(certificate, claim=fast.objective * (1.0 + 1e-7)).proven
-    assert replace(certificate, claim=0.9 * certificate.claim).proven
+    assert replace(certificate, claim=0.9 * certificate.bound).proven
 
 
-def test_every_cell_is_needed(certificate: PeakCertificate) -> None:
+def leaves_of(certificate: Certificate) -> list[int]:
+    return [i for i, node in enumerate(certificate.tree) if isinstance(node, Leaf)]
+
+
+def test_every_leaf_is_needed(certificate: Certificate) -> None:
     generator = np.random.default_rng(3)
-    for i in generator.choice(len(certificate.cells), 12, replace=False):
-        fewer = (*certificate.cells[:i], *certificate.cells[i + 1 :])
-        assert replace(certificate, cells=fewer).bound == -np.inf
+    for i in generator.choice(leaves_of(certificate), 12, replace=False):
+        fewer = (*certificate.tree[:i], *certificate.tree[i + 1 :])
+        assert replace(certificate, tree=fewer).bound == -np.inf
+        empty = (*certificate.tree[:i], Leaf(), *certificate.tree[i + 1 :])
+        assert certificate.tree[i] == Leaf() or not replace(certificate, tree=empty).proven
+    assert not replace(certificate, tree=(*certificate.tree, Leaf())).proven
+
+
+def test_every_cell_of_a_file_is_needed(certificate: Certificate) -> None:
+    data = json.loads(json.dumps(certificate.to_dict()))
+    for i in range(0, len(data["cells"]), 5):
+        with pytest.raises(InputError, match="cells"):
+            Certificate.from_dict({**data, "cells": [*data["cells"][:i], *data["cells"][i + 1 :]]})
+        with pytest.raises(InputError, match="cells"):
+            Certificate.from_dict({**data, "cells": [*data["cells"], data["cells"][i]]})
+    assert Certificate.from_dict({**data, "cells": data["cells"][::-1]}) == certificate
+
+
+def test_cells_may_meet_anywhere(certificate: Certificate) -> None:
+    data = json.loads(json.dumps(certificate.to_dict()))
+    easy = next(cell for cell in data["cells"] if cell["reach"] > 0.01)
+    parts = [{**easy, "k": easy["k"] - 0.75 * easy["reach"], "reach": 0.25 * easy["reach"]}]
+    parts += [{**easy, "k": easy["k"] + 0.25 * easy["reach"], "reach": 0.75 * easy["reach"]}]
+    other = Certificate.from_dict({**data, "cells": [*(cell for cell in data["cells"] if cell is not easy), *parts]})
+    assert len(other.tree) == len(certificate.tree) + 2
+    assert sorted(map(str, other.to_dict()["cells"])) != sorted(map(str, data["cells"]))
+    assert Certificate.from_dict(other.to_dict()) == other
+
+
+def narrowest(certificate: Certificate) -> int:
+    """The number, among the cells, of the narrowest: where the law has its peak."""
+    cells = certificate.to_dict()["cells"]
+    return min((i for i, cell in enumerate(cells) if cell["reach"] > 0.0), key=lambda i: float(cells[i]["reach"]))
 
 
 @pytest.mark.parametrize(
     "change",
     [
-        lambda cell: replace(cell, reach=3.0 * cell.reach),
-        lambda cell: replace(cell, contacts=()),
-        lambda cell: replace(
-            cell, equations=tuple(2.0 * equation + 1.0 for equation in cell.equations), contacts=cell.contacts[1:]
+        lambda leaf: replace(leaf, contacts=()),
+        lambda leaf: replace(
+            leaf, equations=tuple(2.0 * equation + 1.0 for equation in leaf.equations), contacts=leaf.contacts[1:]
         ),
     ],
 )
-def test_a_cell_that_says_too_much_is_refused(certificate: PeakCertificate, change: Any) -> None:  # noqa: ANN401
-    # the narrowest is where the law has its peak
-    narrow = min((one for one in certificate.cells if one.reach > 0.0), key=lambda one: one.reach)
-    cells = tuple(change(one) if one == narrow else one for one in certificate.cells)
-    assert not replace(certificate, cells=cells).proven
+def test_a_leaf_that_says_too_little_is_refused(certificate: Certificate, change: Any) -> None:  # noqa: ANN401
+    i = leaves_of(certificate)[narrowest(certificate)]
+    tree = (*certificate.tree[:i], change(certificate.tree[i]), *certificate.tree[i + 1 :])
+    assert not replace(certificate, tree=tree).proven
 
 
-def test_what_is_asked_of_another_problem_is_not_proven(certificate: PeakCertificate) -> None:
-    assert not replace(certificate, constant="J").proven
-    assert not replace(certificate, constant="rms_c").proven
+def test_a_leaf_over_more_places_is_refused(certificate: Certificate) -> None:
+    data = json.loads(json.dumps(certificate.to_dict()))
+    data["cells"][narrowest(certificate)]["reach"] *= 3.0
+    with pytest.raises(InputError, match="cells"):
+        Certificate.from_dict(data)
+
+
+@pytest.mark.parametrize("node", [Split(0, 0.0), Split(0, 0.5), Split(0, 2.0), Split(1, 0.25)], ids=repr)
+def test_splits_at_no_place_between_prove_nothing(certificate: Certificate, node: Split) -> None:
+    first = next(i for i, one in enumerate(certificate.tree) if isinstance(one, Split))
+    assert not replace(certificate, tree=(*certificate.tree[:first], node, *certificate.tree[first + 1 :])).proven
+
+
+def test_what_is_asked_of_another_problem_is_not_proven(certificate: Certificate) -> None:
+    assert not replace(certificate, peak="J").proven
+    assert not replace(certificate, peak="rms_c").proven
     assert not replace(certificate, problem=replace(FAST, B=at_least(2.1))).proven
     assert not replace(certificate, problem=replace(FAST, B=at_most(2.2))).proven
     assert not replace(certificate, problem=replace(FAST, symmetric=False, basis=Pieces(4, 6, 4))).proven
@@ -128,7 +186,7 @@ def test_values_and_peaks_of_laws_below_the_claim_are_within_the_bounds(nu_and_k
             assert rows.remainder(k, reach) >= reach**2 / 2.0 * np.abs(second(places)).max()
         # without contacts there is what the claim alone says
         for sign in (1.0, -1.0):
-            assert rows.upper(k, sign, (), ()) >= sign * float(curve(k))
+            assert rows.upper(k, sign, Leaf()) >= sign * float(curve(k))
     assert rows.remainder(k, 0.0) == 0.0
 
 
@@ -137,18 +195,20 @@ def test_an_end_that_is_free_is_a_place_of_its_own() -> None:
     solution = synthesize(problem, bound="tight")
     assert solution.constants.J.k == 0.0
     assert solution.peak_certificate is not None
-    inner = tuple(one for one in solution.peak_certificate.cells if one.reach > 0.0)
-    assert not replace(solution.peak_certificate, cells=inner).proven
-    at_end = Cell(0.0, 0.0, 1.0, (), ())
-    assert not excluded(PeakRows(problem, J, solution.objective), at_end)
+    data = json.loads(json.dumps(solution.peak_certificate.to_dict()))
+    inner = [cell for cell in data["cells"] if cell["reach"] > 0.0]
+    assert len(inner) < len(data["cells"])
+    with pytest.raises(InputError, match="cells"):
+        Certificate.from_dict({**data, "cells": inner})
+    assert not PeakRows(problem, J, solution.objective).excluded(PlaceRange(1.0, 0.0, 0.0), Leaf())
 
 
 @pytest.mark.parametrize(
     "wrong", [{"claim": -1.0}, {"claim": float("nan")}, {"cells": [{"k": 2.0}]}, {"more": 1}, {"constant": 5}], ids=str
 )
-def test_what_is_no_certificate_is_refused(certificate: PeakCertificate, wrong: dict[str, Any]) -> None:
+def test_what_is_no_certificate_is_refused(certificate: Certificate, wrong: dict[str, Any]) -> None:
     with pytest.raises(InputError):
-        PeakCertificate.from_dict(certificate.to_dict() | wrong)
+        Certificate.from_dict(certificate.to_dict() | wrong)
 
 
 def test_verify_says_that_it_does_not_check_places_exactly_yet(fast: Solution) -> None:
@@ -166,4 +226,4 @@ def test_one_of_two_peaks_may_prove_alone() -> None:
     assert solution.lower_bound <= solution.objective
     judge_tight(solution)
     assert solution.peak_certificate is not None
-    assert solution.peak_certificate.constant == "C"
+    assert solution.peak_certificate.peak == "C"

@@ -12,20 +12,22 @@ from hypothesis import strategies as st
 
 from optlaws import (
     BoundaryConditions,
+    Certificate,
     Chebyshev,
+    Contact,
     InfeasibleProblem,
     InputError,
+    Leaf,
     Problem,
     Solution,
+    Split,
     at_most,
     between,
     synthesize,
 )
 from optlaws.synthesis.families.names import RowName
 from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.proof.certificate import Contact
 from optlaws.synthesis.proof.power.box import Box
-from optlaws.synthesis.proof.power.certificate import Cut, PowerCertificate, Step
 from optlaws.synthesis.proof.power.rows import Anchors, PowerRows, velocity_brackets
 from optlaws.synthesis.proof.power.search import searched
 from tests.sampling import examples
@@ -41,7 +43,7 @@ def first() -> Solution:
     return synthesize(FIRST, bound="tight")
 
 
-def certificate(solution: Solution) -> PowerCertificate:
+def certificate(solution: Solution) -> Certificate:
     power_certificate = solution.power_certificate
     assert power_certificate is not None
     return power_certificate
@@ -95,7 +97,7 @@ def test_a_proof_holds_in_rational_arithmetic_from_its_json_alone(first: Solutio
 
 
 def test_a_proof_survives_json(first: Solution) -> None:
-    again = PowerCertificate.from_dict(json.loads(json.dumps(certificate(first).to_dict())))
+    again = Certificate.from_dict(json.loads(json.dumps(certificate(first).to_dict())))
     assert again == certificate(first)
     assert again.bound == first.lower_bound
 
@@ -115,24 +117,24 @@ def test_no_claim_above_a_law_is_proven(first: Solution, factor: float) -> None:
 
 def test_a_proof_that_is_cut_short_or_goes_on_proves_nothing(first: Solution) -> None:
     proof = certificate(first)
-    last = proof.steps[-1]
-    assert not replace(proof, steps=proof.steps[:-1]).proven
-    assert not replace(proof, steps=(*proof.steps, last)).proven
-    assert not replace(proof, steps=()).proven
-    assert not replace(proof, steps=(Cut(0, 1.0), *proof.steps)).proven, "two boxes are left, one is emptied"
+    last = proof.tree[-1]
+    assert not replace(proof, tree=proof.tree[:-1]).proven
+    assert not replace(proof, tree=(*proof.tree, last)).proven
+    assert not replace(proof, tree=()).proven
+    assert not replace(proof, tree=(Split(0, 1.0), *proof.tree)).proven, "two boxes are left, one is emptied"
 
 
 def test_every_multiplier_counts_as_it_is_or_as_zero(first: Solution) -> None:
     proof = certificate(first)
     wrong = replace(last_step(proof), contacts=tuple(replace(c, multiplier=-1.0) for c in last_step(proof).contacts))
-    assert not replace(proof, steps=(*proof.steps[:-1], wrong)).proven
+    assert not replace(proof, tree=(*proof.tree[:-1], wrong)).proven
     unknown = replace(last_step(proof), contacts=tuple(replace(c, constraint="J") for c in last_step(proof).contacts))
-    assert not replace(proof, steps=(*proof.steps[:-1], unknown)).proven
+    assert not replace(proof, tree=(*proof.tree[:-1], unknown)).proven
 
 
-def last_step(proof: PowerCertificate) -> Step:
-    last = proof.steps[-1]
-    assert isinstance(last, Step)
+def last_step(proof: Certificate) -> Leaf:
+    last = proof.tree[-1]
+    assert isinstance(last, Leaf)
     return last
 
 
@@ -163,7 +165,7 @@ def test_a_proof_of_another_problem_proves_nothing_here(first: Solution) -> None
 )
 def test_broken_proofs_are_refused(first: Solution, broken: dict[str, object]) -> None:
     with pytest.raises(InputError):
-        PowerCertificate.from_dict(certificate(first).to_dict() | broken)
+        Certificate.from_dict(certificate(first).to_dict() | broken)
 
 
 def test_peaks_of_one_sign_that_may_be_negative_are_left_alone() -> None:
@@ -261,5 +263,5 @@ def test_a_power_below_the_least_is_refused_with_proof(minimise: str, first: Sol
     )
     with pytest.raises(InfeasibleProblem, match=r"D is at least 3\.45827") as refused:
         synthesize(replace(FIRST, minimise=minimise, D=at_most(least * 0.99)))
-    assert isinstance(refused.value.proof, PowerCertificate)
+    assert isinstance(refused.value.proof, Certificate)
     assert refused.value.proof.bound > least * 0.99

@@ -6,13 +6,12 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, Problem, at_most, peak, synthesize
+from optlaws import Certificate, Chebyshev, Problem, at_most, peak, synthesize
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.program.writer import model_of
-from optlaws.synthesis.proof.power.beneath_formulas import FormulaRows, applies
 from optlaws.synthesis.proof.power.box import Box
-from optlaws.synthesis.proof.power.certificate import PowerCertificate
+from optlaws.synthesis.proof.power.formula_underestimators import FormulaRows, applies
 from optlaws.synthesis.proof.power.search import searched
 from optlaws.verification import verify
 from tests.sampling import sampled
@@ -40,7 +39,7 @@ def test_a_tight_bound_meets_the_objective_and_is_proven_exactly(problem: Proble
     assert solution.gap < 1e-8
     assert solution.objective <= synthesize(problem).objective * (1.0 + 1e-9)
     data = json.loads(json.dumps(solution.to_dict()))
-    assert PowerCertificate.from_dict(data["power_certificate"]).bound == solution.lower_bound
+    assert Certificate.from_dict(data["power_certificate"]).bound == solution.lower_bound
     assert verify(data).proven
 
 
@@ -95,6 +94,6 @@ def test_what_is_tampered_with_proves_nothing() -> None:
     solution = synthesize(replace(PROBLEMS[1], basis=Chebyshev(3)), bound="tight")
     proof = solution.power_certificate
     assert proof is not None
-    assert replace(proof, claim=proof.claim * 1.01).bound == -np.inf
-    assert replace(proof, steps=proof.steps[:-1]).bound == -np.inf
+    assert replace(proof, claim=proof.bound * 1.01).bound == -np.inf
+    assert replace(proof, tree=proof.tree[:-1]).bound == -np.inf
     assert replace(proof, problem=replace(proof.problem, B=1.5)).bound == -np.inf

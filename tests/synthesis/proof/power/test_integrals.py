@@ -6,10 +6,9 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from optlaws import Chebyshev, Problem, at_most, integral, rms, synthesize
-from optlaws.synthesis.proof.power.beneath_formulas import FormulaRows, applies
+from optlaws import Certificate, Chebyshev, Problem, at_most, integral, rms, synthesize
 from optlaws.synthesis.proof.power.box import Box
-from optlaws.synthesis.proof.power.certificate import PowerCertificate
+from optlaws.synthesis.proof.power.formula_underestimators import FormulaRows, applies
 from tests.sampling import sampled
 
 SMALL = Problem(B=1.8, order=3, basis=Chebyshev(3))
@@ -31,9 +30,9 @@ def test_a_tight_bound_meets_the_objective(problem: Problem) -> None:
     assert solution.status == "optimal"
     assert solution.gap < 1e-8
     data = json.loads(json.dumps(solution.to_dict()))["power_certificate"]
-    assert PowerCertificate.from_dict(data).bound == solution.lower_bound
-    assert PowerCertificate.from_dict({**data, "claim": data["claim"] * 1.001}).bound == -np.inf
-    assert PowerCertificate.from_dict({**data, "steps": data["steps"][:-1]}).bound == -np.inf
+    assert Certificate.from_dict(data).bound == solution.lower_bound
+    assert Certificate.from_dict({**data, "claim": data["claim"] * 1.001}).bound == -np.inf
+    assert Certificate.from_dict({**data, "steps": data["steps"][:-1]}).bound == -np.inf
 
 
 @pytest.mark.sample(4)

@@ -9,13 +9,23 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from optlaws import Chebyshev, InputError, MotionLaw, PowerCertificate, Problem, Solution, at_most, loader, synthesize
+from optlaws import (
+    Certificate,
+    Chebyshev,
+    InputError,
+    MotionLaw,
+    Problem,
+    Solution,
+    Tightening,
+    at_most,
+    loader,
+    synthesize,
+)
 from optlaws.balancing.loaders.constants import NAMES, D_loader
 from optlaws.synthesis.proof.power.box import Box, BoxRows
-from optlaws.synthesis.proof.power.certificate import Step
-from optlaws.synthesis.proof.power.lines_above import above_inverse, above_root
 from optlaws.synthesis.proof.power.rows_of_problem import rows_of
 from optlaws.synthesis.proof.power.search import _points
+from optlaws.synthesis.proof.power.secant_overestimators import secant_over_inverse, secant_over_root
 from optlaws.verification import verify
 from tests.sampling import examples
 
@@ -84,7 +94,7 @@ def test_lines_are_above_and_touch(B: float, t: float, first: float, last: float
     most = B / max(t * t, 0.02) * 0.999
     low, high = sorted((first * most, last * most))
     square = np.array([t * t])
-    line = above_root(B, square, np.array([low]), np.array([high]))
+    line = secant_over_root(B, square, np.array([low]), np.array([high]))
     q = low + (high - low) * np.linspace(0.0, 1.0, 4001) ** 3
     h = np.sqrt(q * (2.0 * B - t * t * q)) / (B - t * t * q)
     room = line.slope * q + line.height - h
@@ -93,7 +103,7 @@ def test_lines_are_above_and_touch(B: float, t: float, first: float, last: float
     assert room.min() <= 1e-4 * (1.0 + h.max())
     assert line.least[0] <= h.min() * (1.0 + 1e-12)
     assert line.greatest[0] >= h.max() * (1.0 - 1e-12)
-    inverse = above_inverse(np.array([1.0]), np.array([1.0 + last]))
+    inverse = secant_over_inverse(np.array([1.0]), np.array([1.0 + last]))
     b = np.linspace(1.0, 1.0 + last, 101)
     assert (inverse.slope * b + inverse.height - 1.0 / b).min() >= -1e-15
 
@@ -110,7 +120,7 @@ def test_the_best_law_is_proven(minimise: str) -> None:
     assert 0.0 <= solution.gap <= 1e-8
     proof = solution.power_certificate
     assert proof is not None
-    again = PowerCertificate.from_dict(json.loads(json.dumps(proof.to_dict())))
+    again = Certificate.from_dict(json.loads(json.dumps(proof.to_dict())))
     assert again.bound == proof.bound == solution.lower_bound
     # no law of the rest is below
     weights = {repr(term): weight for weight, term in solution.problem.objective.terms}
@@ -130,11 +140,11 @@ def test_a_bound_of_c_and_of_the_loader_are_part_of_the_proof() -> None:
 def test_what_is_not_proven_is_not_claimed() -> None:
     proof = proven("C_loader").power_certificate
     assert proof is not None
-    assert replace(proof, claim=proof.claim * 1.001).bound == -np.inf
-    assert replace(proof, steps=proof.steps[:-1]).bound == -np.inf
+    assert replace(proof, claim=proof.bound * 1.001).bound == -np.inf
+    assert replace(proof, tree=proof.tree[:-1]).bound == -np.inf
     assert replace(proof, problem=replace(PROBLEM, monotone=False)).bound == -np.inf
     assert replace(proof, problem=replace(PROBLEM, basis=Chebyshev(9))).bound == -np.inf
-    contacts = [contact for step in proof.steps if isinstance(step, Step) for contact in step.contacts]
+    contacts = [contact for node in proof.tree if isinstance(node, Tightening) for contact in node.contacts]
     assert {contact.constraint for contact in contacts} & {"C_loader, ++", "C_loader, -+"}
 
 

@@ -18,7 +18,6 @@ from optlaws.files.typed import typed
 from optlaws.synthesis.proof.certificate import Certificate
 from optlaws.synthesis.proof.data import problem_of
 from optlaws.synthesis.proof.no_law import ground_of
-from optlaws.synthesis.proof.power.certificate import PowerCertificate
 
 Data = Mapping[str, Any]
 
@@ -55,7 +54,7 @@ class LawFile(msgspec.Struct, forbid_unknown_fields=True):
     about: str = ""
 
 
-class Row(msgspec.Struct, forbid_unknown_fields=True):
+class TableRow(msgspec.Struct, forbid_unknown_fields=True):
     """A row of a table of solutions."""
 
     solution: Any = None
@@ -112,14 +111,14 @@ class Around:
 
 
 @dataclass(frozen=True)
-class Entry:
+class FileEntry:
     """A solution, certificate, law or array, and what is said around it; without data only that is said."""
 
     data: Data
     around: Around = Around()
 
 
-def entries(data: Data) -> dict[str, Entry]:
+def entries(data: Data) -> dict[str, FileEntry]:
     """What can be verified, by where it is.
 
     Raises
@@ -176,7 +175,7 @@ def _stated(data: object, kind: type[Any], name: str) -> Any:  # noqa: ANN401 - 
         raise InputError(f"{name}: {error}; leave out what is not checked") from None
 
 
-def _walk(data: object, path: str, around: Around) -> Iterator[tuple[str, Entry]]:
+def _walk(data: object, path: str, around: Around) -> Iterator[tuple[str, FileEntry]]:
     if isinstance(data, list):
         for i, value in enumerate(data):
             yield from _walk(value, f"{path}[{i}]", around)
@@ -184,9 +183,9 @@ def _walk(data: object, path: str, around: Around) -> Iterator[tuple[str, Entry]
         if data is not None:
             raise InputError(f"{NO_FILE}: {path or 'it'} claims something without a certificate: {data!r:.40}")
     elif is_entry(data):
-        yield path, Entry(data, around)
+        yield path, FileEntry(data, around)
     elif {"solution", "asked"} & data.keys():
-        yield from _row(_stated(data, Row, path), path, around)
+        yield from _row(_stated(data, TableRow, path), path, around)
     elif is_array(data):
         yield from _array(_stated(data, SolutionArrayFile, path or "the array of solutions"), data, path)
     elif "over" in data:
@@ -197,55 +196,54 @@ def _walk(data: object, path: str, around: Around) -> Iterator[tuple[str, Entry]
         yield from _members(data, path, around)
 
 
-def _members(data: Data, path: str, around: Around) -> Iterator[tuple[str, Entry]]:
+def _members(data: Data, path: str, around: Around) -> Iterator[tuple[str, FileEntry]]:
     for key, value in data.items():
         if key != "about" or not isinstance(value, str):
             yield from _walk(value, f"{path}.{key}" if path else key, around)
 
 
-def _row(row: Row, path: str, around: Around) -> Iterator[tuple[str, Entry]]:
+def _row(row: TableRow, path: str, around: Around) -> Iterator[tuple[str, FileEntry]]:
     if row.asked is not None:
         problem_of(_stated(row.asked, dict[str, Any], f"{path}.asked"))
     said = Around(row.status, row.asked, around.B, around.values)
     inside = [entry for name in ("solution", "proof") for entry in _walk(getattr(row, name), f"{path}.{name}", said)]
     if not inside and row.status not in {None, "not found"}:
-        inside = [(path, Entry({}, said))]
+        inside = [(path, FileEntry({}, said))]
     yield from inside
 
 
-def _array(array: SolutionArrayFile, data: Data, path: str) -> Iterator[tuple[str, Entry]]:
+def _array(array: SolutionArrayFile, data: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
     if prod(array.shape) != len(array.solutions):
         raise InputError(f"{path or 'the array'}: {len(array.solutions)} solutions are not of shape {array.shape}")
     inside = f"{path}." if path else ""
     for i, row in enumerate(array.solutions):
         place = f"{inside}solutions[{i}]"
         if is_entry(row):
-            yield place, Entry(row)
+            yield place, FileEntry(row)
         elif row.get("status") == "infeasible":
             yield from _no_law(row, place)
         elif {"error", "status"} != row.keys() - {"problem", "tried"} or row["status"] not in {"failed", "invalid"}:
             raise InputError(f"{NO_FILE}: {place} is neither a solution nor an error")
     if array.parts is not None or array.alone is not None or array.problems is not None:
-        yield f"{inside}parts", Entry(data)
+        yield f"{inside}parts", FileEntry(data)
 
 
-def _no_law(row: Data, path: str) -> Iterator[tuple[str, Entry]]:
+def _no_law(row: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
     """The proof that the problem of a row has no law, as one of that problem, whichever it says it is of."""
     proof = row.get("proof")
     if not isinstance(proof, Mapping):
-        yield path, Entry({}, Around(status="infeasible"))
+        yield path, FileEntry({}, Around(status="infeasible"))
         return
-    kind: type[Certificate | PowerCertificate] = PowerCertificate if "steps" in proof else Certificate
     problem = problem_of(_stated(row.get("problem"), dict[str, Any], f"{path}.problem"))
-    ground = ground_of(problem, kind.from_dict(proof))
+    ground = ground_of(problem, Certificate.from_dict(proof))
     if ground is None:
-        yield path, Entry({}, Around(status="infeasible"))
+        yield path, FileEntry({}, Around(status="infeasible"))
         return
     moved = {**proof, "problem": ground.problem.to_dict()}
-    yield f"{path}.proof", Entry(moved, Around(status="infeasible", above=ground.above))
+    yield f"{path}.proof", FileEntry(moved, Around(status="infeasible", above=ground.above))
 
 
-def _front(front: FrontFile, path: str) -> Iterator[tuple[str, Entry]]:
+def _front(front: FrontFile, path: str) -> Iterator[tuple[str, FileEntry]]:
     if len(front.values) != len(front.points) or any(len(row) != len(front.over) for row in front.values):
         raise InputError(f"{path or 'the front'}: values must be as many as points, one for each of {front.over}")
     for i, (values, point) in enumerate(zip(front.values, front.points, strict=True)):
@@ -257,7 +255,7 @@ def _front(front: FrontFile, path: str) -> Iterator[tuple[str, Entry]]:
         yield from inside
 
 
-def _of_velocity(data: Data, path: str) -> Iterator[tuple[str, Entry]]:
+def _of_velocity(data: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
     """The row of a table whose laws have a peak velocity."""
     # printed numbers are kept as they are printed
     said = data["B"]

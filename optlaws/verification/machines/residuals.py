@@ -10,11 +10,11 @@ from flint import acb, acb_series, arb
 
 from optlaws.verification.enclosing.balls import ball
 from optlaws.verification.enclosing.pieces import PolynomialPiece
-from optlaws.verification.exact.space import ExactSpace
+from optlaws.verification.machines.driving import Space
 from optlaws.verification.machines.velocity_transforms import (
     Ends,
     ends_of,
-    ends_of_piece,
+    ends_of_law,
     greatest_modulus,
     transforms,
 )
@@ -65,16 +65,12 @@ class ExactResidual:
         apart = nu * acb(ball(-self.damping)) + acb(ball(self.design_damping * self.design))
         return 1 - nu * nu * acb(square) + apart * w * acb(2 * square)
 
-    def rows(self, space: ExactSpace, place: Fraction) -> list[acb]:
+    def rows(self, space: Space, place: Fraction) -> list[acb]:
         """Amplitudes of a space's free functions and of its base law, at the frequency of a certificate's place."""
         nu = (1 - place) * self.low + place * self.high
         return self.amplitudes(acb(ball(nu)), space.breaks, ends_of(space))
 
     def peak(self, pieces: Sequence[PolynomialPiece]) -> arb:
         """A ball that holds the greatest magnitude over the interval of frequencies, at the precision at work."""
-        breaks = [pieces[0].start, *(piece.stop for piece in pieces)]
-        ends = [[ends_of_piece(piece) for piece in pieces]]
-        if self.low == self.high:
-            magnitude: arb = abs(self.amplitudes(acb(ball(self.low)), breaks, ends)[0])
-            return magnitude
+        breaks, ends = ends_of_law(pieces)
         return greatest_modulus([lambda nu: self.amplitudes(nu, breaks, ends)[0]], self.low, self.high)

@@ -27,10 +27,10 @@ from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import leaves
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.program.writer import Model, model_of
-from optlaws.synthesis.proof.below_claim import asked_or_claimed, means
-from optlaws.synthesis.proof.certificate import Contact
-from optlaws.synthesis.proof.power.beneath_integrals import Beneath
+from optlaws.synthesis.proof.nodes import Contact
 from optlaws.synthesis.proof.power.box import Box, BoxRows, Places
+from optlaws.synthesis.proof.power.integral_underestimators import ConvexUnderestimator
+from optlaws.synthesis.proof.sublevel_bounds import asked_or_claimed, means
 from optlaws.synthesis.spaces.polynomials.space import PolynomialSpace
 
 Array = NDArray[np.float64]
@@ -180,7 +180,7 @@ class FormulaRows(BoxRows):
         return low, high
 
     @kept_property
-    def integrals(self) -> dict[str, Beneath]:
+    def integrals(self) -> dict[str, ConvexUnderestimator]:
         """What integrals are nowhere below, by the names of their rows."""
         formulas = {
             constant.name: constant
@@ -191,7 +191,9 @@ class FormulaRows(BoxRows):
         for family in self.model.program.families:
             if isinstance(family, IntegralFamily):
                 motion = formulas[family.name].motion
-                planes[names.plane(0, family.name)] = Beneath(self, family, squared(motion) if family.root else motion)
+                planes[names.plane(0, family.name)] = ConvexUnderestimator(
+                    self, family, squared(motion) if family.root else motion
+                )
         return planes
 
     @property
@@ -264,11 +266,11 @@ class FormulaRows(BoxRows):
 
     @property
     def names(self) -> tuple[str, ...]:
-        """Names of every plane."""
+        """The names of all planes that there may be."""
         return tuple(dict.fromkeys(name for name, _ in self._planes))
 
     def kinds(self, box: Box) -> list[tuple[str, float]]:
-        """Every plane with its sign."""
+        """The names of all planes with their signs."""
         del box
         return list(self._planes)
 

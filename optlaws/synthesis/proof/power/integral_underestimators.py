@@ -39,7 +39,7 @@ _LEAST = 1e-300
 
 
 @dataclass(frozen=True, eq=False)
-class Bend:
+class CurvatureBound:
     """What bounds the second derivatives of an integral in a box.
 
     Attributes
@@ -80,7 +80,7 @@ class Bend:
         return float(0.5 * costs @ (ways @ off) ** 2)
 
 
-class Beneath:
+class ConvexUnderestimator:
     """Planes that the integral of a formula, or its root, is nowhere below in a box.
 
     Parameters
@@ -98,7 +98,7 @@ class Beneath:
         self.columns = np.stack([rows.mapped(column) for column in family.columns])
         self._blur = _RULE if motion.degree(dict.fromkeys(ORDERS, 1)) is None else _ROUNDED
         edges = rule_cells(rows.space, motion, _CELLS)
-        self._last: tuple[Box, Bend | None] | None = None
+        self._last: tuple[Box, CurvatureBound | None] | None = None
         self.middle, self.reach = (edges[:-1] + edges[1:]) / 2.0, np.diff(edges) / 2.0
 
     @kept_property
@@ -146,11 +146,15 @@ class Beneath:
     def least(self, box: Box, limits: Mapping[str, float]) -> float:
         """What the integral is at least in a box whatever else holds."""
         low, high = self.ranges(replace(box, low=self._lawful(box.low), high=self._lawful(box.high)), limits)
-        within = {name: Interval(*ends) for name, *ends in zip(self.family.names, low, high, strict=True)}
-        within["k"] = Interval(self.middle - self.reach, self.middle + self.reach)
+        within = self._intervals(low, high)
         least = np.broadcast_to(enclosed(self.motion.formula, within).low, self.middle.shape)
         least_there = float(least @ (2.0 * self.reach))
         return least_there - _BLUR * float(np.abs(least) @ self.reach)
+
+    def _intervals(self, low: Array, high: Array) -> dict[str, Interval]:
+        """The ranges of the derivatives and of k on the cells."""
+        within = {name: Interval(*ends) for name, *ends in zip(self.family.names, low, high, strict=True)}
+        return within | {"k": Interval(self.middle - self.reach, self.middle + self.reach)}
 
     def _lawful(self, side: Array) -> Array:
         """A side of a box with nothing for what is no velocity."""
@@ -158,9 +162,7 @@ class Beneath:
 
     def _third(self, low: Array, high: Array) -> dict[tuple[int, int, int], Array]:
         """Greatest magnitudes of third derivatives of the formula on the cells, for names in ascending order."""
-        used = self.family.names
-        within = {name: Interval(*ends) for name, *ends in zip(used, low, high, strict=True)}
-        within["k"] = Interval(self.middle - self.reach, self.middle + self.reach)
+        within = self._intervals(low, high)
         planes = {}
         for key, formula in self._third_formulas.items():
             ends = enclosed(formula, within)
@@ -169,8 +171,7 @@ class Beneath:
 
     def _anywhere(self, low: Array, high: Array) -> Array:
         """A form over the velocities that second derivatives of the integral are nowhere below in the ranges."""
-        within = {name: Interval(*ends) for name, *ends in zip(self.family.names, low, high, strict=True)}
-        within["k"] = Interval(self.middle - self.reach, self.middle + self.reach)
+        within = self._intervals(low, high)
         count, widths = len(self.family.names), np.maximum(high - low, _LEAST)
         bend = np.zeros((count, count, len(self.middle)))
         for i, j in combinations_with_replacement(range(count), 2):
@@ -232,7 +233,7 @@ class Beneath:
         """The variables of a box with 1 beside them."""
         return np.concatenate([at, np.zeros(self.rows.size - len(at)), [1.0]])
 
-    def _bend(self, box: Box, limits: Mapping[str, float]) -> Bend | None:
+    def _bend(self, box: Box, limits: Mapping[str, float]) -> CurvatureBound | None:
         """What the second derivatives in a box can take; None where they have no bounds."""
         terms = self.rows.terms
         low, high = self.ranges(box, limits)
@@ -240,7 +241,7 @@ class Beneath:
         with np.errstate(all="ignore"):
             third = {} if self.family.convex else self._third(low, high)
             anywhere = np.zeros((terms, terms)) if self.family.convex else self._anywhere(low, high)
-        return Bend(low, high, middle, half, self._free(half), third, anywhere)
+        return CurvatureBound(low, high, middle, half, self._free(half), third, anywhere)
 
     def _free(self, half: Array) -> Array:
         """Directions, in units of the box, in which laws differ that keep the equations."""
@@ -284,7 +285,7 @@ class Beneath:
         costs, ways = bend.costs(min(forms, key=lambda form: bend.taken(bend.middle, form)))
         return np.asarray((costs * ways.sum(axis=1)) @ ways)
 
-    def _bend_of(self, box: Box, limits: Mapping[str, float]) -> Bend | None:
+    def _bend_of(self, box: Box, limits: Mapping[str, float]) -> CurvatureBound | None:
         if self._last is None or self._last[0] is not box:
             self._last = (box, self._bend(box, limits))
         return self._last[1]
@@ -299,7 +300,7 @@ class Beneath:
         row[-1] += float(self.family.weights @ values - (weighted * moved).sum()) - self._blur * size
         return np.asarray(row)
 
-    def _off(self, at: Array, bend: Bend) -> Array | None:
+    def _off(self, at: Array, bend: CurvatureBound) -> Array | None:
         """How far derivatives in the box may be from those of a law on the cells; None if it is not among them."""
         law, rows = self._law(at), []
         for low, high, series in zip(bend.low, bend.high, self._series, strict=True):

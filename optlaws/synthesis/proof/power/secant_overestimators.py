@@ -17,7 +17,7 @@ _STEPS = 4
 
 
 @dataclass(frozen=True, eq=False)
-class Line:
+class SecantOverestimator:
     """A straight line that a function is nowhere above in a range, and the function's least and greatest values."""
 
     slope: Array
@@ -25,24 +25,26 @@ class Line:
     least: Array
     greatest: Array
 
-    def where(self, good: NDArray[np.bool_]) -> Line:
-        """Zero elsewhere."""
-        return Line(*(np.where(good, part, 0.0) for part in (self.slope, self.height, self.least, self.greatest)))
+    def where(self, good: NDArray[np.bool_]) -> SecantOverestimator:
+        """The lines where they are good, zero elsewhere."""
+        return SecantOverestimator(
+            *(np.where(good, part, 0.0) for part in (self.slope, self.height, self.least, self.greatest))
+        )
 
 
-def above_inverse(low: Array, high: Array) -> Line:
+def secant_over_inverse(low: Array, high: Array) -> SecantOverestimator:
     """The chord of 1/b between positive numbers.
 
     Examples
     --------
-    >>> line = above_inverse(np.ones(1), np.full(1, 2.0))
+    >>> line = secant_over_inverse(np.ones(1), np.full(1, 2.0))
     >>> line.slope.tolist(), line.height.tolist()
     ([-0.5], [1.5])
     """
-    return Line(-1.0 / (low * high), 1.0 / low + 1.0 / high, 1.0 / high, 1.0 / low)
+    return SecantOverestimator(-1.0 / (low * high), 1.0 / low + 1.0 / high, 1.0 / high, 1.0 / low)
 
 
-def above_root(B: float, square: Array, low: Array, high: Array) -> Line:
+def secant_over_root(B: float, square: Array, low: Array, high: Array) -> SecantOverestimator:
     """A line above h(q) = sqrt(q (2 B - t² q)) / (B - t² q), which is first concave in q, then convex.
 
     With b = B - t² q that is sqrt(B² - b²) / (t b). Where b is not positive throughout the line means nothing, and its
@@ -59,7 +61,7 @@ def above_root(B: float, square: Array, low: Array, high: Array) -> Line:
 
     Examples
     --------
-    >>> line = above_root(2.0, np.zeros(1), np.zeros(1), np.ones(1))  # h is the root of q
+    >>> line = secant_over_root(2.0, np.zeros(1), np.zeros(1), np.ones(1))  # h is the root of q
     >>> line.slope.tolist(), line.height.tolist()
     ([1.0], [0.25])
     """
@@ -72,7 +74,7 @@ def above_root(B: float, square: Array, low: Array, high: Array) -> Line:
     between = np.where((turn > low) & (turn < high), turn, low)
     height = np.maximum(ends[0] - slope * low, ends[1] - slope * high)
     height = np.maximum(height, _root(B, square, between) - slope * between)
-    return Line(slope, height, ends[0], ends[1])
+    return SecantOverestimator(slope, height, ends[0], ends[1])
 
 
 def _root(B: float, square: Array, q: Array) -> Array:

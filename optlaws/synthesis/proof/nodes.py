@@ -1,0 +1,141 @@
+"""Trees of proofs as plain values: leaves that close a region of laws, splits that divide one, tightenings, places."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass, field
+from math import isfinite
+from typing import NamedTuple
+
+from optlaws.echo import shortened
+from optlaws.errors import InputError
+
+
+@dataclass(frozen=True)
+class Contact:
+    """A constraint at one k: which family of rows, with which sign, and its multiplier (dimensionless).
+
+    `direction` belongs to an RMS and to a complex amplitude: the unit vector by which its size is bounded from below;
+    to the peak velocity of a loader: the coordinates of the law whose tangent bounds it.
+
+    Examples
+    --------
+    >>> Contact("C", 1.0, 0.25, 0.5).multiplier
+    0.5
+    """
+
+    constraint: str
+    sign: float
+    k: float
+    multiplier: float
+    direction: tuple[float, ...] = ()
+
+    def __post_init__(self) -> None:
+        finite = all(map(isfinite, (self.multiplier, *self.direction)))
+        if not 0.0 <= self.k <= 1.0 or not finite or abs(self.sign) != 1.0:
+            raise InputError(
+                f"a contact needs k in [0, 1], a sign 1 or -1, a finite multiplier and direction, got {shortened(self)}"
+            )
+
+
+@dataclass(frozen=True)
+class Leaf:
+    """Multipliers of a sum of rows that no law of a region obeys.
+
+    Attributes
+    ----------
+    contacts, equations, claim
+        Multipliers of the rows at contacts, of the program's equations, and of "the objective is below the claim".
+
+    Examples
+    --------
+    >>> Leaf((Contact("C", 1.0, 0.25, 0.5),), (0.1,)).equations
+    (0.1,)
+    """
+
+    contacts: tuple[Contact, ...] = ()
+    equations: tuple[float, ...] = ()
+    claim: float = 0.0
+
+    def __post_init__(self) -> None:
+        if not all(map(isfinite, (*self.equations, self.claim))):
+            raise InputError(f"multipliers of equations and of the claim must be finite numbers, got {shortened(self)}")
+
+
+@dataclass(frozen=True)
+class Tightening(Leaf):
+    """A sum of rows that moves one side of a region; where the sides then cross, it closes the region as a leaf does.
+
+    Attributes
+    ----------
+    variable
+        Which variable's side moves.
+    side
+        1 raises the least value, -1 lowers the greatest.
+
+    Examples
+    --------
+    >>> Tightening((Contact("power", 1.0, 0.25, 0.5),), (0.1,), variable=0, side=1).side
+    1
+    """
+
+    variable: int = field(kw_only=True)
+    side: int = field(kw_only=True)
+
+    def __post_init__(self) -> None:
+        super().__post_init__()
+        if self.side not in {1, -1}:
+            raise InputError(f"a tightening needs a side 1 or -1, got {shortened(self)}")
+
+
+@dataclass(frozen=True)
+class Split:
+    """A region cut in two at a value of a variable; what follows in a tree closes the part below first.
+
+    Examples
+    --------
+    >>> Split(0, 0.25).at
+    0.25
+    """
+
+    variable: int
+    at: float
+
+    def __post_init__(self) -> None:
+        if not isfinite(self.at):
+            raise InputError(f"a split needs a finite value, got {shortened(self.at)}")
+
+
+Node = Leaf | Split
+
+
+class PlaceRange(NamedTuple):
+    """Places from one to another, and the sign with which the peak is there.
+
+    Examples
+    --------
+    >>> PlaceRange(1.0, 0.0, 0.5).parts(0.125)[0]
+    PlaceRange(sign=1.0, low=0.125, high=0.5)
+    """
+
+    sign: float
+    low: float
+    high: float
+
+    @property
+    def k(self) -> float:
+        """The middle of the range."""
+        return (self.low + self.high) / 2.0
+
+    @property
+    def reach(self) -> float:
+        """How far the ends are from the middle."""
+        return (self.high - self.low) / 2.0
+
+    def holds(self, other: PlaceRange) -> bool:
+        """Whether the other one is part of it: an end alone is part of no longer one."""
+        inside = self.low <= other.low <= other.high <= self.high
+        return inside and self.sign == other.sign and (self.low == self.high) == (other.low == other.high)
+
+    def parts(self, at: float) -> list[PlaceRange]:
+        """What is above a place, then what is below it."""
+        return [self._replace(low=at), self._replace(high=at)]

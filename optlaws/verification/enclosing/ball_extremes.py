@@ -1,0 +1,168 @@
+"""Extremes of functions with every rounding enclosed: Taylor polynomials on cells, and branch and bound over these."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from fractions import Fraction
+from functools import reduce
+from typing import Any
+
+from flint import arb, arb_poly, arb_series, ctx
+
+from optlaws.verification.enclosing.balls import ball, series_length
+from optlaws.verification.enclosing.pieces import Extremes
+
+#: bits with which it is looked for; how narrow the value must be, of itself and of what the polynomials are made of;
+#: and how short a part is cut no further
+_BITS, _NARROW, _NOTHING, _SHORTEST = 192, 2.0**-70, 2.0**-110, Fraction(1, 2**60)
+_WHOLE = (Fraction(-1), Fraction(1))
+#: terms of Taylor polynomials; how little may be left of a function, of itself; how short a cell is cut no further, and
+#: after how many none is
+_TERMS, _LEFT, _LEAST, _MOST = 24, 2.0**-80, Fraction(1, 2**70), 1 << 12
+
+#: a function by its Taylor series; coefficients beyond what it is smooth to are not finite
+Smooth = Callable[[arb_series], arb_series]
+Ends = tuple[Fraction, Fraction]
+#: coefficients of a polynomial, and how far a function is off it at most
+Taylor = tuple[list[Any], arb]
+
+
+def extremes(function: Smooth, start: Fraction, stop: Fraction) -> Extremes:
+    """Balls that hold the least and the greatest value of a function between two places.
+
+    Examples
+    --------
+    >>> least, greatest = extremes(lambda s: s.sin(), Fraction(0), Fraction(3))
+    >>> greatest.contains(1), float(greatest.rad()) < 1e-12
+    (True, True)
+    """
+    first, last = (function(arb_series([ball(k)]))[0] for k in (start, stop))
+    size = 1 + abs(first).max(abs(last)).upper()
+    if not size.is_finite():
+        return arb.nan(), arb.nan()
+    most = size * max(_LEFT, 2.0 ** (8 - ctx.prec))
+
+    def enough(parts: Sequence[Taylor], _: Fraction) -> bool:
+        return bool(parts[0][1] <= most)
+
+    several = cells(lambda s: [function(s)], arb_series, (start, stop), _LEAST, enough)
+    parts = [(arb_poly(centre), rest) for _, [(centre, rest)] in several]
+    return -greatest_magnitude(parts, (-1.0,)), greatest_magnitude(parts, (1.0,))
+
+
+def cells(
+    functions: Callable[[Any], Sequence[Any]],
+    variable: Callable[[list[Any]], Any],
+    ends: Ends,
+    shortest: Fraction,
+    enough: Callable[[Sequence[Taylor], Fraction], bool],
+    *,
+    terms: int = _TERMS,
+) -> Iterator[tuple[Ends, list[Taylor]]]:
+    """Many cells with the Taylor polynomials of functions there, and how far these are off.
+
+    A polynomial is of what runs from -1 to 1 over the cell, and has as many terms as the function is smooth; where that
+    is none, it is a number.
+
+    Parameters
+    ----------
+    functions, variable
+        The functions of a series, and what makes a series of its coefficients.
+    ends
+        From where to where.
+    shortest
+        A cell that is shorter is cut no further.
+    enough
+        Whether a cell need not be cut, from the polynomials and its length.
+    terms
+        How many terms there are at most.
+    """
+    left, count = [ends], 0
+    while left:
+        low, high = left.pop()
+        middle, half = (low + high) / 2, ball((high - low) / 2)
+        with series_length(terms + 1):
+            places = ball(middle), ball(low).union(ball(high))
+            pairs = zip(*(functions(variable([place, half])) for place in places), strict=True)
+            parts = [_taylor(about, around, terms) for about, around in pairs]
+        count += 1
+        if high - low < shortest or count > _MOST or enough(parts, high - low):
+            yield (low, high), parts
+        else:
+            left += [(low, middle), (middle, high)]
+
+
+def _taylor(about: Any, around: Any, terms: int) -> Taylor:  # noqa: ANN401 - series
+    smooth = next((i for i in range(terms, 0, -1) if around[i].is_finite()), 0)
+    centre = [about[i] for i in range(smooth)]
+    if smooth and all(value.is_finite() for value in centre):
+        return centre, abs(around[smooth]).upper()
+    return [around[0].mid()], around[0].rad()
+
+
+def greatest_magnitude(parts: Sequence[tuple[arb_poly, arb]], signs: Sequence[float] = (1.0, -1.0)) -> arb:
+    """A ball that holds the greatest magnitude of several functions on [-1, 1], or the greatest value of one sign.
+
+    Parameters
+    ----------
+    parts
+        Polynomials, and for each how far the function may be from it.
+    signs
+        1 for the greatest value, -1 for the greatest opposite, both for the greatest magnitude.
+
+    Examples
+    --------
+    >>> waves = [(arb_poly([0, 1, 0, -1]), arb(0)), (arb_poly([0.25]), arb(0))]
+    >>> peak = greatest_magnitude(waves)
+    >>> peak.overlaps(2 / arb(27).sqrt()), float(peak.rad()) < 1e-20
+    (True, True)
+    >>> greatest_magnitude(waves[1:], (-1.0,))
+    -0.250000000000000
+    """
+    with ctx.workprec(_BITS):
+        size = sum((sum(map(abs, polynomial.coeffs()), off) for polynomial, off in parts), arb(0))
+        climb = _BranchAndBound(signs, size.upper())
+        for polynomial, off in parts:
+            climb.seen(polynomial, off, [*_WHOLE, Fraction(0)])
+        for polynomial, off in parts:
+            climb.over(polynomial, off)
+        return climb.least.union(climb.greatest.max(climb.least))
+
+
+class _BranchAndBound:
+    """Bounds of the greatest value so far, from below and from above."""
+
+    def __init__(self, signs: Sequence[float], size: arb) -> None:
+        self.signs, self.nothing = signs, size * _NOTHING
+        self.least = self.greatest = -size
+
+    def _counted(self, value: arb) -> arb:
+        """The greatest of a value, its opposite or both."""
+        return reduce(arb.max, (value if sign > 0.0 else -value for sign in self.signs))
+
+    def seen(self, polynomial: arb_poly, off: arb, places: Sequence[Fraction]) -> list[arb]:
+        """What there is at places, none of which the greatest is below."""
+        counted = [self._counted(polynomial(ball(place))) for place in places]
+        self.least = reduce(arb.max, ((value - off).lower() for value in counted), self.least)
+        return counted
+
+    def over(self, polynomial: arb_poly, off: arb) -> None:
+        """Take one more function into account."""
+        left = [_WHOLE]
+        while left:
+            low, high = left.pop()
+            middle, half = (low + high) / 2, (high - low) / 2
+            centre, *others = polynomial(arb_poly([ball(middle), ball(half)])).coeffs() or [arb(0)]
+            sizes = [abs(value) for value in others]
+            width = sum(sizes, arb(0))
+            top = (self._counted(centre) + width + off).upper()
+            if top < self.least:
+                continue
+            ends = self.seen(polynomial, off, [low, high])
+            if others and sizes[0] > sum((m * size for m, size in enumerate(sizes[1:], 2)), arb(0)):
+                # it rises or falls throughout
+                self.greatest = reduce(arb.max, ((end + off).upper() for end in ends), self.greatest)
+            elif width < (_NARROW * abs(self.least)).max(self.nothing) or half < _SHORTEST or not others:
+                self.greatest = self.greatest.max(top)
+            else:
+                left += [(low, middle), (middle, high)]

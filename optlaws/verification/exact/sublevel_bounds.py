@@ -1,0 +1,146 @@
+"""What constants and derivatives can be in laws whose objective is below a claim, with every rounding enclosed."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from fractions import Fraction
+from math import inf, isfinite
+
+from flint import arb
+
+from optlaws.synthesis.families.names import VariableName
+from optlaws.synthesis.limits.rounding import rounded_up
+from optlaws.synthesis.problem.constants import Functional, Peak, Power
+from optlaws.synthesis.problem.expression import Expression, Maximum, leaves
+from optlaws.synthesis.problem.problem import Problem
+from optlaws.synthesis.proof.certificate import VIOLATION, Certificate
+from optlaws.synthesis.spaces.of_basis import space_of
+from optlaws.verification.enclosing.balls import ball, upper
+from optlaws.verification.exact.rows import ExactRows
+from optlaws.verification.machines.floors import floor
+from optlaws.verification.machines.outputs import KnownOutput
+
+#: what makes up for the rounding of a few operations in doubles
+_ROUNDED = 1.0 + 2.0**-40
+
+
+def never_negative(problem: Problem) -> bool:
+    """Whether every constant of the objective is at least 0: a peak of one sign need not be if the velocity changes."""
+    leaves_found = [leaf for _, leaf in leaves(problem.objective)]
+    if any(isinstance(leaf, Functional) and floor(leaf, problem.conditions) < 0 for leaf in leaves_found):
+        return False
+    one_sided = any(isinstance(leaf, Peak) and len(leaf.signs) == 1 for leaf in leaves_found)
+    return not one_sided or (problem.boundary is None and problem.order > 1)
+
+
+def least_values(problem: Problem, rows: ExactRows) -> dict[str, Fraction | float]:
+    """What constants of the objective cannot be below, where that is not 0: minus infinity where nothing is known.
+
+    The greatest c is at least its mean, the change of velocity, and so is the greatest -c.
+    """
+    change = rows.space.bounds.velocity_change
+    least: dict[str, Fraction | float] = {}
+    mean = None if change is None else Fraction(int(change.p), int(change.q))
+    one_sided = not never_negative(problem)
+    for _, leaf in leaves(problem.objective):
+        if isinstance(leaf, Peak) and len(leaf.signs) == 1 and one_sided:
+            least[repr(leaf)] = -inf if mean is None or leaf.nu != 2 else mean * Fraction(leaf.signs[0])
+        elif isinstance(leaf, Functional):
+            value = floor(leaf, problem.conditions)
+            # above 0 doubles say it, unless it is an exact one
+            if value < 0 or (value > 0 and isinstance(value, Fraction)):
+                least[repr(leaf)] = value
+    _least_sum(problem.objective, least)
+    return least
+
+
+def least_objective(problem: Problem, rows: ExactRows) -> Fraction | None:
+    """What the objective cannot be below by what its constants are alone; None where nothing is known."""
+    value = _least_sum(problem.objective, least_values(problem, rows))
+    return None if isinstance(value, float) else value
+
+
+def _least_sum(expression: Expression, least: dict[str, Fraction | float]) -> Fraction | float:
+    """What an expression cannot be below; notes the same of its maxima."""
+    total: Fraction | float = Fraction(0)
+    for weight, term in expression.terms:
+        if isinstance(term, Maximum):
+            least[repr(term)] = max(_least_sum(part, least) for part in term.parts)
+        total += Fraction(weight) * least.get(repr(term), Fraction(0))
+    return total
+
+
+def greatest_values(certificate: Certificate, rows: ExactRows, claim: float) -> dict[str, float]:
+    """Greatest values of the named constants in a law whose objective is below the claim."""
+    greatest: dict[str, float] = {}
+    problem = certificate.problem
+    if certificate.program != VIOLATION:
+        _spread(problem.objective, Fraction(claim), least_values(problem, rows), greatest)
+    for name in ("B", *(constant.name for constant, _ in problem.bounded)):
+        asked = problem.range(name)
+        if asked is not None:
+            greatest[name] = min(greatest.get(name, inf), asked.high)
+    if rows.power is not None and isfinite(greatest.get(rows.power.name, inf)):
+        greatest[VariableName.POWER_ROOT] = rounded_up(upper(ball(greatest[rows.power.name]).sqrt()))
+    start = rows.space.bounds.start_velocity
+    if "B" in rows.names and not isfinite(greatest.get("B", inf)) and start is not None:
+        # b is b(0) and the integral of c
+        mean = min(greatest.get(name, inf) for name in ("C", "rms_c"))
+        if isfinite(mean):
+            greatest["B"] = rounded_up(upper(abs(ball(start)) + ball(mean)))
+    return greatest
+
+
+def means(problem: Problem, rows: ExactRows, greatest: dict[str, float]) -> dict[int, arb]:
+    """By order of derivative: a bound of the integral of its magnitude, in every such law."""
+    start, change, stroke = rows.space.bounds
+    bounds: dict[int, list[arb]] = {}
+
+    def known(nu: int, name: str, factor: float | arb = 1.0, extra: arb | None = None) -> None:
+        if isfinite(greatest.get(name, inf)):
+            size = arb(factor) * ball(max(greatest[name], 0.0))
+            bounds.setdefault(nu, []).append(size + (arb(0) if extra is None else extra))
+
+    for nu, name in ((2, "C"), (2, "rms_c"), (3, "J"), (3, "rms_j"), (4, "jounce")):
+        known(nu, name)
+    if change is not None:
+        # what is above 0 less what is below is the change, and one of them is at most the peak
+        known(2, "C_plus", 2, -ball(change))
+        known(2, "C_minus", 2, ball(change))
+    known(1, "B", 2, -ball(stroke))
+    if problem.monotone:
+        bounds.setdefault(1, []).append(ball(stroke))
+    for constant in problem.constants:
+        name = VariableName.POWER_ROOT if constant == rows.power else constant.name
+        for nu, factor, offset in _sizes(problem, constant, name):
+            known(nu, name, factor, offset)
+    plain = rows.power is not None and not rows.power.curbs()
+    if plain and start is not None and change is not None and start == 0 and start + change == 0:
+        # b² <= 2 D k
+        known(1, VariableName.POWER_ROOT)
+    return {nu: ball(min(map(upper, several))) for nu, several in bounds.items()}
+
+
+def _sizes(problem: Problem, constant: Functional, name: str) -> Iterator[tuple[int, arb, arb]]:
+    """Orders, factors and offsets: the mean of |a^(order)| is at most factor times the constant plus the offset."""
+    if name == VariableName.POWER_ROOT or not isinstance(constant, Power | KnownOutput):
+        space = space_of(problem.basis, problem.conditions, symmetric=problem.symmetric)
+        # both are rounded
+        for nu, factor, offset in constant.sizes(space):
+            yield nu, ball(factor * _ROUNDED), ball(offset * _ROUNDED)
+
+
+def _spread(
+    expression: Expression, claim: Fraction, least: Mapping[str, Fraction | float], greatest: dict[str, float]
+) -> None:
+    """What each term is at most where the sum is below the claim and the other terms are no less than they can be."""
+    lowest = [Fraction(weight) * least.get(repr(term), Fraction(0)) for weight, term in expression.terms]
+    for i, (weight, term) in enumerate(expression.terms):
+        others = sum([*lowest[:i], *lowest[i + 1 :]], Fraction(0))
+        if isinstance(others, float):
+            continue
+        value = rounded_up((claim - others) / Fraction(weight))
+        greatest[repr(term)] = max(min(greatest.get(repr(term), inf), value), float(least.get(repr(term), 0)))
+        if isinstance(term, Maximum):
+            for part in term.parts:
+                _spread(part, Fraction(value), least, greatest)
