@@ -98,8 +98,8 @@ def read_load(given: Any, axis: str) -> Load:  # noqa: ANN401 - it is checked he
         raise InputError(f"load: period must be above 0, got {shortened(given['period'])}")
     if 2.0 * pi > FASTEST * period:
         raise InputError(
-            f"load: a period of {shortened(given['period'])} is too short: below {2e6 * pi / FASTEST:.0f} us a load moves "
-            "as if it were rigid: leave it out, and minimise or limit the cycle's own quantities"
+            f"load: a period of {shortened(given['period'])} is too short: below {2e6 * pi / FASTEST:.0f} us a load "
+            "moves as if it were rigid: leave it out, and minimise or limit the cycle's own quantities"
         )
     return _mass_on_a_spring(given, axis, 2.0 * pi / period)
 

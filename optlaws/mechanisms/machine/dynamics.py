@@ -194,12 +194,18 @@ class Dynamics:
         reaches = [DECAY / total] if total else [inf]
         while 2.0 * reaches[-1] < 1.0:
             reaches.append(2.0 * reaches[-1])
-        marks = [0.0, *(reach for reach in reaches if reach < 1.0), 1.0]
-        counts = [max(1, ceil(self._alive(low * length) * (high - low) * length / radians)) for low, high in pairwise(marks)]
-        if SPARED * sum(counts) < count:
-            parts = zip(pairwise(marks), counts, strict=True)
-            return [0.0, *(low + (high - low) * (i + 1) / parted for (low, high), parted in parts for i in range(parted))]
+        growing = self._growing_edges([reach for reach in reaches if reach < 1.0], length, radians)
+        if SPARED * (len(growing) - 1) < count:
+            return growing
         return [0.0, *(reach for reach in reaches if reach < 1.0 / count), *((i + 1) / count for i in range(count))]
+
+    def _growing_edges(self, reaches: list[float], length: float, radians: float) -> list[float]:
+        """Shares of a stretch between panels as short as the vibrations ask that are alive at each of its reaches."""
+        edges = [0.0]
+        for low, high in pairwise([0.0, *reaches, 1.0]):
+            count = max(1, ceil(self._alive(low * length) * (high - low) * length / radians))
+            edges += [low + (high - low) * (i + 1) / count for i in range(count - 1)] + [high]
+        return edges
 
     def _alive(self, time: float) -> float:
         """The fastest vibration that has not died away after a time, radians in the duration of the rise."""

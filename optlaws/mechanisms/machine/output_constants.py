@@ -298,9 +298,9 @@ class OutputPeak(OutputConstant):
         panels = self.panels(space)
         if self.steady and len(panels) > _MOST_PANELS:
             raise InputError(
-                f"{self.output!r} vibrates {self.machine.dynamics.fastest / (2.0 * pi):.0f} times in a cycle and hardly "
-                f"dies away: its peaks are too many to look at each. So stiff a machine moves as if it were rigid: leave "
-                f"it out and minimise the acceleration itself, or give it more damping or fewer pieces"
+                f"{self.output!r} vibrates {self.machine.dynamics.fastest / (2.0 * pi):.0f} times in a cycle and "
+                "hardly dies away: its peaks are too many to look at each, and so stiff a machine moves as if it were "
+                "rigid: leave it out and minimise the acceleration itself, or give it more damping"
             )
         count = max(len(series) for *_, series in panels)
         rows = np.zeros((len(panels), count + 1, panels[0][2].shape[1]))
