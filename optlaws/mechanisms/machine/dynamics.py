@@ -26,6 +26,7 @@ DECAY = 40.0  # of the fastest decay in a panel, while it is not over
 SPARED = 2  # times as many panels as are enough where vibrations die away
 SPARE = 32  # coefficients beyond those of the law that resolve a vibration on such a panel
 VIBRATING = 1e-6  # of a root's size: with less, it is a decay that rounding has split in two
+STEEP = 2.0  # of the number of coefficients: what is faster is over before any of them shows it
 SAMPLES = 4001  # of a response to an impulse
 ROOM = 1.01  # for what the sum over samples misses of an integral
 ROUNDING = 1e-12  # by which lengths of panels differ that are the same
@@ -271,7 +272,8 @@ def solutions(root: complex, load: Complex) -> Complex:
     """Chebyshev series of solutions of y' = root y + load on [-1, 1], a column for each load, and one without load.
 
     Integrated once, each coefficient depends on its two neighbours, which leaves one free solution: the exponential. It
-    is solved for beside the particular ones, from a coefficient 0, or a coefficient 1, that it is not without.
+    is solved for beside the particular ones, from a coefficient 0, or a coefficient 1, that it is not without; where
+    the coefficients are too few to show it, from the last one, beside which the particular ones are smooth.
 
     Examples
     --------
@@ -291,6 +293,8 @@ def solutions(root: complex, load: Complex) -> Complex:
     right[0] *= 2.0
     right[:-1, :-1] -= load[2:]
     right /= (2.0 * j)[:, None]
+    if abs(root) > STEEP * count:
+        return _steep(step, right)
     bands = np.ones((3, count - 1), dtype=np.complex128)
     bands[0, 1:], bands[2, :-1] = step[:-1], -step[1:]
     sizes = np.abs([complex(ive(order, np.complex128(root))) for order in (0, 1)])
@@ -305,6 +309,22 @@ def solutions(root: complex, load: Complex) -> Complex:
     solution[1:] = solved
     solution[0] = solved[0]
     solution[first, :-1], solution[first, -1] = 0.0, 1.0
+    return solution
+
+
+def _steep(step: Complex, right: Complex) -> Complex:
+    """The same where the exponential is over at once: the last coefficient is free, and the others follow from it."""
+    from scipy.linalg import solve_banded
+
+    count, columns = right.shape
+    bands = np.ones((3, count), dtype=np.complex128)
+    bands[0, 2:], bands[2] = step[:-2], -step
+    bands[2, 0] *= 2.0
+    right[-1, -1] -= 1.0
+    right[-2:-1, -1] -= step[-2:-1]
+    solution = np.zeros((count + 1, columns), dtype=np.complex128)
+    solution[:-1] = solve_banded((0, 2), bands, right, overwrite_ab=True, overwrite_b=True, check_finite=False)
+    solution[-1, -1] = 1.0
     return solution
 
 
