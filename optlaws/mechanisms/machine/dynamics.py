@@ -287,7 +287,7 @@ def solutions(root: complex, load: Complex) -> Complex:
 
     count, columns = load.shape
     j = np.arange(1, count)
-    step = root / (2.0 * j)
+    step = np.asarray(root / (2.0 * j), dtype=np.complex128)
     right = np.zeros((count - 1, columns + 1), dtype=np.complex128)
     right[:, :-1] = load[:-1]
     right[0] *= 2.0

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -52,7 +52,7 @@ class PieceSeries:
         piece, local, _ = self.place(u)
         return self.sums(chebyshev.chebvander(local, self.series.shape[1] - 1), piece)
 
-    def sums(self, basis: Array, piece: NDArray[np.intp]) -> Array:
+    def sums(self, basis: NDArray[np.floating[Any]], piece: NDArray[np.intp]) -> Array:
         """Columns at points of pieces from the Chebyshev polynomials there; many points of a piece share its series."""
         if len(piece) < _SHARING * len(self.series):
             return np.asarray(np.einsum("pm,pmc->pc", basis, self.series[piece]))
