@@ -246,6 +246,8 @@ def _no_law(row: Data, path: str) -> Iterator[tuple[str, FileEntry]]:
 def _front(front: FrontFile, path: str) -> Iterator[tuple[str, FileEntry]]:
     if len(front.values) != len(front.points) or any(len(row) != len(front.over) for row in front.values):
         raise InputError(f"{path or 'the front'}: values must be as many as points, one for each of {front.over}")
+    if len(set(front.over)) < len(front.over):
+        raise InputError(f"{path or 'the front'}: it is over the same constant twice: {front.over}")
     for i, (values, point) in enumerate(zip(front.values, front.points, strict=True)):
         said = Around(values=dict(zip(front.over, values, strict=True)))
         place = f"{path}.points[{i}]" if path else f"points[{i}]"

@@ -13,6 +13,7 @@ from optlaws.errors import InputError
 from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.over_time import RepeatedMotion, jumps
+from optlaws.mechanisms.machine.state_space import FASTEST
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import not_negative
@@ -95,6 +96,11 @@ def read_load(given: Any, axis: str) -> Load:  # noqa: ANN401 - it is checked he
     period = quantity(given["period"], "time", "load: period")
     if period <= 0.0:
         raise InputError(f"load: period must be above 0, got {shortened(given['period'])}")
+    if 2.0 * pi > FASTEST * period:
+        raise InputError(
+            f"load: a period of {shortened(given['period'])} is too short: below {2e6 * pi / FASTEST:.0f} us a load "
+            "moves as if it were rigid: leave it out, and minimise or limit the cycle's own quantities"
+        )
     return _mass_on_a_spring(given, axis, 2.0 * pi / period)
 
 

@@ -23,8 +23,10 @@ Complex = NDArray[np.complex128]
 
 RADIANS = 10.0  # of the fastest vibration in a panel
 DECAY = 40.0  # of the fastest decay in a panel, while it is not over
+SPARED = 2  # times as many panels as are enough where vibrations die away
 SPARE = 32  # coefficients beyond those of the law that resolve a vibration on such a panel
 VIBRATING = 1e-6  # of a root's size: with less, it is a decay that rounding has split in two
+STEEP = 2.0  # of the number of coefficients: what is faster is over before any of them shows it
 SAMPLES = 4001  # of a response to an impulse
 ROOM = 1.01  # for what the sum over samples misses of an integral
 ROUNDING = 1e-12  # by which lengths of panels differ that are the same
@@ -164,7 +166,9 @@ class Dynamics:
         lengths = [(high - low) * drive.length for low, high in parts]
         series = [drive.within(low, high) for low, high in parts]
         alike = _alike(lengths)
-        groups = [_Group(self, [series[j] for j in own], 0.5 * lengths[own[0]]) for own in alike]
+        groups = [
+            _Group(self, [series[j] for j in own], 0.5 * lengths[own[0]], edges[own[0]] * drive.length) for own in alike
+        ]
         place = {j: (group, at) for group, own in zip(groups, alike, strict=True) for at, j in enumerate(own)}
         for i in range(len(self.roots) - 1, -1, -1):
             for group in groups:
@@ -176,33 +180,53 @@ class Dynamics:
             for group in groups:
                 group.join(i)
         starts = [drive.start + low * drive.length for low in edges[:-1]]
+        # what is known ends where the stretch does, to the last digit
+        lengths[-1] = drive.start + drive.length - starts[-1]
         states = [place[j][0].states[:, :, place[j][1]].swapaxes(0, 1) for j in range(len(parts))]
         return [Panel(*panel) for panel in zip(starts, lengths, states, series, strict=True)]
 
     def edges(self, length: float, radians: float) -> list[float]:
-        """Shares of a stretch between which its panels lie: equal ones, and short ones at first for what decays."""
-        count = max(1, ceil(self.fastest * length / radians))
-        edges, total = [0.0], self.decay * length
-        reach = DECAY / total if total else inf
-        while reach < 1.0 / count:
-            edges.append(reach)
-            reach *= 2.0
-        return [*edges, *((i + 1) / count for i in range(count))]
+        """Shares of a stretch between which its panels lie: equal ones, and short ones at first for what decays.
 
-    def terms(self, drive: int, half: float) -> int:
-        """Coefficients that resolve the motion on a panel of half that length, under a drive of so many."""
-        decay = min(float(np.abs(self.roots.real).max()) * half, 2.0 * DECAY)
-        return drive + SPARE + ceil(self.fastest * half) + ceil(PER_ROOT_OF_DECAY * sqrt(decay))
+        Where that spares most of them, panels are also longer as soon as fast vibrations have died away.
+        """
+        count = max(1, ceil(self.fastest * length / radians))
+        total = self.decay * length
+        reaches = [DECAY / total] if total else [inf]
+        while 2.0 * reaches[-1] < 1.0:
+            reaches.append(2.0 * reaches[-1])
+        growing = self._growing_edges([reach for reach in reaches if reach < 1.0], length, radians)
+        if SPARED * (len(growing) - 1) < count:
+            return growing
+        return [0.0, *(reach for reach in reaches if reach < 1.0 / count), *((i + 1) / count for i in range(count))]
+
+    def _growing_edges(self, reaches: list[float], length: float, radians: float) -> list[float]:
+        """Shares of a stretch between panels as short as the vibrations ask that are alive at each of its reaches."""
+        edges = [0.0]
+        for low, high in pairwise([0.0, *reaches, 1.0]):
+            count = max(1, ceil(self._alive(low * length) * (high - low) * length / radians))
+            edges += [low + (high - low) * (i + 1) / count for i in range(count - 1)] + [high]
+        return edges
+
+    def _alive(self, time: float) -> float:
+        """The fastest vibration that has not died away after a time, radians in the duration of the rise."""
+        alive = np.abs(self.roots.real) * time < (1.0 - ROUNDING) * DECAY
+        return float(np.abs(self.roots.imag[alive]).max(initial=0.0))
+
+    def terms(self, drive: int, half: float, begun: float = 0.0) -> int:
+        """Coefficients that resolve the motion on a panel of half that length, so long after its stretch began."""
+        decay = min(self.decay * half, 2.0 * DECAY)
+        return drive + SPARE + ceil(self._alive(begun) * half) + ceil(PER_ROOT_OF_DECAY * sqrt(decay))
 
 
 class _Group:
     """Panels of one length: what drives them, and their states, shape (states, coefficients, panels, columns)."""
 
-    def __init__(self, dynamics: Dynamics, drives: list[Array], half: float) -> None:
+    def __init__(self, dynamics: Dynamics, drives: list[Array], half: float, begun: float) -> None:
         self._dynamics, self._half = dynamics, half
         drive = np.stack(drives, axis=2)
         terms, _, panels, columns = drive.shape
-        shape = (len(dynamics.roots), dynamics.terms(terms, half), panels, columns)
+        shape = (len(dynamics.roots), dynamics.terms(terms, half, begun), panels, columns)
         self.states: Complex = np.zeros(shape, dtype=np.complex128)
         self.states[:, :terms] = np.tensordot(half * dynamics.load, drive, axes=(1, 1))
         self._free: Complex = np.empty(0, dtype=np.complex128)
@@ -248,7 +272,8 @@ def solutions(root: complex, load: Complex) -> Complex:
     """Chebyshev series of solutions of y' = root y + load on [-1, 1], a column for each load, and one without load.
 
     Integrated once, each coefficient depends on its two neighbours, which leaves one free solution: the exponential. It
-    is solved for beside the particular ones, from a coefficient 0, or a coefficient 1, that it is not without.
+    is solved for beside the particular ones, from a coefficient 0, or a coefficient 1, that it is not without; where
+    the coefficients are too few to show it, from the last one, beside which the particular ones are smooth.
 
     Examples
     --------
@@ -262,12 +287,14 @@ def solutions(root: complex, load: Complex) -> Complex:
 
     count, columns = load.shape
     j = np.arange(1, count)
-    step = root / (2.0 * j)
+    step = np.asarray(root / (2.0 * j), dtype=np.complex128)
     right = np.zeros((count - 1, columns + 1), dtype=np.complex128)
     right[:, :-1] = load[:-1]
     right[0] *= 2.0
     right[:-1, :-1] -= load[2:]
     right /= (2.0 * j)[:, None]
+    if abs(root) > STEEP * count:
+        return _steep(step, right)
     bands = np.ones((3, count - 1), dtype=np.complex128)
     bands[0, 1:], bands[2, :-1] = step[:-1], -step[1:]
     sizes = np.abs([complex(ive(order, np.complex128(root))) for order in (0, 1)])
@@ -282,6 +309,22 @@ def solutions(root: complex, load: Complex) -> Complex:
     solution[1:] = solved
     solution[0] = solved[0]
     solution[first, :-1], solution[first, -1] = 0.0, 1.0
+    return solution
+
+
+def _steep(step: Complex, right: Complex) -> Complex:
+    """The same where the exponential is over at once: the last coefficient is free, and the others follow from it."""
+    from scipy.linalg import solve_banded
+
+    count, columns = right.shape
+    bands = np.ones((3, count), dtype=np.complex128)
+    bands[0, 2:], bands[2] = step[:-2], -step
+    bands[2, 0] *= 2.0
+    right[-1, -1] -= 1.0
+    right[-2:-1, -1] -= step[-2:-1]
+    solution = np.zeros((count + 1, columns), dtype=np.complex128)
+    solution[:-1] = solve_banded((0, 2), bands, right, overwrite_ab=True, overwrite_b=True, check_finite=False)
+    solution[-1, -1] = 1.0
     return solution
 
 

@@ -44,6 +44,7 @@ Array = NDArray[np.float64]
 
 _RADIANS = 40.0  # of the fastest vibration on one piece of the rows
 _MOST_GAIN = 1e6
+_MOST_PANELS = 800  # of a cycle that repeats, some six vibrations long each
 _NEGLIGIBLE = 2.0**-54
 _ROUNDED = 1e-12
 _SMOOTH = 4  # the order of the law that scales are taken from
@@ -295,6 +296,12 @@ class OutputPeak(OutputConstant):
     def _rows(self, space: LawSpace) -> Array:
         """Series in the place u, which falls with time, a panel each; before each its start."""
         panels = self.panels(space)
+        if self.steady and len(panels) > _MOST_PANELS:
+            raise InputError(
+                f"{self.output!r} vibrates {self.machine.dynamics.fastest / (2.0 * pi):.0f} times in a cycle and "
+                "hardly dies away: its peaks are too many to look at each, and so stiff a machine moves as if it were "
+                "rigid: leave it out and minimise the acceleration itself, or give it more damping"
+            )
         count = max(len(series) for *_, series in panels)
         rows = np.zeros((len(panels), count + 1, panels[0][2].shape[1]))
         for i, (start, _, series) in enumerate(panels):

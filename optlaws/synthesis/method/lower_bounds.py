@@ -44,6 +44,7 @@ _WORTHY = 0.2
 _FOLLOWED = 4
 _ROUNDS = 2
 _ROOM = 1e3
+_CROWD = 2  # contacts for each variable, of which one determines it
 
 
 def raised(model: Model, optimum: ActiveSet) -> list[ActiveSet]:
@@ -83,7 +84,7 @@ def _held_up(model: Model, plain: ActiveSet, constant: Functional, low: float) -
     held = replace(family, held=True)
     extrema, signs, height = family.extremes(plain.x)
     led = []
-    for j in np.flatnonzero(height > _WORTHY * height.max()):
+    for j in np.flatnonzero(height > _WORTHY * height.max()) if _shows_contacts(model.program, plain) else ():
         free = _inside(family, float(extrema[j]))
         start = plain.joined(len(model.program.families), float(extrema[j]), float(signs[j]), free=free)
         led.append(_continued(model.program, held, start, (float(height[j]), low)))
@@ -136,6 +137,11 @@ def _asked(
     return ways if program.curved else ways + _stayed(program, ways, stuck)
 
 
+def _shows_contacts(program: Program, state: ActiveSet) -> bool:
+    """Whether a state has contacts that Newton's method can follow; where all points bind, no step leads on."""
+    return len(state.u) <= _CROWD * program.size
+
+
 def _stayed(
     program: Program, ways: list[tuple[Program, ActiveSet]], stuck: list[tuple[float, Family]]
 ) -> list[tuple[Program, ActiveSet]]:
@@ -156,7 +162,7 @@ def _stayed(
 def _let_go(program: Program, family: Family, state: ActiveSet, low: float) -> tuple[Program, ActiveSet] | None:
     """With the peak at the best place nearby; None where Newton's method does not find it, or where none is asked."""
     last = state.family == len(program.families)
-    if last.sum() != 1:
+    if last.sum() != 1 or not _shows_contacts(program, state):
         return None
     start = _turned(state, last, free=_inside(family, float(state.u[last][0])))
     moved = polished(_with(program, replace(family, held=True, bound=low)), start, lambda _: False)

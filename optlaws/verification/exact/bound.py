@@ -138,10 +138,13 @@ def _proof(certificate: Certificate, along: Along | None) -> Proof:
     best: Proof | None = None
     for _ in range(_TRIES):
         with ctx.workprec(bits):
-            proof, narrow = _System(certificate, along).best()
-            if proof.value is None:
+            system = _System(certificate, along)
+            proof, narrow = system.best()
+            if proof.value is None or proof.charge > _SAME * max(system.unit, abs(proof.value)):
                 # rows that are one another's multiples balance where they are, and beside it they do not
-                proof, narrow = _System(certificate, along, beside=False).best()
+                plain, plain_narrow = _System(certificate, along, beside=False).best()
+                if proof.value is None or (plain.value is not None and plain.value > proof.value):
+                    proof, narrow = plain, plain_narrow
         if best is None or best.value is None or (proof.value is not None and proof.value > best.value):
             best = proof
         if narrow:

@@ -94,6 +94,15 @@ def test_a_follower_is_a_machine(law: str, nu: float, damping: float) -> None:
     assert machine["position"].extrema(0, (0.0, 1.0))[1].value == pytest.approx(own.extrema(0)[1].value, rel=1e-12)
 
 
+@pytest.mark.parametrize("law", ["polynomial", "modified trapezoid"])
+def test_a_stiff_vibration_that_dies_away_is_followed_while_it_lives(law: str) -> None:
+    nu, damping = 2e4, 0.05
+    machine = follower(nu, damping).response(LAWS[law], dwell=0.5)["position"]
+    k = np.linspace(0.0, 1.5, 301)
+    assert len(machine.parts) < 600  # of 3000 that are as short as the vibration asks
+    assert machine(k) == pytest.approx(Follower(nu, damping).response(LAWS[law]).a(k), abs=4e-15)
+
+
 @pytest.mark.parametrize("seed", sampled(range(60), each=6))
 def test_a_follower_is_a_machine_to_rounding(seed: int) -> None:
     # both ways are kept: docs/architecture.md says why

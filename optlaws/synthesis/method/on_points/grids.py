@@ -56,5 +56,6 @@ def _joined(family: Family, points: Points, x: Array) -> Points:
         return points
     u, s, residual = family.extremes(x)
     near = residual > -NEARLY_BINDING * max(1.0, abs(family.room(x)))
-    known = np.any((points.u == u[:, None]) & (points.s == s[:, None]), axis=1)
-    return points.joined(Points(u[near & ~known], s[near & ~known]))
+    for sign in family.signs:
+        near &= (s != sign) | ~np.isin(u, points.u[points.s == sign])
+    return points.joined(Points(u[near], s[near]))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Self
+from typing import Any, Self
 
 import numpy as np
 from numpy.polynomial import chebyshev
@@ -17,6 +17,8 @@ from optlaws.synthesis.families.family import LinearFamily, ProductFamily
 Array = NDArray[np.float64]
 
 _FLAT = 1e-9
+_MOST, _LEAST = 6000, 8  # nodes of a family, and of a piece: its extrema join them
+_SHARING = 8  # points of a piece, in the mean, from which on no copy of its series is made for each
 _BESIDE = 2.0**-50  # far enough from a break that k tells the side too
 
 
@@ -48,8 +50,20 @@ class PieceSeries:
     def values(self, u: Array) -> Array:
         """Columns at the points u, shape (points, columns)."""
         piece, local, _ = self.place(u)
-        vander = chebyshev.chebvander(local, self.series.shape[1] - 1)
-        return np.asarray(np.einsum("pm,pmc->pc", vander, self.series[piece]))
+        return self.sums(chebyshev.chebvander(local, self.series.shape[1] - 1), piece)
+
+    def sums(self, basis: NDArray[np.floating[Any]], piece: NDArray[np.intp]) -> Array:
+        """Columns at points of pieces from the Chebyshev polynomials there; many points of a piece share its series."""
+        if len(piece) < _SHARING * len(self.series):
+            return np.asarray(np.einsum("pm,pmc->pc", basis, self.series[piece]))
+        columns = np.empty((len(piece), self.series.shape[2]))
+        order = np.argsort(piece, kind="stable")
+        ends = np.searchsorted(piece[order], np.arange(len(self.series) + 1))
+        for series, (first, last) in zip(self.series, pairwise(ends), strict=True):
+            own = order[first:last]
+            shared = np.broadcast_to(series, (len(own), *series.shape))
+            columns[own] = np.einsum("pm,pmc->pc", basis[own], shared)
+        return columns
 
     def global_places(self, piece: int, local: Array) -> Array:
         """The u of local places on a piece."""
@@ -79,8 +93,9 @@ class PieceFamily(LinearFamily):
         return np.concatenate([breaks[[0, -1]], breaks[1:-1] + _BESIDE, breaks[1:-1] - _BESIDE])
 
     def nodes(self) -> Array:
-        """Corners, and inside each piece as many points as its degree."""
+        """Corners, and inside each piece as many points as its degree, or fewer where they were too many."""
         count = self.pieces.series.shape[1]
+        count = min(count, max(_LEAST, _MOST // len(self.pieces.breaks)))
         local = nodes(count) if count > 2 else np.empty(0)
         inner = [self.pieces.global_places(i, local) for i in range(len(self.pieces.breaks) - 1)]
         places = np.concatenate([self.corners, *inner])
@@ -95,12 +110,12 @@ class PieceFamily(LinearFamily):
         """f's columns with two derivatives by u, shape (3, points, variables + 1)."""
         piece, local, _ = self.pieces.place(u)
         basis = chebyshev.chebvander(local, self.pieces.series.shape[1] - 1)
-        return np.stack(
-            [
-                np.einsum("pm,pmc->pc", basis[:, : derivative.series.shape[1]], derivative.series[piece])
-                for derivative in self._derivatives
-            ]
-        )
+        return np.stack([series.sums(basis[:, : series.series.shape[1]], piece) for series in self._derivatives])
+
+    def rows(self, u: Array, s: Array) -> tuple[Array, Array]:
+        """A and h of the rows A x <= h at the points u with signs s."""
+        columns = self.pieces.values(u) * s[:, None]
+        return columns[:, :-1] - self.slack, self.bound - columns[:, -1]
 
     def value(self, x: Array, u: Array) -> Array:
         """f at the points u."""
@@ -109,7 +124,18 @@ class PieceFamily(LinearFamily):
 
     def stationary(self, x: Array) -> Array:
         """Roots of the derivative on every piece, and the breaks."""
-        return _stationary(self, [self.pieces.series @ np.append(x, 1.0)])
+        key = x.tobytes()
+        places = self._last.get(key)
+        if places is None:
+            places = _stationary(self, [self.pieces.series @ np.append(x, 1.0)])
+            self._last.clear()
+            self._last[key] = places
+        return places
+
+    @kept_property
+    def _last(self) -> dict[bytes, Array]:
+        """Stationary places of the last variables, which a round asks for more than once."""
+        return {}
 
     def pinned(self, u: Array) -> NDArray[np.bool_]:
         """Whether u is a corner."""
