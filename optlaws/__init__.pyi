@@ -54,7 +54,7 @@ from optlaws.errors import NoisyTable as NoisyTable
 from optlaws.errors import NotNormalised as NotNormalised
 from optlaws.errors import OptlawsError as OptlawsError
 from optlaws.errors import SolverFailure as SolverFailure
-from optlaws.exports.pieces.best_breaks import best_breaks as best_breaks
+from optlaws.exports.best_breaks import best_breaks as best_breaks
 from optlaws.laws.catalogue.catalogue import catalogue as catalogue
 from optlaws.laws.catalogue.reading import read_law as read_law
 from optlaws.laws.constants import Constants as Constants

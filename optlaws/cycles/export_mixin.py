@@ -107,7 +107,7 @@ class ExportMixin:
         >>> pieces.breaks, [[round(coefficient, 9) for coefficient in row] for row in pieces.coefficients]
         ((0.0, 1.0, 3.0), [[0.0, 0.0, 3.0, -2.0], [1.0, 0.0, -0.75, 0.25]])
         """
-        from optlaws.exports.pieces.motion_pieces import pieces_of_motion
+        from optlaws.exports.polynomial_pieces import pieces_of_motion
 
         return pieces_of_motion(self.motion(master, unit), tolerance)
 

@@ -220,7 +220,7 @@ class MotionLaw(Curve, Stored):
         >>> pieces.breaks, pieces.coefficients
         ((0.0, 2.0), ((0.0, 0.0, 0.375, -0.125),))
         """
-        from optlaws.exports.pieces.motion_pieces import pieces_of_law
+        from optlaws.exports.polynomial_pieces import pieces_of_law
 
         return pieces_of_law(self, tolerance, stroke=stroke, time=time, master=master, start=start)
 

@@ -2,11 +2,22 @@
 
 from __future__ import annotations
 
-from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, as_stored
-from optlaws.exports.code.heading import Labels, heading
-from optlaws.exports.code.literals import real, safe, wrapped
+from functools import partial
+
+from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored
+from optlaws.exports.format import Format, Request, Written, register
+from optlaws.exports.formats.program_polynomials import (
+    SOURCE_MODEL,
+    SOURCE_PIECES,
+    labels_of,
+    leaps_in_words,
+    leaps_of_single,
+    source_polynomials,
+)
 from optlaws.exports.identifiers import iec_name
+from optlaws.exports.text import Labels, program_heading, real, safe, wrapped
 from optlaws.files.writing import MARK
+from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 
 _BODY = """\
@@ -70,7 +81,7 @@ def function_block(
     name
         Of the function block.
     labels
-        Units and notes for its heading.
+        Units and notes for its program_heading.
     single
         REAL in place of LREAL.
 
@@ -88,7 +99,7 @@ def function_block(
     called = iec_name(name, "IEC 61131-3")
     arithmetic = SINGLE if single else DOUBLE
     run, kind = as_stored(motion, arithmetic), arithmetic.name
-    lines = heading(motion, labels or Labels(), [arithmetic])
+    lines = program_heading(motion, labels or Labels(), [arithmetic])
     comment = "\n".join(f"   {line}".rstrip() for line in safe([*lines, MARK]))
     numbers = {"last": len(run.breaks) - 1, "most": len(run.breaks) - 2, "degree": run.degree}
     parts = [
@@ -110,3 +121,44 @@ def _tables(motion: PiecewiseMotion, kind: str, *, single: bool) -> str:
         lines += wrapped([real(value, single=single) for value in values], "        ")
         lines.append("    ];")
     return "\n".join([*lines, "END_VAR\n"])
+
+
+def _write(motion: Motion, request: Request, *, single: bool) -> Written:
+    fit, notes = source_polynomials(motion, request)
+    text = function_block(fit.run, request.name, labels_of(motion, notes), single=single)
+    if not single:
+        return Written(text, fit.run, "polynomials in LREAL", fit.count, "segments", notes=notes)
+    roundings = leaps_of_single(fit.run)
+    notes = (*notes, leaps_in_words(motion, roundings))
+    run = _single(fit.run)
+    return Written(text, run, "polynomials in REAL", fit.count, "segments", notes=notes, roundings=roundings)
+
+
+def _single(run: PiecewiseMotion) -> PiecewiseMotion:
+    """The polynomials in REAL32 where the motion lies: its ends stay, which REAL32 may round."""
+    stored = as_stored(run, SINGLE)
+    return PiecewiseMotion((run.start, *stored.breaks[1:-1], run.stop), stored.coefficients)
+
+
+LREAL = register(
+    Format(
+        name="iec-st",
+        target="IEC 61131-3, a function block in Structured Text",
+        contents="breaks and coefficients (LREAL)",
+        model=SOURCE_MODEL,
+        limits=f"at most {SOURCE_PIECES} pieces",
+        extension=".st",
+        write=partial(_write, single=False),
+    )
+)
+REAL = register(
+    Format(
+        name="iec-st-real",
+        target="IEC 61131-3, a function block in Structured Text, in REAL",
+        contents="breaks and coefficients (REAL)",
+        model=f"{SOURCE_MODEL}, in REAL32",
+        limits=f"at most {SOURCE_PIECES} pieces, REAL32",
+        extension=".st",
+        write=partial(_write, single=True),
+    )
+)

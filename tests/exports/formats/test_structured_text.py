@@ -8,11 +8,10 @@ import pytest
 
 from optlaws import Pieces, Problem, smoothstep, synthesize
 from optlaws.errors import InputError
-from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, as_stored, error_bounds
-from optlaws.exports.code.heading import Labels
-from optlaws.exports.code.literals import real
-from optlaws.exports.code.structured_text import function_block
-from optlaws.exports.pieces.law_pieces import polynomials_of_law
+from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored, error_bounds
+from optlaws.exports.formats.structured_text import function_block
+from optlaws.exports.polynomial_pieces import polynomials_of_law
+from optlaws.exports.text import Labels, real
 from optlaws.motion.polynomials import PiecewiseMotion
 from tests.exports.motions import random_motion
 from tests.exports.structured_text import Block, parsed

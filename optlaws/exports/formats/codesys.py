@@ -1,13 +1,13 @@
-"""CODESYS SoftMotion: cams of points with velocity and acceleration (XYVA), and of positions alone (XY)."""
+"""CODESYS SoftMotion: cams of points (XYVA, XY), and of exact polynomials to degree 7 (CamBuilder)."""
 
 from __future__ import annotations
 
-from optlaws.exports.code.literals import real
 from optlaws.exports.format import Format, Request, Written, register
+from optlaws.exports.formats.point_table import NumberFormat, PointTable, hermite_table, table_by_interpolation
+from optlaws.exports.formats.program_polynomials import fields, iec_heading, polynomials_for
 from optlaws.exports.identifiers import iec_name
 from optlaws.exports.spacing import chosen
-from optlaws.exports.tables.table import NumberFormat, PointTable, hermite_table, table_by_interpolation
-from optlaws.exports.tables.text_lines import heading, iec_comment
+from optlaws.exports.text import iec_comment, real, table_heading
 from optlaws.motion.motion import Motion
 
 MOST = 32_767  # nElements is an INT
@@ -25,7 +25,7 @@ def _xyva(motion: Motion, request: Request) -> Written:
     count = len(rows)
     text = "\n".join(
         [
-            iec_comment(heading(motion, "CODESYS SoftMotion, SMC_CAMXYVA")) + "VAR_GLOBAL",
+            iec_comment(table_heading(motion, "CODESYS SoftMotion, SMC_CAMXYVA")) + "VAR_GLOBAL",
             f"    {name}_points : ARRAY[0..{count - 1}] OF SMC_CAMXYVA := [",
             ",\n".join(rows) + "];",
             _reference(name, motion, "SMC_CAM_TYPE.XYVA", count),
@@ -58,7 +58,7 @@ def _xy(motion: Motion, request: Request) -> Written:
     quality = f", byVarType := 6, byInterpolationQuality := {INTERPOLATIONS[interpolation]}"
     text = "\n".join(
         [
-            iec_comment(heading(motion, f"CODESYS SoftMotion, SMC_CAMTable_LREAL_{size}_2")) + "VAR_GLOBAL",
+            iec_comment(table_heading(motion, f"CODESYS SoftMotion, SMC_CAMTable_LREAL_{size}_2")) + "VAR_GLOBAL",
             f"    {name}_table : SMC_CAMTable_LREAL_{size}_2 := (Table := [",
             ",\n".join(f"        {row}" for row in [*rows, *last]) + "],",
             f"        {scaling});",
@@ -100,5 +100,66 @@ XY = register(
         extension=".st",
         write=_xy,
         takes=("points", "counts", "interpolation"),
+    )
+)
+
+
+DEGREE = 7
+MOST_SEGMENTS = 32_767  # nElements of MC_CAM_REF is an INT
+
+
+def _cam_builder(motion: Motion, request: Request) -> Written:
+    name = iec_name(request.name, "CODESYS")
+    fit = polynomials_for(motion, request, DEGREE, MOST_SEGMENTS)
+    run, count = fit.run, fit.count
+    notes = (
+        fit.in_words(motion.units.slave),
+        f"the library's parameter MAX_CAM_SEGMENT_COUNT must be at least {count}",
+        "library SM3_CamBuilder, namespace SMCB, of SoftMotion 4.17 or later",
+    )
+    segments = [
+        f"    camBuilder.Append(SMCB.Poly7_Coeffs({_coefficients(low, high, row)}));"
+        for low, high, row in zip(run.breaks, run.breaks[1:], run.coefficients, strict=False)
+    ]
+    text = "\n".join(
+        [
+            iec_heading(f"{name}: a cam for the CamBuilder of CODESYS SoftMotion", motion, run, notes)
+            + f"FUNCTION_BLOCK {name}",
+            "VAR_OUTPUT",
+            "    camRef : MC_CAM_REF;",
+            "END_VAR",
+            "VAR",
+            "    camBuilder : SMCB.CamBuilder;",
+            f"    segments : ARRAY[1..{count}] OF SMC_CAM_SEGMENT;",
+            "    built : BOOL := FALSE;",
+            "END_VAR",
+            "IF NOT built THEN",
+            "    camBuilder.Init();",
+            *segments,
+            "    SMCB.InitCamRef(camRef, ADR(segments), XSIZEOF(segments));",
+            "    camBuilder.Write(camRef);",
+            "    built := TRUE;",
+            "END_IF",
+            "END_FUNCTION_BLOCK",
+            "",
+        ]
+    )
+    return Written(text, run, "exact polynomials of degree 7", count, "segments", notes=notes)
+
+
+def _coefficients(low: float, high: float, row: tuple[float, ...]) -> str:
+    powers = [*row, *[0.0] * (DEGREE + 1 - len(row))]
+    return fields(x0=low, x1=high, **{f"a{n}": c for n, c in enumerate(powers)})
+
+
+CAM_BUILDER = register(
+    Format(
+        name="codesys-cambuilder",
+        target="CODESYS SoftMotion, Poly7_Coeffs of CamBuilder",
+        contents="x0, x1, a0 ... a7 (LREAL)",
+        model="exact polynomials of degree 7",
+        limits=f"degree 7, at most {MOST} segments (nElements is an INT), MAX_CAM_SEGMENT_COUNT of the library",
+        extension=".st",
+        write=_cam_builder,
     )
 )

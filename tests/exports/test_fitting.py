@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from optlaws import Chebyshev, InputError, Problem, catalogue, limit_law, smoothstep, synthesize
-from optlaws.exports.pieces.best_breaks import best_breaks
-from optlaws.exports.pieces.fitting import fitted
+from optlaws.exports.best_breaks import best_breaks
+from optlaws.exports.fitting import fitted
 from optlaws.laws.making.trapezoids import scca
 from optlaws.motion.motion import motion_of_law
 

@@ -30,7 +30,7 @@ from optlaws.exports.format import FORMATS
 from optlaws.laws import MotionLaw
 from optlaws.motion.motion import Motion, motion_of_law
 from optlaws.motion.polynomials import PiecewiseMotion
-from tests.exports.controllers import readers
+from tests.exports.formats import readers
 from tests.exports.samples import repeating
 from tests.exports.structured_text import Block, parsed
 

@@ -7,11 +7,13 @@ from typing import Any
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, as_stored
-from optlaws.exports.code.heading import QUANTITIES, Labels, heading
-from optlaws.exports.code.literals import real, safe, wrapped
+from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored
+from optlaws.exports.format import Format, Request, Written, register
+from optlaws.exports.formats.program_polynomials import SOURCE_MODEL, SOURCE_PIECES, labels_of, source_polynomials
 from optlaws.exports.identifiers import C_KEYWORDS
+from optlaws.exports.text import QUANTITIES, Labels, program_heading, real, safe, wrapped
 from optlaws.files.writing import MARK
+from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 
 _NAME = re.compile(r"[A-Za-z][A-Za-z0-9_]{0,30}")
@@ -84,7 +86,7 @@ def header(motion: PiecewiseMotion, name: str = "motion", labels: Labels | None 
     name
         Before every name of the header.
     labels
-        Units and notes for its heading.
+        Units and notes for its program_heading.
 
     Raises
     ------
@@ -98,7 +100,7 @@ def header(motion: PiecewiseMotion, name: str = "motion", labels: Labels | None 
     ['static inline double press_position(double x)']
     """
     called = c_name(name)
-    lines = heading(motion, labels or Labels(), [DOUBLE, SINGLE])
+    lines = program_heading(motion, labels or Labels(), [DOUBLE, SINGLE])
     comment = "\n".join(f" * {line}".rstrip() for line in safe([*lines, "", MARK]))
     guard = f"OPTLAWS_{called.upper()}_H"
     parts = [
@@ -166,3 +168,22 @@ def _tables(motion: PiecewiseMotion, kind: object, name: str, suffix: str) -> st
         body[-1] += "}," if i + 1 < len(motion.coefficients) else "}"
         lines += body
     return "\n".join([*lines, "};\n"])
+
+
+def _write(motion: Motion, request: Request) -> Written:
+    fit, notes = source_polynomials(motion, request)
+    text = header(fit.run, request.name, labels_of(motion, notes))
+    return Written(text, fit.run, "polynomials in double", fit.count, "segments", notes=notes)
+
+
+C99 = register(
+    Format(
+        name="c99",
+        target="C99, a header for double and float",
+        contents="breaks and coefficients (double and float)",
+        model=SOURCE_MODEL,
+        limits=f"at most {SOURCE_PIECES} pieces, float for the functions with _f",
+        extension=".h",
+        write=_write,
+    )
+)

@@ -13,9 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.exports.interpolation import hermite_powers
-from optlaws.exports.pieces.law_pieces import is_polynomial, stretches
-from optlaws.laws.law import MotionLaw
+from optlaws.exports.polynomial_pieces import LawSection, is_polynomial, stretches
 from optlaws.motion.motion import Motion
 from optlaws.motion.piece import Piece
 from optlaws.motion.polynomials import PiecewiseMotion, from_exact
@@ -58,54 +56,6 @@ class Fitted:
         if self.exact:
             return "exact: the polynomials are the law's own, every number rounded once"
         return f"approximated: position within {self.deviation:.3g} {unit} of the law, over the whole motion"
-
-
-@dataclass(frozen=True)
-class LawSection:
-    """A smooth part of a law between k and k: its own polynomial where it is one of low degree.
-
-    Parameters
-    ----------
-    law
-        The law.
-    ends
-        Its first and its last k.
-    exact_powers
-        Powers of k less the first, or None where it is to be approximated.
-    """
-
-    law: MotionLaw
-    ends: tuple[float, float]
-    exact_powers: tuple[Fraction, ...] | None = None
-
-    def values(self, k: Array, nu: int) -> Array:
-        """The derivative of order nu; at the last k that of this side of it."""
-        return np.asarray(self.law(np.minimum(k, self._last), nu))
-
-    def hermite(self, k: Array, orders: int) -> PiecewiseMotion:
-        """Polynomials between places that have the law's first derivatives at each of them.
-
-        Raises
-        ------
-        InputError
-            If a derivative is infinite at one of them.
-        """
-        values = np.array([self.values(k, nu) for nu in range(orders)])
-        if not np.isfinite(values).all():
-            raise InputError(
-                f"the law has infinite derivatives at k = {float(k[~np.isfinite(values).all(axis=0)][0]):.6g}, which "
-                "no polynomial has: take a law of finite acceleration, or a format of points"
-            )
-        return PiecewiseMotion(k, hermite_powers(k, values))
-
-    def off(self, run: PiecewiseMotion, nu: int) -> float:
-        """How far polynomials on this stretch are from the law."""
-        return run.deviation(self.values, nu).value
-
-    @property
-    def _last(self) -> float:
-        high = self.ends[1]
-        return high if high == 1.0 else float(np.nextafter(high, 0.0))
 
 
 @dataclass(order=True)

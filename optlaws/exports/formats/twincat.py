@@ -1,11 +1,14 @@
-"""TwinCAT motion functions: points with boundary values, between which polynomials of degree 5 and 7 run."""
+"""TwinCAT: tables of positions, and motion functions of points with polynomials of degree 5 and 7 between them."""
 
 from __future__ import annotations
 
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.exports.controllers.polynomials_of import (
+from optlaws.exports.fitting import Fitted
+from optlaws.exports.format import MOST_POINTS, Format, Request, Written, register
+from optlaws.exports.formats.point_table import NumberFormat, PointTable, linear_table, spline_table
+from optlaws.exports.formats.program_polynomials import (
     ends_of,
     fields,
     iec_heading,
@@ -13,12 +16,66 @@ from optlaws.exports.controllers.polynomials_of import (
     polynomials_for,
     refuse_leaps,
 )
-from optlaws.exports.format import MOST_POINTS, Format, Request, Written, register
 from optlaws.exports.identifiers import iec_name
 from optlaws.exports.interpolation import hermite_powers
-from optlaws.exports.pieces.fitting import Fitted
+from optlaws.exports.spacing import chosen
+from optlaws.exports.text import iec_comment, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
+
+INTERPOLATIONS = {"linear": "MC_INTERPOLATIONTYPE_LINEAR", "spline": "MC_INTERPOLATIONTYPE_SPLINE"}
+
+
+def _table(motion: Motion, request: Request) -> Written:
+    name = iec_name(request.name, "TwinCAT")
+    interpolation = request.interpolation_among(INTERPOLATIONS, "spline")
+    cyclic = motion.repeats and abs(motion.advance) <= 1e-9 * motion.stroke
+
+    def make(count: int) -> PointTable:
+        number_format = NumberFormat(request.counts)
+        if interpolation == "linear":
+            return linear_table(motion, count, number_format)
+        return spline_table(motion, count, number_format, ends="periodic" if cyclic else "clamped")
+
+    table = chosen(motion, request, make, least=2, most=MOST_POINTS)
+    text = _table_text(name, motion, table, INTERPOLATIONS[interpolation])
+    model = (
+        "straight lines" if interpolation == "linear" else f"C2 cubic spline, {'cyclic' if cyclic else 'tangential'}"
+    )
+    return Written(text, table.run, model, len(table.x), resolution=table.resolution, bound=table.bound)
+
+
+def _table_text(name: str, motion: Motion, table: PointTable, interpolation: str) -> str:
+    count = len(table.x)
+    kind = f"TableType := MC_TABLETYPE_NONEQUIDISTANT, NoOfRows := {count}, NoOfColumns := 2"
+    rows = [f"        {real(x)}, {real(y)}" for x, y in zip(table.x, table.values[0], strict=True)]
+    return "\n".join(
+        [
+            iec_comment(table_heading(motion, "TwinCAT, table of positions")) + "VAR_GLOBAL",
+            f"    {name}_table : ARRAY[1..{count}, 1..2] OF LREAL := [",
+            ",\n".join(rows) + "];",
+            f"    {name} : MC_CAM_REF := (ArraySize := SIZEOF({name}_table), {kind});",
+            "END_VAR",
+            f"(* in the program, before MC_CamTableSelect: {name}.pArray := ADR({name}_table);",
+            f"   for MC_CamIn: Options.InterpolationType := {interpolation}; its default is linear *)",
+            "",
+        ]
+    )
+
+
+TABLE = register(
+    Format(
+        name="twincat-table",
+        target="TwinCAT NC, table of positions in MC_CAM_REF",
+        contents="master, slave (LREAL)",
+        model="C2 cubic spline, cyclic or tangential, or straight lines",
+        limits="no number of points is stated",
+        extension=".st",
+        write=_table,
+        takes=("points", "counts", "interpolation"),
+    )
+)
+
 
 DEGREE = 7
 #: by the degree of the polynomial: names in MC_MotionFunctionType and in EMotionFunctionType
@@ -27,7 +84,7 @@ _REMEDY = "take a smoother law, or a format whose pieces have ends of their own,
 _LAST = ("MOTIONFUNCTYPE_NOTDEF", "Undefined")
 
 
-def _write(motion: Motion, request: Request, *, third: bool) -> Written:
+def _motion_function(motion: Motion, request: Request, *, third: bool) -> Written:
     name = iec_name(request.name, "TwinCAT")
     fit = _shared(motion, request)
     degrees = [5 if len(row) <= 6 or not any(row[6:]) else 7 for row in fit.run.coefficients]
@@ -106,11 +163,11 @@ def _of_mc3(place: int, x: float, values: list[float], degree: int) -> str:  # n
 
 
 def _write_nc2(motion: Motion, request: Request) -> Written:
-    return _write(motion, request, third=False)
+    return _motion_function(motion, request, third=False)
 
 
 def _write_mc3(motion: Motion, request: Request) -> Written:
-    return _write(motion, request, third=True)
+    return _motion_function(motion, request, third=True)
 
 
 LIMITS = "one velocity, acceleration and jerk at each point; pieces of degree 7 at most"

@@ -10,7 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.exports.pieces.fitting import HIGHER, Fitted, LawSection, fitted
+from optlaws.exports.fitting import HIGHER, Fitted, fitted
+from optlaws.exports.polynomial_pieces import LawSection
 from optlaws.laws.law import MotionLaw
 from optlaws.mechanisms.checks import motion_law
 from optlaws.motion.motion import Motion

@@ -9,10 +9,10 @@ import numpy as np
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Format, Request, Written, register
+from optlaws.exports.formats.point_table import DEGREES, NumberFormat, PointTable, hermite_table
 from optlaws.exports.interpolation import hermite_powers
 from optlaws.exports.spacing import chosen
-from optlaws.exports.tables.table import DEGREES, NumberFormat, PointTable, hermite_table
-from optlaws.exports.tables.text_lines import heading
+from optlaws.exports.text import table_heading
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion, Units
 from optlaws.motion.polynomials import PiecewiseMotion
@@ -24,9 +24,7 @@ _NANO = 1_000_000_000
 
 
 def _write(motion: Motion, request: Request) -> Written:
-    interpolation = request.interpolation or "quintic"
-    if interpolation not in ORDERS:
-        raise InputError(f"interpolation must be one of {', '.join(ORDERS)}, got {interpolation!r}")
+    interpolation = request.interpolation_among(ORDERS, "quintic")
     name = request.name
     if not name.isprintable() or any(sign in name for sign in "\"'\\#:"):
         raise InputError(f"ROS takes no joint called {shortened(name)}: letters, digits, _ and / make a name")
@@ -70,7 +68,7 @@ def _back(run: PiecewiseMotion, motion: Motion) -> PiecewiseMotion:
 
 
 def _text(motion: Motion, joint: str, table: PointTable) -> str:
-    lines = [f"# {heading(motion, 'ROS 2, trajectory_msgs/JointTrajectory')[0]}; {MARK}"]
+    lines = [f"# {table_heading(motion, 'ROS 2, trajectory_msgs/JointTrajectory')[0]}; {MARK}"]
     lines += ["joint_names:", f'- "{joint}"', "points:"]
     for x, values in zip(table.x.tolist(), table.values.T.tolist(), strict=True):
         nanoseconds = round(x * _NANO)

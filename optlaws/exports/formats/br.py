@@ -5,11 +5,11 @@ from __future__ import annotations
 from fractions import Fraction
 
 from optlaws.errors import InputError
-from optlaws.exports.code.error_bounds import SINGLE, as_stored
-from optlaws.exports.code.literals import real
-from optlaws.exports.controllers.polynomials_of import iec_heading, leaps_in_words, leaps_of_single, polynomials_for
+from optlaws.exports.error_bounds import SINGLE, as_stored
 from optlaws.exports.format import Format, Request, Written, register
+from optlaws.exports.formats.program_polynomials import iec_heading, leaps_in_words, leaps_of_single, polynomials_for
 from optlaws.exports.identifiers import iec_name
+from optlaws.exports.text import real
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 

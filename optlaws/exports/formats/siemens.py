@@ -6,8 +6,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from optlaws.exports.controllers.polynomials_of import Ends, ends_of, fields, iec_heading, polynomials_for, refuse_leaps
 from optlaws.exports.format import Format, Request, Written, register
+from optlaws.exports.formats.program_polynomials import (
+    Ends,
+    ends_of,
+    fields,
+    iec_heading,
+    polynomials_for,
+    refuse_leaps,
+)
 from optlaws.exports.identifiers import iec_name
 from optlaws.exports.interpolation import hermite_powers
 from optlaws.motion.motion import Motion

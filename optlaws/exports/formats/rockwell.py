@@ -9,12 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.exports.code.literals import real
 from optlaws.exports.format import MOST_POINTS, Format, Request, Written, register
+from optlaws.exports.formats.point_table import NumberFormat, PointTable, table_by_interpolation
 from optlaws.exports.identifiers import iec_name
 from optlaws.exports.spacing import chosen
-from optlaws.exports.tables.table import NumberFormat, PointTable, table_by_interpolation
-from optlaws.exports.tables.text_lines import heading, iec_comment
+from optlaws.exports.text import iec_comment, real, table_heading
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 
@@ -99,7 +98,7 @@ def _array(motion: Motion, request: Request, *, single: bool) -> Written:
     ]
     structure = "CAM" if single else "CAM_EXTENDED"
     notes = (f"tag {name} : {structure}[{len(rows)}]", f"MCCP: StartSlope = {start}, EndSlope = {end}")
-    text = iec_comment((*notes, *heading(motion, f"Rockwell Logix, {structure}"))) + "\n".join([*rows, ""])
+    text = iec_comment((*notes, *table_heading(motion, f"Rockwell Logix, {structure}"))) + "\n".join([*rows, ""])
     return _written(text, table, request, notes[1:])
 
 
@@ -108,7 +107,7 @@ def _profile(motion: Motion, request: Request) -> Written:
     table = _table(motion, request, single=False)
     rows = profile_rows(table.run, cubic=request.interpolation_among(SEGMENT_TYPES) == "cubic")
     data = ",\n".join(f"  [{','.join(map(str, row))}]" for row in rows)
-    text = iec_comment(heading(motion, "Rockwell Logix, elements of CAM_PROFILE")) + f"{name} := [\n{data}\n];\n"
+    text = iec_comment(table_heading(motion, "Rockwell Logix, elements of CAM_PROFILE")) + f"{name} := [\n{data}\n];\n"
     return _written(text, table, request, ())
 
 

@@ -10,9 +10,7 @@ import numpy as np
 
 from optlaws.errors import InputError
 from optlaws.exports.format import MOST_POINTS, Format, Request, Written, register
-from optlaws.exports.interpolation import linear_powers
-from optlaws.exports.spacing import chosen
-from optlaws.exports.tables.table import (
+from optlaws.exports.formats.point_table import (
     NumberFormat,
     PointTable,
     hermite_table,
@@ -21,7 +19,9 @@ from optlaws.exports.tables.table import (
     spline_table,
     table_by_interpolation,
 )
-from optlaws.exports.tables.text_lines import heading, plain, plain_column
+from optlaws.exports.interpolation import linear_powers
+from optlaws.exports.spacing import chosen
+from optlaws.exports.text import plain, plain_column, table_heading
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.quantities import quantity
@@ -53,7 +53,7 @@ def _csv(motion: Motion, request: Request) -> Written:
     columns = [f"x {units.master}", f"y {units.slave}"]
     columns += [f"{letter} {unit}" for letter, unit in zip("VAJ", derivatives, strict=True)]
     rows = [table.x.tolist(), *table.values.tolist()]
-    lines = [f"# {heading(motion, 'table')[0]}; {MARK}", separator.join(columns[: len(rows)])]
+    lines = [f"# {table_heading(motion, 'table')[0]}; {MARK}", separator.join(columns[: len(rows)])]
     lines += _rows(rows, request, separator)
     return _written(lines, table, MODELS[interpolation])
 
@@ -79,7 +79,7 @@ def _lenze(motion: Motion, request: Request) -> Written:
     number_format = NumberFormat(request.counts, request.digits)
     table = chosen(motion, request, lambda count: spline_table(motion, count, number_format), least=2, most=MOST_POINTS)
     first, *others = _rows(_x_and_y(table), request, " ")
-    return _written([f"{first} // {heading(motion, 'cam')[0]}; {MARK}", *others], table, MODELS["cubic"])
+    return _written([f"{first} // {table_heading(motion, 'cam')[0]}; {MARK}", *others], table, MODELS["cubic"])
 
 
 def _kas(motion: Motion, request: Request) -> Written:
@@ -106,7 +106,7 @@ def _isg(motion: Motion, request: Request) -> Written:
     if min(after[0] - before[0] for before, after in pairwise(rows)) < round(ISG_LEAST / ISG_STEP):
         raise InputError(f"ISG wants points at least {ISG_LEAST} deg apart: take fewer points")
     head = [
-        f"Tablename = {name} # {heading(motion, 'cam')[0]}; {MARK}",
+        f"Tablename = {name} # {table_heading(motion, 'cam')[0]}; {MARK}",
         "Table-ID = 1",
         "Tabletype = 7 # pairs of integers, 1e-4 deg or 1e-4 mm",
         "Function type = 1 # linear",
@@ -177,7 +177,7 @@ _plain_format = partial(Format, takes=_TEXT, contents="x, y as text", limits="no
 CSV = register(
     _plain_format(
         name="csv",
-        target="any, comma-separated values with units in the heading",
+        target="any, comma-separated values with units in the table_heading",
         contents="x, y and as many of V, A, J as the interpolation takes",
         model=f"as asked: {', '.join(MODELS)}",
         extension=".csv",

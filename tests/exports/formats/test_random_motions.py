@@ -8,7 +8,7 @@ from hypothesis import strategies as st
 from optlaws import BoundaryConditions, Powers, construct
 from optlaws.exports.export import export_motion
 from optlaws.motion.motion import Motion, motion_of_law
-from tests.exports.controllers.test_controllers import READ, same
+from tests.exports.formats.test_controllers import READ, same
 from tests.sampling import examples
 
 STROKES = ("35 mm", "-20 deg", "1200 mm", "7 deg")

@@ -14,10 +14,10 @@ from hypothesis import strategies as st
 
 from optlaws import Pieces, Problem, smoothstep, synthesize
 from optlaws.errors import InputError
-from optlaws.exports.code.c99 import c_name, header
-from optlaws.exports.code.error_bounds import DOUBLE, SINGLE, as_stored, error_bounds
-from optlaws.exports.code.heading import Labels
-from optlaws.exports.pieces.law_pieces import polynomials_of_law
+from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored, error_bounds
+from optlaws.exports.formats.c99 import c_name, header
+from optlaws.exports.polynomial_pieces import polynomials_of_law
+from optlaws.exports.text import Labels
 from optlaws.motion.polynomials import PiecewiseMotion
 from tests.exports.motions import random_motion
 from tests.sampling import examples

@@ -8,16 +8,20 @@ from typing import NamedTuple
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.exports.code.error_bounds import SINGLE, error_bounds
-from optlaws.exports.code.heading import Labels, heading, rounded_up
-from optlaws.exports.code.literals import real, safe
+from optlaws.exports.best_breaks import fitted_best
+from optlaws.exports.error_bounds import SINGLE, error_bounds
+from optlaws.exports.fitting import OFF, Fitted, exactly, fitted
 from optlaws.exports.format import BEST, Request
-from optlaws.exports.pieces.best_breaks import fitted_best
-from optlaws.exports.pieces.fitting import OFF, Fitted, fitted
+from optlaws.exports.text import Labels, program_heading, real, rounded_up, safe
 from optlaws.files.writing import MARK
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import PiecewiseMotion
 
+#: of source code: the degree of polynomials for laws that are none, and of laws whose own polynomials are taken
+SOURCE_DEGREE, OWN_DEGREE = 9, 40
+SOURCE_PIECES = 1000
+SOURCE_MODEL = f"the law's own polynomials to degree {OWN_DEGREE}, else of degree {SOURCE_DEGREE}"
+_SOURCE_OFF = 1e-6
 _ROUNDING = 1e-9
 
 
@@ -54,6 +58,13 @@ def polynomials_for(
     return fitted(motion, degree, most, count)
 
 
+def source_polynomials(motion: Motion, request: Request) -> tuple[Fitted, tuple[str, ...]]:
+    """The polynomials of source code, the law's own cut where their powers would lose digits, else near ones."""
+    fit = None if request.points else exactly(motion, OWN_DEGREE)
+    fit = fit or polynomials_for(motion, request, SOURCE_DEGREE, SOURCE_PIECES, near=_SOURCE_OFF)
+    return fit, (fit.in_words(motion.units.slave),)
+
+
 def labels_of(motion: Motion, notes: Sequence[str] = ()) -> Labels:
     """Units of a motion, and notes, for comments."""
     rate = motion.units.rate
@@ -65,7 +76,7 @@ def labels_of(motion: Motion, notes: Sequence[str] = ()) -> Labels:
 
 def iec_heading(title: str, motion: Motion, run: PiecewiseMotion, notes: Sequence[str]) -> str:
     """The comment at the head of a program in a language of IEC 61131-3."""
-    lines = safe([title, *heading(run, labels_of(motion, notes), []), MARK])
+    lines = safe([title, *program_heading(run, labels_of(motion, notes), []), MARK])
     return "\n".join(["(*", *(f"   {line}".rstrip() for line in lines), "*)", ""])
 
 
