@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
-from typing import Any
+from typing import Any, Unpack
 
+from optlaws.laws.exporting import ExportOptions
 from optlaws.motion.motion import Motion, motion_of_pieces
 from optlaws.shown.summary import Summary
+from optlaws.suggest import keywords_of
 
 
 class ExportMixin:
@@ -37,19 +39,14 @@ class ExportMixin:
         cycle: Any = self
         return motion_of_pieces(cycle.pieces, cycle.duration, cycle.axis, master=master, unit=unit, proof=_proof(cycle))
 
+    @keywords_of(ExportOptions)
     def export(
         self,
         to: str,
         *,
         master: Any = "360 deg",  # noqa: ANN401 - a quantity
         unit: str | None = None,
-        points: int | str | None = None,
-        counts: int | None = None,
-        digits: int | None = None,
-        decimal: str | None = None,
-        interpolation: str | None = None,
-        task: str | None = None,
-        name: str | None = None,
+        **options: Unpack[ExportOptions],
     ) -> Any:  # noqa: ANN401 - made a layer above
         """The cycle in the format of a controller, with what the controller will run.
 
@@ -62,7 +59,7 @@ class ExportMixin:
         unit
             Of positions; "mm" for lengths and "deg" for angles unless given.
         points, counts, digits, decimal, interpolation, task, name
-            As in `MotionLaw.export`.
+            As `ExportOptions` has them: how many points, of which numbers, for which task of the drive.
 
         Returns
         -------
@@ -83,10 +80,7 @@ class ExportMixin:
         """
         from optlaws.exports.export import export_cycle
 
-        placement = {"master": master, "unit": unit}
-        options = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
-        cycle: Any = self
-        return export_cycle(cycle, to, placement, **options, interpolation=interpolation, task=task, name=name)
+        return export_cycle(self, to, {"master": master, "unit": unit}, **options)
 
     def polynomials(self, *, master: Any = None, unit: str | None = None, tolerance: float = 1e-9) -> Any:  # noqa: ANN401
         """Times and polynomial coefficients of the cycle, as a `PiecewiseMotion`: `breaks` and `coefficients`.

@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import json
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
-from typing import Any
+from typing import Any, Unpack
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.serialisation import problem_file
@@ -14,16 +13,17 @@ from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.extras import needed
-from optlaws.files import reading
+from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
-from optlaws.suggest import unknown_key
+from optlaws.laws.exporting import AxesExportOptions
+from optlaws.suggest import keywords_of, unknown_key
 from optlaws.synthesis.solution import Status
 
 FORMAT = "optlaws axes 1"
 
 
 @dataclass(frozen=True, repr=False, eq=False)
-class Axes(Mapping[str, Cycle]):
+class Axes(JsonText, Mapping[str, Cycle]):
     """Axes that turn with one master: cycles by their names, all of the same duration.
 
     Parameters
@@ -51,6 +51,8 @@ class Axes(Mapping[str, Cycle]):
     >>> machine.status.value, machine["table"].objective, machine.at_angle(90)["weld head"]
     ('optimal', 21.313898, 0.125000)
     """
+
+    _json_name = "stored axes"
 
     axes: Mapping[str, Sequence[CycleSegment] | Mapping[str, Any] | Cycle]
     speed: Any = field(default=None, kw_only=True)
@@ -102,17 +104,13 @@ class Axes(Mapping[str, Cycle]):
         """The same motions at another speed of the master, as `Cycle.at` has them."""
         return Axes({name: cycle.at(speed) for name, cycle in self.items()})
 
+    @keywords_of(AxesExportOptions)
     def export(
         self,
         to: str | Mapping[str, str],
         *,
         master: Any = "360 deg",  # noqa: ANN401 - a quantity
-        points: int | str | None = None,
-        counts: int | None = None,
-        digits: int | None = None,
-        decimal: str | None = None,
-        interpolation: str | None = None,
-        task: str | None = None,
+        **options: Unpack[AxesExportOptions],
     ) -> dict[str, Any]:
         """Every axis in the format of a controller, or each named axis in its own: an `Export` by the name of the axis.
 
@@ -142,8 +140,6 @@ class Axes(Mapping[str, Cycle]):
         from optlaws.exports.export import export_axes
 
         formats = dict(to) if isinstance(to, Mapping) else dict.fromkeys(self, to)
-        options: dict[str, Any] = {"points": points, "counts": counts, "digits": digits, "decimal": decimal}
-        options |= {"interpolation": interpolation, "task": task}
         return export_axes(self, formats, {"master": master}, **options)
 
     def to_dict(self) -> dict[str, Any]:
@@ -163,21 +159,6 @@ class Axes(Mapping[str, Cycle]):
         if not isinstance(stored, Mapping) or data.get("format", FORMAT) != FORMAT:
             raise InputError(f"stored axes have format {FORMAT!r} and a table of axes, got {shortened(data)}")
         return cls({str(name): Cycle.from_dict(cycle) for name, cycle in stored.items()})
-
-    def to_json(self) -> str:
-        """What `to_dict` gives, as JSON text."""
-        return json.dumps(self.to_dict(), ensure_ascii=False, indent=1)
-
-    @classmethod
-    def from_json(cls, text: str) -> Axes:
-        """Read what `to_json` gave.
-
-        Raises
-        ------
-        InputError
-            If it is no JSON, or no axes.
-        """
-        return cls.from_dict(reading.json_text(text, "stored axes"))
 
     def to_toml(self, title: str = "Machine") -> str:
         """A problem file for `optlaws cycle` with all axes.

@@ -11,7 +11,7 @@ from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.extras import needed
-from optlaws.files import reading
+from optlaws.files.reading import JsonText
 from optlaws.laws import MotionLaw
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.motion.quantities import written
@@ -34,8 +34,10 @@ _SHOWN = 6  # segments in a line
 _NAMES = ("position", "velocity", "acceleration", "jerk")
 
 
-class SerialisationMixin:
+class SerialisationMixin(JsonText):
     """The forms of a cycle as text: plain data, JSON, a problem file, a table of its segments, a line."""
+
+    _json_name = "a stored cycle"
 
     segments: Sequence[CycleSegment]
     minimise: str
@@ -66,21 +68,6 @@ class SerialisationMixin:
             If an entry is unknown or wrong.
         """
         return cls(**_from_data(data))
-
-    def to_json(self) -> str:
-        """What `to_dict` gives, as JSON text."""
-        return json.dumps(self.to_dict(), ensure_ascii=False, indent=1)
-
-    @classmethod
-    def from_json(cls, text: str) -> Self:
-        """Read what `to_json` gave.
-
-        Raises
-        ------
-        InputError
-            If it is no JSON, or no cycle.
-        """
-        return cls.from_dict(reading.json_text(text, "a stored cycle"))
 
     def to_toml(self, title: str = "Cycle", *, axis: str = "axis") -> str:
         """A problem file for `optlaws cycle`, with this cycle as its only axis.

@@ -3,20 +3,19 @@
 from __future__ import annotations
 
 import dataclasses
-import json
 from abc import ABC
 from collections.abc import Mapping
 from typing import Any, ClassVar, Self
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.files.reading import json_text
+from optlaws.files.reading import JsonText
 from optlaws.lazy import Registry
 
 FORMAT = 1
 
 
-class Stored(ABC):
+class Stored(JsonText, ABC):
     """A value that turns into plain data and back without loss; each kind is a subclass that names itself.
 
     Examples
@@ -25,6 +24,9 @@ class Stored(ABC):
     >>> Stored.kinds["polynomial"] is PolynomialLaw
     True
     """
+
+    _json_name = "a law"
+    _json_layout: ClassVar[Mapping[str, Any]] = {"allow_nan": False}
 
     kind: ClassVar[str]
     kinds: ClassVar[Registry[type[Stored]]] = Registry("law")
@@ -68,27 +70,6 @@ class Stored(ABC):
             known = sorted(name for name, heir in cls.kinds.items() if issubclass(heir, cls))
             raise InputError(f"kind of law {shortened(kind)} is unknown; known are {', '.join(known)}")
         return law._read(known_fields(law, fields, f"a {kind} law"))  # noqa: SLF001
-
-    def to_json(self) -> str:
-        """`to_dict` as JSON text."""
-        return json.dumps(self.to_dict(), allow_nan=False)
-
-    @classmethod
-    def from_json(cls, text: str) -> Self:
-        """The law that `to_json` wrote.
-
-        Raises
-        ------
-        InputError
-            If the text is not JSON or does not describe a law.
-
-        Examples
-        --------
-        >>> from optlaws.laws import MotionLaw, smoothstep
-        >>> MotionLaw.from_json(smoothstep(4).to_json()) == smoothstep(4)
-        True
-        """
-        return cls.from_dict(json_text(text, "a law"))
 
     @classmethod
     def _read(cls, fields: dict[str, Any]) -> Self:
