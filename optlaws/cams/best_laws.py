@@ -19,9 +19,8 @@ from numpy.typing import NDArray
 from optlaws.cams.curved_limits import RollerCurvature, bound_under, curvature_of
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.disc import DiscCam, sense
-from optlaws.cams.followers.contact import Contact
+from optlaws.cams.followers.contact import CURVATURE, PRESSURE, Contact, LinearLimit
 from optlaws.cams.followers.follower import Follower, Place, shown
-from optlaws.cams.followers.linear_limit import CURVATURE, PRESSURE, LinearLimit
 from optlaws.cams.least_sizes import LeastBaseCircle, least_base_circle, read_cam_limits
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.optimisation.objectives import OBJECTIVES

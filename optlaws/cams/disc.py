@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import degrees
 from pathlib import Path
-from typing import Any
+from typing import Any, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,9 +13,9 @@ from numpy.typing import NDArray
 from optlaws.cams.curves.extremes import CamExtremes
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.curves.plane_curve import PlaneCurve
+from optlaws.cams.cutting.file_options import CuttingOptions
 from optlaws.cams.followers.contact import Contact
-from optlaws.cams.followers.follower import Follower, Place, positive
-from optlaws.cams.followers.registry import follower_names
+from optlaws.cams.followers.follower import Follower, Place, follower_names, positive
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -25,7 +25,7 @@ from optlaws.numbers import derivative, real_times
 from optlaws.series.enclosures.interval_arrays import Interval
 from optlaws.series.enclosures.jets import Pair, turned, variable
 from optlaws.shown.summary import Summary
-from optlaws.suggest import unknown_key
+from optlaws.suggest import keywords_of, unknown_key
 
 Array = NDArray[np.float64]
 
@@ -139,6 +139,7 @@ class DiscCam:
         """
         return self.pitch_curve.offset(positive(cutter_radius, "cutter_radius") - self.contact.roller)
 
+    @keywords_of(CuttingOptions)
     def export(
         self,
         file: str | Path,
@@ -146,12 +147,7 @@ class DiscCam:
         *,
         curve: str | None = None,
         cutter_radius: str | None = None,
-        tolerance: str | None = None,
-        decimals: int | None = None,
-        points: int | None = None,
-        degree: int | None = None,
-        feed: str | None = None,
-        about: str | None = None,
+        **options: Unpack[CuttingOptions],
     ) -> Path:
         """Write the profile, the pitch curve or the path of a cutter to a file, whole or not at all; return its path.
 
@@ -181,20 +177,10 @@ class DiscCam:
         InputError
             If an entry is unknown or out of its range, the motion is no whole turn, or the file cannot be written.
         """
-        from optlaws.cams.cutting.cam_files import export_cam
+        from optlaws.cams.cutting.cam_files import curve_of, format_of, write_outline
 
-        entries: dict[str, Any] = {
-            "curve": curve,
-            "cutter_radius": cutter_radius,
-            "tolerance": tolerance,
-            "decimals": decimals,
-            "points": points,
-            "degree": degree,
-            "feed": feed,
-            "about": about,
-        }
-        given = {name: value for name, value in entries.items() if value is not None}
-        return export_cam(self, file, as_, **given)
+        format_of(Path(file), as_)
+        return write_outline(curve_of(self, curve, cutter_radius), file, as_, **options)
 
     def summary(self) -> Summary:
         """What is proven of the cam's undercut, pressure angles and radii, and its forces if it has a drive, as rows.
@@ -207,7 +193,7 @@ class DiscCam:
         >>> [(row.name, row.text(6), row.unit, row.place is None) for row in cam.summary()][:2]
         [('undercut', 'free', '', True), ('greatest pressure angle', '16.2598', 'deg', False)]
         """
-        from optlaws.cams.loads.summary import summary
+        from optlaws.cams.summary import summary
 
         return summary(self)
 

@@ -16,9 +16,8 @@ import numpy as np
 
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.disc import DiscCam, sense
-from optlaws.cams.followers.contact import Contact
+from optlaws.cams.followers.contact import CURVATURE, PRESSURE, Contact
 from optlaws.cams.followers.follower import Follower, Place, shown
-from optlaws.cams.followers.linear_limit import CURVATURE, PRESSURE
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError

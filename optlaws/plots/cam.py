@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Contact
-from optlaws.cams.loads.forces import CamForces
+from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
 

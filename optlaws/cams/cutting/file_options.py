@@ -1,9 +1,9 @@
-"""What a file for cutting is asked: tolerance, decimals, points, degree, feed; quantities with their units."""
+"""The options of files for cutting: tolerance, decimals, points, degree, feed; quantities with their units."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
+from typing import Any, TypedDict
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -15,9 +15,20 @@ MOST_DECIMALS = 12
 DEGREES = (3, 5)
 
 
+class CuttingOptions(TypedDict, total=False):
+    """The options of files for cutting, each of which `Cutting` documents."""
+
+    tolerance: str | None
+    decimals: int | None
+    points: int | None
+    degree: int | None
+    feed: str | None
+    about: str | None
+
+
 @dataclass(frozen=True)
 class Cutting:
-    """What a file for cutting is asked.
+    """The checked options of a file for cutting.
 
     Parameters
     ----------

@@ -6,10 +6,9 @@ from dataclasses import dataclass
 from math import asin, degrees, pi, sin
 from typing import Any, ClassVar
 
-from optlaws.cams.followers.contact import ContactState, bearing, other_leg
-from optlaws.cams.followers.faces import FaceContact, sign
+from optlaws.cams.followers.contact import ContactState, Drag, Transmission, bearing, other_leg
 from optlaws.cams.followers.follower import Follower, Place, positive, shown
-from optlaws.cams.followers.transmission import Drag, Transmission
+from optlaws.cams.followers.rollers_and_faces import FaceContact, sign
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
 from optlaws.series.enclosures.jets import Jet, Pair

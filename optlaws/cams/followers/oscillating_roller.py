@@ -11,11 +11,9 @@ from typing import Any, ClassVar
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.followers.contact import ContactState, CurvatureTerms, other_leg
+from optlaws.cams.followers.contact import ContactState, CurvatureTerms, LinearLimit, Transmission, other_leg
 from optlaws.cams.followers.follower import Follower, Place, positive, roller_radius, shown
-from optlaws.cams.followers.linear_limit import LinearLimit
-from optlaws.cams.followers.rollers import RollerContact, half_turn
-from optlaws.cams.followers.transmission import Transmission
+from optlaws.cams.followers.rollers_and_faces import RollerContact, half_turn
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import quantity

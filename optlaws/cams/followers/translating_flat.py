@@ -6,11 +6,9 @@ from dataclasses import dataclass
 from math import pi
 from typing import ClassVar
 
-from optlaws.cams.followers.contact import ContactState, bearing
-from optlaws.cams.followers.faces import FaceContact
+from optlaws.cams.followers.contact import CURVATURE, ContactState, Drag, LinearLimit, Transmission, bearing
 from optlaws.cams.followers.follower import Follower, Place
-from optlaws.cams.followers.linear_limit import CURVATURE, LinearLimit
-from optlaws.cams.followers.transmission import Drag, Transmission
+from optlaws.cams.followers.rollers_and_faces import FaceContact
 from optlaws.motion.piece import Piece
 from optlaws.series.enclosures.jets import Jet, Pair
 

@@ -6,11 +6,9 @@ from dataclasses import dataclass, replace
 from math import hypot
 from typing import Any, ClassVar
 
-from optlaws.cams.followers.contact import ContactState, CurvatureTerms
+from optlaws.cams.followers.contact import PRESSURE, ContactState, CurvatureTerms, LinearLimit, Transmission
 from optlaws.cams.followers.follower import Follower, Place, roller_radius, shown
-from optlaws.cams.followers.linear_limit import PRESSURE, LinearLimit
-from optlaws.cams.followers.rollers import RollerContact, side_of
-from optlaws.cams.followers.transmission import Transmission
+from optlaws.cams.followers.rollers_and_faces import RollerContact, side_of
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import quantity

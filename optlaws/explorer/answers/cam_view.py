@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from optlaws.cams.curves.extremes import Extreme
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.registry import follower_kinds
+from optlaws.cams.followers.follower import follower_kinds
 from optlaws.cams.least_sizes import least_base_circle
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.explorer.answers.cycle_view import check_axis

@@ -9,7 +9,7 @@ import numpy as np
 
 from optlaws.cams.curves.extremes import Extreme
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.loads.summary import geometry
+from optlaws.cams.summary import geometry
 from optlaws.files import tables
 
 EXTREMES = ("what", "at least", "at most", "unit", "at, deg")

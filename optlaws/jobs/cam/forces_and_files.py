@@ -11,15 +11,15 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import msgspec
 
-from optlaws.cams.as_manufactured.peaks import AsMade, UnreachedProfileError, as_made, with_error
+from optlaws.cams.as_manufactured import AsMade, UnreachedProfileError, as_made, with_error
 from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.cutting.cam_files import curve_of
 from optlaws.cams.cutting.file_options import Cutting
-from optlaws.cams.cutting.formats import format_of
+from optlaws.cams.cutting.cam_files import format_of
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.loads.forces import CamForces
-from optlaws.cams.loads.springs import Spring, least_spring
-from optlaws.cams.loads.summary import named_forces
+from optlaws.cams.forces import CamForces
+from optlaws.cams.springs import Spring, least_spring
+from optlaws.cams.summary import named_forces
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.files import tables, writing

@@ -12,7 +12,7 @@ import msgspec
 from optlaws.cams.best_laws import BestBaseCircle, BestCam, best_base_circle, best_cam
 from optlaws.cams.conjugate import conjugate_cam
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.registry import read_follower
+from optlaws.cams.followers.follower import read_follower
 from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.files.problem_file import Text, convert

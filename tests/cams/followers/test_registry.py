@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import optlaws
-from optlaws.cams.followers.registry import follower_kinds, read_follower
+from optlaws.cams.followers.follower import follower_kinds, read_follower
 from optlaws.errors import InputError
 
 PACKAGE = Path(optlaws.__file__).parent

@@ -1,4 +1,4 @@
-"""What a machine makes of a file: curves through rounded points, chains of rounded arcs, a profile with waves."""
+"""Curves that a machine makes of a file: through rounded points, chains of rounded arcs, a profile with waves."""
 
 from __future__ import annotations
 
@@ -9,9 +9,8 @@ from math import tau
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.curves.piecewise_curve import PiecewiseCurve
-from optlaws.cams.curves.plane_curve import CurveAlongNormals, derivatives
-from optlaws.cams.cutting.biarcs import Arcs
+from optlaws.cams.curves.plane_curve import CurveAlongNormals, PiecewiseCurve, derivatives
+from optlaws.cams.cutting.arcs_and_chords import Arcs
 from optlaws.kept import kept_property
 from optlaws.series.enclosures.interval_arrays import Interval
 from optlaws.series.enclosures.jets import Pair, turned, variable

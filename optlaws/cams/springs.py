@@ -11,7 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.loads.forces import CamForces
+from optlaws.cams.forces import CamForces
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import quantity

@@ -1,4 +1,4 @@
-"""Arcs in place of a curve: pairs of arcs that touch the curve and each other, within a tolerance that is proven."""
+"""Polygons and tangent arcs in place of a curve, within a tolerance that is proven."""
 
 from __future__ import annotations
 
@@ -7,17 +7,71 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.cutting.chords import FEWEST, GROWTH
 from optlaws.cams.cutting.outline import Outline, curvature, divided, greatest_deviation, speed
 from optlaws.series.enclosures.interval_arrays import Interval, middle
 from optlaws.series.enclosures.jets import Jet
 
 Array = NDArray[np.float64]
 
+GROWTH = 1.06
+FEWEST = 3
+_NEAR = 1e-3  # how near deviations are enclosed
+
+
+@dataclass(frozen=True, eq=False)
+class Polygon:
+    """A closed polygon with its corners on an outline.
+
+    Attributes
+    ----------
+    corners
+        Metres, shape (n, 2); the last one leads back to the first.
+    angles
+        Where on the outline they are, radians.
+    deviation
+        Proven: no place of the outline is farther from its chord, m.
+    """
+
+    corners: Array
+    angles: Array
+    deviation: float
+
+
+def polygon(outline: Outline, tolerance: float) -> Polygon:
+    """The polygon through points of an outline from which no place of it is farther than a tolerance in metres."""
+
+    def density(angles: Array) -> Array:
+        # a chord of the length c is c² curvature / 8 off
+        return speed(outline, angles) * np.sqrt(np.abs(curvature(outline, angles)) / (8.0 * tolerance))
+
+    factor = 1.0
+    while True:
+        angles = divided(outline, density, factor)
+        deviation = _deviation(outline, angles, tolerance) if len(angles) > FEWEST else np.inf
+        if deviation <= tolerance:
+            return Polygon(outline(angles[:-1]), angles[:-1], deviation)
+        factor *= GROWTH
+
+
+def _deviation(outline: Outline, angles: Array, tolerance: float) -> float:
+    """The greatest distance of the outline from its chords, as it is proven; one that is met where that is too far."""
+    ends = outline(angles)
+    chords = np.diff(ends, axis=0)
+    normals = np.stack([-chords[:, 1], chords[:, 0]], axis=1) / np.linalg.norm(chords, axis=1)[:, None]
+
+    def off(angle: Array | Interval, order: int) -> Jet:
+        which = np.searchsorted(angles[1:-1], middle(angle))
+        x, y = outline.jets(angle, order)
+        distance: Jet = (x - ends[which, 0]) * normals[which, 0] + (y - ends[which, 1]) * normals[which, 1]
+        return distance
+
+    return greatest_deviation(off, angles, tolerance, share=_NEAR)
+
+
 STRAIGHT = 1e3  # radius in metres from which an arc is a line
 _STEPS = 5
 _CUBED = 192.0  # a pair of arcs over the length s is s³ dκ/ds / 192 off, or nearly
-_NEAR = 1e-2  # how near deviations are enclosed
+_ARC_NEAR = 1e-2  # how near deviations are enclosed
 _SMALL = 0.9
 _ROUNDING = 1e-12  # metres; what arcs of a circle are off by themselves
 
@@ -92,7 +146,7 @@ def _chain(outline: Outline, angles: Array, tolerance: float) -> Arcs:
     bulges[0::2] = _bulges(points[:-1], joints, tangents[:-1])
     bulges[1::2] = -_bulges(points[1:], joints, -tangents[1:])
     places = np.append(np.stack([angles[:-1], _beside(outline, angles, joints)], axis=1).ravel(), angles[-1])
-    return Arcs(corners, bulges, _deviation(outline, places, Arcs(corners, bulges, 0.0), tolerance))
+    return Arcs(corners, bulges, _arc_deviation(outline, places, Arcs(corners, bulges, 0.0), tolerance))
 
 
 def _directions(outline: Outline, angles: Array) -> Array:
@@ -141,7 +195,7 @@ def _centres(starts: Array, ends: Array, bulges: Array) -> Array:
         return 0.5 * (starts + ends) + ((1.0 - bulges**2) / (4.0 * bulges))[:, None] * left
 
 
-def _deviation(outline: Outline, places: Array, chain: Arcs, tolerance: float) -> float:
+def _arc_deviation(outline: Outline, places: Array, chain: Arcs, tolerance: float) -> float:
     """The greatest distance of the outline from its arcs, as it is proven; one that is met where that is too far."""
     starts, bulges, chords = chain.points, chain.bulges, chain.ends - chain.points
     lengths = np.linalg.norm(chords, axis=1)
@@ -158,7 +212,7 @@ def _deviation(outline: Outline, places: Array, chain: Arcs, tolerance: float) -
         distance: Jet = y - (x * x + y * y) * (0.5 * bends[i])
         return distance
 
-    most = greatest_deviation(off, places, tolerance + _ROUNDING, share=_NEAR)
+    most = greatest_deviation(off, places, tolerance + _ROUNDING, share=_ARC_NEAR)
     # e = d + bend d²/2 for the distance d to the right: |d| <= |e| / (1 - |bend e|) where bend e is small
     share = float(np.abs(bends).max()) * most
     return most / (1.0 - share) if share < _SMALL else np.inf

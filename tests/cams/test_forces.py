@@ -10,8 +10,7 @@ from optlaws import Cycle, Dwell, OscillatingFlat, Return, Rise
 from optlaws.cams.curves.motion_by_angle import CamMotion
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.translating_roller import TranslatingRoller
-from optlaws.cams.loads.forces import CamForces
-from optlaws.cams.loads.hertz import line_contact
+from optlaws.cams.forces import CamForces, line_contact
 from optlaws.errors import InputError
 from tests.cams.placed import FOLLOWERS, TURNINGS, cam_of
 

@@ -4,8 +4,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from optlaws.cams.loads.forces import CamForces
-from optlaws.cams.loads.springs import least_spring
+from optlaws.cams.forces import CamForces
+from optlaws.cams.springs import least_spring
 from optlaws.errors import InfeasibleProblem, InputError
 from tests.cams.placed import cam_of
 

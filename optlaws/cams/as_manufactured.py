@@ -1,4 +1,4 @@
-"""Peaks of a cam as it is made: what its follower does when the file's digits, or an error of the profile, count."""
+"""Cams as they are made: the follower on curves with the digits of a file, or an error of the profile."""
 
 from __future__ import annotations
 
@@ -10,16 +10,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.as_manufactured.contact_state import Following
-from optlaws.cams.as_manufactured.curves import ArcChain, PointSpline, PolarSpline, WavyCurve
-from optlaws.cams.cutting.biarcs import Arcs, arcs
+from optlaws.cams.cutting.arcs_and_chords import Arcs, arcs
 from optlaws.cams.cutting.file_options import Cutting
+from optlaws.cams.cutting.manufactured_curves import ArcChain, PointSpline, PolarSpline, WavyCurve
 from optlaws.cams.cutting.outline import Outline
-from optlaws.cams.cutting.point_tables import polar
 from optlaws.cams.cutting.spline import spline
+from optlaws.cams.cutting.text_formats import polar
 from optlaws.cams.disc import DiscCam
+from optlaws.cams.followers.contact import Contact, shifted
 from optlaws.echo import shortened
 from optlaws.errors import InputError
+from optlaws.kept import kept_property
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import bounded, whole
 from optlaws.series.enclosures.branch_and_bound import Function, extremes
@@ -28,6 +29,79 @@ from optlaws.series.enclosures.jets import Jet
 from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
+
+_SAMPLES = 721
+
+
+@dataclass(frozen=True)
+class Following:
+    """A follower on a closed curve, at any place of it: the cam's angle there, and the displacement.
+
+    The follower is taken to touch the curve at one place, as it does where the curve bulges outward or its hollows are
+    wider than the roller.
+
+    Parameters
+    ----------
+    contact
+        The follower, in numbers.
+    curve
+        The cam's profile as it is made, m; any parameter.
+    phase
+        By how much the cam's coordinates are turned, rad.
+    outside
+        How far outside of the profile the curve is, m: the radius of a cutter whose path it is.
+
+    Examples
+    --------
+    >>> from optlaws.cams.disc import DiscCam
+    >>> from optlaws.cams.followers.translating_roller import TranslatingRoller
+    >>> from optlaws.cams.curves.motion_by_angle import CamMotion
+    >>> motion = CamMotion.of_law("cycloidal", "40 mm", "360 deg")
+    >>> cam = DiscCam(motion, base_radius="80 mm", follower=TranslatingRoller("12 mm"))
+    >>> following = Following(cam.contact, cam.profile)
+    >>> angle, displacement = (float(value) for value in following.at(np.array(1.0), 0))
+    >>> round(angle, 12), round(displacement - cam.displacement(1.0), 12) + 0.0
+    (1.0, 0.0)
+    """
+
+    contact: Contact
+    curve: Outline
+    phase: float = 0.0
+    outside: float = 0.0
+
+    @kept_property
+    def outward(self) -> float:
+        """1 where the curve runs counterclockwise, so that outward is to its right, else -1."""
+        places = np.linspace(self.curve.breaks[0], self.curve.breaks[-1], _SAMPLES)
+        x, y = self.curve(places).T
+        area = float(np.sum(x[:-1] * y[1:] - x[1:] * y[:-1]))
+        if area == 0.0:
+            raise InputError("the curve encloses nothing: no follower runs on it")
+        return 1.0 if area > 0.0 else -1.0
+
+    def at(self, places: Array, nu: int) -> tuple[Array, Array]:
+        """The cam's angle at places of the curve, rad, and the derivative of order nu of the displacement by it."""
+        angle, derivative = self.derivative(places, nu, 0)
+        return np.asarray(angle.terms[0]), np.asarray(derivative.terms[0])
+
+    def derivative(self, places: Array | Interval, nu: int, order: int) -> tuple[Jet, Jet]:
+        """The cam's angle and the derivative of order nu by it, both with Taylor terms by the curve's parameter."""
+        angle, derivative = self.jets(places, nu + order)
+        pace = angle.slope()
+        for _ in range(nu):
+            derivative = derivative.slope() / pace
+        return angle, derivative
+
+    def jets(self, places: Array | Interval, order: int) -> tuple[Jet, Jet]:
+        """The cam's angle and the displacement, by the curve's parameter."""
+        point = self.curve.jets(places, order + 1)
+        slopes = (point[0].slope(), point[1].slope())
+        length = (slopes[0] * slopes[0] + slopes[1] * slopes[1]).root()
+        normal = (slopes[1] / length * self.outward, slopes[0] / length * -self.outward)
+        profile = shifted((point[0].cut(order), point[1].cut(order)), normal, -self.outside)
+        state = self.contact.state(profile, normal)
+        return (state.direction + self.phase - state.in_cam) * self.contact.turning, state.displacement
+
 
 CURVES = ("profile", "pitch")
 _SHARE, _NEAR = 1e-3, 1e-6  # how near deviations and peaks are enclosed

@@ -6,9 +6,9 @@ from numpy.typing import NDArray
 from scipy.interpolate import CubicSpline
 
 from optlaws import Chebyshev, Cycle, Dwell, Problem, Return, Rise, synthesize
-from optlaws.cams.as_manufactured.curves import ArcChain, PointSpline
-from optlaws.cams.as_manufactured.peaks import as_made, rounding_bound, run_against, with_error
-from optlaws.cams.cutting.formats import export
+from optlaws.cams.as_manufactured import as_made, rounding_bound, run_against, with_error
+from optlaws.cams.cutting.cam_files import write_outline
+from optlaws.cams.cutting.manufactured_curves import ArcChain, PointSpline
 from optlaws.cams.cutting.spline import Spline
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.translating_flat import TranslatingFlat
@@ -58,7 +58,7 @@ def test_digits_of_x_and_y_count_more(cam: DiscCam) -> None:
 def test_a_dxf_gives_the_motion_back_to_its_digits(cam: DiscCam, tmp_path: Path) -> None:
     for degree, near in ((3, 2e-3), (5, 5e-4)):
         asked = {"tolerance": "0.01 um", "degree": degree}
-        curve = readers.dxf_spline(export(cam.profile, tmp_path / f"{degree}.dxf", "dxf spline", **asked))
+        curve = readers.dxf_spline(write_outline(cam.profile, tmp_path / f"{degree}.dxf", "dxf spline", **asked))
         made = run_against(cam, Spline(degree, curve.t, 1e-3 * curve.c, 0.0))
         assert made.deviation < 1.2e-8
         assert made.leap == 0.0
@@ -67,7 +67,7 @@ def test_a_dxf_gives_the_motion_back_to_its_digits(cam: DiscCam, tmp_path: Path)
 
 
 def test_a_table_read_back_moves_the_follower_as_was_foretold(cam: DiscCam, tmp_path: Path) -> None:
-    rows = readers.table(export(cam.profile, tmp_path / "p.csv", points=361, decimals=4))
+    rows = readers.table(write_outline(cam.profile, tmp_path / "p.csv", points=361, decimals=4))
     made = run_against(cam, PointSpline(1e-3 * rows[:, 1:]))
     assert made.acceleration == pytest.approx(as_made(cam, points=361, decimals=4).acceleration, rel=1e-9)
 
@@ -112,7 +112,7 @@ def test_what_cannot_be_run_says_why(cam: DiscCam) -> None:
 
 
 def test_a_chain_of_arcs_and_lines_is_a_curve() -> None:
-    from optlaws.cams.cutting.biarcs import Arcs
+    from optlaws.cams.cutting.arcs_and_chords import Arcs
 
     stadium = ArcChain(Arcs(np.array([[1.0, -1], [1, 1], [-1, 1], [-1, -1]]), np.array([0.0, 1.0, 0.0, 1.0]), 0.0))
     assert stadium(np.array([0.5, 1.5, 3.5])) == pytest.approx(np.array([[1.0, 0], [0, 2], [0, -2]]))
