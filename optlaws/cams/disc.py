@@ -29,6 +29,7 @@ from optlaws.suggest import keywords_of, unknown_key
 
 Array = NDArray[np.float64]
 
+CURVES = ("profile", "pitch", "cutter")
 TURNINGS = {"counterclockwise": 1.0, "clockwise": -1.0}
 
 
@@ -139,6 +140,25 @@ class DiscCam:
         """
         return self.pitch_curve.offset(positive(cutter_radius, "cutter_radius") - self.contact.roller)
 
+    def outline(self, curve: str | None = None, cutter_radius: str | None = None) -> PlaneCurve:
+        """The curve that is cut: the "profile", the "pitch" curve, or the path of a "cutter" with a radius.
+
+        Raises
+        ------
+        InputError
+            If it is unknown, or a cutter has no radius.
+        """
+        chosen = curve or ("profile" if cutter_radius is None else "cutter")
+        if chosen not in CURVES:
+            raise InputError(unknown_key(chosen, CURVES, "curve"))
+        if (chosen == "cutter") != (cutter_radius is not None):
+            raise InputError(
+                "cutter_radius and curve='cutter' go together: give the radius, such as cutter_radius='10 mm'"
+            )
+        if chosen == "cutter":
+            return self.cutter_path(cutter_radius)
+        return self.profile if chosen == "profile" else self.pitch_curve
+
     @keywords_of(CuttingOptions)
     def export(
         self,
@@ -177,10 +197,10 @@ class DiscCam:
         InputError
             If an entry is unknown or out of its range, the motion is no whole turn, or the file cannot be written.
         """
-        from optlaws.cams.cutting.cam_files import curve_of, format_of, write_outline
+        from optlaws.cams.cutting.cam_files import format_of, write_outline
 
         format_of(Path(file), as_)
-        return write_outline(curve_of(self, curve, cutter_radius), file, as_, **options)
+        return write_outline(self.outline(curve, cutter_radius), file, as_, **options)
 
     def summary(self) -> Summary:
         """What is proven of the cam's undercut, pressure angles and radii, and its forces if it has a drive, as rows.

@@ -6,12 +6,10 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import Any, Unpack
 
-from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.cutting.dxf import as_arcs, as_polyline, as_spline
 from optlaws.cams.cutting.file_options import Cutting, CuttingOptions
 from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.text_formats import as_arc_moves, as_line_moves, as_points, as_polar, as_svg
-from optlaws.cams.disc import DiscCam
 from optlaws.errors import InputError
 from optlaws.files import writing
 from optlaws.suggest import unknown_key
@@ -39,9 +37,6 @@ ENDINGS = {
     ".gcode": "g-code",
     ".tap": "g-code",
 }
-
-
-CURVES = ("profile", "pitch", "cutter")
 
 
 def format_of(file: Path, name: str | None = None) -> str:
@@ -99,21 +94,3 @@ def write_outline(
     cutting = Cutting(**given)
     writing.check_place(place)
     return writing.write(place, text(outline, name, cutting), exact=True)
-
-
-def curve_of(cam: DiscCam, curve: str | None, cutter_radius: str | None) -> PlaneCurve:
-    """The curve that is cut.
-
-    Raises
-    ------
-    InputError
-        If it is unknown, or a cutter has no radius.
-    """
-    chosen = curve or ("profile" if cutter_radius is None else "cutter")
-    if chosen not in CURVES:
-        raise InputError(unknown_key(chosen, CURVES, "curve"))
-    if (chosen == "cutter") != (cutter_radius is not None):
-        raise InputError("cutter_radius and curve='cutter' go together: give the radius, such as cutter_radius='10 mm'")
-    if chosen == "cutter":
-        return cam.cutter_path(cutter_radius)
-    return cam.profile if chosen == "profile" else cam.pitch_curve

@@ -13,9 +13,8 @@ import msgspec
 
 from optlaws.cams.as_manufactured import AsMade, UnreachedProfileError, as_made, with_error
 from optlaws.cams.curves.extremes import UNDERCUT
-from optlaws.cams.cutting.cam_files import curve_of
-from optlaws.cams.cutting.file_options import Cutting
 from optlaws.cams.cutting.cam_files import format_of
+from optlaws.cams.cutting.file_options import Cutting
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.forces import CamForces
 from optlaws.cams.springs import Spring, least_spring
@@ -110,7 +109,7 @@ def check(spec: ForcesAndFiles, cam: DiscCam, cycle: Cycle) -> None:
         writing.check_name(Path(entry.name))
         format_of(Path(entry.name), entry.format)
         entries = entry.options()
-        curve_of(cam, entries.pop("curve", None), entries.pop("cutter_radius", None))
+        cam.outline(entries.pop("curve", None), entries.pop("cutter_radius", None))
         Cutting(**entries)
     forces_of(spec, cam, cycle)
 
