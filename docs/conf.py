@@ -73,7 +73,7 @@ nitpick_ignore = [
     ("py:class", "optlaws.cams.followers.rollers_and_faces.FaceContact"),
     ("py:class", "optlaws.cams.followers.rollers_and_faces.RollerContact"),
     ("py:class", "optlaws.cams.followers.follower.Place"),
-    ("py:class", "optlaws.cycles.drive.drive.Drive"),
+    ("py:class", "optlaws.cycles.specification.drive.Drive"),
     ("py:class", "optlaws.motion.piece.Piece"),
     ("py:class", "optlaws.formulas.of_motion.Motion"),
     ("py:class", "optlaws.mechanisms.machine.dynamics.Drive"),

@@ -70,8 +70,8 @@ from optlaws.laws.making.trapezoids import scca as scca
 from optlaws.laws.making.trapezoids import trapezoid as trapezoid
 from optlaws.laws.polynomial import PolynomialLaw as PolynomialLaw
 from optlaws.laws.polynomial import smoothstep as smoothstep
-from optlaws.laws.savin.family import SavinFamily as SavinFamily
-from optlaws.laws.savin.savin import savin as savin
+from optlaws.laws.savin import SavinFamily as SavinFamily
+from optlaws.laws.savin import savin as savin
 from optlaws.laws.segments.piecewise import PiecewiseLaw as PiecewiseLaw
 from optlaws.mechanisms.angles import deg as deg
 from optlaws.mechanisms.cam.constants import cam_constant as cam_constant

@@ -14,7 +14,7 @@ from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Friction, Transmission
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.drive.drive import Drive, read_drive
+from optlaws.cycles.specification.drive import Drive, read_drive
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property

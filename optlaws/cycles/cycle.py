@@ -7,9 +7,6 @@ from dataclasses import dataclass, field, replace
 from math import sqrt
 from typing import Any
 
-from optlaws.cycles.drive.drive import Drive, read_drive
-from optlaws.cycles.drive.effort import Effort, effort
-from optlaws.cycles.drive.load import LOAD, Load, read_load
 from optlaws.cycles.export_mixin import ExportMixin
 from optlaws.cycles.kinematics import SegmentPeaks, jumps_at_joints, segment_peaks, values_at
 from optlaws.cycles.optimisation.durations import durations
@@ -30,7 +27,9 @@ from optlaws.cycles.optimisation.objectives import (
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.retiming import TimedCycle, cam_segments, segments_at
 from optlaws.cycles.serialisation import SerialisationMixin
+from optlaws.cycles.specification.drive import Drive, Effort, effort, read_drive
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
+from optlaws.cycles.specification.load import LOAD, Load, read_load
 from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
 from optlaws.cycles.specification.segments import CycleSegment
 from optlaws.errors import InputError

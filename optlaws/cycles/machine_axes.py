@@ -212,7 +212,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         InputError
             If there are neither one nor as many, or nu is none of the four.
         """
-        from optlaws.plots.axes import draw_axes
+        from optlaws.plots.cycle import draw_axes
 
         return draw_axes(self, ax, nu=nu, **style)
 

@@ -10,7 +10,7 @@ from typing import Any
 from optlaws.cycles.specification.programme import CLOSE, Programme, TimedSegment
 from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment, Dwell, Move
 from optlaws.errors import InputError
-from optlaws.laws.making.section import section
+from optlaws.laws.making.transform import section
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.cam.polydyne import polydyne
 from optlaws.motion.piece import Piece

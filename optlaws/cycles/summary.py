@@ -7,8 +7,8 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
-from optlaws.cycles.drive.load import LOAD, read_load
 from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, kind_of
+from optlaws.cycles.specification.load import LOAD, read_load
 from optlaws.errors import OptlawsError
 from optlaws.shown.showing import drawing, facts, page, table
 from optlaws.shown.summary import Row, Summary

@@ -32,7 +32,7 @@ from optlaws.explorer.answers import (
 from optlaws.explorer.answers.asked import AskedLaw, AskedLaws, read, ready
 from optlaws.explorer.guard import Guard
 from optlaws.jobs.cam import schema
-from optlaws.jobs.cycle.entries import Study
+from optlaws.jobs.cycle_entries import Study
 
 #: no question of the page is longer
 MOST_BYTES = 400_000

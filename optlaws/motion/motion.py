@@ -14,8 +14,7 @@ from numpy.typing import NDArray
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
-from optlaws.motion.named_law import STROKE
-from optlaws.motion.piece import Piece, factor, values_of_pieces
+from optlaws.motion.piece import STROKE, Piece, factor, values_of_pieces
 from optlaws.motion.quantities import Given, either, given_quantity, quantity
 from optlaws.numbers import derivative, real_times
 

@@ -22,7 +22,7 @@ from optlaws import (
     smoothstep,
 )
 from optlaws.files import reading
-from optlaws.jobs.cycle.entries import read
+from optlaws.jobs.cycle_entries import read
 from optlaws.motion.quantities import DIMENSIONS, either, quantity
 
 

@@ -15,7 +15,7 @@ from optlaws.balancing.dwells.parts import PartSegment
 from optlaws.balancing.loaders.loader import Loader
 from optlaws.cams.curves.motion_by_angle import CamMotion, Stretch
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.drive.drive import Drive, read_drive
+from optlaws.cycles.specification.drive import Drive, read_drive
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property

@@ -19,8 +19,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw, PolynomialLaw
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
-from optlaws.motion.named_law import named_law
-from optlaws.motion.piece import Piece, factor
+from optlaws.motion.piece import Piece, factor, named_law
 from optlaws.motion.quantities import TURN, either, in_small_units, quantity
 from optlaws.numbers import derivative, real_times
 from optlaws.series import chebyshev

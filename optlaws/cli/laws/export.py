@@ -133,7 +133,7 @@ def _motion(law: str, axis: str | None, said: dict[str, str | None], of_table: d
 
 def _cycle(file: Path, axis: str | None) -> Any:  # noqa: ANN401 - a Cycle, which the help must not import
     from optlaws.files.packaged import problem_of_job
-    from optlaws.jobs.cycle.entries import read
+    from optlaws.jobs.cycle_entries import read
 
     source, _, entries = problem_of_job(file, "cycle")
     _, cycles = read(entries, source)

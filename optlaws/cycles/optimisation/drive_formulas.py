@@ -12,8 +12,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 from itertools import pairwise
 
-from optlaws.cycles.drive.drive import Drive
 from optlaws.cycles.optimisation.objectives import POWER
+from optlaws.cycles.specification.drive import Drive
 from optlaws.cycles.specification.joints import LawSpan
 from optlaws.cycles.specification.segments import Dwell
 from optlaws.errors import InputError

@@ -12,9 +12,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from math import exp, inf, log, sqrt
 
-from optlaws.cycles.drive.drive import Drive
-from optlaws.cycles.drive.effort import peak_of, square_of_force
-from optlaws.cycles.optimisation.cycle_bound import bound_of, span_bound
+from optlaws.cycles.optimisation.bounds import bound_of, span_bound
 from optlaws.cycles.optimisation.drive_formulas import driven_mean
 from optlaws.cycles.optimisation.joint_limits import ties_broken
 from optlaws.cycles.optimisation.objectives import CycleObjective, kind_of
@@ -26,6 +24,7 @@ from optlaws.cycles.optimisation.optimal import (
     with_least_limit,
     with_mean_square,
 )
+from optlaws.cycles.specification.drive import Drive, peak_of, square_of_force
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property

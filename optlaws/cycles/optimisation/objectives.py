@@ -6,8 +6,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from optlaws.cycles.drive.drive import Drive
-from optlaws.cycles.drive.load import LOAD, Load, load_output
+from optlaws.cycles.specification.drive import Drive
+from optlaws.cycles.specification.load import LOAD, Load, load_output
 from optlaws.cycles.specification.programme import AXES, TimedSegment
 from optlaws.cycles.specification.segments import Free, Move
 from optlaws.echo import shortened
@@ -106,7 +106,7 @@ def read_load_limits(entries: Mapping[str, Any], load: Load | None) -> dict[tupl
 
     Examples
     --------
-    >>> from optlaws.cycles.drive.load import read_load
+    >>> from optlaws.cycles.specification.load import read_load
     >>> read_load_limits({"load deflection": "2 mm"}, read_load({"period": "20 ms"}, "length"))
     {('deflection', False): 0.002}
     """

@@ -13,9 +13,7 @@ from math import inf, sqrt
 from operator import itemgetter
 from typing import Any
 
-from optlaws.cycles.drive.load import load_output
 from optlaws.cycles.optimisation.drive_formulas import driven_formula, driven_mean, driven_peak, may_turn
-from optlaws.cycles.optimisation.joined import halved, joined_basis, joint_windows, place
 from optlaws.cycles.optimisation.objectives import (
     FORCE,
     LOADED,
@@ -25,8 +23,17 @@ from optlaws.cycles.optimisation.objectives import (
     kind_of,
     limits_of_stretch,
 )
-from optlaws.cycles.optimisation.search_spaces import minimised_rms, search_space, splines_of_least_rms
+from optlaws.cycles.optimisation.search_spaces import (
+    halved,
+    joined_basis,
+    joint_windows,
+    minimised_rms,
+    place,
+    search_space,
+    splines_of_least_rms,
+)
 from optlaws.cycles.specification.joints import LawSpan, State
+from optlaws.cycles.specification.load import load_output
 from optlaws.cycles.specification.programme import is_optimal
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece, factor

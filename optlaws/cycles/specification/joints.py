@@ -12,8 +12,7 @@ from optlaws.cycles.specification.segments import ConstantVelocity, Dwell, Free,
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.laws import smoothstep
-from optlaws.motion.named_law import named_law
-from optlaws.motion.piece import Piece
+from optlaws.motion.piece import Piece, named_law
 from optlaws.motion.quantities import quantity
 
 UNIFORM = smoothstep(1)

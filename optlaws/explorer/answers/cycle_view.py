@@ -17,7 +17,7 @@ from optlaws.cycles.summary import drive_rows, joint_rows, objective_unit
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.explorer.answers.asked import MOST_DEGREE, MOST_ORDER
 from optlaws.explorer.answers.law_view import HEARD, digits, drawn, gap_text, refusal
-from optlaws.jobs.cycle.entries import Axis, Study, cycle_of
+from optlaws.jobs.cycle_entries import Axis, Study, cycle_of
 from optlaws.laws.catalogue import reading
 from optlaws.plots.cycle import QUANTITIES, UNITS, samples
 

@@ -21,8 +21,8 @@ from optlaws.explorer.answers.asked import MOST_LAWS, AskedLaw, law_of, problem_
 from optlaws.explorer.answers.law_view import title
 from optlaws.files.toml_text import to_toml
 from optlaws.files.writing import MARK
-from optlaws.jobs.cycle.cycle import table_of_motion
-from optlaws.jobs.cycle.entries import AskedFollower, cycle_of
+from optlaws.jobs.cycle import table_of_motion
+from optlaws.jobs.cycle_entries import AskedFollower, cycle_of
 from optlaws.laws.values import table_of_values
 from optlaws.suggest import unknown_key
 

@@ -17,7 +17,7 @@ from optlaws.errors import InputError
 from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.cam.extreme_rows import EXTREMES, enclosure, extreme_row, plain
-from optlaws.jobs.cycle.entries import Axis, cycle_of
+from optlaws.jobs.cycle_entries import Axis, cycle_of
 from optlaws.plots.style import BLUES, GREY, WARM, new_figure, plot_style, save_pictures, titled
 from optlaws.results.page import Page
 

@@ -17,7 +17,7 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.cam.forces_and_files import ForcesAndFiles, check
-from optlaws.jobs.cycle.entries import Axis, cycle_of
+from optlaws.jobs.cycle_entries import Axis, cycle_of
 
 #: its kind, and the entries that this kind takes
 FollowerEntries: TypeAlias = dict[str, str]

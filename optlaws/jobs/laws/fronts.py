@@ -17,8 +17,7 @@ from optlaws.files import tables, writing
 from optlaws.files.problem_file import Text, convert
 from optlaws.laws import MotionLaw, smoothstep
 from optlaws.laws.catalogue.catalogue import catalogue
-from optlaws.laws.savin.family import FAMILIES
-from optlaws.laws.savin.savin import alpha_range, savin
+from optlaws.laws.savin import FAMILIES, alpha_range, savin
 from optlaws.plots.front import draw_front, draw_proven_front
 from optlaws.plots.style import (
     GREEN,

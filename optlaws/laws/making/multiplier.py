@@ -59,7 +59,7 @@ def multiplied(law: MotionLaw, y: Multiplier) -> MotionLaw:
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> from optlaws.laws.savin.savin import savin
+    >>> from optlaws.laws.savin import savin
     >>> multiplied(smoothstep(4), [2, -6, 6]) == savin("III", alpha=6.0)
     True
     >>> import math

@@ -9,7 +9,7 @@ from optlaws.balancing.machine_units.balancing import Balancing
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.translating_roller import TranslatingRoller
 from optlaws.cams.forces import CamForces
-from optlaws.cycles.drive.effort import effort
+from optlaws.cycles.specification.drive import effort
 from optlaws.errors import InputError
 
 

@@ -23,7 +23,7 @@ from optlaws import (
     read_law,
     smoothstep,
 )
-from optlaws.jobs.cycle.cycle import table_of_motion
+from optlaws.jobs.cycle import table_of_motion
 from optlaws.laws.making.through_points import law_of_table
 from optlaws.laws.values import table_of_values
 

@@ -1,4 +1,4 @@
-"""The job "cycle": whole cycles of one or several axes, tabled, drawn and kept with their proofs."""
+"""The job "cycle": whole cycles of one or several axes, tabled, drawn, exported and kept with their proofs."""
 
 from __future__ import annotations
 
@@ -7,17 +7,107 @@ from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
+import msgspec
 import numpy as np
 
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.summary import drive_rows, joint_rows, proof_rows
+from optlaws.errors import InputError
+from optlaws.exports.export import Export, export_cycle
+from optlaws.exports.format import FORMATS, format_of
+from optlaws.exports.identifiers import variable_names
 from optlaws.files import tables, writing
-from optlaws.jobs.cycle.entries import Study, read
-from optlaws.jobs.cycle.machine_files import TOGETHER, Exports, add_exports, exports_of, plain_name
-from optlaws.plots.axes import axes_figure
-from optlaws.plots.cycle import QUANTITIES, UNITS, cycle_figure
+from optlaws.jobs.cycle_entries import AskedExport, Axis, Study, read
+from optlaws.plots.cycle import QUANTITIES, UNITS, axes_figure, cycle_figure
 from optlaws.plots.style import save_pictures
 from optlaws.results.page import Page
+
+#: the exports of each axis by the names of their files
+Exports = dict[str, dict[str, Export]]
+
+#: what the picture of all axes is called
+TOGETHER = "axes"
+_PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
+_EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
+
+
+def exports_of(spec: Study, cycles: Mapping[str, Cycle], file: Path) -> Exports:
+    """The exports that the axes name, made but not yet written.
+
+    Raises
+    ------
+    InputError
+        If one is wrong or cannot hold its axis, or two have the same file; the error names file and axis.
+    """
+    made: Exports = {}
+    if len(spec.axis) > 1 and TOGETHER in {plain_name(axis.name) for axis in spec.axis}:
+        raise InputError(f"{file}: an axis is called {TOGETHER}, as the picture of all is: give it another name")
+    taken = {"cycle.md", "cycle.json", f"{TOGETHER}.svg", f"{TOGETHER}.png"}
+    taken |= {f"{plain_name(axis.name)}{ending}" for axis in spec.axis for ending in (".csv", ".svg", ".png")}
+    names = variable_names(axis.name for axis in spec.axis)
+    for axis in spec.axis:
+        try:
+            made[axis.name] = _of_axis(axis, cycles[axis.name], names[axis.name], taken)
+        except InputError as error:
+            raise InputError(f"{file}: axis {axis.name}: export {error}") from None
+    return made
+
+
+def plain_name(axis: str) -> str:
+    """The name of an axis as files have it.
+
+    Examples
+    --------
+    >>> plain_name("Weld head")
+    'weld_head'
+    """
+    return "".join(letter if letter.isalnum() else "_" for letter in axis.lower())
+
+
+def add_exports(page: Page, made: Mapping[str, Export]) -> None:
+    """A table of what controllers will run, where there are exports."""
+    if made:
+        page.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
+        page.table(_EXPORT_HEADINGS, [_export_row(name, export) for name, export in made.items()], digits=7)
+
+
+def _of_axis(axis: Axis, cycle: Cycle, variable: str, taken: set[str]) -> dict[str, Export]:
+    made: dict[str, Export] = {}
+    for asked in axis.export:
+        name = _file_name(axis.name, asked)
+        if name in taken:
+            raise InputError(f"to {asked.to}: another file is called {name}: give each a name of its own")
+        taken.add(name)
+        try:
+            made[name] = _export(cycle, asked, variable)
+        except InputError as error:
+            raise InputError(f"to {asked.to}: {error}") from None
+    return made
+
+
+def _export(cycle: Cycle, asked: AskedExport, variable: str) -> Export:
+    given = msgspec.structs.asdict(asked)
+    given["name"] = variable if asked.name is None else asked.name
+    said = {"master": given.pop("master"), "unit": given.pop("unit")}
+    del given["file"], given["to"]
+    return export_cycle(cycle, asked.to, said, **given)
+
+
+def _file_name(axis: str, asked: AskedExport) -> str:
+    form = format_of(asked.to)
+    name = asked.file or f"{plain_name(axis)}_{form.name}{FORMATS[form.name].extension}"
+    if Path(name).name != name:
+        raise InputError(f"to {asked.to}: file must be a name without a folder, got {name}")
+    writing.check_name(Path(name))
+    return name
+
+
+def _export_row(name: str, export: Export) -> list[tables.Cell]:
+    ratios = [export.report.ratio(nu) for nu in (1, 2, 3)]
+    shown = [f"{ratio:.7g}" if abs(ratio) < float("inf") else "leaps" for ratio in ratios]
+    deviation = f"{export.report.deviation[0].value:.3g} {export.motion.units.slave}"
+    return [name, export.format.name, export.points, *shown, deviation]
+
 
 _ROUNDING = 1e-11  # what is below this share of a peak is 0
 _SHARE = 360.0

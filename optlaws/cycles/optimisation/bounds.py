@@ -1,22 +1,25 @@
-"""What power is at least, from energy: a convex bound beneath a problem that is not convex.
+"""Lower bounds of a cycle: of its spans by their proofs or by energy, and of the whole with what given laws take.
 
 Power is the rate at which kinetic energy and the work against springs, weight and friction grow. From rest they are,
 after the share k of a move, no more than k times the greatest power; what is left of them before the end, no more than
-1 - k times it. Both are convex in the law where a spring pulls back, and viscous friction only helps the first.
+1 - k times it. Both are convex in the law where a spring pulls back, and viscous friction only helps the first: a
+convex bound beneath a problem that is not convex.
 """
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from math import inf, sqrt
+from functools import partial, reduce
+from math import hypot, inf, sqrt
 from typing import Any
 
-from optlaws.cycles.drive.drive import Drive
-from optlaws.cycles.optimisation.drive_formulas import driven_peak, may_turn
-from optlaws.cycles.optimisation.objectives import POWER, CycleObjective, kind_of
-from optlaws.cycles.specification.joints import LawSpan
+from optlaws.cycles.optimisation.drive_formulas import driven_mean, driven_peak, may_turn
+from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, CycleObjective, kind_of
+from optlaws.cycles.specification.drive import Drive, effort, read_drive
+from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, SolverFailure
-from optlaws.motion.piece import factor
+from optlaws.motion.piece import Piece, factor
 from optlaws.synthesis.functionals.makers import peak
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum
@@ -100,3 +103,45 @@ def _is_plain(span: LawSpan, drive: Drive) -> bool:
     """Whether a span is one move from rest to rest, with an inertia and no spring that pushes away."""
     resting = span.first.velocity == 0.0 == span.last.velocity
     return not may_turn(span) and resting and drive.inertia > 0.0 and drive.stiffness >= 0.0
+
+
+Solved = Sequence[tuple[Piece, Solution]]
+
+
+def bound_of(layout: Layout, solved: Solved, objective: CycleObjective, period: float) -> float | None:
+    """What no other laws in the same times can beat: bounds of those looked for, and what the others take."""
+    nu, mean = kind_of(objective.minimise)
+    if nu == LOADED and not solved:
+        return None
+    if nu == LOADED:
+        ((piece, solution),) = solved
+        return solution.lower_bound * abs(piece.stroke)
+    sizes = [
+        (piece.duration, span_bound(layout.spans[i], *solved[i], objective)) for i, (piece, _) in enumerate(solved)
+    ]
+    sizes += [(piece.duration, _taken(piece, objective)) for piece in layout.pieces]
+    if not mean:
+        return max(size for _, size in sizes)
+    return reduce(hypot, (size * sqrt(time / period) for time, size in sizes), 0.0)
+
+
+def span_bound(span: LawSpan, piece: Piece, solution: Solution, objective: CycleObjective) -> float:
+    """What no other law of a span can beat, in SI units."""
+    nu, mean = kind_of(objective.minimise)
+    least = bound_by_energy(span, objective, piece.stroke, solution)
+    if nu not in {FORCE, POWER}:
+        return least * abs(factor(piece.stroke, piece.duration, nu))
+    driven = driven_mean if mean else partial(driven_peak, nu=nu)
+    effort = driven(span, objective.drive, piece.stroke)
+    # neither a peak nor a mean is below 0, whether or not anything is proven
+    return hypot(max(least, 0.0) * effort.unit, sqrt(max(effort.friction, 0.0)))
+
+
+def _taken(piece: Piece, objective: CycleObjective) -> float:
+    """What a law that was given takes, in SI units."""
+    nu, mean = kind_of(objective.minimise)
+    if nu in {FORCE, POWER}:
+        taken = effort(objective.drive or read_drive({}, "length"), [piece], piece.duration)
+        return taken.peak_power if nu == POWER else taken.rms_force if mean else taken.peak_force
+    constant = piece.law.rms(nu) if mean else piece.law.peak(nu).value
+    return constant * abs(factor(piece.stroke, piece.duration, nu)) if piece.stroke else 0.0

@@ -11,8 +11,7 @@ from hypothesis import strategies as st
 
 from optlaws.errors import InputError
 from optlaws.laws import PolynomialLaw, smoothstep
-from optlaws.laws.savin.family import SavinFamily
-from optlaws.laws.savin.savin import alpha_range, savin
+from optlaws.laws.savin import SavinFamily, alpha_range, savin
 from tests.laws.reference import rows
 from tests.sampling import examples
 
