@@ -17,7 +17,7 @@ from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.spline import spline
 from optlaws.cams.cutting.text_formats import polar
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.contact import Contact, shifted
+from optlaws.cams.followers.contact import FollowerContact, shifted
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -64,7 +64,7 @@ class Following:
     (1.0, 0.0)
     """
 
-    contact: Contact
+    contact: FollowerContact
     curve: Outline
     phase: float = 0.0
     outside: float = 0.0

@@ -19,8 +19,8 @@ from numpy.typing import NDArray
 from optlaws.cams.curved_limits import RollerCurvature, bound_under, curvature_of
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.disc import DiscCam, sense
-from optlaws.cams.followers.contact import CURVATURE, PRESSURE, Contact, LinearLimit
-from optlaws.cams.followers.follower import Follower, Place, shown
+from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact, LinearLimit
+from optlaws.cams.followers.follower import CamFollower, Place, shown
 from optlaws.cams.least_sizes import LeastBaseCircle, least_base_circle, read_cam_limits
 from optlaws.cycles.cycle import Cycle
 from optlaws.cycles.optimisation.objectives import OBJECTIVES
@@ -108,7 +108,7 @@ class BestBaseCircle:
 def best_cam(
     cycle: Cycle,
     base_radius: Any,  # noqa: ANN401 - quantities
-    follower: Follower,
+    follower: CamFollower,
     *,
     pressure_angle: Any = None,  # noqa: ANN401
     radius_of_curvature: Any = None,  # noqa: ANN401
@@ -168,7 +168,7 @@ def best_cam(
 
 def best_base_circle(
     cycle: Cycle,
-    follower: Follower,
+    follower: CamFollower,
     *,
     pressure_angle: Any = None,  # noqa: ANN401 - quantities
     radius_of_curvature: Any = None,  # noqa: ANN401
@@ -232,14 +232,14 @@ def best_base_circle(
 _NAMED = {PRESSURE: "pressure_angle='30 deg'", CURVATURE: "radius_of_curvature='5 mm'"}
 
 
-def _unit_contact(cycle: Cycle, follower: Follower, turning: float) -> Contact:
+def _unit_contact(cycle: Cycle, follower: CamFollower, turning: float) -> FollowerContact:
     """The contact of a follower 1 m above the cam's centre."""
     motion = as_motion(cycle, follower.axis)
     return follower.contact(Place(follower.base_radius(1.0), *motion.range, motion.slopes, turning))
 
 
 def linear_limits(
-    piece: Piece, contact: Contact, limits: dict[str, float], period: float, *, below: bool
+    piece: Piece, contact: FollowerContact, limits: dict[str, float], period: float, *, below: bool
 ) -> list[LinearLimit]:
     """What the limits of a cam ask of a piece's law, in a turn of a period; nothing of a dwell."""
     if piece.stroke == 0.0:
@@ -308,7 +308,7 @@ def _solved_with_curvature(problem: Problem, curvature: RollerCurvature) -> Solu
 
 
 def _best(
-    guide: Piece, problem: Problem, contact: Contact, limits: dict[str, float], period: float, *, below: bool
+    guide: Piece, problem: Problem, contact: FollowerContact, limits: dict[str, float], period: float, *, below: bool
 ) -> Solution:
     """The best law between lines, which touch the limits where a guiding law is."""
     windows = [limit.window() for limit in linear_limits(guide, contact, limits, period, below=below)]

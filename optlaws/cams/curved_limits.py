@@ -15,7 +15,7 @@ from math import isfinite
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.cams.followers.contact import Contact
+from optlaws.cams.followers.contact import FollowerContact
 from optlaws.errors import InfeasibleProblem, OptlawsError
 from optlaws.formulas.arithmetic import NUMPY, evaluate
 from optlaws.formulas.intervals import Interval, enclosed
@@ -59,7 +59,7 @@ class RollerCurvature:
     """
 
     piece: Piece
-    contact: Contact
+    contact: FollowerContact
     radius: float
     period: float
 
@@ -149,7 +149,7 @@ class RollerCurvature:
         return [derivative(self._formula, name) for name in "ab"]
 
 
-def curvature_of(piece: Piece, contact: Contact, least: float, period: float) -> RollerCurvature | None:
+def curvature_of(piece: Piece, contact: FollowerContact, least: float, period: float) -> RollerCurvature | None:
     """The limit of a piece's law where the profile is to have a least radius of curvature in m; None under a face."""
     if not contact.roller or piece.stroke == 0.0:
         return None

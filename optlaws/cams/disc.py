@@ -14,8 +14,8 @@ from optlaws.cams.curves.extremes import CamExtremes
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.curves.plane_curve import PlaneCurve
 from optlaws.cams.cutting.file_options import CuttingOptions
-from optlaws.cams.followers.contact import Contact
-from optlaws.cams.followers.follower import Follower, Place, follower_names, positive
+from optlaws.cams.followers.contact import FollowerContact
+from optlaws.cams.followers.follower import CamFollower, Place, follower_names, positive
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -89,13 +89,13 @@ class DiscCam:
 
     motion: Cycle | CamMotion
     base_radius: Any
-    follower: Follower
+    follower: CamFollower
     turning: str = field(default="counterclockwise", kw_only=True)
     phase: Any = field(default="0 deg", kw_only=True)
     mirrored: bool = field(default=False, kw_only=True)
 
     def __post_init__(self) -> None:
-        if not isinstance(self.follower, Follower):
+        if not isinstance(self.follower, CamFollower):
             raise InputError(f"follower must be a {follower_names()}, got {shortened(self.follower)}")
         sense(self.turning)
         quantity(self.phase, "angle", "phase")
@@ -109,7 +109,7 @@ class DiscCam:
         return motion
 
     @kept_property
-    def contact(self) -> Contact:
+    def contact(self) -> FollowerContact:
         """How the follower touches the cam, in numbers."""
         radius, motion = positive(self.base_radius, "base_radius"), self.displacement
         return self.follower.contact(Place(radius, *motion.range, motion.slopes, sense(self.turning)))
@@ -267,7 +267,7 @@ class FollowerCurve(PlaneCurve):
     """The curve that a roller's centre makes around the cam, or the one that a flat face envelops."""
 
     motion: CamMotion
-    contact: Contact
+    contact: FollowerContact
     phase: float
     mirrored: bool = False
 

@@ -14,7 +14,7 @@ from optlaws.cams.curves.extremes import UNDERCUT
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import Friction, Transmission
 from optlaws.cycles.cycle import Cycle
-from optlaws.cycles.specification.drive import Drive, read_drive
+from optlaws.cycles.specification.drive import CycleDrive, read_drive
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
@@ -200,7 +200,7 @@ class CamForces:
         return TURN / self.cam.motion.duration
 
     @kept_property
-    def load(self) -> Drive:
+    def load(self) -> CycleDrive:
         """What the follower moves, in SI units."""
         given = self.drive
         if given is None and isinstance(self.cam.motion, Cycle):

@@ -16,8 +16,8 @@ import numpy as np
 
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.disc import DiscCam, sense
-from optlaws.cams.followers.contact import CURVATURE, PRESSURE, Contact
-from optlaws.cams.followers.follower import Follower, Place, shown
+from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact
+from optlaws.cams.followers.follower import CamFollower, Place, shown
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
@@ -25,7 +25,7 @@ from optlaws.motion.quantities import quantity
 from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval, exact
 from optlaws.series.enclosures.jets import Jet
 
-Kind = TypeVar("Kind", bound=Contact)
+Kind = TypeVar("Kind", bound=FollowerContact)
 
 WIDTH = 1e-8  # of the bracket, relative
 _MARGIN = 1e-10  # by how much more than needed the radius grows at last
@@ -72,7 +72,7 @@ class LeastBaseCircle:
 
 def least_base_circle(
     motion: Cycle | CamMotion,
-    follower: Follower,
+    follower: CamFollower,
     *,
     pressure_angle: Any = None,  # noqa: ANN401 - quantities
     radius_of_curvature: Any = None,  # noqa: ANN401
@@ -220,7 +220,7 @@ class _Sizes:
     """Cams that differ by their base circle, and the limits that they keep or break."""
 
     motion: CamMotion
-    follower: Follower
+    follower: CamFollower
     turning: float
     limits: dict[str, float]
 
@@ -253,7 +253,7 @@ class _Sizes:
             return False
         return True
 
-    def contact(self, radius: float) -> Contact:
+    def contact(self, radius: float) -> FollowerContact:
         """The contact with a base circle."""
         return self.follower.contact(Place(radius, *self.motion.range, self.motion.slopes, self.turning))
 
@@ -320,7 +320,7 @@ class _Sizes:
     def _jet(self, witness: Witness) -> Jet:
         return self.motion.jet(exact(witness.angle), 2, before=witness.before)
 
-    def _excess(self, contact: Contact, witness: Witness, s: Jet) -> Interval:
+    def _excess(self, contact: FollowerContact, witness: Witness, s: Jet) -> Interval:
         """By how much a limit is broken, above 0; all of it multiplied out, so that nothing is divided by."""
         limit = self.limits[witness.limit]
         if witness.limit == CURVATURE:
@@ -329,17 +329,17 @@ class _Sizes:
         return excess
 
 
-def _spanning(one: Kind, two: Kind) -> Kind:
+def _spanning(smaller: Kind, larger: Kind) -> Kind:
     """A contact whose base circle is anywhere between two."""
     changed: dict[str, Any] = {}
-    for name in _numbers(one):
-        first, last = getattr(one, name), getattr(two, name)
+    for name in _numbers(smaller):
+        first, last = getattr(smaller, name), getattr(larger, name)
         if first != last:
             middle = 0.5 * (first + last)
             radius = 0.5 * abs(last - first) + 16.0 * ROUNDING * (abs(first) + abs(last))
             changed[name] = Interval(np.array(middle), np.array(radius))
-    return replace(one, **changed)
+    return replace(smaller, **changed)
 
 
-def _numbers(contact: Contact) -> Iterator[str]:
+def _numbers(contact: FollowerContact) -> Iterator[str]:
     return (field.name for field in fields(contact))

@@ -27,7 +27,7 @@ from optlaws.cycles.optimisation.objectives import (
 from optlaws.cycles.optimisation.search_spaces import remark_on_degrees, search_space
 from optlaws.cycles.retiming import TimedCycle, cam_segments, segments_at
 from optlaws.cycles.serialisation import SerialisationMixin
-from optlaws.cycles.specification.drive import Drive, Effort, effort, read_drive
+from optlaws.cycles.specification.drive import CycleDrive, Effort, effort, read_drive
 from optlaws.cycles.specification.joints import LawSpan, Layout, layout
 from optlaws.cycles.specification.load import LOAD, Load, read_load
 from optlaws.cycles.specification.programme import Programme, is_optimal, period_of, programme
@@ -351,7 +351,7 @@ class Cycle(ExportMixin, SerialisationMixin):
         return TimedCycle(self.segments, self.programme, self._layout.starts, self.pieces)
 
     @kept_property
-    def _drive(self) -> Drive | None:
+    def _drive(self) -> CycleDrive | None:
         return None if self.drive is None else read_drive(self.drive, self.axis)
 
     @kept_property

@@ -17,7 +17,7 @@ from optlaws.exports.export import Export, export_cycle
 from optlaws.exports.format import FORMATS, format_of
 from optlaws.exports.identifiers import variable_names
 from optlaws.files import tables, writing
-from optlaws.jobs.cycle_entries import AskedExport, Axis, Study, read
+from optlaws.jobs.cycle_entries import AxisEntries, CycleProblemFile, ExportEntries, read
 from optlaws.plots.cycle import QUANTITIES, UNITS, axes_figure, cycle_figure
 from optlaws.plots.style import save_pictures
 from optlaws.results.page import Page
@@ -31,7 +31,7 @@ _PEAKS = ("peak velocity", "peak acceleration", "peak jerk")
 _EXPORT_HEADINGS = ("file", "format", "points", *_PEAKS, "greatest deviation, unit")
 
 
-def exports_of(spec: Study, cycles: Mapping[str, Cycle], file: Path) -> Exports:
+def exports_of(spec: CycleProblemFile, cycles: Mapping[str, Cycle], file: Path) -> Exports:
     """The exports that the axes name, made but not yet written.
 
     Raises
@@ -39,7 +39,7 @@ def exports_of(spec: Study, cycles: Mapping[str, Cycle], file: Path) -> Exports:
     InputError
         If one is wrong or cannot hold its axis, or two have the same file; the error names file and axis.
     """
-    made: Exports = {}
+    exports: Exports = {}
     if len(spec.axis) > 1 and TOGETHER in {plain_name(axis.name) for axis in spec.axis}:
         raise InputError(f"{file}: an axis is called {TOGETHER}, as the picture of all is: give it another name")
     taken = {"cycle.md", "cycle.json", f"{TOGETHER}.svg", f"{TOGETHER}.png"}
@@ -47,10 +47,10 @@ def exports_of(spec: Study, cycles: Mapping[str, Cycle], file: Path) -> Exports:
     names = variable_names(axis.name for axis in spec.axis)
     for axis in spec.axis:
         try:
-            made[axis.name] = _of_axis(axis, cycles[axis.name], names[axis.name], taken)
+            exports[axis.name] = _of_axis(axis, cycles[axis.name], names[axis.name], taken)
         except InputError as error:
             raise InputError(f"{file}: axis {axis.name}: export {error}") from None
-    return made
+    return exports
 
 
 def plain_name(axis: str) -> str:
@@ -64,40 +64,40 @@ def plain_name(axis: str) -> str:
     return "".join(letter if letter.isalnum() else "_" for letter in axis.lower())
 
 
-def add_exports(page: Page, made: Mapping[str, Export]) -> None:
+def add_exports(page: Page, exports: Mapping[str, Export]) -> None:
     """A table of what controllers will run, where there are exports."""
-    if made:
+    if exports:
         page.text("What controllers will run: peaks of the exported files as interpolated, over the law's.")
-        page.table(_EXPORT_HEADINGS, [_export_row(name, export) for name, export in made.items()], digits=7)
+        page.table(_EXPORT_HEADINGS, [_export_row(name, export) for name, export in exports.items()], digits=7)
 
 
-def _of_axis(axis: Axis, cycle: Cycle, variable: str, taken: set[str]) -> dict[str, Export]:
-    made: dict[str, Export] = {}
-    for asked in axis.export:
-        name = _file_name(axis.name, asked)
+def _of_axis(axis: AxisEntries, cycle: Cycle, variable: str, taken: set[str]) -> dict[str, Export]:
+    exports: dict[str, Export] = {}
+    for entry in axis.export:
+        name = _file_name(axis.name, entry)
         if name in taken:
-            raise InputError(f"to {asked.to}: another file is called {name}: give each a name of its own")
+            raise InputError(f"to {entry.to}: another file is called {name}: give each a name of its own")
         taken.add(name)
         try:
-            made[name] = _export(cycle, asked, variable)
+            exports[name] = _export(cycle, entry, variable)
         except InputError as error:
-            raise InputError(f"to {asked.to}: {error}") from None
-    return made
+            raise InputError(f"to {entry.to}: {error}") from None
+    return exports
 
 
-def _export(cycle: Cycle, asked: AskedExport, variable: str) -> Export:
-    given = msgspec.structs.asdict(asked)
-    given["name"] = variable if asked.name is None else asked.name
-    said = {"master": given.pop("master"), "unit": given.pop("unit")}
+def _export(cycle: Cycle, entry: ExportEntries, variable: str) -> Export:
+    given = msgspec.structs.asdict(entry)
+    given["name"] = variable if entry.name is None else entry.name
+    placement = {"master": given.pop("master"), "unit": given.pop("unit")}
     del given["file"], given["to"]
-    return export_cycle(cycle, asked.to, said, **given)
+    return export_cycle(cycle, entry.to, placement, **given)
 
 
-def _file_name(axis: str, asked: AskedExport) -> str:
-    form = format_of(asked.to)
-    name = asked.file or f"{plain_name(axis)}_{form.name}{FORMATS[form.name].extension}"
+def _file_name(axis: str, entry: ExportEntries) -> str:
+    form = format_of(entry.to)
+    name = entry.file or f"{plain_name(axis)}_{form.name}{FORMATS[form.name].extension}"
     if Path(name).name != name:
-        raise InputError(f"to {asked.to}: file must be a name without a folder, got {name}")
+        raise InputError(f"to {entry.to}: file must be a name without a folder, got {name}")
     writing.check_name(Path(name))
     return name
 
@@ -116,16 +116,16 @@ _SHARE = 360.0
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
     spec, cycles = read(data, file)
-    made = exports_of(spec, cycles, file)
+    exports = exports_of(spec, cycles, file)
     about = f"{spec.title}; from {file.name}"
-    texts = {"cycle.md": str(page(spec, cycles, made)), "cycle.json": _stored(cycles, about)}
+    texts = {"cycle.md": str(page(spec, cycles, exports)), "cycle.json": _stored(cycles, about)}
     for name, cycle in cycles.items():
         texts[f"{plain_name(name)}.csv"] = table_of_motion(cycle, spec.rows, about)
     figures = {plain_name(name): cycle_figure(cycle, f"{spec.title}: {name}") for name, cycle in cycles.items()}
     if len(cycles) > 1:
         figures[TOGETHER] = axes_figure(cycles, spec.title)
     files = [writing.write(out / name, text) for name, text in texts.items()] + save_pictures(figures, out)
-    return files + [export.write(out / name) for named in made.values() for name, export in named.items()]
+    return files + [export.write(out / name) for named in exports.values() for name, export in named.items()]
 
 
 def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
@@ -138,18 +138,18 @@ def answer(cycles: Mapping[str, Cycle]) -> dict[str, Any]:
     return {name: _facts(cycle) for name, cycle in cycles.items()}
 
 
-def page(spec: Study, cycles: Mapping[str, Cycle], made_exports: Exports) -> Page:
+def page(spec: CycleProblemFile, cycles: Mapping[str, Cycle], exports: Exports) -> Page:
     """The page of results."""
-    made = Page(spec.title).text(spec.text)
+    result = Page(spec.title).text(spec.text)
     if len(cycles) > 1:
-        made.figure(TOGETHER, f"{spec.title}: all axes over one time")
+        result.figure(TOGETHER, f"{spec.title}: all axes over one time")
     for name, cycle in cycles.items():
-        made.heading(name).figure(plain_name(name), f"{spec.title}: {name}")
-        made.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
+        result.heading(name).figure(plain_name(name), f"{spec.title}: {name}")
+        result.table(_headings(cycle), [*_segment_rows(cycle), _whole_row(cycle)], digits=7)
         rows = [*proof_rows(cycle), *drive_rows(cycle), *joint_rows(cycle)]
-        made.table(("what", "value", "unit"), [[row.name, row.value, row.unit or None] for row in rows], digits=9)
-        add_exports(made, made_exports[name])
-    return made
+        result.table(("what", "value", "unit"), [[row.name, row.value, row.unit or None] for row in rows], digits=9)
+        add_exports(result, exports[name])
+    return result
 
 
 def _headings(cycle: Cycle) -> list[str]:

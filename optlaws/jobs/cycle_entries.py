@@ -17,7 +17,7 @@ from optlaws.files.problem_file import Text, convert
 Kind = Literal["dwell", "constant velocity", "move", "rise", "return", "free"]
 
 
-class AskedSegment(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class SegmentEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A segment; which entries it may have beside its duration depends on its kind."""
 
     kind: Kind
@@ -33,14 +33,14 @@ class AskedSegment(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     via: list[list[str]] | None = None
 
 
-class AskedFollower(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class ElasticFollowerEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """An elastic follower whose mass is to move as the cycle says."""
 
     period: str
     damping: float = 0.0
 
 
-class AskedExport(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class ExportEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """An export of an axis: its format, its file, and what the format takes."""
 
     to: str
@@ -56,7 +56,7 @@ class AskedExport(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     name: str | None = None
 
 
-class AskedLoad(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class LoadEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """A mass on a spring that the motion drives."""
 
     period: str
@@ -65,36 +65,36 @@ class AskedLoad(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     inertia: str | None = None
 
 
-class Axis(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+class AxisEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """One axis of the machine."""
 
     name: Text
-    segment: Annotated[list[AskedSegment], msgspec.Meta(min_length=1, max_length=100)]
+    segment: Annotated[list[SegmentEntries], msgspec.Meta(min_length=1, max_length=100)]
     minimise: str = "acceleration"
     limits: dict[str, str] = {}
     start: str | None = None
     advance: str | None = None
     drive: dict[str, str] | None = None
-    load: AskedLoad | None = None
-    follower: AskedFollower | None = None
-    export: Annotated[list[AskedExport], msgspec.Meta(max_length=20)] = []
+    load: LoadEntries | None = None
+    follower: ElasticFollowerEntries | None = None
+    export: Annotated[list[ExportEntries], msgspec.Meta(max_length=20)] = []
     order: int = 3
     degree: int = 9
 
 
-class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """The problem file."""
+class CycleProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The problem file of a cycle with its axes."""
 
     job: str
     title: Text
-    axis: Annotated[list[Axis], msgspec.Meta(min_length=1, max_length=8)]
+    axis: Annotated[list[AxisEntries], msgspec.Meta(min_length=1, max_length=8)]
     speed: str | None = None
     period: str | None = None
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
     text: str = ""
 
 
-def read(data: Mapping[str, Any], file: Path) -> tuple[Study, dict[str, Cycle]]:
+def read(data: Mapping[str, Any], file: Path) -> tuple[CycleProblemFile, dict[str, Cycle]]:
     """The entries of a file, and the cycles of its axes by their names.
 
     Raises
@@ -102,7 +102,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, dict[str, Cycle]]:
     InputError
         If an entry is unknown or wrong; the error names the file, the axis and the segment.
     """
-    spec = convert(data, Study, file)
+    spec = convert(data, CycleProblemFile, file)
     cycles: dict[str, Cycle] = {}
     for axis in spec.axis:
         if axis.name in cycles:
@@ -114,7 +114,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, dict[str, Cycle]]:
     return spec, cycles
 
 
-def cycle_of(axis: Axis, speed: str | None, period: str | None) -> Cycle:
+def cycle_of(axis: AxisEntries, speed: str | None, period: str | None) -> Cycle:
     """The cycle of an axis: that of the cam, where there is a follower.
 
     Raises
@@ -138,12 +138,12 @@ def cycle_of(axis: Axis, speed: str | None, period: str | None) -> Cycle:
     return cycle if axis.follower is None else cycle.cam(axis.follower.period, axis.follower.damping)
 
 
-def _given(asked: msgspec.Struct) -> dict[str, Any]:
+def _given(entries: msgspec.Struct) -> dict[str, Any]:
     """Entries that were given."""
-    return {name: value for name, value in msgspec.structs.asdict(asked).items() if value is not None}
+    return {name: value for name, value in msgspec.structs.asdict(entries).items() if value is not None}
 
 
-def segment_of(asked: AskedSegment, number: int) -> CycleSegment:
+def segment_of(entries: SegmentEntries, number: int) -> CycleSegment:
     """A segment of a file.
 
     Raises
@@ -153,17 +153,17 @@ def segment_of(asked: AskedSegment, number: int) -> CycleSegment:
 
     Examples
     --------
-    >>> segment_of(AskedSegment(kind="dwell", duration="90 deg"), 1)
+    >>> segment_of(SegmentEntries(kind="dwell", duration="90 deg"), 1)
     Dwell(duration='90 deg', name='')
     """
-    kind = KINDS[asked.kind]
-    given = _given(asked)
+    kind = KINDS[entries.kind]
+    given = _given(entries)
     del given["kind"]
     taken = kind.__dataclass_fields__
     for name in given:
         if name not in taken:
-            raise InputError(f"segment {number}: a {asked.kind} takes no {name}; it takes {', '.join(taken)}")
-    if asked.kind == "constant velocity" and asked.velocity is None:
+            raise InputError(f"segment {number}: a {entries.kind} takes no {name}; it takes {', '.join(taken)}")
+    if entries.kind == "constant velocity" and entries.velocity is None:
         raise InputError(f"segment {number}: a constant velocity needs its velocity, such as velocity = '300 mm/s'")
     segment: CycleSegment = kind(**given)
     return segment

@@ -183,13 +183,13 @@ class Curve(ABC):
         >>> smoothstep(3).where(0.0, nu=2).tolist()
         [0.0, 0.5, 1.0]
         """
-        order, asked = derivative(nu), finite(value, "value")
+        order, height = derivative(nu), finite(value, "value")
         turns, _ = self._sides(order)
         places = np.unique(np.concatenate([turns, self.breaks]))
         after = self._derivative(places, order)
         before = after.copy()
         before[np.searchsorted(places, self.breaks[1:-1])] = self._before_breaks(order)
-        return crossings(lambda k: float(self._derivative(np.array(k), order)), places, after, before, asked)
+        return crossings(lambda k: float(self._derivative(np.array(k), order)), places, after, before, height)
 
     def power_peak(self) -> Peak:
         """Peak of |d| over the whole interval, d = b c.

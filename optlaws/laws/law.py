@@ -13,7 +13,7 @@ from optlaws.kept import kept_property
 from optlaws.laws.constants import Constants
 from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.exporting import LawExport
-from optlaws.laws.storage import Stored
+from optlaws.laws.storage import StoredLaw
 from optlaws.numbers import derivative, times
 from optlaws.series.peaks import Peak
 
@@ -27,7 +27,7 @@ HIGHEST = 9
 _NINE = np.linspace(0.0, 1.0, 9)
 
 
-class MotionLaw(Curve, LawExport, Stored):
+class MotionLaw(Curve, LawExport, StoredLaw):
     """Displacement a(k) of k in [0, 1] with its derivatives; dimensionless (eq. 1).
 
     Velocity b = a', acceleration c = a'', jerk j = a''', kinetic power d = b c. With stroke h and duration T

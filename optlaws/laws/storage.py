@@ -15,13 +15,13 @@ from optlaws.lazy import Registry
 FORMAT = 1
 
 
-class Stored(JsonText, ABC):
+class StoredLaw(JsonText, ABC):
     """A value that turns into plain data and back without loss; each kind is a subclass that names itself.
 
     Examples
     --------
     >>> from optlaws.laws import PolynomialLaw
-    >>> Stored.kinds["polynomial"] is PolynomialLaw
+    >>> StoredLaw.kinds["polynomial"] is PolynomialLaw
     True
     """
 
@@ -29,13 +29,13 @@ class Stored(JsonText, ABC):
     _json_layout: ClassVar[Mapping[str, Any]] = {"allow_nan": False}
 
     kind: ClassVar[str]
-    kinds: ClassVar[Registry[type[Stored]]] = Registry("law")
+    kinds: ClassVar[Registry[type[StoredLaw]]] = Registry("law")
 
     def __init_subclass__(cls, *, kind: str | None = None, **kwargs: object) -> None:
         super().__init_subclass__(**kwargs)
         if kind is not None:
             cls.kind = kind
-            Stored.kinds[kind] = cls
+            StoredLaw.kinds[kind] = cls
 
     def to_dict(self) -> dict[str, Any]:
         """The law as plain data (numbers, strings, lists), from which `from_dict` makes an equal one.

@@ -10,7 +10,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.contact import Contact
+from optlaws.cams.followers.contact import FollowerContact
 from optlaws.cams.forces import CamForces
 from optlaws.errors import InputError
 from optlaws.plots.style import BLUES, GREEN, GREY, WARM, new_figure, plot_style, titled
@@ -41,7 +41,7 @@ def cam_figure(cam: DiscCam, title: str) -> Figure:
 
 
 def forces_figure(forces: CamForces, title: str) -> Figure:
-    """Contact force, torque at the shaft and, where the contact has a width, Hertz's pressure over the turn."""
+    """FollowerContact force, torque at the shaft and, where the contact has a width, Hertz's pressure over the turn."""
     panels: list[tuple[str, Values, str]] = [
         ("contact force, N", forces.contact_force, BLUES[3]),
         ("torque at the shaft, N m", forces.shaft_torque, WARM),
@@ -204,7 +204,7 @@ def _draw_follower(cam: DiscCam, axes: Axes, angle: float, colour: str) -> None:
     axes.plot(*np.array([touched - reach * along, touched + reach * along]).T, **body)
 
 
-def _holder(cam: DiscCam, contact: Contact, angle: float, centre: Array) -> Array:
+def _holder(cam: DiscCam, contact: FollowerContact, angle: float, centre: Array) -> Array:
     """Where a rod is shown to end, or where an arm's pivot is, mm."""
     turned = -contact.turning * angle + _phase(cam, angle)
     if contact.pivot is not None:

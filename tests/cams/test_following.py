@@ -14,14 +14,14 @@ from optlaws.cams.cutting.outline import Outline
 from optlaws.cams.cutting.spline import spline
 from optlaws.cams.cutting.text_formats import polar
 from optlaws.cams.disc import DiscCam
-from optlaws.cams.followers.follower import Follower
+from optlaws.cams.followers.follower import CamFollower
 from optlaws.cams.followers.inclined_flat import InclinedFlat
 from optlaws.cams.followers.oscillating_flat import OscillatingFlat
 from optlaws.cams.followers.oscillating_roller import OscillatingRoller
 from optlaws.cams.followers.translating_flat import TranslatingFlat
 from optlaws.cams.followers.translating_roller import TranslatingRoller
 
-FOLLOWERS: list[tuple[Follower, str]] = [
+FOLLOWERS: list[tuple[CamFollower, str]] = [
     (TranslatingRoller("12 mm", offset="10 mm"), "40 mm"),
     (TranslatingFlat(), "20 mm"),
     (InclinedFlat("-20 deg"), "20 mm"),
@@ -37,14 +37,14 @@ CURVES: dict[str, Callable[[PlaneCurve], Outline]] = {
 PLACES = np.linspace(0.01, 6.27, 301)
 
 
-def cam(follower: Follower, stroke: str, **others: Any) -> DiscCam:  # noqa: ANN401 - as DiscCam takes them
+def cam(follower: CamFollower, stroke: str, **others: Any) -> DiscCam:  # noqa: ANN401 - as DiscCam takes them
     moves = [Rise(stroke, "120 deg", law="3-4-5"), Dwell("60 deg"), Return(None, "120 deg", law="cycloidal"), Dwell()]
     return DiscCam(Cycle(moves, speed="200 rpm"), base_radius="70 mm", follower=follower, **others)
 
 
 @pytest.mark.parametrize("turning", ["counterclockwise", "clockwise"])
 @pytest.mark.parametrize(("follower", "stroke"), FOLLOWERS)
-def test_a_follower_does_on_its_profile_what_was_meant(follower: Follower, stroke: str, turning: str) -> None:
+def test_a_follower_does_on_its_profile_what_was_meant(follower: CamFollower, stroke: str, turning: str) -> None:
     disc = cam(follower, stroke, turning=turning, phase="30 deg")
     curves = [(disc.profile, 0.0), (disc.pitch_curve, disc.contact.roller), (disc.cutter_path("25 mm"), 0.025)]
     for curve, outside in curves:
@@ -58,7 +58,7 @@ def test_a_follower_does_on_its_profile_what_was_meant(follower: Follower, strok
 @pytest.mark.sample(2)
 @pytest.mark.parametrize("form", ["csv", "csv polar", "dxf spline", "dxf arcs"])
 @pytest.mark.parametrize(("follower", "stroke"), FOLLOWERS)
-def test_peaks_as_made_are_enclosed_and_near(follower: Follower, stroke: str, form: str) -> None:
+def test_peaks_as_made_are_enclosed_and_near(follower: CamFollower, stroke: str, form: str) -> None:
     disc = cam(follower, stroke)
     curve = CURVES[form](disc.profile)
     made, following = run_against(disc, curve, leaps=False), Following(disc.contact, curve)

@@ -141,7 +141,7 @@ def _power_sum(powers: dict[float, float], low: Array, high: Array) -> Interval:
     total = exact(np.zeros(low.shape))
     with np.errstate(divide="ignore", over="ignore", invalid="ignore"):
         for exponent, factor in powers.items():
-            one, two = factor * low**exponent, factor * high**exponent
-            blurred = 8.0 * ROUNDING * (np.abs(one) + np.abs(two))
-            total = total + between(np.minimum(one, two) - blurred, np.maximum(one, two) + blurred)
+            first, last = factor * low**exponent, factor * high**exponent
+            blurred = 8.0 * ROUNDING * (np.abs(first) + np.abs(last))
+            total = total + between(np.minimum(first, last) - blurred, np.maximum(first, last) + blurred)
     return total

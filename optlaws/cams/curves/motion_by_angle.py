@@ -34,7 +34,7 @@ _CLOSED = 1e-9
 
 
 @dataclass(frozen=True)
-class Stretch:
+class CamStretch:
     """A smooth part of a motion: offset + stroke times a segment of a law, over a range of the cam's angle.
 
     Parameters
@@ -134,7 +134,7 @@ class CamMotion:
     CamMotion(1 stretch over 120 deg, axis='length')
     """
 
-    stretches: tuple[Stretch, ...]
+    stretches: tuple[CamStretch, ...]
     axis: str
     closed: bool
 
@@ -247,7 +247,7 @@ class CamMotion:
         """The velocity times the acceleration by the angle, in intervals each within a stretch."""
         return self._by_stretch(lambda stretch, some: stretch.power(some, order), angle)
 
-    def _by_stretch(self, jet: Callable[[Stretch, Any], Jet], at: Array | Interval, *, before: bool = False) -> Jet:
+    def _by_stretch(self, jet: Callable[[CamStretch, Any], Jet], at: Array | Interval, *, before: bool = False) -> Jet:
         middle = at.middle if isinstance(at, Interval) else at
         which = np.searchsorted(self.breaks[1:-1], middle, side="left" if before else "right")
         pieces = [(which == i, jet(self.stretches[i], at[which == i]).terms) for i in np.unique(which)]
@@ -344,14 +344,14 @@ def as_motion(given: Any, axis: str) -> CamMotion:  # noqa: ANN401 - it is check
     return motion
 
 
-def _parts(piece: Piece) -> Sequence[Stretch]:
+def _parts(piece: Piece) -> Sequence[CamStretch]:
     """The smooth parts of a law in its place."""
     first = float(piece.law.a(0.0))
     stretches = []
     for (start, stop), segment in zip(pairwise(piece.law.breaks), _segments(piece.law), strict=True):
         offset = piece.offset + piece.stroke * (float(piece.law.a(start)) - first)
         low, high = piece.start + start * piece.duration, piece.start + stop * piece.duration
-        stretches.append(Stretch(low, high, offset, piece.stroke, piece.duration, segment, stop - start))
+        stretches.append(CamStretch(low, high, offset, piece.stroke, piece.duration, segment, stop - start))
     return stretches
 
 
@@ -367,7 +367,7 @@ def _segments(law: MotionLaw) -> Sequence[Segment]:
 def _joined(shape: tuple[int, ...], pieces: Sequence[tuple[Any, Any]]) -> Any:  # noqa: ANN401 - an array or intervals
     """Values that are known place by place."""
     if isinstance(pieces[0][1], Interval):
-        parts = ([(here, getattr(one, name)) for here, one in pieces] for name in ("middle", "radius"))
+        parts = ([(here, getattr(enclosure, name)) for here, enclosure in pieces] for name in ("middle", "radius"))
         return Interval(*(_joined(shape, part) for part in parts))
     values = np.empty(shape)
     for here, part in pieces:

@@ -150,7 +150,7 @@ class CurvatureTerms(NamedTuple):
 
 
 @dataclass(frozen=True)
-class Contact(ABC):
+class FollowerContact(ABC):
     """A follower of a cam, in metres and radians, beside which the cam turns; its displacement s comes as a jet.
 
     Parameters

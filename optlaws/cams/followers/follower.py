@@ -11,7 +11,7 @@ from pathlib import Path
 from pkgutil import iter_modules
 from typing import Any, ClassVar
 
-from optlaws.cams.followers.contact import Contact
+from optlaws.cams.followers.contact import FollowerContact
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
@@ -41,14 +41,14 @@ class Place:
     turning: float
 
 
-class Follower(ABC):
+class CamFollower(ABC):
     """A follower of a disc cam, as a person gives it.
 
     A kind is a frozen dataclass of this class in a module of this folder, and named in its head: nothing else names it.
     """
 
     #: kinds by their names in problem files; those of this folder are there once `follower_kinds` was called
-    kinds: ClassVar[dict[str, type[Follower]]] = {}
+    kinds: ClassVar[dict[str, type[CamFollower]]] = {}
     kind: ClassVar[str]
     #: whether it moves by a "length" or an "angle"
     axis: ClassVar[str]
@@ -59,10 +59,10 @@ class Follower(ABC):
 
     def __init_subclass__(cls, *, kind: str) -> None:
         cls.kind = kind
-        Follower.kinds[kind] = cls
+        CamFollower.kinds[kind] = cls
 
     @abstractmethod
-    def contact(self, place: Place) -> Contact:
+    def contact(self, place: Place) -> FollowerContact:
         """How it touches a cam.
 
         Raises
@@ -85,7 +85,7 @@ class Follower(ABC):
         """From the cam's centre to the pivot; None on a slide."""
         return None
 
-    def from_beneath(self) -> Follower:
+    def from_beneath(self) -> CamFollower:
         """The same follower on its slide, seen from beneath the shaft."""
         return self
 
@@ -142,7 +142,7 @@ def shown(length: float) -> str:
     return f"{1e3 * length:.9g} mm"
 
 
-def follower_kinds() -> dict[str, type[Follower]]:
+def follower_kinds() -> dict[str, type[CamFollower]]:
     """The kinds of followers by their names in problem files.
 
     Examples
@@ -152,7 +152,7 @@ def follower_kinds() -> dict[str, type[Follower]]:
     """
     _load()
     # slides before arms, whichever was imported first
-    return dict(sorted(Follower.kinds.items(), reverse=True))
+    return dict(sorted(CamFollower.kinds.items(), reverse=True))
 
 
 def follower_names() -> str:
@@ -167,7 +167,7 @@ def follower_names() -> str:
     return f"{', '.join(names)} or {last}"
 
 
-def read_follower(entries: Mapping[str, Any]) -> Follower:
+def read_follower(entries: Mapping[str, Any]) -> CamFollower:
     """A follower from entries of a problem file.
 
     Raises
@@ -195,7 +195,7 @@ def read_follower(entries: Mapping[str, Any]) -> Follower:
     for name, default in taken.items():
         if name not in given and default is MISSING:
             raise InputError(f"follower: {named} needs its {name}, such as {name} = '{kind.examples[name]}'")
-    follower: Follower = kind(**given)
+    follower: CamFollower = kind(**given)
     return follower
 
 

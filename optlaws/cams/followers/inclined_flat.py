@@ -7,7 +7,7 @@ from math import atan, cos, degrees, pi, sin, tan
 from typing import Any, ClassVar
 
 from optlaws.cams.followers.contact import CURVATURE, ContactState, Drag, LinearLimit, Transmission, bearing
-from optlaws.cams.followers.follower import Follower, Place
+from optlaws.cams.followers.follower import CamFollower, Place
 from optlaws.cams.followers.rollers_and_faces import FaceContact, sign
 from optlaws.echo import shortened
 from optlaws.errors import InputError
@@ -17,7 +17,7 @@ from optlaws.series.enclosures.jets import Jet, Pair
 
 
 @dataclass(frozen=True)
-class InclinedFlat(Follower, kind="inclined flat"):
+class InclinedFlat(CamFollower, kind="inclined flat"):
     """A follower that slides and has a flat face which is not square to its way.
 
     Its cam is that of a square face that moves cos(inclination) as far, turned by the inclination; the pressure angle

@@ -7,7 +7,7 @@ from math import asin, degrees, pi, sin
 from typing import Any, ClassVar
 
 from optlaws.cams.followers.contact import ContactState, Drag, Transmission, bearing, other_leg
-from optlaws.cams.followers.follower import Follower, Place, positive, shown
+from optlaws.cams.followers.follower import CamFollower, Place, positive, shown
 from optlaws.cams.followers.rollers_and_faces import FaceContact, sign
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
@@ -15,7 +15,7 @@ from optlaws.series.enclosures.jets import Jet, Pair
 
 
 @dataclass(frozen=True)
-class OscillatingFlat(Follower, kind="oscillating flat"):
+class OscillatingFlat(CamFollower, kind="oscillating flat"):
     """A follower that swings and has a flat face.
 
     Parameters

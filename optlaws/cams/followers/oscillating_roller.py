@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.cams.followers.contact import ContactState, CurvatureTerms, LinearLimit, Transmission, other_leg
-from optlaws.cams.followers.follower import Follower, Place, positive, roller_radius, shown
+from optlaws.cams.followers.follower import CamFollower, Place, positive, roller_radius, shown
 from optlaws.cams.followers.rollers_and_faces import RollerContact, half_turn
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
@@ -25,7 +25,7 @@ _LINES, _PARTS, _LOOKS = 16, 24, 2001
 
 
 @dataclass(frozen=True)
-class OscillatingRoller(Follower, kind="oscillating roller"):
+class OscillatingRoller(CamFollower, kind="oscillating roller"):
     """A follower that swings and has a roller.
 
     Parameters

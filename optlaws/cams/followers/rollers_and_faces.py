@@ -10,14 +10,14 @@ from numpy.typing import NDArray
 
 from optlaws.cams.curves.extremes import CamExtremes, Extreme, Undercut, enclosed_extremes, widened
 from optlaws.cams.curves.motion_by_angle import CamMotion
-from optlaws.cams.followers.contact import Contact, ContactState, CurvatureTerms, bearing, shifted
+from optlaws.cams.followers.contact import ContactState, CurvatureTerms, FollowerContact, bearing, shifted
 from optlaws.series.enclosures.interval_arrays import Interval
 from optlaws.series.enclosures.jets import Jet, Pair, Term
 
 _COARSE = 1e-3
 
 
-class RollerContact(Contact):
+class RollerContact(FollowerContact):
     """A roller: its centre runs along the pitch curve, `along` the follower's way and `across` it.
 
     With p along and q across, both by the angle, tan(alpha) = p/q, and the curvature of the pitch curve, above 0 where
@@ -154,7 +154,7 @@ def half_turn(angle: float) -> bool:
 Array = NDArray[np.float64]
 
 
-class FaceContact(Contact):
+class FaceContact(FollowerContact):
     """A flat face, of which the cam's profile is the envelope."""
 
     @property

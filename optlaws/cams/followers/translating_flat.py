@@ -7,14 +7,14 @@ from math import pi
 from typing import ClassVar
 
 from optlaws.cams.followers.contact import CURVATURE, ContactState, Drag, LinearLimit, Transmission, bearing
-from optlaws.cams.followers.follower import Follower, Place
+from optlaws.cams.followers.follower import CamFollower, Place
 from optlaws.cams.followers.rollers_and_faces import FaceContact
 from optlaws.motion.piece import Piece
 from optlaws.series.enclosures.jets import Jet, Pair
 
 
 @dataclass(frozen=True)
-class TranslatingFlat(Follower, kind="translating flat"):
+class TranslatingFlat(CamFollower, kind="translating flat"):
     """A follower that slides and has a flat face square to its way.
 
     Examples

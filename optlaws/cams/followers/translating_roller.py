@@ -7,7 +7,7 @@ from math import hypot
 from typing import Any, ClassVar
 
 from optlaws.cams.followers.contact import PRESSURE, ContactState, CurvatureTerms, LinearLimit, Transmission
-from optlaws.cams.followers.follower import Follower, Place, roller_radius, shown
+from optlaws.cams.followers.follower import CamFollower, Place, roller_radius, shown
 from optlaws.cams.followers.rollers_and_faces import RollerContact, side_of
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
@@ -16,7 +16,7 @@ from optlaws.series.enclosures.jets import Jet, Pair
 
 
 @dataclass(frozen=True)
-class TranslatingRoller(Follower, kind="translating roller"):
+class TranslatingRoller(CamFollower, kind="translating roller"):
     """A follower that slides and has a roller.
 
     Parameters

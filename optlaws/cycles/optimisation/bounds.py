@@ -16,7 +16,7 @@ from typing import Any
 
 from optlaws.cycles.optimisation.drive_formulas import driven_mean, driven_peak, may_turn
 from optlaws.cycles.optimisation.objectives import FORCE, LOADED, POWER, CycleObjective, kind_of
-from optlaws.cycles.specification.drive import Drive, effort, read_drive
+from optlaws.cycles.specification.drive import CycleDrive, effort, read_drive
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, SolverFailure
 from optlaws.motion.piece import Piece, factor
@@ -90,7 +90,7 @@ def _relaxed(problem: Problem, powers: _Powers, ceiling: float, *, least: bool) 
     return replace(problem, minimise=minimise, bounds=bounds, B=most, D=None)
 
 
-def _powers(span: LawSpan, drive: Drive, stroke: float, unit: float) -> _Powers:
+def _powers(span: LawSpan, drive: CycleDrive, stroke: float, unit: float) -> _Powers:
     way = factor(stroke, span.duration, 1)
     direction = 1.0 if span.displacement > 0.0 else -1.0
     constant = drive.constant + drive.stiffness * span.origin + drive.dry * direction
@@ -99,7 +99,7 @@ def _powers(span: LawSpan, drive: Drive, stroke: float, unit: float) -> _Powers:
     return _Powers(*(part / unit for part in parts))
 
 
-def _is_plain(span: LawSpan, drive: Drive) -> bool:
+def _is_plain(span: LawSpan, drive: CycleDrive) -> bool:
     """Whether a span is one move from rest to rest, with an inertia and no spring that pushes away."""
     resting = span.first.velocity == 0.0 == span.last.velocity
     return not may_turn(span) and resting and drive.inertia > 0.0 and drive.stiffness >= 0.0

@@ -24,7 +24,7 @@ from optlaws.cycles.optimisation.optimal import (
     with_least_limit,
     with_mean_square,
 )
-from optlaws.cycles.specification.drive import Drive, peak_of, square_of_force
+from optlaws.cycles.specification.drive import CycleDrive, peak_of, square_of_force
 from optlaws.cycles.specification.joints import LawSpan, Layout
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.kept import kept_property
@@ -83,7 +83,7 @@ class _SharedForceLimit:
 
     layout: Layout
     objective: CycleObjective
-    drive: Drive
+    drive: CycleDrive
     most: float
     axis: str
     period: float

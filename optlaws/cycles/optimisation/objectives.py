@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
-from optlaws.cycles.specification.drive import Drive
+from optlaws.cycles.specification.drive import CycleDrive
 from optlaws.cycles.specification.load import LOAD, Load, load_output
 from optlaws.cycles.specification.programme import AXES, TimedSegment
 from optlaws.cycles.specification.segments import Free, Move
@@ -62,7 +62,7 @@ class CycleObjective:
     limits: Mapping[int, float]
     order: int
     degree: int
-    drive: Drive | None
+    drive: CycleDrive | None
     load: Load | None = None
     loaded: Mapping[tuple[str, bool], float] = field(default_factory=dict)
     mean_force: float | None = None

@@ -39,7 +39,7 @@ ENTRIES = {
 
 
 @dataclass(frozen=True)
-class Drive:
+class CycleDrive:
     """What a motion y takes: inertia y'' + viscous y' + stiffness y + constant + dry sign(y'), in SI units.
 
     Examples
@@ -84,7 +84,7 @@ class Drive:
         return self.force(*(piece.values(times, nu) for nu in range(3)))
 
 
-def read_drive(entries: Mapping[str, Any], axis: str) -> Drive:
+def read_drive(entries: Mapping[str, Any], axis: str) -> CycleDrive:
     """A drive from its entries, each a quantity with its unit; what is not given is 0.
 
     Raises
@@ -107,7 +107,7 @@ def read_drive(entries: Mapping[str, Any], axis: str) -> Drive:
             raise InputError(f"drive: {key} must be at least 0, got {entries[key]!r}")
     inertia = quantities.get("mass", 0.0) + quantities.get("inertia", 0.0)
     constant = quantities.get("preload", 0.0) + quantities.get("gravity", 0.0)
-    return Drive(
+    return CycleDrive(
         inertia, quantities.get("viscous", 0.0), quantities.get("stiffness", 0.0), constant, quantities.get("dry", 0.0)
     )
 
@@ -146,13 +146,13 @@ class Effort:
         return self.peak_power / angular_velocity
 
 
-def effort(drive: Drive, pieces: Sequence[Piece], period: float) -> Effort:
+def effort(drive: CycleDrive, pieces: Sequence[Piece], period: float) -> Effort:
     """What a drive takes over pieces that make a cycle.
 
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> drive = Drive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
+    >>> drive = CycleDrive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
     >>> rise = Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))
     >>> round(effort(drive, [rise], 1.0).peak_force, 9)
     12.0
@@ -167,7 +167,7 @@ def effort(drive: Drive, pieces: Sequence[Piece], period: float) -> Effort:
     return Effort(force, float(np.sqrt(square / period)), power, mean if abs(mean) > _ROUNDING * power else 0.0)
 
 
-def peak_of(piece: Piece, nu: int, drive: Drive | None) -> float:
+def peak_of(piece: Piece, nu: int, drive: CycleDrive | None) -> float:
     """The peak of a derivative, or of the force (-1) or power (-3) of a drive, in a piece, in SI units."""
     if nu > 0 or drive is None:
         return piece.law.peak(nu).value * abs(factor(piece.stroke, piece.duration, nu)) if piece.stroke else 0.0
@@ -175,24 +175,24 @@ def peak_of(piece: Piece, nu: int, drive: Drive | None) -> float:
     return taken.peak_force if nu == -1 else taken.peak_power
 
 
-def square_of_force(drive: Drive, piece: Piece) -> float:
+def square_of_force(drive: CycleDrive, piece: Piece) -> float:
     """The integral of the square of the force over a piece, in SI units.
 
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> drive = Drive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
+    >>> drive = CycleDrive(inertia=2.0, viscous=0.0, stiffness=0.0, constant=0.0, dry=0.0)
     >>> round(square_of_force(drive, Piece(0.0, 1.0, 0.0, 1.0, smoothstep(2))), 9)
     48.0
     """
     return _integral(piece, partial(_square, drive, piece))
 
 
-def _power(drive: Drive, piece: Piece, times: Array) -> Array:
+def _power(drive: CycleDrive, piece: Piece, times: Array) -> Array:
     return drive.along(piece, times) * piece.values(times, 1)
 
 
-def _square(drive: Drive, piece: Piece, times: Array) -> Array:
+def _square(drive: CycleDrive, piece: Piece, times: Array) -> Array:
     return drive.along(piece, times) ** 2
 
 

@@ -22,7 +22,7 @@ from optlaws.explorer.answers.law_view import title
 from optlaws.files.toml_text import to_toml
 from optlaws.files.writing import MARK
 from optlaws.jobs.cycle import table_of_motion
-from optlaws.jobs.cycle_entries import AskedFollower, cycle_of
+from optlaws.jobs.cycle_entries import ElasticFollowerEntries, cycle_of
 from optlaws.laws.values import table_of_values
 from optlaws.suggest import unknown_key
 
@@ -239,7 +239,7 @@ def _of_cam(asked: AskedFile) -> File:
     return _file(f"cam{ending}", "text/plain", cam_files.text(cam.profile, asked.format, Cutting(about=spec.title)))
 
 
-def cycle_python(cycle: Cycle, follower: AskedFollower | None = None) -> str:
+def cycle_python(cycle: Cycle, follower: ElasticFollowerEntries | None = None) -> str:
     """Lines that make the same cycle, or that of the cam whose follower moves so.
 
     Examples

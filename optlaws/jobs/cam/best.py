@@ -10,7 +10,7 @@ from optlaws.cycles.summary import objective_unit
 from optlaws.errors import InfeasibleProblem
 from optlaws.files import tables
 from optlaws.jobs.cam.extreme_rows import Limits
-from optlaws.jobs.cam.schema import Cams, Study
+from optlaws.jobs.cam.schema import CamProblemFile, Cams
 from optlaws.motion.quantities import quantity
 from optlaws.results.page import Page
 
@@ -26,13 +26,13 @@ def to_data(cams: Cams) -> dict[str, Any]:
     if best is None:
         return {}
     if isinstance(best, BestCam):
-        said = {"minimise": cams.cycle.minimise, "objective": best.objective, "status": best.status.value}
-        return {"best": said | {"lower_bound": best.lower_bound}}
+        entries = {"minimise": cams.cycle.minimise, "objective": best.objective, "status": best.status.value}
+        return {"best": entries | {"lower_bound": best.lower_bound}}
     radius = {"minimise": "base circle", "objective": best.least.radius, "status": _status_of_size(cams)}
     return {"best": radius | {"lower_bound": best.lower_bound}}
 
 
-def limits_of(cams: Cams, spec: Study) -> Limits:
+def limits_of(cams: Cams, spec: CamProblemFile) -> Limits:
     """The limits that the laws were made for; none where they are those of the cycle."""
     if cams.best is None:
         return Limits()
@@ -43,7 +43,7 @@ def limits_of(cams: Cams, spec: Study) -> Limits:
     )
 
 
-def add(page: Page, cams: Cams, spec: Study) -> None:
+def add(page: Page, cams: Cams, spec: CamProblemFile) -> None:
     """Put what was found on the page."""
     best = cams.best
     if best is None:
@@ -62,9 +62,9 @@ def add(page: Page, cams: Cams, spec: Study) -> None:
             _status_of_size(cams),
         ]
     ]
-    own = _own(cams, spec)
-    if own is not None:
-        rows.append([f"of the laws of least {cams.cycle.minimise}", _MILLI * own.radius, None, "mm", None])
+    of_cycle = _own(cams, spec)
+    if of_cycle is not None:
+        rows.append([f"of the laws of least {cams.cycle.minimise}", _MILLI * of_cycle.radius, None, "mm", None])
     page.table(_HEADINGS, rows, digits=_DIGITS)
 
 
@@ -85,7 +85,7 @@ def _status_of_size(cams: Cams) -> str:
     return "optimal" if met else "local"
 
 
-def _own(cams: Cams, spec: Study) -> LeastBaseCircle | None:
+def _own(cams: Cams, spec: CamProblemFile) -> LeastBaseCircle | None:
     """The least base circle of the cycle's own laws."""
     limits = {"pressure_angle": spec.pressure_angle, "radius_of_curvature": spec.radius_of_curvature}
     try:

@@ -19,7 +19,7 @@ from optlaws.files import tables, writing
 from optlaws.jobs.cam import barrels, best, pair
 from optlaws.jobs.cam.extreme_rows import EXTREMES, Limits, enclosure, extreme_rows, plain
 from optlaws.jobs.cam.forces_and_files import Findings, add, figures, files
-from optlaws.jobs.cam.schema import Cams, Study, read
+from optlaws.jobs.cam.schema import CamProblemFile, Cams, read
 from optlaws.kept import kept_property
 from optlaws.plots.cycle import UNITS
 from optlaws.plots.style import save_pictures
@@ -95,7 +95,7 @@ def _to_data(cams: Cams, findings: Findings, sizes: Sizes) -> dict[str, Any]:
     return data | pair.to_data(cams) | findings.to_data()
 
 
-def page(spec: Study, cams: Cams, findings: Findings, sizes: Sizes) -> Page:
+def page(spec: CamProblemFile, cams: Cams, findings: Findings, sizes: Sizes) -> Page:
     """The page of results."""
     result = Page(spec.title).text(spec.text).figure("cam", spec.title)
     best.add(result, cams, spec)
@@ -125,7 +125,7 @@ def _size_rows(sizes: Sizes) -> list[list[tables.Cell]]:
 class Sizes:
     """Least and greatest sizes of the cam, computed once."""
 
-    spec: Study
+    spec: CamProblemFile
     cams: Cams
 
     @property
@@ -159,7 +159,7 @@ class Sizes:
         return greatest_roller(self.cams.first, radius_of_curvature=self.spec.radius_of_curvature or "0 mm")
 
 
-def _columns(spec: Study, cams: Cams) -> list[str]:
+def _columns(spec: CamProblemFile, cams: Cams) -> list[str]:
     curves = ["pitch", "profile", *(["cutter"] if spec.cutter_radius else [])]
     if cams.second is not None:
         curves += [f"return {name}" for name in curves]
@@ -168,7 +168,7 @@ def _columns(spec: Study, cams: Cams) -> list[str]:
     return ["cam, deg", displacement, *points, "pressure angle, deg", "curvature, 1/mm"]
 
 
-def _rows(spec: Study, cams: Cams) -> list[list[tables.Cell]]:
+def _rows(spec: CamProblemFile, cams: Cams) -> list[list[tables.Cell]]:
     cam, turns = cams.first, np.linspace(0.0, _TURN, spec.rows)
     angles = np.radians(turns)
     curves: list[PlaneCurve] = []

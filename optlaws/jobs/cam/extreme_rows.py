@@ -37,9 +37,9 @@ class Limits:
 
 def extreme_rows(cam: DiscCam, limits: Limits) -> list[list[tables.Cell]]:
     """Rows of a table of extreme pressure angles and radii of curvature."""
-    kept = {"deg": limits.pressure, "mm": limits.radius}
+    touched, concave = {"deg": limits.pressure, "mm": limits.radius}, cam.extremes.least_concave_radius
     return [
-        extreme_row(name, extreme, factor, unit, None if extreme is cam.extremes.least_concave_radius else kept[unit])
+        extreme_row(name, extreme, factor, unit, None if extreme is concave else touched[unit])
         for name, extreme, unit, factor in geometry(cam)
     ]
 

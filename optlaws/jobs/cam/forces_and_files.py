@@ -116,14 +116,14 @@ def check(spec: ForcesAndFiles, cam: DiscCam, cycle: Cycle) -> None:
 
 def forces_of(spec: ForcesAndFiles, cam: DiscCam, cycle: Cycle) -> CamForces | None:
     """The cam's forces at the speed of its cycle, if they were asked for."""
-    asked = spec.forces
-    if asked is None:
+    options = spec.forces
+    if options is None:
         return None
     # laws that were found for a cam are no cycle, but go as fast
     beside: dict[str, Any] = (
         {} if cam.motion is cycle else {"speed": f"{TURN / cycle.duration!r} rad/s", "drive": cycle.drive}
     )
-    return CamForces(cam, friction=asked.friction, width=asked.width, materials=asked.materials, **beside)
+    return CamForces(cam, friction=options.friction, width=options.width, materials=options.materials, **beside)
 
 
 @dataclass(frozen=True)
@@ -151,19 +151,19 @@ class Findings:
     @kept_property
     def as_made(self) -> dict[str, AsMade | None]:
         """Peaks of the cam as made; None where its follower does not reach all of it."""
-        asked, cam = self.spec.as_made, self.cam
-        if asked is None:
+        options, cam = self.spec.as_made, self.cam
+        if options is None:
             return {}
-        made: dict[str, AsMade | None] = {}
-        for points in asked.points:
-            for decimals in asked.decimals:
-                table: dict[str, Any] = {"curve": asked.curve, "points": points, "decimals": decimals}
-                name = f"{points} points of the {asked.curve}, {decimals} decimals of a mm"
-                made[name] = _tried(partial(as_made, cam, "csv", **table))
-        for waves in asked.waves if asked.error else ():
-            name = f"error of {asked.error}, {waves} waves a turn"
-            made[name] = _tried(partial(with_error, cam, asked.error, waves))
-        return made
+        peaks_by_name: dict[str, AsMade | None] = {}
+        for points in options.points:
+            for decimals in options.decimals:
+                table: dict[str, Any] = {"curve": options.curve, "points": points, "decimals": decimals}
+                name = f"{points} points of the {options.curve}, {decimals} decimals of a mm"
+                peaks_by_name[name] = _tried(partial(as_made, cam, "csv", **table))
+        for waves in options.waves if options.error else ():
+            name = f"error of {options.error}, {waves} waves a turn"
+            peaks_by_name[name] = _tried(partial(with_error, cam, options.error, waves))
+        return peaks_by_name
 
     def to_data(self) -> dict[str, Any]:
         """What a program is told, in SI units."""

@@ -17,7 +17,7 @@ from optlaws.cycles.cycle import Cycle
 from optlaws.errors import InputError
 from optlaws.files.problem_file import Text, convert
 from optlaws.jobs.cam.forces_and_files import ForcesAndFiles, check
-from optlaws.jobs.cycle_entries import Axis, cycle_of
+from optlaws.jobs.cycle_entries import AxisEntries, cycle_of
 
 #: its kind, and the entries that this kind takes
 FollowerEntries: TypeAlias = dict[str, str]
@@ -31,12 +31,12 @@ class PairEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     follower: FollowerEntries | None = None
 
 
-class Study(ForcesAndFiles, kw_only=True, forbid_unknown_fields=True):
-    """The problem file."""
+class CamProblemFile(ForcesAndFiles, kw_only=True, forbid_unknown_fields=True):
+    """The problem file of a disc cam."""
 
     job: str
     title: Text
-    motion: Axis
+    motion: AxisEntries
     follower: FollowerEntries
     base_radius: str | None = None
     best: Literal["laws", "base circle"] | None = None
@@ -73,7 +73,7 @@ class Cams:
     second: DiscCam | None = None
 
 
-def read(data: Mapping[str, Any], file: Path) -> tuple[Study, Cams]:
+def read(data: Mapping[str, Any], file: Path) -> tuple[CamProblemFile, Cams]:
     """The entries of a file, and the cams.
 
     Raises
@@ -81,7 +81,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, Cams]:
     InputError
         If an entry is unknown or wrong; the error names the file.
     """
-    spec = convert(data, Study, file)
+    spec = convert(data, CamProblemFile, file)
     try:
         cams = _cams(spec)
         if spec.cutter_radius is not None:
@@ -92,7 +92,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[Study, Cams]:
     return spec, cams
 
 
-def _cams(spec: Study) -> Cams:
+def _cams(spec: CamProblemFile) -> Cams:
     follower = read_follower(spec.follower)
     if spec.best != "base circle" and spec.base_radius is None:
         raise InputError("base_radius is missing: give it, such as '60 mm', or ask for best = 'base circle'")

@@ -44,8 +44,8 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
 
 
 def _cells(point: StudyPoint) -> list[tables.Cell]:
-    asked: list[tables.Cell] = [point.inputs[name] for name in AXES]
-    return [*asked, point.status, point.lower_bound, *(point.constants.get(name) for name in CONSTANTS)]
+    inputs: list[tables.Cell] = [point.inputs[name] for name in AXES]
+    return [*inputs, point.status, point.lower_bound, *(point.constants.get(name) for name in CONSTANTS)]
 
 
 def _page(title: str, points: Sequence[StudyPoint]) -> Page:

@@ -138,7 +138,7 @@ class Sought(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     keep: list[Kept] = []
     problem: dict[str, Any] = {}
 
-    def asked(self, machine: Machine) -> Problem:
+    def stated(self, machine: Machine) -> Problem:
         """The problem.
 
         Raises
@@ -148,10 +148,10 @@ class Sought(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         """
         try:
             entries = from_entries({"order": 3, **self.problem})
-            wanted = self.minimise if isinstance(self.minimise, str) else self.minimise.constant(machine)
-            kept = {bound.bounded(machine): at_most(bound.most) for bound in self.keep}
-            entries["bounds"] = {**entries.get("bounds", {}), **kept}
-            return Problem(**entries, minimise=wanted)
+            objective = self.minimise if isinstance(self.minimise, str) else self.minimise.constant(machine)
+            limits = {bound.bounded(machine): at_most(bound.most) for bound in self.keep}
+            entries["bounds"] = {**entries.get("bounds", {}), **limits}
+            return Problem(**entries, minimise=objective)
         except InputError as error:
             raise InputError(f"sought {self.name!r}: {error}") from None
 
@@ -180,8 +180,8 @@ class Pictured(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     spread: Spread = 0.25
 
 
-class Study(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """The problem file."""
+class MachineLawsProblemFile(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
+    """The problem file of laws for a machine."""
 
     job: str
     title: Text
@@ -232,7 +232,7 @@ class Compared:
 
 def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     """Do the job and return the files written."""
-    spec = convert(data, Study, file)
+    spec = convert(data, MachineLawsProblemFile, file)
     machine = spec.machine.machine()
     _check(spec, machine)
     laws = list(compared(spec, machine))
@@ -246,7 +246,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
     return written + save_picture(draw(spec, machine, laws), out / "figure")
 
 
-def _check(spec: Study, machine: Machine) -> None:
+def _check(spec: MachineLawsProblemFile, machine: Machine) -> None:
     for where, output in (
         ("vibration", spec.vibration.output),
         ("figure", spec.figure.output),
@@ -266,16 +266,16 @@ def _check(spec: Study, machine: Machine) -> None:
     for name in spec.figure.laws:
         if name not in known:
             raise InputError(f"figure: no law is called {name!r}; there are {', '.join(known)}")
-    for asked in spec.sought:
-        asked.asked(machine)
+    for stated in spec.sought:
+        stated.stated(machine)
 
 
-def _names(spec: Study) -> list[str]:
+def _names(spec: MachineLawsProblemFile) -> list[str]:
     shaped = [f"{name}, {shaper}" for name in spec.standard for shaper in SHAPERS]
-    return [*spec.standard, *shaped, *(asked.name for asked in spec.sought)]
+    return [*spec.standard, *shaped, *(stated.name for stated in spec.sought)]
 
 
-def compared(spec: Study, machine: Machine) -> Iterator[Compared]:
+def compared(spec: MachineLawsProblemFile, machine: Machine) -> Iterator[Compared]:
     """All laws, in the order of the table: standard ones, each as it is and shaped, and those made for the machine."""
     vibration = mode(machine, spec.vibration.shaped)
     for name in spec.standard:
@@ -287,12 +287,12 @@ def compared(spec: Study, machine: Machine) -> Iterator[Compared]:
             except InputError:
                 shaped = None  # the vibration is too slow for it: the table says so
             yield Compared(f"{name}, {shaper}", machine, spec.vibration, shaped)
-    for asked in spec.sought:
-        solution = synthesize(asked.asked(machine))
-        yield Compared(asked.name, machine, spec.vibration, solution.law, solution)
+    for stated in spec.sought:
+        solution = synthesize(stated.stated(machine))
+        yield Compared(stated.name, machine, spec.vibration, solution.law, solution)
 
 
-def _headings(spec: Study) -> list[str]:
+def _headings(spec: MachineLawsProblemFile) -> list[str]:
     percent = f"{100.0 * spec.vibration.spread:g} %"
     ends = (f"-{percent}", "nominal", f"+{percent}", f"greatest within {percent}")
     residuals = [f"mode {number} left, {end}" for number in spec.vibration.modes for end in ends]
@@ -300,7 +300,7 @@ def _headings(spec: Study) -> list[str]:
     return ["law", "B", "C", "J", *peaks, *residuals, "lower bound", "gap", "status"]
 
 
-def _line(spec: Study, law: Compared) -> list[tables.Cell]:
+def _line(spec: MachineLawsProblemFile, law: Compared) -> list[tables.Cell]:
     if law.law is None:
         return [law.name, *[None] * (len(_headings(spec)) - 2), "no time for it"]
     constants, response = law.law.constants, law.machine.response(law.law)
@@ -323,7 +323,9 @@ def _laws(about: str, laws: Sequence[Compared]) -> str:
     return f'{{{head}, "laws": {{\n' + ",\n".join(lines) + "\n}}\n"
 
 
-def _page(spec: Study, machine: Machine, headings: Sequence[str], lines: list[list[tables.Cell]]) -> Page:
+def _page(
+    spec: MachineLawsProblemFile, machine: Machine, headings: Sequence[str], lines: list[list[tables.Cell]]
+) -> Page:
     page = Page(spec.title).text(spec.text).figure("figure", spec.title)
     page.heading("The machine's modes").table(*_modes(machine, spec.machine.duration))
     about = (
@@ -345,7 +347,7 @@ def _modes(machine: Machine, duration: float) -> tuple[list[str], list[list[tabl
     return [*headings, *(["frequency, Hz"] if duration != 1.0 else [])], lines
 
 
-def _unit(spec: Study) -> str:
+def _unit(spec: MachineLawsProblemFile) -> str:
     """The unit of what is left, in brackets."""
     unit = spec.units.get(spec.vibration.output)
     return f" ({unit})" if unit else ""
@@ -363,7 +365,7 @@ def _in_machine_units(machine: MachineTable) -> str:
     )
 
 
-def draw(spec: Study, machine: Machine, laws: Sequence[Compared]) -> Figure:
+def draw(spec: MachineLawsProblemFile, machine: Machine, laws: Sequence[Compared]) -> Figure:
     """What is left of each mode over its frequency, and an output over time."""
     drawn = [law for name in spec.figure.laws for law in laws if law.name == name and law.law is not None]
     with plot_style():
@@ -379,7 +381,7 @@ def draw(spec: Study, machine: Machine, laws: Sequence[Compared]) -> Figure:
         return figure
 
 
-def _residuals(axes: Axes, spec: Study, number: int, laws: Sequence[Compared]) -> None:
+def _residuals(axes: Axes, spec: MachineLawsProblemFile, number: int, laws: Sequence[Compared]) -> None:
     spread = spec.figure.spread
     factors = np.linspace(1.0 - spread, 1.0 + spread, _POINTS)
     courses = [law.left(number, factors) for law in laws]
@@ -392,7 +394,7 @@ def _residuals(axes: Axes, spec: Study, number: int, laws: Sequence[Compared]) -
     axes.set(title=f"mode {number} left in {spec.titled(spec.vibration.output)}")
 
 
-def _outputs(axes: Axes, spec: Study, machine: Machine, laws: Sequence[Compared]) -> None:
+def _outputs(axes: Axes, spec: MachineLawsProblemFile, machine: Machine, laws: Sequence[Compared]) -> None:
     k = np.linspace(0.0, 1.0 + spec.figure.dwell, _POINTS)
     for law, style in zip(laws, _styles(laws), strict=True):
         assert law.law is not None  # noqa: S101 - only those that are there are drawn

@@ -104,7 +104,7 @@ def _read(content: str, name: str, columns: Sequence[Column] | None) -> _Table:
     if first is None:
         raise InputError(f"{name} holds no points: lines of a time or an angle and a displacement, such as 7.5,0.0959")
     headings = lines[first - 1].cells if first else []
-    chosen = _chosen(columns, headings, lines[first], name, own=MARK in content)
+    chosen = _chosen(columns, headings, lines[first], name, written_by_optlaws=MARK in content)
     points = lines[first:]
     while points and not any(points[-1].numbers(chosen)):
         points.pop()
@@ -125,7 +125,7 @@ def _is_point(cells: list[str]) -> bool:
 
 
 def _chosen(
-    columns: Sequence[Column] | None, headings: list[str], line: _Line, name: str, *, own: bool
+    columns: Sequence[Column] | None, headings: list[str], line: _Line, name: str, *, written_by_optlaws: bool
 ) -> tuple[int, int]:
     """The places of the two columns that are meant."""
     numeric = [i for i, cell in enumerate(line.cells) if _NUMBER.fullmatch(cell)]
@@ -135,9 +135,9 @@ def _chosen(
             raise InputError(f"columns are two, of the time or angle and of the displacement, got {shortened(columns)}")
         first, second = (_place(column, headings, len(line.cells), name) for column in columns)
         return first, second
-    short = [found[0] if (found := _HEADING.match(heading)) else "" for heading in named]
+    short = [match[0] if (match := _HEADING.match(heading)) else "" for heading in named]
     of_ours = [next((short.index(word) for word in words if word in short), None) for words in (_MASTERS, _SLAVES)]
-    if own and None not in of_ours:
+    if written_by_optlaws and None not in of_ours:
         return int(of_ours[0] or 0), int(of_ours[1] or 0)
     if len(numeric) > 2:
         known = ", ".join(f"{i + 1} {headings[i]!r}" if i < len(headings) else str(i + 1) for i in numeric)
@@ -207,7 +207,7 @@ def _last_digit(text: str) -> float:
 _MEMBER = re.compile(r"\s*(?:family\s+)?(IV|I{1,3})\s*(?:\((.*)\))?\s*", re.IGNORECASE)
 _TABLES = (".csv", ".txt", ".tsv", ".tab", ".dat")
 _ENDINGS = (".json", *_TABLES)
-_SAID: dict[str, Callable[[str], Any]] = {"tolerance": float, "columns": lambda text: tuple(text.split(","))}
+_OPTIONS: dict[str, Callable[[str], Any]] = {"tolerance": float, "columns": lambda text: tuple(text.split(","))}
 #: a file's name and what is said of its table in brackets
 _OF_TABLE = re.compile(r"(.+)\((?=[^()]*=)([^()]*)\)", re.DOTALL)
 _LONGEST = 100
@@ -250,8 +250,8 @@ def read_law(
     """
     file = text if isinstance(text, Path) else None
     if isinstance(text, str) and member(text) is None and is_file(text):
-        name, said = _of_table(text)
-        file, tolerance, columns = Path(name), said.get("tolerance", tolerance), said.get("columns", columns)
+        name, options = _of_table(text)
+        file, tolerance, columns = Path(name), options.get("tolerance", tolerance), options.get("columns", columns)
     if file is not None and file.suffix.lower() in _TABLES:
         return law_of_points(file, tolerance, columns)
     if tolerance is not None or columns is not None:
@@ -272,16 +272,16 @@ def _of_table(text: str) -> tuple[str, dict[str, Any]]:
     match = _OF_TABLE.fullmatch(text)
     if match is None or not match[1].lower().endswith(_TABLES):
         return text, {}
-    said: dict[str, Any] = {}
+    options: dict[str, Any] = {}
     for part in match[2].split(";"):
         name, _, value = (piece.strip() for piece in part.partition("="))
         try:
-            said[name] = _SAID[name](value)
+            options[name] = _OPTIONS[name](value)
         except (KeyError, ValueError):
             raise InputError(
                 f"a table is said to be read as in old.csv(tolerance=0.02; columns=1,3), got {shortened(text)}"
             ) from None
-    return match[1], said
+    return match[1], options
 
 
 def is_file(text: str) -> bool:

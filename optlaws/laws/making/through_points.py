@@ -68,11 +68,11 @@ def nearest_spline(places: Array, heights: Array, count: int, *, rest: bool, kno
     same = 3 if rest else 1
     rows = spline_values(knots, places)
     free = np.column_stack([rows[:, :same].sum(axis=1), rows[:, same:-same], rows[:, -same:].sum(axis=1)])
-    found = np.concatenate([np.zeros(free.shape[1] - 1), [1.0]])
+    solution = np.concatenate([np.zeros(free.shape[1] - 1), [1.0]])
     inner = slice(1, -1) if known else slice(None)
     sides = heights - free[:, -1] if known else heights
-    found[inner], _, rank, _ = np.linalg.lstsq(free[:, inner], sides, rcond=None)
-    coefficients = np.concatenate([np.full(same, found[0]), found[1:-1], np.full(same, found[-1])])
+    solution[inner], _, rank, _ = np.linalg.lstsq(free[:, inner], sides, rcond=None)
+    coefficients = np.concatenate([np.full(same, solution[0]), solution[1:-1], np.full(same, solution[-1])])
     return LawSpline(breaks, knots, coefficients, rank) if rank == free[:, inner].shape[1] else None
 
 

@@ -38,16 +38,16 @@ def from_half(pieces: Sequence[Piece]) -> PiecewiseLaw:
     >>> from_half([(0.5, PolynomialSegment((1.0,)))])
     PiecewiseLaw(segments=2, B=2, C=4, D=8, J=inf)
     """
-    kept = [piece for piece in pieces if abs(piece[0]) > SHORTEST]
-    places = list(accumulate((length for length, _ in kept), initial=0.0))
-    if not kept or min(length for length, _ in kept) < 0.0 or places[-1] > 0.5 + SHORTEST:
+    lasting = [piece for piece in pieces if abs(piece[0]) > SHORTEST]
+    places = list(accumulate((length for length, _ in lasting), initial=0.0))
+    if not lasting or min(length for length, _ in lasting) < 0.0 or places[-1] > 0.5 + SHORTEST:
         lengths = ", ".join(f"{length:.6g}" for length, _ in pieces)
         raise InputError(
             f"lengths of a half cycle must be at least 0, not all 0, and at most 1/2 in all, got {lengths}"
         )
     if places[-1] > 0.5 - SHORTEST:
         places[-1] = 0.5
-    rise = _joined([(b - a, segment) for a, b, (_, segment) in zip(places, places[1:], kept, strict=False)])
+    rise = _joined([(b - a, segment) for a, b, (_, segment) in zip(places, places[1:], lasting, strict=False)])
     top = rise[-1][1].velocity(rise[-1][0], last=True)
     coast: list[Piece] = [] if places[-1] == 0.5 else [(1.0 - 2.0 * places[-1], PolynomialSegment((), top))]
     fall = [(length, segment.backwards(length)) for length, segment in rise[::-1]]

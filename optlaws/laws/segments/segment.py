@@ -201,8 +201,8 @@ class Segment(ABC):
             raise InputError(
                 f"kind of segment {shortened(kind)} is unknown; known are {', '.join(sorted(Segment.kinds))}"
             )
-        made = Segment.kinds[kind]
-        return made(**known_fields(made, given, f"a {kind} segment"))
+        segment_class = Segment.kinds[kind]
+        return segment_class(**known_fields(segment_class, given, f"a {kind} segment"))
 
     def _check(self) -> None:
         """Turn every field into floats."""

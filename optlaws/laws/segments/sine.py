@@ -175,11 +175,11 @@ class HarmonicSegment(Segment, kind="harmonics"):
         return replace(self, phases=phases, b0=self.velocity(length, last=True))
 
     def plus_derivatives(self, length: float, once: float, twice: float) -> Segment:  # noqa: D102
-        made = [_transferred(*wave, (once, twice)) for wave in self._waves]
+        transferred = [_transferred(*wave, (once, twice)) for wave in self._waves]
         return replace(
             self,
-            amplitudes=tuple(amplitude for amplitude, _ in made),
-            phases=tuple(phase for _, phase in made),
+            amplitudes=tuple(amplitude for amplitude, _ in transferred),
+            phases=tuple(phase for _, phase in transferred),
             b0=self._velocity_plus(length, once, twice),
         )
 

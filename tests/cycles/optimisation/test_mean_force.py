@@ -21,8 +21,8 @@ from optlaws import (
     smoothstep,
     synthesize,
 )
-from optlaws.cycles.specification.drive import peak_of, read_drive
 from optlaws.cycles.optimisation.objectives import FORCE, POWER
+from optlaws.cycles.specification.drive import peak_of, read_drive
 from optlaws.motion.piece import Piece
 from tests.sampling import sampled
 
