@@ -17,7 +17,7 @@ from optlaws.numbers import positive
 
 _UNITS = {"length": "m", "angle": "rad"}
 _WAYS = "give frequency, such as '16.7 Hz', or period, such as '60 ms', and not both"
-_DURATIONS = "give time, such as '0.1 s', or speed and rise, such as '105 rpm' and '120 deg'"
+_DURATIONS = "give duration, such as '0.1 s', or speed and rise, such as '105 rpm' and '120 deg'"
 
 
 @dataclass(frozen=True)
@@ -30,7 +30,7 @@ class MachineFollower:
         The follower, dimensionless.
     stroke
         Stroke of the cam, in m or rad.
-    time
+    duration
         Duration of the rise, s.
     unit
         That of the stroke, "m" or "rad".
@@ -48,7 +48,7 @@ class MachineFollower:
 
     follower: Follower
     stroke: float
-    time: float
+    duration: float
     unit: str = "m"
 
     def response(self, law: MotionLaw) -> MachineAnswer:
@@ -113,14 +113,14 @@ class MachineAnswer:
         Examples
         --------
         >>> from optlaws import smoothstep
-        >>> machine = machine_follower(period="60 ms", time="0.2 s", stroke="35 mm")
+        >>> machine = machine_follower(period="60 ms", duration="0.2 s", stroke="35 mm")
         >>> list(machine.response(smoothstep(4)).to_dict())[:3]
         ['stroke, m', 'time, s', 'dynamic factor']
         """
         unit = self.machine.unit
         return {
             f"stroke, {unit}": self.machine.stroke,
-            "time, s": self.machine.time,
+            "time, s": self.machine.duration,
             "dynamic factor": self.dynamic_factor,
             f"peak velocity, {unit}/s": self.peak_velocity,
             f"peak acceleration, {unit}/s²": self.peak_acceleration,
@@ -138,7 +138,7 @@ class MachineAnswer:
         )
 
     def _sized(self, value: float, nu: int) -> float:
-        return value * factor(self.machine.stroke, self.machine.time, nu)
+        return value * factor(self.machine.stroke, self.machine.duration, nu)
 
 
 def machine_follower(
@@ -146,7 +146,7 @@ def machine_follower(
     stroke: str,
     frequency: str | None = None,
     period: str | None = None,
-    time: str | None = None,
+    duration: str | None = None,
     speed: str | None = None,
     rise: str | None = None,
     damping: float = 0.0,
@@ -159,7 +159,7 @@ def machine_follower(
         Stroke of the cam, such as "35 mm" or "20 deg".
     frequency, period
         Of the undamped free vibration of the mass on its cam: "16.7 Hz", or "60 ms"; one of them.
-    time
+    duration
         Duration of the rise, such as "0.1 s".
     speed, rise
         In place of it: speed of the cam, such as "105 rpm", and its angle during the rise, such as "120 deg".
@@ -173,16 +173,16 @@ def machine_follower(
 
     Examples
     --------
-    >>> machine_follower(frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm").time
+    >>> machine_follower(frequency="16.7 Hz", speed="105 rpm", rise="120 deg", stroke="35 mm").duration
     0.190476
-    >>> machine_follower(frequency="16.7", time="0.1 s", stroke="35 mm")
+    >>> machine_follower(frequency="16.7", duration="0.1 s", stroke="35 mm")
     Traceback (most recent call last):
     optlaws.errors.InputError: frequency must be a frequency such as '16.7 Hz', got '16.7' without a unit: ...
     """
     kind, height = either(stroke, tuple(_UNITS), "stroke")
-    duration = _duration(time, speed, rise)
-    nu = tau * duration * _frequency(frequency, period)
-    return MachineFollower(Follower(nu, damping), positive(height, "stroke"), duration, _UNITS[kind])
+    seconds = _duration(duration, speed, rise)
+    nu = tau * seconds * _frequency(frequency, period)
+    return MachineFollower(Follower(nu, damping), positive(height, "stroke"), seconds, _UNITS[kind])
 
 
 def _frequency(frequency: str | None, period: str | None) -> float:
@@ -193,10 +193,10 @@ def _frequency(frequency: str | None, period: str | None) -> float:
     return 1.0 / positive(quantity(period, "time", "period"), "period")
 
 
-def _duration(time: str | None, speed: str | None, rise: str | None) -> float:
-    if time is not None and speed is None and rise is None:
-        return positive(quantity(time, "time", "time"), "time")
-    if time is not None or speed is None or rise is None:
+def _duration(duration: str | None, speed: str | None, rise: str | None) -> float:
+    if duration is not None and speed is None and rise is None:
+        return positive(quantity(duration, "time", "duration"), "duration")
+    if duration is not None or speed is None or rise is None:
         raise InputError(_DURATIONS)
     turning = positive(quantity(speed, "angular velocity", "speed"), "speed")
     return positive(quantity(rise, "angle", "rise"), "rise") / turning

@@ -228,7 +228,7 @@ def fitted_best(motion: Motion, degree: int, most: int) -> Fitted:
     --------
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(6), stroke="35 mm", time="0.1 s")
+    >>> motion = motion_of_law(smoothstep(6), stroke="35 mm", duration="0.1 s")
     >>> fit = fitted_best(motion, degree=7, most=50)
     >>> fit.count, abs(fit.run.peak(2).value / motion.peak(2) - 1) <= 1e-3
     (3, True)

@@ -50,7 +50,7 @@ class Export:
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> export = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", time="0.1 s", points=7)
+    >>> export = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", duration="0.1 s", points=7)
     >>> export.text.splitlines()[6:8]
     ['        (dX := 0.0, dY := 0.0, dV := 0.0, dA := 0.0),', '        (dX := 20.0, dY := 1.24228395...
     >>> round(export.report.ratio(2), 6)
@@ -140,7 +140,7 @@ class Export:
         Examples
         --------
         >>> from optlaws.laws import smoothstep
-        >>> made = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", time="0.1 s", points=7)
+        >>> made = smoothstep(3).export("codesys-xyva", stroke="35 mm", master="120 deg", duration="0.1 s", points=7)
         >>> row = made.summary()[3]
         >>> row.name, row.text(5), row.unit, row.note
         ('peak of acceleration', '20207', 'mm/s²', 'of the law 20207.26')

@@ -120,7 +120,7 @@ def fitted(
     --------
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(5), stroke="35 mm", time="0.1 s")
+    >>> motion = motion_of_law(smoothstep(5), stroke="35 mm", duration="0.1 s")
     >>> fit = fitted(motion, degree=7, most=50)
     >>> fit.count, fit.exact, f"{fit.deviation:.1e}"
     (4, False, '4.9e-04')
@@ -162,7 +162,7 @@ def exactly(motion: Motion, degree: int) -> Fitted | None:
     --------
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
-    >>> fit = exactly(motion_of_law(smoothstep(9), stroke="35 mm", time="0.1 s"), 40)
+    >>> fit = exactly(motion_of_law(smoothstep(9), stroke="35 mm", duration="0.1 s"), 40)
     >>> fit.exact, fit.count, fit.run.degree
     (True, 6, 17)
     """

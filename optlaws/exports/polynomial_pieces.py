@@ -199,7 +199,7 @@ def pieces_of_motion(motion: Motion, tolerance: float = TOLERANCE) -> PiecewiseM
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(2), stroke="35 mm", time="0.1 s")
+    >>> motion = motion_of_law(smoothstep(2), stroke="35 mm", duration="0.1 s")
     >>> [round(coefficient, 6) for coefficient in pieces_of_motion(motion).coefficients[0]]
     [0.0, 0.0, 10500.0, -70000.0]
     """

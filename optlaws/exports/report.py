@@ -93,7 +93,7 @@ class Report:
     >>> from optlaws.exports.interpolation import cubic_spline
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", time="0.1 s")
+    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", duration="0.1 s")
     >>> x = np.linspace(0.0, 0.1, 13)
     >>> report = as_run(cubic_spline(x, motion(x)), motion)
     >>> round(report.ratio(2), 4), round(report.deviation[0].value, 6), round(report.run.leaps_at_ends[1], 3)
@@ -259,7 +259,7 @@ def travel_of_law(motion: Motion) -> float:
     --------
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
-    >>> travel_of_law(motion_of_law(smoothstep(3), stroke="-35 mm", time="0.1 s"))
+    >>> travel_of_law(motion_of_law(smoothstep(3), stroke="-35 mm", duration="0.1 s"))
     35.0
     """
     grids = [np.linspace(low, high, _EACH) for low, high in pairwise(motion.breaks)]
@@ -327,14 +327,14 @@ def task_sampling(run: PiecewiseMotion, motion: Motion, task: Any) -> TaskSampli
     >>> from optlaws.exports.interpolation import linear
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", time="0.1 s")
+    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", duration="0.1 s")
     >>> x = np.linspace(0.0, 0.1, 37)
     >>> round(task_sampling(linear(x, motion(x)), motion, "0.1 ms").acceleration / motion.peak(2), 1)
     27.0
     """
     seconds = quantity(task, "time", "task")
     if motion.units.rate is None:
-        raise InputError("task: how fast the master goes is not known: say how long the motion takes, time='0.1 s'")
+        raise InputError("task: how fast the master goes is not known: say how long the motion takes, duration='0.1 s'")
     step = seconds * motion.units.rate
     if not 4.0 * step <= motion.length <= MOST_VALUES * step:
         raise InputError(f"task must be between {MOST_VALUES} and 4 of it in the motion, got {task!r}")

@@ -48,7 +48,7 @@ class LawExport:
         to: str,
         *,
         stroke: Any = None,  # noqa: ANN401 - a quantity
-        time: Any = None,  # noqa: ANN401
+        duration: Any = None,  # noqa: ANN401
         master: Any = None,  # noqa: ANN401
         start: Any = None,  # noqa: ANN401
         **options: Unpack[ExportOptions],
@@ -61,7 +61,7 @@ class LawExport:
             The format: `optlaws export --list` names them.
         stroke
             How far the slave moves, "35 mm" or "-20 deg": positions are in its unit.
-        time, master
+        duration, master
             How long it takes, "0.1 s", and how far the master goes meanwhile, "120 deg"; one of them or both. Without
             a master it is time in seconds.
         start
@@ -87,14 +87,16 @@ class LawExport:
         >>> import optlaws
         >>> basis = optlaws.Pieces(8, degree=7, continuity=3)
         >>> solution = optlaws.synthesize(optlaws.Problem(B=1.859, order=4, basis=basis))
-        >>> program = solution.export("codesys-cambuilder", stroke="35 mm", time="0.1 s", master="120 deg")
+        >>> program = solution.export("codesys-cambuilder", stroke="35 mm", duration="0.1 s", master="120 deg")
         >>> [line.strip() for line in program.text.splitlines() if "none below" in line]
         ['law: least C = 4.59646..., none below 4.59646... in its space; status optimal']
         """
         from optlaws.exports.export import export_law
 
         law, proof = self._exported()
-        return export_law(law, to, {"stroke": stroke, "time": time, "master": master, "start": start}, proof, **options)
+        return export_law(
+            law, to, {"stroke": stroke, "duration": duration, "master": master, "start": start}, proof, **options
+        )
 
     def _exported(self) -> tuple[Any, tuple[str, ...]]:
         """The law, and what is proven of it, for files to say."""

@@ -133,7 +133,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
     def pieces(
         self,
         stroke: Any = None,  # noqa: ANN401 - a quantity
-        time: Any = None,  # noqa: ANN401
+        duration: Any = None,  # noqa: ANN401
         *,
         master: Any = None,  # noqa: ANN401
         start: Any = None,  # noqa: ANN401
@@ -142,7 +142,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
         """Times and polynomial coefficients in machine units, as a `PiecewiseMotion`: `breaks`, `coefficients`.
 
         Exact, each coefficient rounded once, where the law is made of polynomials; else within `tolerance`, a share of
-        the stroke, over the whole interval. `stroke`, `time`, `master` and `start` are those of `export`.
+        the stroke, over the whole interval. `stroke`, `duration`, `master` and `start` are those of `export`.
 
         Raises
         ------
@@ -158,7 +158,7 @@ class MotionLaw(Curve, LawExport, StoredLaw):
         """
         from optlaws.exports.polynomial_pieces import pieces_of_law
 
-        return pieces_of_law(self, tolerance, stroke=stroke, time=time, master=master, start=start)
+        return pieces_of_law(self, tolerance, stroke=stroke, duration=duration, master=master, start=start)
 
     def __repr__(self) -> str:
         constants = self.constants

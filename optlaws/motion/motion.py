@@ -59,7 +59,7 @@ class Motion:
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg", time="0.1 s")
+    >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg", duration="0.1 s")
     >>> motion.units
     Units(master='deg', slave='mm', rate=1200.0)
     >>> motion(60.0), round(motion(60.0, 1), 9), motion.start, motion.stop
@@ -176,7 +176,7 @@ class Motion:
             If it is not known how fast the master goes.
         """
         if self.units.rate is None:
-            raise InputError("how fast the master goes is not known: say how long the motion takes, time='0.1 s'")
+            raise InputError("how fast the master goes is not known: say how long the motion takes, duration='0.1 s'")
         if self.units.master == "s":
             return self
         share = 1.0 / self.units.rate
@@ -195,7 +195,7 @@ def motion_of_law(
     law: MotionLaw,
     *,
     stroke: Any = None,  # noqa: ANN401 - a quantity
-    time: Any = None,  # noqa: ANN401
+    duration: Any = None,  # noqa: ANN401
     master: Any = None,  # noqa: ANN401
     start: Any = None,  # noqa: ANN401
 ) -> Motion:
@@ -207,7 +207,7 @@ def motion_of_law(
         A law with the stroke 1.
     stroke
         How far the slave moves, such as "35 mm", "-20 deg": positions are in its unit.
-    time
+    duration
         How long it takes, such as "0.1 s".
     master
         How far the master goes meanwhile, such as "120 deg"; without it the master is time in seconds.
@@ -217,20 +217,22 @@ def motion_of_law(
     Raises
     ------
     InputError
-        If a quantity is wrong, or neither time nor master are given; the error names it and an example.
+        If a quantity is wrong, or neither duration nor master are given; the error names it and an example.
 
     Examples
     --------
     >>> from optlaws.laws import smoothstep
-    >>> motion_of_law(smoothstep(3), stroke="90 deg", time="400 ms").peak(1)
+    >>> motion_of_law(smoothstep(3), stroke="90 deg", duration="400 ms").peak(1)
     421.875
     """
     moved = given_quantity(stroke, SLAVES, "stroke")
     if moved.number == 0.0:
         raise InputError("stroke must not be 0: nothing would move")
-    if time is None and master is None:
-        raise InputError("say how long the motion takes, time='0.1 s', or how far its master goes, master='120 deg'")
-    seconds = None if time is None else _positive(quantity(time, "time", "time"), "time", time)
+    if duration is None and master is None:
+        raise InputError(
+            "say how long the motion takes, duration='0.1 s', or how far its master goes, master='120 deg'"
+        )
+    seconds = None if duration is None else _positive(quantity(duration, "time", "duration"), "duration", duration)
     span = _span(master, seconds)
     rate = None if seconds is None else span.number / seconds
     offset = 0.0 if start is None else moved.same_unit(start, "start")

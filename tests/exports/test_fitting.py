@@ -9,7 +9,7 @@ from optlaws.exports.fitting import fitted
 from optlaws.laws.making.trapezoids import scca
 from optlaws.motion.motion import motion_of_law
 
-SAID = {"stroke": "35 mm", "time": "0.1 s"}
+SAID = {"stroke": "35 mm", "duration": "0.1 s"}
 
 
 @pytest.mark.parametrize("name", ["cycloidal", "modified sine", "modified trapezoid"])

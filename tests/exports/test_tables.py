@@ -216,7 +216,7 @@ def test_what_a_target_cannot_hold_is_said_with_a_remedy(
 
 
 def test_a_motion_that_does_not_fit_is_refused() -> None:
-    over_time = motion_of_law(smoothstep(3), stroke="35 mm", time="0.1 s")
+    over_time = motion_of_law(smoothstep(3), stroke="35 mm", duration="0.1 s")
     with pytest.raises(InputError, match="master must be in deg"):
         export_motion(over_time, "isg")
     with pytest.raises(InputError, match="how fast the master goes"):

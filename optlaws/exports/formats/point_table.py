@@ -188,7 +188,7 @@ def rounding_bound(motion: Motion, x: Array, y: Array, slopes: Array) -> float:
     --------
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
-    >>> motion = motion_of_law(smoothstep(3), stroke="1 m", time="1 s")
+    >>> motion = motion_of_law(smoothstep(3), stroke="1 m", duration="1 s")
     >>> x = np.linspace(0.0, 1.0, 11)
     >>> round(rounding_bound(motion, x, motion(x) + 0.001 * (-1.0) ** np.arange(11), np.zeros(2)), 9)
     1.2

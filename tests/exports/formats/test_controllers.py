@@ -59,7 +59,7 @@ def law(name: str) -> MotionLaw:
 
 
 def one_shot(name: str, **more: str) -> Motion:
-    return motion_of_law(law(name), **{"stroke": "35 mm", "master": "120 deg", "time": "0.1 s", **more})
+    return motion_of_law(law(name), **{"stroke": "35 mm", "master": "120 deg", "duration": "0.1 s", **more})
 
 
 def same(run: PiecewiseMotion, read: PPoly, tolerance: float = 1e-12) -> None:
@@ -95,7 +95,7 @@ def test_a_law_optimised_in_the_pieces_of_the_target_is_exported_without_loss_an
     name: str, degree: int
 ) -> None:
     solution = solved(degree)
-    made = solution.export(name, stroke="35 mm", time="0.1 s", master="120 deg", name="Press")
+    made = solution.export(name, stroke="35 mm", duration="0.1 s", master="120 deg", name="Press")
     assert "exact" in made.written.notes[0]
     assert made.points == 8 + (made.written.counted == "points")
     loss = 1e-6 if name == "br-acp10" else 1e-12
@@ -165,7 +165,7 @@ def test_function_blocks_and_headers_run_what_their_report_says(tmp_path: Path) 
 
 
 def test_ends_are_those_of_the_motion_and_joints_close() -> None:
-    motion = motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg", time="0.1 s")
+    motion = motion_of_law(smoothstep(3), stroke="35 mm", master="120 deg", duration="0.1 s")
     for name in ("twincat-nc2", "siemens-points", "siemens-elements", "siemens-polynomials"):
         assert " := 35.0, " in export_motion(motion, name).text
         cyclic = export_motion(repeating(), name)
@@ -209,7 +209,7 @@ def test_limits_of_targets_are_named_with_the_remedy(name: str, more: dict[str, 
 
 def test_the_drive_takes_whole_periods_from_zero() -> None:
     with pytest.raises(InputError, match=r"whole-number periods \(DINT\), and that of the master is 0\.1 s"):
-        export_motion(motion_of_law(smoothstep(3), stroke="35 mm", time="0.1 s"), "br-acp10")
+        export_motion(motion_of_law(smoothstep(3), stroke="35 mm", duration="0.1 s"), "br-acp10")
     with pytest.raises(InputError, match=r"that of the slave is 12\.7 mm: choose another unit or stroke, or counts"):
         export_motion(one_shot("cycloidal", stroke="12.7 mm"), "br-acp10")
     made = export_motion(one_shot("cycloidal", stroke="12.7 mm", start="5 mm"), "br-acp10", counts=65536)

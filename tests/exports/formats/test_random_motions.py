@@ -20,7 +20,7 @@ def random_motion(number: int) -> Motion:
     rng = np.random.default_rng(number)
     z = rng.normal(size=rng.integers(1, 8)).tolist()
     law = construct(BoundaryConditions.rest(3), z, Powers(len(z) - 1))
-    return motion_of_law(law, stroke=str(rng.choice(STROKES)), master=str(rng.choice(MASTERS)), time="0.2 s")
+    return motion_of_law(law, stroke=str(rng.choice(STROKES)), master=str(rng.choice(MASTERS)), duration="0.2 s")
 
 
 def comes_back(number: int) -> None:
