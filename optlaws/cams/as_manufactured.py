@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from dataclasses import asdict, dataclass
 from math import inf, pi, tau
-from typing import Any
+from typing import Any, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -22,7 +22,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import bounded, whole
+from optlaws.numbers import Quantity, bounded, whole
 from optlaws.series.enclosures.branch_and_bound import Function, extremes
 from optlaws.series.enclosures.interval_arrays import Interval
 from optlaws.series.enclosures.jets import Jet
@@ -104,6 +104,7 @@ class Following:
 
 
 CURVES = ("profile", "pitch")
+ManufacturedFormat = Literal["csv", "csv polar", "dxf spline", "svg", "dxf arcs", "g-code arcs"]
 _SHARE, _NEAR = 1e-3, 1e-6  # how near deviations and peaks are enclosed
 _CELLS = 128
 _LEAP = 1e-6
@@ -227,12 +228,12 @@ def _meant(cam: DiscCam, nu: int) -> float:
 
 def as_made(
     cam: DiscCam,
-    form: str = "csv",
+    form: ManufacturedFormat = "csv",
     *,
-    curve: str = "profile",
+    curve: Literal["profile", "pitch"] = "profile",
     points: int = 721,
     decimals: int = 6,
-    tolerance: str = "1 um",
+    tolerance: Quantity = "1 um",
     degree: int = 3,
 ) -> AsMade:
     """What a cam's follower does if the cam is made from a file with the digits and the tolerance of its entries.
@@ -279,7 +280,7 @@ def as_made(
     return run_against(cam, _CURVES_OF[form](outline, Cutting(tolerance, decimals, points, degree)), outside)
 
 
-def with_error(cam: DiscCam, error: Any, waves: Any) -> AsMade:  # noqa: ANN401 - a quantity and a number
+def with_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # noqa: ANN401 - a quantity and a number
     """What a cam's follower does if the profile is off by waves of an amplitude along its normals.
 
     Of four phases of the wave, the greatest values. A wave with n periods in a turn adds about n² times its amplitude

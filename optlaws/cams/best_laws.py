@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from optlaws.cams.curved_limits import RollerCurvature, bound_under, curvature_of
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
-from optlaws.cams.disc import DiscCam, sense
+from optlaws.cams.disc import DiscCam, Turning, sense
 from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact, LinearLimit
 from optlaws.cams.followers.follower import CamFollower, Place, shown
 from optlaws.cams.least_sizes import LeastBaseCircle, least_base_circle, read_cam_limits
@@ -27,6 +27,7 @@ from optlaws.cycles.optimisation.objectives import OBJECTIVES
 from optlaws.errors import InfeasibleProblem, InputError, SolverFailure
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN
+from optlaws.numbers import Quantity
 from optlaws.synthesis.problem.constants import Functional
 from optlaws.synthesis.problem.expression import maximum
 from optlaws.synthesis.problem.problem import Problem
@@ -107,12 +108,12 @@ class BestBaseCircle:
 
 def best_cam(
     cycle: Cycle,
-    base_radius: Any,  # noqa: ANN401 - quantities
+    base_radius: Quantity,
     follower: CamFollower,
     *,
-    pressure_angle: Any = None,  # noqa: ANN401
-    radius_of_curvature: Any = None,  # noqa: ANN401
-    turning: str = "counterclockwise",
+    pressure_angle: Quantity | None = None,
+    radius_of_curvature: Quantity | None = None,
+    turning: Turning = "counterclockwise",
 ) -> BestCam:
     """The optimal laws of a cycle under limits of its cam, at a given base circle.
 
@@ -170,9 +171,9 @@ def best_base_circle(
     cycle: Cycle,
     follower: CamFollower,
     *,
-    pressure_angle: Any = None,  # noqa: ANN401 - quantities
-    radius_of_curvature: Any = None,  # noqa: ANN401
-    turning: str = "counterclockwise",
+    pressure_angle: Quantity | None = None,
+    radius_of_curvature: Quantity | None = None,
+    turning: Turning = "counterclockwise",
 ) -> BestBaseCircle:
     """The least base circle that any laws of a cycle's optimal motions allow.
 

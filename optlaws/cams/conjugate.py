@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 from math import degrees, pi
-from typing import Any
 
 from optlaws.cams.disc import TURNINGS, DiscCam
 from optlaws.cams.followers.follower import CamFollower, positive, shown
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 
 _ENTRIES = {"length": ("distance", "distance='170 mm'"), "angle": ("angle", "angle='110 deg'")}
 
@@ -17,8 +17,8 @@ def conjugate_cam(
     cam: DiscCam,
     follower: CamFollower | None = None,
     *,
-    distance: Any = None,  # noqa: ANN401 - quantities
-    angle: Any = None,  # noqa: ANN401
+    distance: Quantity | None = None,
+    angle: Quantity | None = None,
 ) -> DiscCam:
     """The return cam of a pair on one shaft, in the coordinates of the first cam.
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import degrees
 from pathlib import Path
-from typing import Any, Unpack
+from typing import Any, Literal, Unpack
 
 import numpy as np
 from numpy.typing import NDArray
@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 from optlaws.cams.curves.extremes import CamExtremes
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
 from optlaws.cams.curves.plane_curve import PlaneCurve
-from optlaws.cams.cutting.file_options import CuttingOptions
+from optlaws.cams.cutting.file_options import CutFormat, CuttingOptions
 from optlaws.cams.followers.contact import FollowerContact
 from optlaws.cams.followers.follower import CamFollower, Place, follower_names, positive
 from optlaws.cycles.cycle import Cycle
@@ -21,7 +21,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import derivative, real_times
+from optlaws.numbers import Quantity, derivative, real_times
 from optlaws.series.enclosures.interval_arrays import Interval
 from optlaws.series.enclosures.jets import Pair, turned, variable
 from optlaws.shown.summary import Summary
@@ -29,8 +29,10 @@ from optlaws.suggest import keywords_of, unknown_key
 
 Array = NDArray[np.float64]
 
+Turning = Literal["counterclockwise", "clockwise"]
+CutCurve = Literal["profile", "pitch", "cutter"]
 CURVES = ("profile", "pitch", "cutter")
-TURNINGS = {"counterclockwise": 1.0, "clockwise": -1.0}
+TURNINGS: dict[Turning, float] = {"counterclockwise": 1.0, "clockwise": -1.0}
 
 
 def sense(turning: object) -> float:
@@ -46,9 +48,10 @@ def sense(turning: object) -> float:
     >>> sense("clockwise")
     -1.0
     """
-    if turning not in tuple(TURNINGS):
-        raise InputError(unknown_key(turning, TURNINGS, "turning"))
-    return TURNINGS[str(turning)]
+    for name, sign in TURNINGS.items():
+        if name == turning:
+            return sign
+    raise InputError(unknown_key(turning, TURNINGS, "turning"))
 
 
 @dataclass(frozen=True)
@@ -88,10 +91,10 @@ class DiscCam:
     """
 
     motion: Cycle | CamMotion
-    base_radius: Any
+    base_radius: Quantity
     follower: CamFollower
-    turning: str = field(default="counterclockwise", kw_only=True)
-    phase: Any = field(default="0 deg", kw_only=True)
+    turning: Turning = field(default="counterclockwise", kw_only=True)
+    phase: Quantity = field(default="0 deg", kw_only=True)
     mirrored: bool = field(default=False, kw_only=True)
 
     def __post_init__(self) -> None:
@@ -130,7 +133,7 @@ class DiscCam:
         """The cam's edge."""
         return self.pitch_curve.offset(-self.contact.roller) if self.contact.roller else self.pitch_curve
 
-    def cutter_path(self, cutter_radius: Any) -> PlaneCurve:  # noqa: ANN401 - a quantity
+    def cutter_path(self, cutter_radius: Quantity) -> PlaneCurve:
         """The way of the centre of a cutter or grinding wheel that makes the profile.
 
         Raises
@@ -140,7 +143,7 @@ class DiscCam:
         """
         return self.pitch_curve.offset(positive(cutter_radius, "cutter_radius") - self.contact.roller)
 
-    def outline(self, curve: str | None = None, cutter_radius: str | None = None) -> PlaneCurve:
+    def outline(self, curve: CutCurve | None = None, cutter_radius: Quantity | None = None) -> PlaneCurve:
         """The curve that is cut: the "profile", the "pitch" curve, or the path of a "cutter" with a radius.
 
         Raises
@@ -155,7 +158,7 @@ class DiscCam:
             raise InputError(
                 "cutter_radius and curve='cutter' go together: give the radius, such as cutter_radius='10 mm'"
             )
-        if chosen == "cutter":
+        if cutter_radius is not None:
             return self.cutter_path(cutter_radius)
         return self.profile if chosen == "profile" else self.pitch_curve
 
@@ -163,10 +166,10 @@ class DiscCam:
     def export(
         self,
         file: str | Path,
-        as_: str | None = None,
+        as_: CutFormat | None = None,
         *,
-        curve: str | None = None,
-        cutter_radius: str | None = None,
+        curve: CutCurve | None = None,
+        cutter_radius: Quantity | None = None,
         **options: Unpack[CuttingOptions],
     ) -> Path:
         """Write the profile, the pitch curve or the path of a cutter to a file, whole or not at all; return its path.

@@ -19,7 +19,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.motion.quantities import TURN, quantity
-from optlaws.numbers import finite, real_times
+from optlaws.numbers import Quantity, finite, real_times
 from optlaws.series.enclosures.branch_and_bound import Extremes, Function, extremes
 from optlaws.series.enclosures.enclosed_integral import integral
 from optlaws.series.enclosures.interval_arrays import Interval, highest, middle
@@ -178,10 +178,10 @@ class CamForces:
     """
 
     cam: DiscCam
-    speed: Any = None
+    speed: Quantity | None = None
     drive: Mapping[str, Any] | None = None
     friction: Mapping[str, Any] = field(default_factory=dict)
-    width: Any = None
+    width: Quantity | None = None
     materials: Any = ("steel", "steel")
 
     def __post_init__(self) -> None:

@@ -15,13 +15,14 @@ from typing import Any, TypeVar
 import numpy as np
 
 from optlaws.cams.curves.motion_by_angle import CamMotion, as_motion
-from optlaws.cams.disc import DiscCam, sense
+from optlaws.cams.disc import DiscCam, Turning, sense
 from optlaws.cams.followers.contact import CURVATURE, PRESSURE, FollowerContact
 from optlaws.cams.followers.follower import CamFollower, Place, shown
 from optlaws.cycles.cycle import Cycle
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval, exact
 from optlaws.series.enclosures.jets import Jet
 
@@ -74,9 +75,9 @@ def least_base_circle(
     motion: Cycle | CamMotion,
     follower: CamFollower,
     *,
-    pressure_angle: Any = None,  # noqa: ANN401 - quantities
-    radius_of_curvature: Any = None,  # noqa: ANN401
-    turning: str = "counterclockwise",
+    pressure_angle: Quantity | None = None,
+    radius_of_curvature: Quantity | None = None,
+    turning: Turning = "counterclockwise",
 ) -> LeastBaseCircle:
     """The least base circle under a pressure-angle limit, a least radius of curvature of the profile, or both.
 
@@ -144,7 +145,7 @@ class GreatestRoller:
     angle: float
 
 
-def greatest_roller(cam: DiscCam, *, radius_of_curvature: Any = "0 mm") -> GreatestRoller:  # noqa: ANN401 - a quantity
+def greatest_roller(cam: DiscCam, *, radius_of_curvature: Quantity = "0 mm") -> GreatestRoller:
     """The greatest roller with which the profile of a cam keeps a radius of curvature; its base circle stays.
 
     Parameters
@@ -179,7 +180,7 @@ def greatest_roller(cam: DiscCam, *, radius_of_curvature: Any = "0 mm") -> Great
     return GreatestRoller(low - slack, high + slack, greatest.angle)
 
 
-def read_cam_limits(pressure_angle: Any, radius: Any) -> dict[str, float]:  # noqa: ANN401 - quantities
+def read_cam_limits(pressure_angle: Quantity | None, radius: Quantity | None) -> dict[str, float]:
     """The limits of a cam: the tangent of the greatest pressure angle, and the least radius of curvature in metres.
 
     Raises

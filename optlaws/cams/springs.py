@@ -15,6 +15,7 @@ from optlaws.cams.forces import CamForces
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 from optlaws.series.enclosures.branch_and_bound import Extremes, Function, extremes
 from optlaws.series.enclosures.interval_arrays import Interval
 from optlaws.series.enclosures.jets import Jet
@@ -78,10 +79,10 @@ def least_spring(
     cam: DiscCam,
     *,
     drive: Mapping[str, Any],
-    speeds: Sequence[Any],
-    force: str | None = None,
-    stiffness: str | None = None,
-    preload: str | None = None,
+    speeds: Sequence[Quantity],
+    force: Quantity | None = None,
+    stiffness: Quantity | None = None,
+    preload: Quantity | None = None,
 ) -> Spring:
     """The least spring that keeps the follower on the cam at every speed of a range.
 
@@ -177,7 +178,7 @@ class _SpringTask:
         return s.slope().slope() * load.inertia, s.slope() * load.viscous
 
 
-def _task(cam: DiscCam, drive: Mapping[str, Any], speeds: Sequence[Any], force: str | None) -> _SpringTask:
+def _task(cam: DiscCam, drive: Mapping[str, Any], speeds: Sequence[Quantity], force: Quantity | None) -> _SpringTask:
     if not isinstance(speeds, tuple | list) or len(speeds) != 2:
         raise InputError(f"speeds must be two, the least and the greatest, got {shortened(speeds)}")
     for key in ("stiffness", "preload"):
@@ -190,7 +191,7 @@ def _task(cam: DiscCam, drive: Mapping[str, Any], speeds: Sequence[Any], force: 
     return _SpringTask(CamForces(cam, speed=speeds[1], drive=drive), slow, fast, least)
 
 
-def _known(value: str | None, dimension: str, name: str) -> float | None:
+def _known(value: Quantity | None, dimension: str, name: str) -> float | None:
     if value is None:
         return None
     known = quantity(value, dimension, name)

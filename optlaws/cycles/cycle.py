@@ -37,7 +37,7 @@ from optlaws.kept import kept_property
 from optlaws.mechanisms.machine.over_time import RepeatedMotion
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, quantity, written
-from optlaws.numbers import MOST_DEGREE, derivative, real_times, whole
+from optlaws.numbers import MOST_DEGREE, Quantity, derivative, real_times, whole
 from optlaws.synthesis.problem.problem import Problem
 from optlaws.synthesis.solution import Solution, Status
 
@@ -96,12 +96,12 @@ class Cycle(ExportMixin, SerialisationMixin):
     """
 
     segments: Sequence[CycleSegment]
-    speed: Any = field(default=None, kw_only=True)
-    period: Any = field(default=None, kw_only=True)
+    speed: Quantity | None = field(default=None, kw_only=True)
+    period: Quantity | None = field(default=None, kw_only=True)
     minimise: str = field(default="acceleration", kw_only=True)
     limits: Mapping[str, Any] = field(default_factory=dict, kw_only=True)
-    start: Any = field(default=None, kw_only=True)
-    advance: Any = field(default=None, kw_only=True)
+    start: Quantity | None = field(default=None, kw_only=True)
+    advance: Quantity | None = field(default=None, kw_only=True)
     drive: Mapping[str, Any] | None = field(default=None, kw_only=True)
     load: Any = field(default=None, kw_only=True)
     order: int = field(default=3, kw_only=True)
@@ -278,7 +278,7 @@ class Cycle(ExportMixin, SerialisationMixin):
         turns = quantity(degrees, "angle", "angle") / TURN if isinstance(degrees, str) else real_times(degrees) / 360.0
         return self(turns * self.duration, nu)
 
-    def at(self, speed: Any) -> Cycle:  # noqa: ANN401 - a quantity
+    def at(self, speed: Quantity) -> Cycle:
         """The same motion at another speed of the master: every law as it is, every duration in proportion.
 
         Raises
@@ -304,7 +304,7 @@ class Cycle(ExportMixin, SerialisationMixin):
         """Derivatives by the master's angle in radians, as cams and controllers take them."""
         return self.at_angle(degrees, nu) * (self.duration / TURN) ** nu
 
-    def cam(self, period: Any, damping: float = 0.0) -> Cycle:  # noqa: ANN401 - a quantity
+    def cam(self, period: Quantity, damping: float = 0.0) -> Cycle:
         """The cycle of the cam that makes an elastic follower's mass move as this cycle says (1.27).
 
         Each move is corrected by the follower's frequency over its own duration: nu = 2 pi T / T_k. The mass comes to

@@ -6,6 +6,7 @@ from typing import Any, Unpack
 
 from optlaws.laws.exporting import ExportOptions
 from optlaws.motion.motion import Motion, motion_of_pieces
+from optlaws.numbers import Quantity
 from optlaws.shown.summary import Summary
 from optlaws.suggest import keywords_of
 
@@ -13,7 +14,7 @@ from optlaws.suggest import keywords_of
 class ExportMixin:
     """The exports of a cycle, apart from how its laws are found."""
 
-    def motion(self, master: Any = "360 deg", unit: str | None = None) -> Motion:  # noqa: ANN401 - a quantity
+    def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
         """The exact motion over its master in machine units, which repeats; optimal laws are looked for now.
 
         Parameters
@@ -44,7 +45,7 @@ class ExportMixin:
         self,
         to: str,
         *,
-        master: Any = "360 deg",  # noqa: ANN401 - a quantity
+        master: Quantity | None = "360 deg",
         unit: str | None = None,
         **options: Unpack[ExportOptions],
     ) -> Any:  # noqa: ANN401 - made a layer above
@@ -82,7 +83,7 @@ class ExportMixin:
 
         return export_cycle(self, to, {"master": master, "unit": unit}, **options)
 
-    def polynomials(self, *, master: Any = None, unit: str | None = None, tolerance: float = 1e-9) -> Any:  # noqa: ANN401
+    def polynomials(self, *, master: Quantity | None = None, unit: str | None = None, tolerance: float = 1e-9) -> Any:  # noqa: ANN401
         """Times and polynomial coefficients of the cycle, as a `PiecewiseMotion`: `breaks` and `coefficients`.
 
         Over time in seconds unless a master is given; exact where laws are made of polynomials, else within

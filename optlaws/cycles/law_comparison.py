@@ -16,7 +16,7 @@ from optlaws.mechanisms.checks import motion_law
 from optlaws.mechanisms.spectrum.robust import residual
 from optlaws.motion.piece import factor
 from optlaws.motion.quantities import either, quantity
-from optlaws.numbers import bounded, positive
+from optlaws.numbers import Quantity, bounded, positive
 
 #: what is more than so many times as great is far above
 FAR = 1.5
@@ -116,8 +116,8 @@ class Comparison:
 
 def compare(
     *laws: Any,  # noqa: ANN401 - whatever names or has a law
-    stroke: str | None = None,
-    duration: str | None = None,
+    stroke: Quantity | None = None,
+    duration: Quantity | None = None,
     nu: float | tuple[float, float] | None = None,
     damping: float = 0.0,
 ) -> Comparison:

@@ -16,6 +16,7 @@ from optlaws.extras import needed
 from optlaws.files.reading import JsonText
 from optlaws.kept import kept_property
 from optlaws.laws.exporting import AxesExportOptions
+from optlaws.numbers import Quantity
 from optlaws.suggest import keywords_of, unknown_key
 from optlaws.synthesis.solution import Status
 
@@ -55,8 +56,8 @@ class Axes(JsonText, Mapping[str, Cycle]):
     _json_name = "stored axes"
 
     axes: Mapping[str, Sequence[CycleSegment] | Mapping[str, Any] | Cycle]
-    speed: Any = field(default=None, kw_only=True)
-    period: Any = field(default=None, kw_only=True)
+    speed: Quantity | None = field(default=None, kw_only=True)
+    period: Quantity | None = field(default=None, kw_only=True)
 
     def __post_init__(self) -> None:
         given: Any = self.axes
@@ -100,7 +101,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         ranks = (Status.OPTIMAL, Status.LOCAL, Status.INACCURATE)
         return max((cycle.status for cycle in self.values()), key=ranks.index)
 
-    def at(self, speed: Any) -> Axes:  # noqa: ANN401 - a quantity
+    def at(self, speed: Quantity) -> Axes:
         """The same motions at another speed of the master, as `Cycle.at` has them."""
         return Axes({name: cycle.at(speed) for name, cycle in self.items()})
 
@@ -109,7 +110,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         self,
         to: str | Mapping[str, str],
         *,
-        master: Any = "360 deg",  # noqa: ANN401 - a quantity
+        master: Quantity | None = "360 deg",
         **options: Unpack[AxesExportOptions],
     ) -> dict[str, Any]:
         """Every axis in the format of a controller, or each named axis in its own: an `Export` by the name of the axis.

@@ -13,7 +13,7 @@ from optlaws.mechanisms.follower.follower import Follower
 from optlaws.mechanisms.follower.response import Response
 from optlaws.motion.piece import factor
 from optlaws.motion.quantities import either, quantity
-from optlaws.numbers import positive
+from optlaws.numbers import Quantity, positive
 
 _UNITS = {"length": "m", "angle": "rad"}
 _WAYS = "give frequency, such as '16.7 Hz', or period, such as '60 ms', and not both"
@@ -143,12 +143,12 @@ class MachineAnswer:
 
 def machine_follower(
     *,
-    stroke: str,
-    frequency: str | None = None,
-    period: str | None = None,
-    duration: str | None = None,
-    speed: str | None = None,
-    rise: str | None = None,
+    stroke: Quantity,
+    frequency: Quantity | None = None,
+    period: Quantity | None = None,
+    duration: Quantity | None = None,
+    speed: Quantity | None = None,
+    rise: Quantity | None = None,
     damping: float = 0.0,
 ) -> MachineFollower:
     """The elastic follower of a machine, from quantities with their units.
@@ -185,7 +185,7 @@ def machine_follower(
     return MachineFollower(Follower(nu, damping), positive(height, "stroke"), seconds, _UNITS[kind])
 
 
-def _frequency(frequency: str | None, period: str | None) -> float:
+def _frequency(frequency: Quantity | None, period: Quantity | None) -> float:
     if (frequency is None) == (period is None):
         raise InputError(_WAYS)
     if frequency is not None:
@@ -193,7 +193,7 @@ def _frequency(frequency: str | None, period: str | None) -> float:
     return 1.0 / positive(quantity(period, "time", "period"), "period")
 
 
-def _duration(duration: str | None, speed: str | None, rise: str | None) -> float:
+def _duration(duration: Quantity | None, speed: Quantity | None, rise: Quantity | None) -> float:
     if duration is not None and speed is None and rise is None:
         return positive(quantity(duration, "time", "duration"), "duration")
     if duration is not None or speed is None or rise is None:

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
-from typing import Any
 
 from optlaws.cycles.specification.programme import CLOSE, Programme, TimedSegment
 from optlaws.cycles.specification.segments import ConstantVelocity, CycleSegment, Dwell, Move
@@ -15,6 +14,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.cam.polydyne import polydyne
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import TURN, quantity
+from optlaws.numbers import Quantity
 
 
 @dataclass(frozen=True)
@@ -96,7 +96,7 @@ def _break(law: PiecewiseLaw, piece: Piece, time: float) -> int:
     return away.index(min(away))
 
 
-def cam_segments(cycle: TimedCycle, period: Any, damping: float) -> list[CycleSegment]:  # noqa: ANN401 - a quantity
+def cam_segments(cycle: TimedCycle, period: Quantity, damping: float) -> list[CycleSegment]:
     """Every move corrected by the follower's frequency over its own duration.
 
     Raises

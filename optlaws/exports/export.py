@@ -16,6 +16,7 @@ from optlaws.files import writing
 from optlaws.laws import MotionLaw
 from optlaws.motion.motion import Motion, motion_of_law
 from optlaws.motion.polynomials import PiecewiseMotion
+from optlaws.numbers import Quantity
 from optlaws.shown.summary import Row, Summary
 
 Comparison = tuple[str, float | None, float | None, float | None]
@@ -26,7 +27,7 @@ _NAMES = [quantity.lower() for quantity in QUANTITIES]
 class _HasMotion(Protocol):
     """A value whose motion in machine units can be exported, as a cycle is."""
 
-    def motion(self, master: Any = "360 deg", unit: str | None = None) -> Motion:  # noqa: ANN401 - a quantity
+    def motion(self, master: Quantity | None = "360 deg", unit: str | None = None) -> Motion:
         """The exact motion over its master, in units of both."""
 
 
@@ -175,7 +176,7 @@ class Export:
         return "\n".join(lines)
 
 
-def export_motion(motion: Motion, to: Any, *, task: Any = None, **options: Any) -> Export:  # noqa: ANN401
+def export_motion(motion: Motion, to: Any, *, task: Quantity | None = None, **options: Any) -> Export:  # noqa: ANN401
     """A motion in a format, which checks its options; `task` is the time of a drive's task, such as "1 ms".
 
     Raises
@@ -191,7 +192,7 @@ def export_motion(motion: Motion, to: Any, *, task: Any = None, **options: Any) 
 
 def export_law(
     law: MotionLaw,
-    to: Any,  # noqa: ANN401
+    to: Quantity,
     placement: dict[str, Any],
     proof: tuple[str, ...] = (),
     **options: Any,  # noqa: ANN401

@@ -14,7 +14,7 @@ from optlaws.errors import InputError
 from optlaws.motion.motion import Motion
 from optlaws.motion.polynomials import Extreme, PiecewiseMotion
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import MOST_VALUES
+from optlaws.numbers import MOST_VALUES, Quantity
 from optlaws.series import bernstein
 
 Array = NDArray[np.float64]
@@ -303,7 +303,7 @@ class TaskSampling:
     acceleration: float
 
 
-def task_sampling(run: PiecewiseMotion, motion: Motion, task: Any) -> TaskSampling:  # noqa: ANN401 - a quantity
+def task_sampling(run: PiecewiseMotion, motion: Motion, task: Quantity) -> TaskSampling:
     """The run sampled once in a task: second differences of the positions, those at both ends included.
 
     Before and after a motion of one shot there is rest; a cycle goes on with itself.

@@ -2,9 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any, TypedDict, Unpack
+from typing import Any, Literal, TypedDict, Unpack
 
+from optlaws.numbers import Quantity
 from optlaws.suggest import keywords_of
+
+#: of which each format takes some
+Interpolation = Literal["linear", "cubic", "spline", "akima", "c1", "quintic", "septic"]
 
 
 class AxesExportOptions(TypedDict, total=False):
@@ -25,12 +29,12 @@ class AxesExportOptions(TypedDict, total=False):
         Time of the drive's task, such as "1 ms": the report then says what it samples once in each.
     """
 
-    points: int | str | None
+    points: int | Literal["best"] | None
     counts: int | None
     digits: int | None
-    decimal: str | None
-    interpolation: str | None
-    task: str | None
+    decimal: Literal[".", ","] | None
+    interpolation: Interpolation | None
+    task: Quantity | None
 
 
 class ExportOptions(AxesExportOptions, total=False):
@@ -47,10 +51,10 @@ class LawExport:
         self,
         to: str,
         *,
-        stroke: Any = None,  # noqa: ANN401 - a quantity
-        duration: Any = None,  # noqa: ANN401
-        master: Any = None,  # noqa: ANN401
-        start: Any = None,  # noqa: ANN401
+        stroke: Quantity | None = None,
+        duration: Quantity | None = None,
+        master: Quantity | None = None,
+        start: Quantity | None = None,
         **options: Unpack[ExportOptions],
     ) -> Any:  # noqa: ANN401 - made above
         """The law in the format of a controller, with what the controller will run and what is proven of the law.

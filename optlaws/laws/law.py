@@ -14,7 +14,7 @@ from optlaws.laws.constants import Constants
 from optlaws.laws.curve import Curve, Sides
 from optlaws.laws.exporting import LawExport
 from optlaws.laws.storage import StoredLaw
-from optlaws.numbers import derivative, times
+from optlaws.numbers import Quantity, derivative, times
 from optlaws.series.peaks import Peak
 
 Array = NDArray[np.float64]
@@ -132,11 +132,11 @@ class MotionLaw(Curve, LawExport, StoredLaw):
 
     def pieces(
         self,
-        stroke: Any = None,  # noqa: ANN401 - a quantity
-        duration: Any = None,  # noqa: ANN401
+        stroke: Quantity | None = None,
+        duration: Quantity | None = None,
         *,
-        master: Any = None,  # noqa: ANN401
-        start: Any = None,  # noqa: ANN401
+        master: Quantity | None = None,
+        start: Quantity | None = None,
         tolerance: float = 1e-9,
     ) -> Any:  # noqa: ANN401 - made two layers above
         """Times and polynomial coefficients in machine units, as a `PiecewiseMotion`: `breaks`, `coefficients`.

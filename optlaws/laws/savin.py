@@ -10,6 +10,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from fractions import Fraction
 from math import comb, factorial, sqrt
+from typing import Literal
 
 from numpy.polynomial import Polynomial
 
@@ -353,7 +354,7 @@ def savin(
     B: float | None = None,
     C: float | None = None,
     D: float | None = None,
-    branch: str | None = None,
+    branch: Literal["lower", "upper"] | None = None,
 ) -> PolynomialLaw:
     """A member of Savin's families I to IV (eq. 1.10, 1.14, 1.15, 1.16) or of those beyond, dimensionless.
 

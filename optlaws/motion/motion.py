@@ -16,7 +16,7 @@ from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import STROKE, Piece, factor, values_of_pieces
 from optlaws.motion.quantities import Given, either, given_quantity, quantity
-from optlaws.numbers import derivative, real_times
+from optlaws.numbers import Quantity, derivative, real_times
 
 Array = NDArray[np.float64]
 Place = tuple[float, float]
@@ -194,10 +194,10 @@ class Motion:
 def motion_of_law(
     law: MotionLaw,
     *,
-    stroke: Any = None,  # noqa: ANN401 - a quantity
-    duration: Any = None,  # noqa: ANN401
-    master: Any = None,  # noqa: ANN401
-    start: Any = None,  # noqa: ANN401
+    stroke: Quantity | None = None,
+    duration: Quantity | None = None,
+    master: Quantity | None = None,
+    start: Quantity | None = None,
 ) -> Motion:
     """The motion that a law makes, from rest to rest in one shot.
 
@@ -245,7 +245,7 @@ def motion_of_pieces(
     duration: float,
     axis: str,
     *,
-    master: Any = "360 deg",  # noqa: ANN401 - a quantity
+    master: Quantity | None = "360 deg",
     unit: str | None = None,
     proof: tuple[str, ...] = (),
 ) -> Motion:
@@ -293,7 +293,7 @@ def _without_conversion_rounding(x: float) -> float:
     return float(f"{x:.13g}")
 
 
-def _span(master: Any, seconds: float | None) -> Given:  # noqa: ANN401 - a quantity
+def _span(master: Quantity | None, seconds: float | None) -> Given:
     """How far the master goes, in its unit."""
     if master is None:
         return Given("time", seconds or 0.0, "s")

@@ -6,7 +6,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from itertools import pairwise
 from math import factorial
-from typing import Any, Self
+from typing import Any, Literal, Self
 
 import numpy as np
 from numpy.typing import NDArray
@@ -21,7 +21,7 @@ from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.laws.segments.segment import PolynomialSegment, Segment
 from optlaws.motion.piece import Piece, factor, named_law
 from optlaws.motion.quantities import TURN, either, in_small_units, quantity
-from optlaws.numbers import derivative, real_times
+from optlaws.numbers import Quantity, derivative, real_times
 from optlaws.series import chebyshev
 from optlaws.series.enclosures.interval_arrays import ROUNDING, Interval, exact, hull
 from optlaws.series.enclosures.jets import Jet
@@ -29,7 +29,8 @@ from optlaws.suggest import unknown_key
 
 Array = NDArray[np.float64]
 
-DIRECTIONS = {"rise": 1.0, "return": -1.0}
+Direction = Literal["rise", "return"]
+DIRECTIONS: dict[Direction, float] = {"rise": 1.0, "return": -1.0}
 _CLOSED = 1e-9
 
 
@@ -170,7 +171,7 @@ class CamMotion:
         return cls(tuple(part for piece in turns for part in _parts(piece)), axis, closed=True)
 
     @classmethod
-    def of_law(cls, law: str | MotionLaw, stroke: Any, angle: Any, direction: str = "rise") -> Self:  # noqa: ANN401
+    def of_law(cls, law: str | MotionLaw, stroke: Quantity, angle: Quantity, direction: Direction = "rise") -> Self:
         """The motion of one law, over a part of the turn.
 
         Parameters

@@ -3,26 +3,29 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any, TypedDict
+from typing import Literal, TypedDict
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
-from optlaws.numbers import whole
+from optlaws.numbers import Quantity, whole
 
 MOST_POINTS = 100_000
 MOST_DECIMALS = 12
 DEGREES = (3, 5)
 
 
+CutFormat = Literal["dxf spline", "dxf polyline", "dxf arcs", "svg", "csv", "csv polar", "g-code", "g-code arcs"]
+
+
 class CuttingOptions(TypedDict, total=False):
     """The options of files for cutting, each of which `Cutting` documents."""
 
-    tolerance: str | None
+    tolerance: Quantity | None
     decimals: int | None
     points: int | None
     degree: int | None
-    feed: str | None
+    feed: Quantity | None
     about: str | None
 
 
@@ -60,11 +63,11 @@ class Cutting:
     optlaws.errors.InputError: tolerance must be a length such as '35 mm', got 5 without a unit: write...
     """
 
-    tolerance: Any = "1 um"
+    tolerance: Quantity = "1 um"
     decimals: int = 6
     points: int = 721
     degree: int = 3
-    feed: Any = None
+    feed: Quantity | None = None
     about: str = "cam"
 
     def __post_init__(self) -> None:

@@ -15,6 +15,7 @@ from optlaws.cams.followers.contact import FollowerContact
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 from optlaws.suggest import unknown_key
 
 
@@ -81,7 +82,7 @@ class CamFollower(ABC):
         return 0.0
 
     @property
-    def pivot(self) -> Any:  # noqa: ANN401 - a quantity
+    def pivot(self) -> Quantity | None:
         """From the cam's centre to the pivot; None on a slide."""
         return None
 

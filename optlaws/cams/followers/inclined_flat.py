@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import atan, cos, degrees, pi, sin, tan
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from optlaws.cams.followers.contact import CURVATURE, ContactState, Drag, LinearLimit, Transmission, bearing
 from optlaws.cams.followers.follower import CamFollower, Place
@@ -13,6 +13,7 @@ from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 from optlaws.series.enclosures.jets import Jet, Pair
 
 
@@ -35,7 +36,7 @@ class InclinedFlat(CamFollower, kind="inclined flat"):
     'length'
     """
 
-    inclination: Any
+    inclination: Quantity
     axis: ClassVar[str] = "length"
     examples: ClassVar[dict[str, str]] = {"inclination": "10 deg"}
     sizing_limit: ClassVar[str | None] = CURVATURE

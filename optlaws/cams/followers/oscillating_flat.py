@@ -4,13 +4,14 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from math import asin, degrees, pi, sin
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from optlaws.cams.followers.contact import ContactState, Drag, Transmission, bearing, other_leg
 from optlaws.cams.followers.follower import CamFollower, Place, positive, shown
 from optlaws.cams.followers.rollers_and_faces import FaceContact, sign
 from optlaws.errors import InputError
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 from optlaws.series.enclosures.jets import Jet, Pair
 
 
@@ -31,8 +32,8 @@ class OscillatingFlat(CamFollower, kind="oscillating flat"):
     'angle'
     """
 
-    pivot_distance: Any
-    face_offset: Any = "0 mm"
+    pivot_distance: Quantity
+    face_offset: Quantity = "0 mm"
     axis: ClassVar[str] = "angle"
     examples: ClassVar[dict[str, str]] = {"pivot_distance": "120 mm", "face_offset": "0 mm"}
 
@@ -65,7 +66,7 @@ class OscillatingFlat(CamFollower, kind="oscillating flat"):
         return positive(self.pivot_distance, "face: pivot_distance") * sin(level) + offset
 
     @property
-    def pivot(self) -> Any:  # noqa: ANN401 - a quantity
+    def pivot(self) -> Quantity:
         """From the cam's centre to the pivot."""
         return self.pivot_distance
 

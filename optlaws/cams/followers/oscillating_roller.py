@@ -6,7 +6,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from itertools import pairwise
 from math import acos, cos, degrees, hypot, pi, sqrt
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 from numpy.typing import NDArray
@@ -17,6 +17,7 @@ from optlaws.cams.followers.rollers_and_faces import RollerContact, half_turn
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 from optlaws.series.enclosures.jets import Jet, Pair
 
 Array = NDArray[np.float64]
@@ -43,9 +44,9 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
     'angle'
     """
 
-    radius: Any
-    arm: Any
-    pivot_distance: Any
+    radius: Quantity
+    arm: Quantity
+    pivot_distance: Quantity
     axis: ClassVar[str] = "angle"
     examples: ClassVar[dict[str, str]] = {"radius": "14 mm", "arm": "110 mm", "pivot_distance": "140 mm"}
 
@@ -77,7 +78,7 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
         return sqrt(arm**2 + pivot**2 - 2.0 * arm * pivot * cos(level))
 
     @property
-    def pivot(self) -> Any:  # noqa: ANN401 - a quantity
+    def pivot(self) -> Quantity:
         """From the cam's centre to the pivot."""
         return self.pivot_distance
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import dataclass, replace
 from math import hypot
-from typing import Any, ClassVar
+from typing import ClassVar
 
 from optlaws.cams.followers.contact import PRESSURE, ContactState, CurvatureTerms, LinearLimit, Transmission
 from optlaws.cams.followers.follower import CamFollower, Place, roller_radius, shown
@@ -12,6 +12,7 @@ from optlaws.cams.followers.rollers_and_faces import RollerContact, side_of
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
 from optlaws.motion.quantities import quantity
+from optlaws.numbers import Quantity
 from optlaws.series.enclosures.jets import Jet, Pair
 
 
@@ -33,8 +34,8 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
     'length'
     """
 
-    radius: Any
-    offset: Any = "0 mm"
+    radius: Quantity
+    offset: Quantity = "0 mm"
     axis: ClassVar[str] = "length"
     examples: ClassVar[dict[str, str]] = {"radius": "12 mm", "offset": "0 mm"}
     sizing_limit: ClassVar[str | None] = PRESSURE

@@ -203,9 +203,8 @@ def _least(question: str) -> tuple[str, ...]:
     cam = cams.first
     if spec.pressure_angle is None and spec.radius_of_curvature is None:
         return ()
-    wanted = {"pressure_angle": spec.pressure_angle, "radius_of_curvature": spec.radius_of_curvature}
     try:
-        least = least_base_circle(cam.motion, cam.follower, **wanted, turning=spec.turning)
+        least = least_base_circle(cam.motion, cam.follower, **spec.limits)
     except InfeasibleProblem as error:
         return (str(error.args[0]),)
     return (f"least base circle that keeps these limits: {digits(_MILLI * least.radius)} mm, by the {least.limit}",)

@@ -94,7 +94,8 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[BarrelProblemFile, Barrel
     spec = convert(data, BarrelProblemFile, file)
     try:
         cycle = cycle_of(spec.motion, spec.speed, spec.period)
-        cam = BarrelCam(cycle, **msgspec.structs.asdict(spec.barrel), turning=spec.turning)
+        sizes: dict[str, Any] = {**msgspec.structs.asdict(spec.barrel), "turning": spec.turning}
+        cam = BarrelCam(cycle, **sizes)
         if spec.cutter_radius is not None:
             cam.cutter_path(spec.cutter_radius)
     except InputError as error:

@@ -87,8 +87,7 @@ def _status_of_size(cams: Cams) -> str:
 
 def _own(cams: Cams, spec: CamProblemFile) -> LeastBaseCircle | None:
     """The least base circle of the cycle's own laws."""
-    limits = {"pressure_angle": spec.pressure_angle, "radius_of_curvature": spec.radius_of_curvature}
     try:
-        return least_base_circle(cams.cycle, cams.first.follower, turning=spec.turning, **limits)
+        return least_base_circle(cams.cycle, cams.first.follower, **spec.limits)
     except InfeasibleProblem:
         return None

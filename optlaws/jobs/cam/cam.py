@@ -140,14 +140,13 @@ class Sizes:
     @kept_property
     def least(self) -> LeastBaseCircle | str | None:
         """The least base circle, why there is none, or None where no limit is given."""
-        limits = {"pressure_angle": self.spec.pressure_angle, "radius_of_curvature": self.spec.radius_of_curvature}
-        if not any(limits.values()):
+        if not (self.spec.pressure_angle or self.spec.radius_of_curvature):
             return None
         if isinstance(self.cams.best, BestBaseCircle):
             return self.cams.best.least
         cam = self.cams.first
         try:
-            return least_base_circle(cam.motion, cam.follower, turning=self.spec.turning, **limits)
+            return least_base_circle(cam.motion, cam.follower, **self.spec.limits)
         except InfeasibleProblem as error:
             return str(error)
 

@@ -84,6 +84,11 @@ class FileEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
         given = msgspec.structs.asdict(self)
         return {key: value for key, value in given.items() if key not in {"name", "format"} and value is not None}
 
+    def cut(self, cam: DiscCam, folder: Path, about: str, *, prefix: str = "") -> Path:
+        """The file of a cam, written into a folder."""
+        form: Any = self.format
+        return cam.export(folder / f"{prefix}{self.name}", form, about=about, **self.options())
+
 
 class ForcesAndFiles(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     """Entries of the problem file beside the geometry's."""
@@ -160,9 +165,9 @@ class Findings:
                 table: dict[str, Any] = {"curve": options.curve, "points": points, "decimals": decimals}
                 name = f"{points} points of the {options.curve}, {decimals} decimals of a mm"
                 peaks_by_name[name] = _tried(partial(as_made, cam, "csv", **table))
-        for waves in options.waves if options.error else ():
-            name = f"error of {options.error}, {waves} waves a turn"
-            peaks_by_name[name] = _tried(partial(with_error, cam, options.error, waves))
+        error = options.error or ""
+        for waves in options.waves if error else ():
+            peaks_by_name[f"error of {error}, {waves} waves a turn"] = _tried(partial(with_error, cam, error, waves))
         return peaks_by_name
 
     def to_data(self) -> dict[str, Any]:
@@ -220,10 +225,7 @@ def figures(findings: Findings, title: str) -> dict[str, Figure]:
 
 def files(findings: Findings, out: Path, about: str) -> list[Path]:
     """Write the files that cut the cam, and the one that shows it turn."""
-    cut = [
-        findings.cam.export(out / entry.name, entry.format, about=about, **entry.options())
-        for entry in findings.spec.file
-    ]
+    cut = [entry.cut(findings.cam, out, about) for entry in findings.spec.file]
     return [*cut, *([writing.write(out / "animation.svg", animated(findings.cam))] if findings.spec.animation else [])]
 
 

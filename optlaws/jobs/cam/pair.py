@@ -16,6 +16,8 @@ from optlaws.results.page import Page
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
+_PREFIX = "return-"
+
 
 def to_data(cams: Cams) -> dict[str, Any]:
     """What a program is told of the second cam, in metres and radians; nothing where there is none."""
@@ -52,7 +54,7 @@ def files(cams: Cams, entries: Sequence[FileEntries], out: Path, about: str) -> 
     second = cams.second
     if second is None:
         return []
-    return [second.export(out / name_of(entry), entry.format, about=about, **entry.options()) for entry in entries]
+    return [entry.cut(second, out, about, prefix=_PREFIX) for entry in entries]
 
 
 def name_of(entries: FileEntries) -> str:
@@ -63,4 +65,4 @@ def name_of(entries: FileEntries) -> str:
     >>> name_of(FileEntries(name="cam.dxf"))
     'return-cam.dxf'
     """
-    return f"return-{entries.name}"
+    return f"{_PREFIX}{entries.name}"

@@ -50,6 +50,12 @@ class CamProblemFile(ForcesAndFiles, kw_only=True, forbid_unknown_fields=True):
     rows: Annotated[int, msgspec.Meta(ge=2, le=100_000)] = 361
     text: str = ""
 
+    @property
+    def limits(self) -> dict[str, Any]:
+        """The limits of the cam, and how it turns, as functions of sizes and of best laws take them."""
+        limits = {"pressure_angle": self.pressure_angle, "radius_of_curvature": self.radius_of_curvature}
+        return {**limits, "turning": self.turning}
+
 
 @dataclass(frozen=True)
 class Cams:
@@ -99,18 +105,14 @@ def _cams(spec: CamProblemFile) -> Cams:
     if spec.best == "base circle" and spec.base_radius is not None:
         raise InputError("base_radius is what best = 'base circle' looks for: leave it out, or ask for best = 'laws'")
     cycle = cycle_of(spec.motion, spec.speed, spec.period)
-    limits: dict[str, Any] = {
-        "pressure_angle": spec.pressure_angle,
-        "radius_of_curvature": spec.radius_of_curvature,
-        "turning": spec.turning,
-    }
+    radius: Any = spec.base_radius
     if spec.best is None:
-        cam = DiscCam(cycle, spec.base_radius, follower, turning=spec.turning)
+        cam = DiscCam(cycle, radius, follower, turning=spec.limits["turning"])
         return Cams(cycle, cam, None, _second(spec.pair, cam))
     if spec.best == "laws":
-        best = best_cam(cycle, spec.base_radius, follower, **limits)
+        best = best_cam(cycle, radius, follower, **spec.limits)
         return Cams(cycle, best.cam, best, _second(spec.pair, best.cam))
-    least = best_base_circle(cycle, follower, **limits)
+    least = best_base_circle(cycle, follower, **spec.limits)
     return Cams(cycle, least.least.cam, least, _second(spec.pair, least.least.cam))
 
 
