@@ -6,7 +6,7 @@ from fractions import Fraction
 
 from optlaws.errors import InputError
 from optlaws.exports.error_bounds import SINGLE, as_stored
-from optlaws.exports.format import Format, Request, Written, register
+from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.program_polynomials import iec_heading, leaps_in_words, leaps_of_single, polynomials_for
 from optlaws.exports.identifiers import iec_name
 from optlaws.exports.text import real
@@ -21,6 +21,15 @@ _WHOLE = 1e-6
 _LETTERS = "abcdefg"
 
 
+@file_format(
+    "br-acp10",
+    target="B&R ACP10, MC_CAMPROFILE_TYP",
+    contents="MasterPeriod, SlavePeriod (DINT), PolynomialNumber, a ... g, x (REAL32)",
+    model="REAL32 polynomials to degree 6",
+    limits=f"at most {MOST} polynomials, whole-number periods, REAL32, the first begins at 0 (error 5304)",
+    extension=".var",
+    takes=("points", "counts"),
+)
 def _write(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "B&R")
     scale = 1.0 if request.counts is None else request.counts / motion.stroke
@@ -95,17 +104,3 @@ def _row(row: tuple[float, ...], x: float) -> str:
     powers = [*row, *[0.0] * (len(_LETTERS) - len(row))]
     texts = [f"{letter} := {real(c, single=True)}" for letter, c in zip(_LETTERS, powers, strict=True)]
     return ", ".join([*texts, f"x := {real(x, single=True)}"])
-
-
-PROFILE = register(
-    Format(
-        name="br-acp10",
-        target="B&R ACP10, MC_CAMPROFILE_TYP",
-        contents="MasterPeriod, SlavePeriod (DINT), PolynomialNumber, a ... g, x (REAL32)",
-        model="REAL32 polynomials to degree 6",
-        limits=f"at most {MOST} polynomials, whole-number periods, REAL32, the first begins at 0 (error 5304)",
-        extension=".var",
-        write=_write,
-        takes=("points", "counts"),
-    )
-)

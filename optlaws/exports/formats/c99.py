@@ -8,7 +8,7 @@ from typing import Any
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored
-from optlaws.exports.format import Format, Request, Written, register
+from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.program_polynomials import SOURCE_MODEL, SOURCE_PIECES, labels_of, source_polynomials
 from optlaws.exports.identifiers import C_KEYWORDS
 from optlaws.exports.text import QUANTITIES, Labels, program_heading, real, safe, wrapped
@@ -170,20 +170,15 @@ def _tables(motion: PiecewiseMotion, kind: object, name: str, suffix: str) -> st
     return "\n".join([*lines, "};\n"])
 
 
+@file_format(
+    "c99",
+    target="C99, a header for double and float",
+    contents="breaks and coefficients (double and float)",
+    model=SOURCE_MODEL,
+    limits=f"at most {SOURCE_PIECES} pieces, float for the functions with _f",
+    extension=".h",
+)
 def _write(motion: Motion, request: Request) -> Written:
     fit, notes = source_polynomials(motion, request)
     text = header(fit.run, request.name, labels_of(motion, notes))
     return Written(text, fit.run, "polynomials in double", fit.count, "segments", notes=notes)
-
-
-C99 = register(
-    Format(
-        name="c99",
-        target="C99, a header for double and float",
-        contents="breaks and coefficients (double and float)",
-        model=SOURCE_MODEL,
-        limits=f"at most {SOURCE_PIECES} pieces, float for the functions with _f",
-        extension=".h",
-        write=_write,
-    )
-)

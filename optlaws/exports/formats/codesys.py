@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from optlaws.exports.format import Format, Request, Written, register
+from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.point_table import NumberFormat, PointTable, hermite_table, table_by_interpolation
 from optlaws.exports.formats.program_polynomials import fields, iec_heading, polynomials_for
 from optlaws.exports.identifiers import iec_name
@@ -15,6 +15,14 @@ STANDARD = (128, 256)
 INTERPOLATIONS = {"linear": 1, "cubic": 3}
 
 
+@file_format(
+    "codesys-xyva",
+    target="CODESYS SoftMotion, SMC_CAMXYVA in MC_CAM_REF",
+    contents="dX, dY, dV, dA (LREAL)",
+    model="quintic Hermite",
+    limits=f"at most {MOST} points (nElements is an INT)",
+    extension=".st",
+)
 def _xyva(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "CODESYS")
     table = chosen(motion, request, lambda count: hermite_table(motion, count, NumberFormat(), 3), least=2, most=MOST)
@@ -34,9 +42,18 @@ def _xyva(motion: Motion, request: Request) -> Written:
             "",
         ]
     )
-    return Written(text, table.run, "quintic Hermite from y, V and A of the points", count)
+    return table.written(text, "quintic Hermite from y, V and A of the points")
 
 
+@file_format(
+    "codesys-xy",
+    target="CODESYS SoftMotion, SMC_CAMTable_LREAL_128_2 or _256_2 in MC_CAM_REF",
+    contents="x, y (LREAL)",
+    model="clamped C2 cubic spline, or straight lines",
+    limits=f"at most {STANDARD[-1]} points, the larger of the library's tables",
+    extension=".st",
+    takes=("points", "counts", "interpolation"),
+)
 def _xy(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "CODESYS")
     interpolation = request.interpolation_among(INTERPOLATIONS)
@@ -69,7 +86,7 @@ def _xy(motion: Motion, request: Request) -> Written:
         ]
     )
     model = {"linear": "straight lines", "cubic": "clamped C2 cubic spline"}[interpolation]
-    return Written(text, table.run, model, count, resolution=table.resolution, bound=table.bound)
+    return table.written(text, model)
 
 
 def _reference(name: str, motion: Motion, kind: str, count: int, more: str = "") -> str:
@@ -79,35 +96,18 @@ def _reference(name: str, motion: Motion, kind: str, count: int, more: str = "")
     )
 
 
-XYVA = register(
-    Format(
-        name="codesys-xyva",
-        target="CODESYS SoftMotion, SMC_CAMXYVA in MC_CAM_REF",
-        contents="dX, dY, dV, dA (LREAL)",
-        model="quintic Hermite",
-        limits=f"at most {MOST} points (nElements is an INT)",
-        extension=".st",
-        write=_xyva,
-    )
-)
-XY = register(
-    Format(
-        name="codesys-xy",
-        target="CODESYS SoftMotion, SMC_CAMTable_LREAL_128_2 or _256_2 in MC_CAM_REF",
-        contents="x, y (LREAL)",
-        model="clamped C2 cubic spline, or straight lines",
-        limits=f"at most {STANDARD[-1]} points, the larger of the library's tables",
-        extension=".st",
-        write=_xy,
-        takes=("points", "counts", "interpolation"),
-    )
-)
-
-
 DEGREE = 7
 MOST_SEGMENTS = 32_767  # nElements of MC_CAM_REF is an INT
 
 
+@file_format(
+    "codesys-cambuilder",
+    target="CODESYS SoftMotion, Poly7_Coeffs of CamBuilder",
+    contents="x0, x1, a0 ... a7 (LREAL)",
+    model="exact polynomials of degree 7",
+    limits=f"degree 7, at most {MOST} segments (nElements is an INT), MAX_CAM_SEGMENT_COUNT of the library",
+    extension=".st",
+)
 def _cam_builder(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "CODESYS")
     fit = polynomials_for(motion, request, DEGREE, MOST_SEGMENTS)
@@ -150,16 +150,3 @@ def _cam_builder(motion: Motion, request: Request) -> Written:
 def _coefficients(low: float, high: float, row: tuple[float, ...]) -> str:
     powers = [*row, *[0.0] * (DEGREE + 1 - len(row))]
     return fields(x0=low, x1=high, **{f"a{n}": c for n, c in enumerate(powers)})
-
-
-CAM_BUILDER = register(
-    Format(
-        name="codesys-cambuilder",
-        target="CODESYS SoftMotion, Poly7_Coeffs of CamBuilder",
-        contents="x0, x1, a0 ... a7 (LREAL)",
-        model="exact polynomials of degree 7",
-        limits=f"degree 7, at most {MOST} segments (nElements is an INT), MAX_CAM_SEGMENT_COUNT of the library",
-        extension=".st",
-        write=_cam_builder,
-    )
-)

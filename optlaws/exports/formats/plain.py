@@ -9,7 +9,7 @@ from itertools import pairwise
 import numpy as np
 
 from optlaws.errors import InputError
-from optlaws.exports.format import MOST_POINTS, Format, Request, Written, register
+from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
 from optlaws.exports.formats.point_table import (
     NumberFormat,
     PointTable,
@@ -39,6 +39,18 @@ ISG_STEP, ISG_LINES, ISG_LEAST = 1e-4, 360, 0.1
 TECHNOSOFT_POINTS, TECHNOSOFT_STEPS = 8192, 128
 
 
+_TEXT = ("points", "counts", "digits", "decimal")
+_plain_format = partial(file_format, takes=_TEXT, contents="x, y as text", limits="no number of points is stated")
+
+
+@_plain_format(
+    "csv",
+    target="any, comma-separated values with units in the table_heading",
+    contents="x, y and as many of V, A, J as the interpolation takes",
+    model=f"as asked: {', '.join(MODELS)}",
+    extension=".csv",
+    takes=(*_TEXT, "interpolation"),
+)
 def _csv(motion: Motion, request: Request) -> Written:
     interpolation = request.interpolation_among(("cubic", "linear", "akima", "c1", "quintic", "septic"))
     number_format = NumberFormat(request.counts, request.digits)
@@ -55,9 +67,16 @@ def _csv(motion: Motion, request: Request) -> Written:
     rows = [table.x.tolist(), *table.values.tolist()]
     lines = [f"# {table_heading(motion, 'table')[0]}; {MARK}", separator.join(columns[: len(rows)])]
     lines += _rows(rows, request, separator)
-    return _written(lines, table, MODELS[interpolation])
+    return table.written(_lines(lines), MODELS[interpolation])
 
 
+@_plain_format(
+    "sew",
+    target="SEW MOVI-C, list of points",
+    model="cubics whose acceleration leaps at every point, or straight lines",
+    extension=".csv",
+    takes=(*_TEXT, "interpolation"),
+)
 def _sew(motion: Motion, request: Request) -> Written:
     interpolation = request.interpolation_among(("c1", "linear"), "c1")
     number_format = NumberFormat(request.counts, request.digits)
@@ -72,16 +91,24 @@ def _sew(motion: Motion, request: Request) -> Written:
     table = chosen(motion, request, make, least=2, most=MOST_POINTS)
     lines = [str(len(table.x)), *_rows(_x_and_y(table), request, ";")]
     model = {"linear": "straight lines", "c1": "cubics whose acceleration leaps at every point, here with the law's V"}
-    return _written(lines, table, model[interpolation])
+    return table.written(_lines(lines), model[interpolation])
 
 
+@_plain_format("lenze", target="Lenze Cam Loader", model="C2 cubic spline (assumed)", extension=".txt")
 def _lenze(motion: Motion, request: Request) -> Written:
     number_format = NumberFormat(request.counts, request.digits)
     table = chosen(motion, request, lambda count: spline_table(motion, count, number_format), least=2, most=MOST_POINTS)
     first, *others = _rows(_x_and_y(table), request, " ")
-    return _written([f"{first} // {table_heading(motion, 'cam')[0]}; {MARK}", *others], table, MODELS["cubic"])
+    return table.written(_lines([f"{first} // {table_heading(motion, 'cam')[0]}; {MARK}", *others]), MODELS["cubic"])
 
 
+@_plain_format(
+    "kas",
+    target="Kollmorgen KAS, cam profile as CSV",
+    model="C2 cubic spline",
+    limits="at least 4 segments; scaled by the greatest X and Y when it is imported",
+    extension=".csv",
+)
 def _kas(motion: Motion, request: Request) -> Written:
     number_format = NumberFormat(request.counts, request.digits)
     table = chosen(motion, request, lambda count: spline_table(motion, count, number_format), least=5, most=MOST_POINTS)
@@ -89,9 +116,18 @@ def _kas(motion: Motion, request: Request) -> Written:
     lines += [f"{row};SPLINE" for row in _rows(_x_and_y(table), request, ";")]
     top = [plain(float(np.abs(values).max())) for values in (table.x, table.values[0])]
     notes = (f"KAS divides X and Y by their greatest values: set the scales to {top[0]} and {top[1]} in the dialog",)
-    return _written([*lines, "TABLE_END;;"], table, MODELS["cubic"], notes)
+    return table.written(_lines([*lines, "TABLE_END;;"]), MODELS["cubic"], notes)
 
 
+@_plain_format(
+    "isg",
+    target="ISG kernel and TwinCAT CNC, cam table",
+    contents="master, slave as integers of 1e-4 deg or 1e-4 mm",
+    model="straight lines",
+    limits=f"at most {ISG_LINES} points, at least {ISG_LEAST} deg apart; the master is an angle",
+    extension=".txt",
+    takes=("points",),
+)
 def _isg(motion: Motion, request: Request) -> Written:
     x_size = _unit_size(motion.units.master, "deg", "master")
     y_size = _unit_size(motion.units.slave, "deg" if motion.units.slave in {"deg", "rad", "°"} else "mm", "slave")
@@ -112,9 +148,18 @@ def _isg(motion: Motion, request: Request) -> Written:
         "Function type = 1 # linear",
         f"Lines = {len(rows)}",
     ]
-    return _written([*head, "Begintable", *(f"{x} {y}" for x, y in rows), "EndTable"], table, "straight lines")
+    return table.written(_lines([*head, "Begintable", *(f"{x} {y}" for x, y in rows), "EndTable"]), "straight lines")
 
 
+@_plain_format(
+    "technosoft",
+    target="Technosoft, cam table",
+    contents="x, y as integers",
+    model="straight lines",
+    limits=f"at most {TECHNOSOFT_POINTS} points with equal steps of a power of two, 32 bits",
+    extension=".txt",
+    takes=("points", "counts"),
+)
 def _technosoft(motion: Motion, request: Request) -> Written:
     counts = request.counts or 65_536
     step = motion.stroke / counts
@@ -128,7 +173,7 @@ def _technosoft(motion: Motion, request: Request) -> Written:
     if max(abs(y) for _, y in rows) >= 2**31:
         raise InputError("counts: a position is beyond 32 bits; take fewer counts")
     notes = (f"one count of the master is {motion.length / ((len(rows) - 1) * spacing):.12g} {motion.units.master}",)
-    return _written([f"{x} {y}" for x, y in rows], table, "straight lines", notes)
+    return table.written(_lines([f"{x} {y}" for x, y in rows]), "straight lines", notes)
 
 
 def _integers(motion: Motion, count: int, x_step: float, y_step: float, *, even: bool = False) -> PointTable:
@@ -166,71 +211,5 @@ def _rows(columns: Sequence[Iterable[float]], request: Request, separator: str) 
     return list(map(separator.join, zip(*texts, strict=True)))
 
 
-def _written(lines: Sequence[str], table: PointTable, model: str, notes: tuple[str, ...] = ()) -> Written:
-    text = "\n".join([*lines, ""])
-    return Written(text, table.run, model, len(table.x), resolution=table.resolution, bound=table.bound, notes=notes)
-
-
-_TEXT = ("points", "counts", "digits", "decimal")
-_plain_format = partial(Format, takes=_TEXT, contents="x, y as text", limits="no number of points is stated")
-
-CSV = register(
-    _plain_format(
-        name="csv",
-        target="any, comma-separated values with units in the table_heading",
-        contents="x, y and as many of V, A, J as the interpolation takes",
-        model=f"as asked: {', '.join(MODELS)}",
-        extension=".csv",
-        write=_csv,
-        takes=(*_TEXT, "interpolation"),
-    )
-)
-SEW = register(
-    _plain_format(
-        name="sew",
-        target="SEW MOVI-C, list of points",
-        model="cubics whose acceleration leaps at every point, or straight lines",
-        extension=".csv",
-        write=_sew,
-        takes=(*_TEXT, "interpolation"),
-    )
-)
-LENZE = register(
-    _plain_format(
-        name="lenze", target="Lenze Cam Loader", model="C2 cubic spline (assumed)", extension=".txt", write=_lenze
-    )
-)
-KAS = register(
-    _plain_format(
-        name="kas",
-        target="Kollmorgen KAS, cam profile as CSV",
-        model="C2 cubic spline",
-        limits="at least 4 segments; scaled by the greatest X and Y when it is imported",
-        extension=".csv",
-        write=_kas,
-    )
-)
-ISG = register(
-    _plain_format(
-        name="isg",
-        target="ISG kernel and TwinCAT CNC, cam table",
-        contents="master, slave as integers of 1e-4 deg or 1e-4 mm",
-        model="straight lines",
-        limits=f"at most {ISG_LINES} points, at least {ISG_LEAST} deg apart; the master is an angle",
-        extension=".txt",
-        write=_isg,
-        takes=("points",),
-    )
-)
-TECHNOSOFT = register(
-    _plain_format(
-        name="technosoft",
-        target="Technosoft, cam table",
-        contents="x, y as integers",
-        model="straight lines",
-        limits=f"at most {TECHNOSOFT_POINTS} points with equal steps of a power of two, 32 bits",
-        extension=".txt",
-        write=_technosoft,
-        takes=("points", "counts"),
-    )
-)
+def _lines(lines: Sequence[str]) -> str:
+    return "\n".join([*lines, ""])

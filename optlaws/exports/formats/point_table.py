@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.exports.format import Written
 from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
 from optlaws.exports.spacing import places
 from optlaws.kept import kept_property
@@ -86,6 +87,10 @@ class PointTable:
     def run(self) -> PiecewiseMotion:
         """What the controller makes of them."""
         return PiecewiseMotion(self.x, self.powers)
+
+    def written(self, text: str, model: str, notes: tuple[str, ...] = ()) -> Written:
+        """The file of the table, with what a controller makes of it."""
+        return Written(text, self.run, model, len(self.x), "points", self.resolution, self.bound, notes)
 
 
 def positions(

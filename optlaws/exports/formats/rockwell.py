@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import struct
 from collections.abc import Sequence
+from functools import partial
 
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
-from optlaws.exports.format import MOST_POINTS, Format, Request, Written, register
+from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
 from optlaws.exports.formats.point_table import NumberFormat, PointTable, table_by_interpolation
 from optlaws.exports.identifiers import iec_name
 from optlaws.exports.spacing import chosen
@@ -21,6 +22,14 @@ Array = NDArray[np.float64]
 
 SEGMENT_TYPES = {"linear": 0, "cubic": 1}
 CALCULATED = 2  # Status of an element of CAM_PROFILE
+_CUBIC = "C2 cubic spline clamped to StartSlope and EndSlope"
+_logix = partial(
+    file_format,
+    model=f"{_CUBIC}, or straight lines",
+    limits="no number of points is stated",
+    extension=".st",
+    takes=("points", "counts", "digits", "interpolation"),
+)
 _HALVES = struct.Struct(">ii")
 _DOUBLE = struct.Struct(">d")
 
@@ -102,57 +111,34 @@ def _array(motion: Motion, request: Request, *, single: bool) -> Written:
     return _written(text, table, request, notes[1:])
 
 
+@_logix(
+    "rockwell-cam-profile",
+    target="Rockwell Logix, rows of CAM_PROFILE as in L5K and L5X",
+    contents="Status, X, Y, type, C0 to C3 as 14 DINT",
+    extension=".txt",
+)
 def _profile(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "Logix")
     table = _table(motion, request, single=False)
     rows = profile_rows(table.run, cubic=request.interpolation_among(SEGMENT_TYPES) == "cubic")
     data = ",\n".join(f"  [{','.join(map(str, row))}]" for row in rows)
     text = iec_comment(table_heading(motion, "Rockwell Logix, elements of CAM_PROFILE")) + f"{name} := [\n{data}\n];\n"
-    return _written(text, table, request, ())
+    return _written(text, table, request)
 
 
-def _written(text: str, table: PointTable, request: Request, notes: tuple[str, ...]) -> Written:
+def _written(text: str, table: PointTable, request: Request, notes: tuple[str, ...] = ()) -> Written:
     cubic = request.interpolation_among(SEGMENT_TYPES) == "cubic"
-    model = "C2 cubic spline clamped to StartSlope and EndSlope" if cubic else "straight lines"
-    count = len(table.x)
-    return Written(text, table.run, model, count, resolution=table.resolution, bound=table.bound, notes=notes)
+    return table.written(text, _CUBIC if cubic else "straight lines", notes)
 
 
-_OPTIONS = ("points", "counts", "digits", "interpolation")
-_MODEL = "C2 cubic spline clamped to StartSlope and EndSlope, or straight lines"
-CAM = register(
-    Format(
-        name="rockwell-cam",
-        target="Rockwell Logix, array of CAM for MCCP",
-        contents="Master, Slave (REAL), SegmentType",
-        model=_MODEL,
-        limits="REAL32; no number of points is stated",
-        extension=".st",
-        write=lambda motion, request: _array(motion, request, single=True),
-        takes=_OPTIONS,
-    )
-)
-EXTENDED = register(
-    Format(
-        name="rockwell-cam-extended",
-        target="Rockwell Logix 5380, 5480, 5580, array of CAM_EXTENDED for MCCP",
-        contents="Master, Slave (LREAL), SegmentType",
-        model=_MODEL,
-        limits="no number of points is stated",
-        extension=".st",
-        write=lambda motion, request: _array(motion, request, single=False),
-        takes=_OPTIONS,
-    )
-)
-PROFILE = register(
-    Format(
-        name="rockwell-cam-profile",
-        target="Rockwell Logix, rows of CAM_PROFILE as in L5K and L5X",
-        contents="Status, X, Y, type, C0 to C3 as 14 DINT",
-        model=_MODEL,
-        limits="no number of points is stated",
-        extension=".txt",
-        write=_profile,
-        takes=_OPTIONS,
-    )
-)
+_logix(
+    "rockwell-cam",
+    target="Rockwell Logix, array of CAM for MCCP",
+    contents="Master, Slave (REAL), SegmentType",
+    limits="REAL32; no number of points is stated",
+)(partial(_array, single=True))
+_logix(
+    "rockwell-cam-extended",
+    target="Rockwell Logix 5380, 5480, 5580, array of CAM_EXTENDED for MCCP",
+    contents="Master, Slave (LREAL), SegmentType",
+)(partial(_array, single=False))

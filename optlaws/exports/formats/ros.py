@@ -8,7 +8,7 @@ import numpy as np
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.exports.format import MOST_POINTS, Format, Request, Written, register
+from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
 from optlaws.exports.formats.point_table import DEGREES, NumberFormat, PointTable, hermite_table
 from optlaws.exports.interpolation import hermite_powers
 from optlaws.exports.spacing import chosen
@@ -23,6 +23,15 @@ FIELDS = ("positions", "velocities", "accelerations")
 _NANO = 1_000_000_000
 
 
+@file_format(
+    "ros2",
+    target="ROS 2, trajectory_msgs/JointTrajectory as YAML",
+    contents="positions, velocities, accelerations (m or rad, double), time in nanoseconds",
+    model="quintic Hermite; cubic without accelerations, straight lines without velocities",
+    limits="the master is time",
+    extension=".yaml",
+    takes=("points", "interpolation"),
+)
 def _write(motion: Motion, request: Request) -> Written:
     interpolation = request.interpolation_among(ORDERS, "quintic")
     name = request.name
@@ -77,17 +86,3 @@ def _text(motion: Motion, joint: str, table: PointTable) -> str:
         lines += [f"- {first}", *(f"  {line}" for line in others)]
         lines.append(f"  time_from_start: {{sec: {nanoseconds // _NANO}, nanosec: {nanoseconds % _NANO}}}")
     return "\n".join([*lines, ""])
-
-
-TRAJECTORY = register(
-    Format(
-        name="ros2",
-        target="ROS 2, trajectory_msgs/JointTrajectory as YAML",
-        contents="positions, velocities, accelerations (m or rad, double), time in nanoseconds",
-        model="quintic Hermite; cubic without accelerations, straight lines without velocities",
-        limits="the master is time",
-        extension=".yaml",
-        write=_write,
-        takes=("points", "interpolation"),
-    )
-)

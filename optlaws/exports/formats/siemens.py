@@ -6,7 +6,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from optlaws.exports.format import Format, Request, Written, register
+from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.program_polynomials import (
     Ends,
     ends_of,
@@ -28,6 +28,14 @@ DWELL, CONST_VELO, POLY_5, ADD_POLY = 2, 3, 5, 44
 START_JERK = 1  # LCAMHDL_POLY_MODE_BOUNDARY_VALUES_AND_START_JERK
 
 
+@file_format(
+    "siemens-elements",
+    target="Siemens S7-1500T, LCamHdl_typeAdvancedElement of LCamHdl_CreateCamAdvanced",
+    contents="leading and following values, geoVelo and geoAccel at both ends (LREAL), camProfileType",
+    model="quintic polynomials, straight lines, dwells",
+    limits=f"at most {SEGMENTS} segments in a TO_Cam; degree 5 (POLY_7 takes two segments of degree 6: not used)",
+    extension=".st",
+)
 def _write_elements(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "SIMATIC AX")
     fit = polynomials_for(motion, request, 5, SEGMENTS)
@@ -42,6 +50,14 @@ def _write_elements(motion: Motion, request: Request) -> Written:
     return Written(text, run, "quintic polynomials by their ends", len(rows), "segments", notes=notes)
 
 
+@file_format(
+    "siemens-polynomials",
+    target="Siemens S7-1500T, LCamHdl_typePolynomialElement of LCamHdl_AddCamPolynomial",
+    contents="leading and following values, geoVelo and geoAccel at both ends, geoJerkStart (LREAL), polynomialMode 1",
+    model="exact polynomials of degree 6",
+    limits=f"at most {SEGMENTS} segments in a TO_Cam, degree 6",
+    extension=".st",
+)
 def _write_polynomials(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "SIMATIC AX")
     fit = polynomials_for(motion, request, 6, SEGMENTS)
@@ -90,6 +106,14 @@ def _sixth(ends: Ends) -> list[float]:
     return [c + bump.get(n, 0.0) for n, c in enumerate([*quintic, 0.0])]
 
 
+@file_format(
+    "siemens-points",
+    target="Siemens S7-1500T, LCamHdl_typeBasicPoint of LCamHdl_CreateCamBasic",
+    contents="leadingValue, followingValue, velocityRatio, accelerationRatio (LREAL)",
+    model="quintic polynomials",
+    limits=f"at most {POINTS} points, which make the {SEGMENTS} segments of a TO_Cam",
+    extension=".st",
+)
 def _write_points(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "SIMATIC AX")
     fit = polynomials_for(motion, request, 5, SEGMENTS, points=True)
@@ -124,39 +148,3 @@ def _configuration(
             "",
         ]
     )
-
-
-BASIC = register(
-    Format(
-        name="siemens-points",
-        target="Siemens S7-1500T, LCamHdl_typeBasicPoint of LCamHdl_CreateCamBasic",
-        contents="leadingValue, followingValue, velocityRatio, accelerationRatio (LREAL)",
-        model="quintic polynomials",
-        limits=f"at most {POINTS} points, which make the {SEGMENTS} segments of a TO_Cam",
-        extension=".st",
-        write=_write_points,
-    )
-)
-ADVANCED = register(
-    Format(
-        name="siemens-elements",
-        target="Siemens S7-1500T, LCamHdl_typeAdvancedElement of LCamHdl_CreateCamAdvanced",
-        contents="leading and following values, geoVelo and geoAccel at both ends (LREAL), camProfileType",
-        model="quintic polynomials, straight lines, dwells",
-        limits=f"at most {SEGMENTS} segments in a TO_Cam; degree 5 (POLY_7 takes two segments of degree 6: not used)",
-        extension=".st",
-        write=_write_elements,
-    )
-)
-POLYNOMIALS = register(
-    Format(
-        name="siemens-polynomials",
-        target="Siemens S7-1500T, LCamHdl_typePolynomialElement of LCamHdl_AddCamPolynomial",
-        contents="leading and following values, geoVelo and geoAccel at both ends, geoJerkStart (LREAL), "
-        "polynomialMode 1",
-        model="exact polynomials of degree 6",
-        limits=f"at most {SEGMENTS} segments in a TO_Cam, degree 6",
-        extension=".st",
-        write=_write_polynomials,
-    )
-)

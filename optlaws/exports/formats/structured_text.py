@@ -5,7 +5,7 @@ from __future__ import annotations
 from functools import partial
 
 from optlaws.exports.error_bounds import DOUBLE, SINGLE, as_stored
-from optlaws.exports.format import Format, Request, Written, register
+from optlaws.exports.format import Request, Written, file_format
 from optlaws.exports.formats.program_polynomials import (
     SOURCE_MODEL,
     SOURCE_PIECES,
@@ -140,25 +140,19 @@ def _single(run: PiecewiseMotion) -> PiecewiseMotion:
     return PiecewiseMotion((run.start, *stored.breaks[1:-1], run.stop), stored.coefficients)
 
 
-LREAL = register(
-    Format(
-        name="iec-st",
-        target="IEC 61131-3, a function block in Structured Text",
-        contents="breaks and coefficients (LREAL)",
-        model=SOURCE_MODEL,
-        limits=f"at most {SOURCE_PIECES} pieces",
-        extension=".st",
-        write=partial(_write, single=False),
-    )
-)
-REAL = register(
-    Format(
-        name="iec-st-real",
-        target="IEC 61131-3, a function block in Structured Text, in REAL",
-        contents="breaks and coefficients (REAL)",
-        model=f"{SOURCE_MODEL}, in REAL32",
-        limits=f"at most {SOURCE_PIECES} pieces, REAL32",
-        extension=".st",
-        write=partial(_write, single=True),
-    )
-)
+file_format(
+    "iec-st",
+    target="IEC 61131-3, a function block in Structured Text",
+    contents="breaks and coefficients (LREAL)",
+    model=SOURCE_MODEL,
+    limits=f"at most {SOURCE_PIECES} pieces",
+    extension=".st",
+)(partial(_write, single=False))
+file_format(
+    "iec-st-real",
+    target="IEC 61131-3, a function block in Structured Text, in REAL",
+    contents="breaks and coefficients (REAL)",
+    model=f"{SOURCE_MODEL}, in REAL32",
+    limits=f"at most {SOURCE_PIECES} pieces, REAL32",
+    extension=".st",
+)(partial(_write, single=True))

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.exports.fitting import Fitted
-from optlaws.exports.format import MOST_POINTS, Format, Request, Written, register
+from optlaws.exports.format import MOST_POINTS, Request, Written, file_format
 from optlaws.exports.formats.point_table import NumberFormat, PointTable, linear_table, spline_table
 from optlaws.exports.formats.program_polynomials import (
     ends_of,
@@ -26,6 +28,15 @@ from optlaws.motion.polynomials import PiecewiseMotion
 INTERPOLATIONS = {"linear": "MC_INTERPOLATIONTYPE_LINEAR", "spline": "MC_INTERPOLATIONTYPE_SPLINE"}
 
 
+@file_format(
+    "twincat-table",
+    target="TwinCAT NC, table of positions in MC_CAM_REF",
+    contents="master, slave (LREAL)",
+    model="C2 cubic spline, cyclic or tangential, or straight lines",
+    limits="no number of points is stated",
+    extension=".st",
+    takes=("points", "counts", "interpolation"),
+)
 def _table(motion: Motion, request: Request) -> Written:
     name = iec_name(request.name, "TwinCAT")
     interpolation = request.interpolation_among(INTERPOLATIONS, "spline")
@@ -42,7 +53,7 @@ def _table(motion: Motion, request: Request) -> Written:
     model = (
         "straight lines" if interpolation == "linear" else f"C2 cubic spline, {'cyclic' if cyclic else 'tangential'}"
     )
-    return Written(text, table.run, model, len(table.x), resolution=table.resolution, bound=table.bound)
+    return table.written(text, model)
 
 
 def _table_text(name: str, motion: Motion, table: PointTable, interpolation: str) -> str:
@@ -61,20 +72,6 @@ def _table_text(name: str, motion: Motion, table: PointTable, interpolation: str
             "",
         ]
     )
-
-
-TABLE = register(
-    Format(
-        name="twincat-table",
-        target="TwinCAT NC, table of positions in MC_CAM_REF",
-        contents="master, slave (LREAL)",
-        model="C2 cubic spline, cyclic or tangential, or straight lines",
-        limits="no number of points is stated",
-        extension=".st",
-        write=_table,
-        takes=("points", "counts", "interpolation"),
-    )
-)
 
 
 DEGREE = 7
@@ -162,35 +159,20 @@ def _of_mc3(place: int, x: float, values: list[float], degree: int) -> str:  # n
     )
 
 
-def _write_nc2(motion: Motion, request: Request) -> Written:
-    return _motion_function(motion, request, third=False)
-
-
-def _write_mc3(motion: Motion, request: Request) -> Written:
-    return _motion_function(motion, request, third=True)
-
-
-LIMITS = "one velocity, acceleration and jerk at each point; pieces of degree 7 at most"
-NC2 = register(
-    Format(
-        name="twincat-nc2",
-        target="TwinCAT NC2 camming, motion function of MC_MotionFunctionPoint",
-        contents="PointIndex, FunctionType, PointType, RelIndexNextPoint, MasterPos, SlavePos, SlaveVelo, SlaveAcc, "
-        "SlaveJerk (LREAL)",
-        model="Hermite polynomials of degree 5 or 7, by FunctionType",
-        limits=LIMITS,
-        extension=".st",
-        write=_write_nc2,
-    )
+_points = partial(
+    file_format,
+    model="Hermite polynomials of degree 5 or 7, by FunctionType",
+    limits="one velocity, acceleration and jerk at each point; pieces of degree 7 at most",
+    extension=".st",
 )
-MC3 = register(
-    Format(
-        name="twincat-mc3",
-        target="TwinCAT MC3 camming, MotionFunctionPoint",
-        contents="FunctionType, MasterPosition, SlavePosition, SlaveVelocity, SlaveAcceleration, SlaveJerk (LREAL)",
-        model="Hermite polynomials of degree 5 or 7, by FunctionType",
-        limits=LIMITS,
-        extension=".st",
-        write=_write_mc3,
-    )
-)
+_points(
+    "twincat-nc2",
+    target="TwinCAT NC2 camming, motion function of MC_MotionFunctionPoint",
+    contents="PointIndex, FunctionType, PointType, RelIndexNextPoint, MasterPos, SlavePos, SlaveVelo, SlaveAcc, "
+    "SlaveJerk (LREAL)",
+)(partial(_motion_function, third=False))
+_points(
+    "twincat-mc3",
+    target="TwinCAT MC3 camming, MotionFunctionPoint",
+    contents="FunctionType, MasterPosition, SlavePosition, SlaveVelocity, SlaveAcceleration, SlaveJerk (LREAL)",
+)(partial(_motion_function, third=True))
