@@ -122,7 +122,7 @@ class UnreachedProfileError(InputError):
 
 @dataclass(frozen=True)
 class AsMade:
-    """What a follower does on a cam as it is made, over the whole turn.
+    """The motion of a follower on a cam as it is made, over the whole turn.
 
     Deviation, acceleration and jerk are enclosed, and no less than the greatest: by 1e-3 of it the first, by 1e-6 the
     others. Splines are taken as the polynomials between their knots; a leap is what it is next to where parts meet.
@@ -159,7 +159,7 @@ class AsMade:
 
 
 def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, leaps: bool = True) -> AsMade:
-    """What a cam's follower does on a curve in place of its profile.
+    """The motion of a cam's follower on a curve in place of its profile.
 
     Parameters
     ----------
@@ -236,7 +236,7 @@ def as_made(
     tolerance: Quantity = "1 um",
     degree: int = 3,
 ) -> AsMade:
-    """What a cam's follower does if the cam is made from a file with the digits and the tolerance of its entries.
+    """The motion of a cam's follower if the cam is made from a file with the digits and tolerance of its entries.
 
     Points of a table are joined by the cubic spline with continuous curvature that drawing programs draw, radii of a
     polar table by such a spline over the angle. A spline is cut as it is in the file, and so are arcs, under which the
@@ -281,7 +281,7 @@ def as_made(
 
 
 def with_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # noqa: ANN401 - a quantity and a number
-    """What a cam's follower does if the profile is off by waves of an amplitude along its normals.
+    """The motion of a cam's follower if the profile is off by waves of an amplitude along its normals.
 
     Of four phases of the wave, the greatest values. A wave with n periods in a turn adds about n² times its amplitude
     to the second derivative by the cam's angle, and n³ times to the third. The jerk is the greatest between places
@@ -318,7 +318,7 @@ def with_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # noqa: AN
 
 
 def rounding_bound(resolution: float, step: float) -> float:
-    """By how much the second derivative of a cubic spline errs at most if its values are rounded: 6 eps/dk².
+    """The greatest error of the second derivative of a cubic spline whose values are rounded: 6 eps/dk².
 
     Parameters
     ----------

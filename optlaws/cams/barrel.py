@@ -82,7 +82,7 @@ class BarrelCam:
 
     @kept_property
     def displacement(self) -> CamMotion:
-        """What the roller does along the axis, by the cam's angle."""
+        """The displacement of the roller along the axis, by the cam's angle."""
         return as_motion(self.motion, "length")
 
     @kept_property
@@ -93,7 +93,7 @@ class BarrelCam:
 
     @kept_property
     def roller(self) -> float:
-        """The roller's radius."""
+        """The radius of the roller in metres."""
         return positive(self.roller_radius, "roller_radius")
 
     @property
@@ -102,7 +102,7 @@ class BarrelCam:
         return SpaceCurve(self.displacement, self.radii[0], 0.0, sense(self.turning))
 
     def flank(self, side: Side, radius: float | None = None) -> SpaceCurve:
-        """Where the roller touches a flank, at a distance along its axis from the shaft's.
+        """The curve along which the roller touches a flank, at a distance from the axis of the shaft.
 
         Parameters
         ----------

@@ -242,7 +242,7 @@ def _unit_contact(cycle: Cycle, follower: CamFollower, turning: float) -> Follow
 def linear_limits(
     piece: Piece, contact: FollowerContact, limits: dict[str, float], period: float, *, below: bool
 ) -> list[LinearLimit]:
-    """What the limits of a cam ask of a piece's law, in a turn of a period; nothing of a dwell."""
+    """The limits of a cam as linear limits of a piece's law, in a turn of a period; none of a dwell."""
     if piece.stroke == 0.0:
         return []
     return contact.linear_limits(piece, limits, TURN * piece.duration / period, below=below)
@@ -379,7 +379,7 @@ def _bound(cycle: Cycle, solved: Solved) -> float:
 
 
 def _least(best: SolvedPiece, nu: int, *, mean: bool) -> float:
-    """What the constant of a piece's law is at least; what it is where the law is given."""
+    """The lower bound of the constant of a piece's law; its value where the law is given."""
     if best.solution is not None:
         return best.solution.lower_bound if best.bound is None else best.bound
     if best.piece.stroke == 0.0:

@@ -106,7 +106,7 @@ class DiscCam:
 
     @kept_property
     def displacement(self) -> CamMotion:
-        """What the follower does, by the cam's angle."""
+        """The displacement of the follower by the cam's angle."""
         motion = as_motion(self.motion, self.follower.axis)
         _check_smooth(motion)
         return motion
@@ -130,7 +130,7 @@ class DiscCam:
 
     @kept_property
     def profile(self) -> PlaneCurve:
-        """The cam's edge."""
+        """The profile of the cam, its edge."""
         return self.pitch_curve.offset(-self.contact.roller) if self.contact.roller else self.pitch_curve
 
     def cutter_path(self, cutter_radius: Quantity) -> PlaneCurve:
@@ -206,7 +206,7 @@ class DiscCam:
         return write_outline(self.outline(curve, cutter_radius), file, as_, **options)
 
     def summary(self) -> Summary:
-        """What is proven of the cam's undercut, pressure angles and radii, and its forces if it has a drive, as rows.
+        """The proven undercut, pressure angles and radii of the cam, and its forces if it has a drive, as rows.
 
         Examples
         --------

@@ -201,7 +201,7 @@ class CamForces:
 
     @kept_property
     def load(self) -> CycleDrive:
-        """What the follower moves, in SI units."""
+        """The inertia, spring and friction that the follower moves, in SI units."""
         given = self.drive
         if given is None and isinstance(self.cam.motion, Cycle):
             given = self.cam.motion.drive
@@ -219,7 +219,7 @@ class CamForces:
         return np.unique(np.concatenate(places))
 
     def follower_force(self, angle: Any) -> Any:  # noqa: ANN401 - a number for a number, an array for arrays
-        """What the follower takes along its way, N, or about its pivot, N m."""
+        """The force on the follower along its way, N, or the torque about its pivot, N m."""
         return self._given(self._follower_force, angle)
 
     def contact_force(self, angle: Any) -> Any:  # noqa: ANN401 - as for the follower's
@@ -266,13 +266,13 @@ class CamForces:
 
     @kept_property
     def mean_torque(self) -> tuple[float, float]:
-        """Between which values the mean of the torque lies: 0 over a turn without friction."""
+        """The interval of the mean torque, which is 0 over a turn without friction."""
         low, high = integral(self._torque, self.edges, share=_SHARE)
         return low / self._angle, high / self._angle
 
     @kept_property
     def rms_torque(self) -> tuple[float, float]:
-        """Between which values the root mean square of the torque lies."""
+        """The interval of the root mean square of the torque."""
         low, high = integral(lambda angle, order: _square(self._torque(angle, order)), self.edges, share=_SHARE)
         return sqrt(max(low, 0.0) / self._angle), sqrt(max(high, 0.0) / self._angle)
 

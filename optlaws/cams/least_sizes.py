@@ -37,7 +37,7 @@ _LEAST, _LARGEST = 1e-6, 1e3  # of base circles that are looked at, times the gr
 
 @dataclass(frozen=True)
 class Witness:
-    """Where a limit is broken: which one, at which angle of the cam in rad, and from which side it is seen."""
+    """The place where a limit is broken: which one, at which angle of the cam in rad, seen from which side."""
 
     limit: str
     angle: float
@@ -227,7 +227,7 @@ class _Sizes:
 
     @property
     def least(self) -> float:
-        """From where on there is such a mechanism."""
+        """The least base circle with which there is such a mechanism, m."""
         rising = self._scale * np.geomspace(_LEAST, _LARGEST, _LOOKS)
         fit = next((i for i, radius in enumerate(rising) if self._fits(radius)), None)
         if fit is None:
@@ -259,7 +259,7 @@ class _Sizes:
         return self.follower.contact(Place(radius, *self.motion.range, self.motion.slopes, self.turning))
 
     def witnesses(self, radius: float, *, proven: bool = False) -> list[Witness]:
-        """Where limits are broken worst; with `proven`, where they are not proven to be kept."""
+        """The places where limits are broken worst; with `proven`, where they are not proven to be kept."""
         contact, broken = self.contact(radius), []
         if PRESSURE in self.limits:
             least, greatest = contact.pressure_angles(self.motion)
@@ -274,7 +274,7 @@ class _Sizes:
         return broken
 
     def _seen(self, limit: str, angle: float, sign: float, radius: float) -> Witness:
-        """From which side of a break the limit is broken more."""
+        """The witness from the side of a break on which the limit is broken more."""
         sides = [Witness(limit, angle, sign, before) for before in (False, True)]
         return max(
             sides, key=lambda witness: float(self._excess(self.contact(radius), witness, self._jet(witness)).middle)
@@ -322,7 +322,7 @@ class _Sizes:
         return self.motion.jet(exact(witness.angle), 2, before=witness.before)
 
     def _excess(self, contact: FollowerContact, witness: Witness, s: Jet) -> Interval:
-        """By how much a limit is broken, above 0; all of it multiplied out, so that nothing is divided by."""
+        """The excess over a limit, above 0 where it is broken; multiplied out, so that nothing is divided by."""
         limit = self.limits[witness.limit]
         if witness.limit == CURVATURE:
             return contact.curvature_excess(s, limit)

@@ -67,11 +67,11 @@ class Spring:
 
     @property
     def value(self) -> float:
-        """What was sought."""
+        """The value of the objective that was sought."""
         return float(getattr(self, self.objective))
 
     def to_dict(self) -> dict[str, Any]:
-        """Plain JSON-able dict."""
+        """The spring as a plain JSON-able dict."""
         return asdict(self)
 
 
@@ -129,7 +129,7 @@ def least_spring(
 
 @dataclass(frozen=True)
 class _KnownSpring:
-    """What is known of the spring."""
+    """The given preload and stiffness of a spring."""
 
     preload: float | None
     stiffness: float | None
@@ -201,7 +201,7 @@ def _known(value: Quantity | None, dimension: str, name: str) -> float | None:
 
 
 def _exchange(task: _SpringTask, given: _KnownSpring) -> Spring:
-    """By exchange: the best spring for some angles, then those at which it is wrong, until it is so nowhere."""
+    """The best spring by exchange: for some angles, then for those at which it is wrong too, until there are none."""
     edges = task.forces.edges
     angles = np.linspace(edges[0], edges[-1], _FIRST)
     for _ in range(_STEPS):

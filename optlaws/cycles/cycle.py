@@ -161,7 +161,7 @@ class Cycle(ExportMixin, SerialisationMixin):
 
     @kept_property
     def objective(self) -> float:
-        """What is minimised, over the whole cycle, in SI units; recomputed from the laws."""
+        """The value of the objective over the whole cycle, in SI units; recomputed from the laws."""
         nu, mean = kind_of(self.minimise)
         if nu == LOADED:
             output = self.minimise.removeprefix("rms ").removeprefix(LOAD)
@@ -176,15 +176,15 @@ class Cycle(ExportMixin, SerialisationMixin):
 
     @kept_property
     def lower_bound(self) -> float | None:
-        """What no other laws of the `search_space` in the same times can beat; with dry friction, that never turn back.
+        """The lower bound of laws of the `search_space` in the same times; with dry friction, of those that never turn back.
 
-        Laws that are not in it may: of a higher degree, of a lower order, of more pieces.
+        Laws that are not in it may be below: of a higher degree, of a lower order, of more pieces.
         """
         return self._best.bound
 
     @property
     def search_space(self) -> str | None:
-        """Among which laws none is better, where the status is optimal, and none below the `lower_bound`; in words.
+        """The laws, in words, of which none is below the `lower_bound` and, where the status is optimal, none is better.
 
         None where no law was looked for. "All motions through the joints" are all whose derivatives before the one that
         is minimised are continuous.
@@ -201,7 +201,7 @@ class Cycle(ExportMixin, SerialisationMixin):
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What was chosen that was not asked for: a degree that was raised, or one of several laws that are best.
+        """The choices beyond what was asked: a degree that was raised, or one of several laws that are best.
 
         Examples
         --------
@@ -230,7 +230,7 @@ class Cycle(ExportMixin, SerialisationMixin):
 
     @kept_property
     def load_motion(self) -> RepeatedMotion:
-        """What the load does steadily, over time in seconds: its outputs by their names, in SI units.
+        """The steady motion of the load over time in seconds: its outputs by their names, in SI units.
 
         Raises
         ------
@@ -274,7 +274,7 @@ class Cycle(ExportMixin, SerialisationMixin):
         return values if values.ndim else float(values)
 
     def at_angle(self, degrees: Any, nu: int = 0) -> Any:  # noqa: ANN401 - as for times
-        """The same at an angle of the master, in degrees or a text such as "0.5 rad"; derivatives are by time."""
+        """The motion at an angle of the master, in degrees or a text such as "0.5 rad"; derivatives are by time."""
         turns = quantity(degrees, "angle", "angle") / TURN if isinstance(degrees, str) else real_times(degrees) / 360.0
         return self(turns * self.duration, nu)
 

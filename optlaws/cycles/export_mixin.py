@@ -138,7 +138,7 @@ class ExportMixin:
         return draw_cycle(cycle, ax, **style)
 
     def summary(self) -> Summary:
-        """What is proven of the cycle, its peaks, its drive and its joints, as rows in SI units.
+        """The proof of the cycle, its peaks, its drive and its joints, as rows in SI units.
 
         Raises
         ------
@@ -165,7 +165,7 @@ class ExportMixin:
 
 
 def _proof(cycle: Any) -> tuple[str, ...]:  # noqa: ANN401 - a Cycle
-    """What is proven of the laws that were looked for, as files say it."""
+    """The proof of the laws that were looked for, as files say it."""
     if not cycle.solutions:
         return ()
     bound = "" if cycle.lower_bound is None else f", none below {cycle.lower_bound:.9g}"

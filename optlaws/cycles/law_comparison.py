@@ -64,7 +64,7 @@ class Comparison:
 
     @property
     def remarks(self) -> tuple[str, ...]:
-        """What laws of smaller C than the first pay for it, where that is more than half as much again."""
+        """The costs of laws of smaller C than the first, where they are more than half as much again."""
         names = list(self.laws)
         reference = self.laws[names[0]]
         return tuple(
@@ -173,7 +173,7 @@ def costs(
     nu: float | tuple[float, float] | None = None,
     damping: float = 0.0,
 ) -> list[str]:
-    """What a law of smaller C than a standard one, whose name is given, has far above it: power, jerk, vibration.
+    """The costs of a smaller C than that of a named standard law: power, jerk or vibration far above its own.
 
     Examples
     --------

@@ -87,7 +87,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return {name: cycle(time, nu) for name, cycle in self.items()}
 
     def at_angle(self, degrees: Any, nu: int = 0) -> dict[str, Any]:  # noqa: ANN401 - as a cycle takes them
-        """The same at an angle of the master, in degrees or a text such as "0.5 rad"."""
+        """The motion of every axis at an angle of the master, in degrees or a text such as "0.5 rad"."""
         return {name: cycle.at_angle(degrees, nu) for name, cycle in self.items()}
 
     @property
@@ -144,7 +144,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return export_axes(self, formats, {"master": master}, **options)
 
     def to_dict(self) -> dict[str, Any]:
-        """What the axes were given, plain and JSON-able."""
+        """The entries of the axes as they were given, plain and JSON-able."""
         return {"format": FORMAT, "axes": {name: cycle.to_dict() for name, cycle in self.items()}}
 
     @classmethod
@@ -244,7 +244,7 @@ class Axes(JsonText, Mapping[str, Cycle]):
         return cycles
 
     def _clock(self) -> dict[str, Any]:
-        """What cycles take of the clock; nothing where each has its own."""
+        """The speed or period for every cycle; nothing where each has its own."""
         if self.speed is None and self.period is None and all(isinstance(axis, Cycle) for axis in self.axes.values()):
             return {}
         period_of(self.speed, self.period)

@@ -52,7 +52,7 @@ class MachineFollower:
     unit: str = "m"
 
     def response(self, law: MotionLaw) -> MachineAnswer:
-        """What the mass does when the cam moves by a law and rests afterwards, in machine units.
+        """The response of the mass to a cam that moves by a law and rests afterwards, in machine units.
 
         Raises
         ------
@@ -64,7 +64,7 @@ class MachineFollower:
 
 @dataclass(frozen=True, repr=False)
 class MachineAnswer:
-    """What a machine's follower does, in units of metres (or radians) and seconds.
+    """The response of a machine's follower, in units of metres (or radians) and seconds.
 
     Attributes
     ----------

@@ -69,7 +69,7 @@ def segments_at(cycle: TimedCycle, share: float) -> list[CycleSegment]:
 def _moves(
     cycle: TimedCycle, piece: Piece, stretch: TimedSegment, times: tuple[float, float], share: float
 ) -> list[Move]:
-    """What a law does in a stretch: one move, or two where it ends where it begins."""
+    """The moves of a law in a stretch: one, or two where it ends where it begins."""
     (start, stop), moved = times, stretch.displacement
     if piece.stroke == moved and (piece.start, piece.stop) == (start, stop):
         return [Move(cycle.shown(moved), f"{(stop - start) * share!r} s", law=piece.law)]

@@ -48,7 +48,7 @@ class SerialisationMixin(JsonText):
         raise NotImplementedError
 
     def to_dict(self) -> dict[str, Any]:
-        """What the cycle was given, plain and JSON-able; its laws are looked for again when it is read.
+        """The entries of the cycle, plain and JSON-able; its laws are looked for again when it is read.
 
         Examples
         --------
@@ -104,14 +104,14 @@ class SerialisationMixin(JsonText):
 
 
 def _to_data(cycle: Any) -> dict[str, Any]:  # noqa: ANN401 - a Cycle
-    """What a cycle was given, as plain data; its laws are looked for again when it is read."""
+    """The entries of a cycle as plain data; its laws are looked for again when it is read."""
     given = {name: _plain(getattr(cycle, name)) for name in _ENTRIES if name != "segments"}
     entries = {name: value for name, value in given.items() if value not in (None, {}, ())}
     return {"format": FORMAT, **entries, "segments": [_segment(segment) for segment in cycle.segments]}
 
 
 def _from_data(data: Any) -> dict[str, Any]:  # noqa: ANN401 - it is checked here
-    """What `Cycle` takes."""
+    """The arguments of a `Cycle` from plain data."""
     if not isinstance(data, Mapping) or not isinstance(data.get("segments"), list):
         raise InputError("a stored cycle is a table with a list of segments, as Cycle.to_dict gives it")
     if data.get("format", FORMAT) != FORMAT:

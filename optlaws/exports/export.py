@@ -66,7 +66,7 @@ class Export:
 
     @property
     def text(self) -> str:
-        """What the file holds."""
+        """The text of the exported file."""
         return self.written.text
 
     @property
@@ -90,7 +90,7 @@ class Export:
         return writing.write_any(Path(file), self.text)
 
     def to_dict(self) -> dict[str, Any]:
-        """What the command tells a program: everything but the text."""
+        """The export as plain data: everything but the text."""
         written = self.written
         return {
             "format": self.format.name,
@@ -136,7 +136,7 @@ class Export:
         ]
 
     def summary(self) -> Summary:
-        """What the controller will run, as rows: notes say what the law has in its place.
+        """The motion that the controller will run, as rows: notes say what the law has in its place.
 
         Examples
         --------

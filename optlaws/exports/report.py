@@ -74,7 +74,7 @@ class Characteristics:
 
 @dataclass(frozen=True)
 class Report:
-    """What the controller runs and the law, both in machine units.
+    """The motion that the controller runs beside the law, both in machine units.
 
     Parameters
     ----------

@@ -157,7 +157,7 @@ def _positional(text: str) -> str:
 
 
 def table_heading(motion: Motion, target: str) -> tuple[str, ...]:
-    """What the head of a file says, line by line; the mark is at the end of the last."""
+    """The lines at the head of a file; the mark is at the end of the last."""
     units = motion.units
     rate = "" if units.rate is None or units.master == "s" else f", {units.rate:.9g} {units.master}/s"
     master = f"master in {units.master} from {motion.start:.9g} to {motion.stop:.9g}{rate}"

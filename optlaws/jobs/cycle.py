@@ -134,7 +134,7 @@ def table_of_motion(cycle: Cycle, rows: int, about: str) -> str:
 
 
 def answer(cycles: Mapping[str, Cycle]) -> dict[str, Any]:
-    """What a program is told of the cycles, in SI units, by the names of the axes."""
+    """The data of the cycles for programs, in SI units, by the names of the axes."""
     return {name: _facts(cycle) for name, cycle in cycles.items()}
 
 

@@ -46,7 +46,7 @@ class Curve(ABC):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where the curve is put together from pieces, both ends of the interval included."""
+        """The places where the curve is put together from pieces, both ends of the interval included."""
         return self._breaks
 
     @overload
@@ -85,7 +85,7 @@ class Curve(ABC):
     @overload
     def a(self, k: Many) -> Array: ...
     def a(self, k: float | Many) -> float | Array:
-        """Displacement at k."""
+        """The displacement a at k."""
         return _plain(self._derivative(self._times(k), 0))
 
     @overload

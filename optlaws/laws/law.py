@@ -219,4 +219,4 @@ class MotionLaw(Curve, LawExport, StoredLaw):
 
     @abstractmethod
     def _summary(self) -> str:
-        """What the repr says besides the constants."""
+        """The text of the repr besides the constants."""

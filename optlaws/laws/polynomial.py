@@ -136,7 +136,7 @@ class PolynomialLaw(MotionLaw, kind="polynomial"):
 
     @property
     def degree(self) -> int:
-        """Degree of a(k)."""
+        """The degree of a(k) as a polynomial."""
         return len(self.acceleration) + 1 if self.acceleration else int(self.b0 != 0.0)
 
     @kept_property

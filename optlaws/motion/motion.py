@@ -88,12 +88,12 @@ class Motion:
 
     @kept_property
     def joints(self) -> tuple[float, ...]:
-        """Where pieces meet, both ends included."""
+        """The places where pieces meet, both ends included."""
         return (*(piece.start for piece in self.pieces), self.stop)
 
     @kept_property
     def breaks(self) -> tuple[float, ...]:
-        """Where the function is put together, within laws as well, both ends included."""
+        """The places where the function is put together, within laws as well, both ends included."""
         inner = (
             piece.start + k * piece.duration
             for piece in self.pieces

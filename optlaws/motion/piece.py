@@ -73,7 +73,7 @@ SAME = 1e-12  # share of a time within which it is another
 
 
 def factor(stroke: float, duration: float, nu: int) -> float:
-    """What turns the derivative of order nu of a law into machine units: h/T^nu.
+    """The factor that turns the derivative of order nu of a law into machine units: h/T^nu.
 
     Examples
     --------
@@ -103,7 +103,7 @@ class Piece:
 
     @property
     def stop(self) -> float:
-        """When it ends."""
+        """The time at which the piece ends."""
         return self.start + self.duration
 
     def places(self, times: Array) -> Array:
@@ -123,7 +123,7 @@ class Piece:
         return self._ends[nu][side]
 
     def leap(self, time: float, nu: int) -> float:
-        """By how much the derivative of order nu leaps at a time inside."""
+        """The leap of the derivative of order nu at a time inside."""
         near = (jump for k, jump in self.law.jumps(nu) if abs(self.start + k * self.duration - time) <= SAME * time)
         return factor(self.stroke, self.duration, nu) * sum(near)
 
@@ -144,7 +144,7 @@ class Piece:
 
     @kept_property
     def _origin(self) -> float:
-        """Where the law's displacement is 0."""
+        """The position where the law's displacement is 0."""
         return self.offset - self.stroke * float(self.law.a(0.0))
 
     @kept_property

@@ -285,7 +285,7 @@ def _known_unit(text: str) -> Any:  # noqa: ANN401 - pint's, or None
 
 
 def _remedy(unit: str, dimension: str) -> str:
-    """What to write instead of a frequency that may count turns or radians."""
+    """The remedy for a frequency that may count turns or radians."""
     frequency = _si_factor(unit, "frequency") is not None
     return ": write rev/s or rad/s" if dimension == "angular velocity" and frequency else ""
 
@@ -299,7 +299,7 @@ def _article(dimension: str) -> str:
 
 
 def _kind(unit: str) -> str:
-    """What a unit measures, in words."""
+    """The kind of quantity that a unit measures, in words."""
     known = _known_unit(unit)
     for dimension, (si, _) in DIMENSIONS.items():
         if _registry().parse_units(si).dimensionality == known.dimensionality:

@@ -315,7 +315,7 @@ class CamMotion:
         return min(lows), max(highs)
 
     def reversed(self) -> Self:
-        """The same motion downward, as the second follower of a pair moves."""
+        """The motion in the opposite direction, as the second follower of a pair moves."""
         turned = tuple(replace(stretch, offset=-stretch.offset, stroke=-stretch.stroke) for stretch in self.stretches)
         return replace(self, stretches=turned)
 

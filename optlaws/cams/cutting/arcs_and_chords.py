@@ -96,7 +96,7 @@ class Arcs:
 
     @property
     def ends(self) -> Array:
-        """Where the arcs end, m, shape (n, 2)."""
+        """The end points of the arcs, m, shape (n, 2)."""
         return np.roll(self.points, -1, axis=0)
 
     @property
@@ -155,7 +155,7 @@ def _directions(outline: Outline, angles: Array) -> Array:
 
 
 def _joints(starts: Array, ends: Array, first: Array, last: Array) -> Array:
-    """Where the two arcs of each pair meet, both reaching equally far along their tangents."""
+    """The points where the two arcs of each pair meet, both reaching equally far along their tangents."""
     across = ends - starts
     both = first + last
     square = np.einsum("ij,ij->i", across, across)

@@ -69,7 +69,7 @@ def format_of(file: Path, name: str | None = None) -> str:
 
 
 def text(outline: Outline, name: str, options: Cutting) -> str:
-    """What a file of a format holds."""
+    """The text of a file in a format."""
     return FORMATS[name](outline, options)
 
 

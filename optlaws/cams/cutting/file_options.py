@@ -94,7 +94,7 @@ class Cutting:
 
     @property
     def line(self) -> str:
-        """What the file says of itself, on one line of plain characters."""
+        """The description of the file on one line of plain characters."""
         printable = "".join(
             character if " " <= character <= "~" and character not in "()<>&" else " " for character in self.about
         )

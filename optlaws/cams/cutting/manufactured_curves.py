@@ -96,7 +96,7 @@ class ArcChain(CurveByJets):
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Where one arc ends and the next begins."""
+        """The parameters where one arc ends and the next begins."""
         return tuple(float(i) for i in range(len(self.arcs.points) + 1))
 
     def jets(self, places: Array | Interval, order: int) -> Pair:

@@ -65,7 +65,7 @@ class Spline:
 
     @property
     def breaks(self) -> tuple[float, ...]:
-        """Its knots, each once: the spline is an outline itself."""
+        """The knots of the spline, each once, by which it is an outline itself."""
         return tuple(np.unique(self.knots).tolist())
 
 

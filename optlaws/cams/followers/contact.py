@@ -41,12 +41,12 @@ class LinearLimit:
         return Window(self.formula, high=self.most, start=self.start, stop=self.stop)
 
     def excess(self) -> Functional:
-        """By how much the greatest value of the sum goes beyond the limit."""
+        """The excess of the greatest value of the sum over the limit."""
         return peak(f"{self.formula} + ({-self.most!r})", side="high")
 
 
 class Drag(NamedTuple):
-    """What a friction force of 1 N along the surfaces does to the follower, the way in which the cam's runs past.
+    """The action on the follower of a friction force of 1 N along the surfaces, the way in which the cam's runs past.
 
     Attributes
     ----------
@@ -64,7 +64,7 @@ class Drag(NamedTuple):
 
 
 class Transmission(NamedTuple):
-    """What a force of 1 N between cam and follower does, at places of the turn or in intervals of them.
+    """The action of a force of 1 N between cam and follower, at places of the turn or in intervals of them.
 
     Attributes
     ----------
@@ -87,7 +87,7 @@ class Transmission(NamedTuple):
     drag: Drag | None = None
 
     def lever_with(self, friction: float) -> Jet:
-        """What drives the follower for a normal force of 1 N, friction of the surfaces included."""
+        """The force or torque that drives the follower for a normal force of 1 N, friction of the surfaces included."""
         return self.lever if self.drag is None else self.lever + self.drag.lever * friction
 
 
@@ -123,7 +123,7 @@ class Friction:
 
 
 class ContactState(NamedTuple):
-    """Where a follower is that touches a curve, as jets of the curve's own parameter.
+    """The position of a follower that touches a curve, as jets of the curve's own parameter.
 
     Attributes
     ----------
@@ -185,7 +185,7 @@ class FollowerContact(ABC):
     @property
     @abstractmethod
     def lost(self) -> int:
-        """By how many orders the jet of a point is shorter than that of the displacement."""
+        """The number of orders by which the jet of a point is shorter than that of the displacement."""
 
     @abstractmethod
     def point(self, s: Jet) -> Pair:
@@ -205,7 +205,7 @@ class FollowerContact(ABC):
 
     @abstractmethod
     def curvature_excess(self, s: Jet, limit: float) -> Interval:
-        """By how much a least radius of curvature is broken, above 0; of either dimension."""
+        """The excess over a limit of the least radius of curvature, above 0 where it is broken; of either dimension."""
 
     def normal(self, s: Jet) -> Pair | None:  # noqa: ARG002 - None unless a face has it
         """The normal away from the cam where it is that of a face; None where it is that of the curve."""
@@ -236,7 +236,7 @@ class FollowerContact(ABC):
 
     @abstractmethod
     def state(self, point: Pair, normal: Pair) -> ContactState:
-        """Where the follower is that touches a profile at a point with a normal away from it, in cam coordinates."""
+        """The state of the follower that touches a profile at a point with an outward normal, in cam coordinates."""
 
     @abstractmethod
     def transmission(self, s: Jet) -> Transmission:

@@ -21,7 +21,7 @@ from optlaws.suggest import unknown_key
 
 @dataclass(frozen=True)
 class Place:
-    """Where a follower is put: the base circle's radius, the range of its motion, and how the cam turns.
+    """The place of a follower: the base circle's radius, the range of its motion, and the sense of turning.
 
     Parameters
     ----------
@@ -78,12 +78,12 @@ class CamFollower(ABC):
 
     @property
     def size(self) -> float:
-        """Its greatest length, m."""
+        """The greatest length of the follower, m."""
         return 0.0
 
     @property
     def pivot(self) -> Quantity | None:
-        """From the cam's centre to the pivot; None on a slide."""
+        """The distance of the pivot from the cam's centre; None on a slide."""
         return None
 
     def from_beneath(self) -> CamFollower:

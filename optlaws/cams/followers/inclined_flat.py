@@ -68,7 +68,7 @@ class InclinedFlat(CamFollower, kind="inclined flat"):
 
 @dataclass(frozen=True)
 class InclinedFace(FaceContact):
-    """The same in numbers: the face meets the slide's way at y = height + s, by which rho = (height + s + s'') cos.
+    """An inclined face in numbers: it meets the slide's way at y = height + s, so that rho = (height + s + s'') cos.
 
     Examples
     --------
@@ -86,14 +86,14 @@ class InclinedFace(FaceContact):
         return s * 0.0 - sin(self.angle), s * 0.0 + cos(self.angle)
 
     def pressure(self, s: Jet) -> Jet:
-        """The same everywhere: the tangent of the inclination."""
+        """The tangent of the inclination, the same everywhere."""
         return s.slope() * 0.0 + self.turning * tan(self.angle)
 
     def radius(self, s: Jet) -> Jet:  # noqa: D102
         return s.slope().slope() * cos(self.angle) + self._far(s)
 
     def reach(self, s: Jet) -> Jet:
-        """From the foot of the cam's centre, to the side to which the cam turns away from it."""
+        """The distance from the foot of the cam's centre, to the side to which the cam turns away from it."""
         return s.slope() * (self.turning * cos(self.angle))
 
     def _far(self, s: Jet) -> Jet:
@@ -120,7 +120,7 @@ class InclinedFace(FaceContact):
         return [LinearLimit((-stroke / size, 0.0, -stroke / (size * angle**2)), high)]
 
     def pressure_limits(self, piece: Piece, limit: float, angle: float, *, below: bool) -> list[LinearLimit]:
-        """None: a greatest pressure angle is kept by every law, or by no law, which is refused."""
+        """No limits: a greatest pressure angle is kept by every law, or by no law, which is refused."""
         del piece, angle, below
         if abs(tan(self.angle)) > limit:
             raise InputError(

@@ -67,7 +67,7 @@ class OscillatingFlat(CamFollower, kind="oscillating flat"):
 
     @property
     def pivot(self) -> Quantity:
-        """From the cam's centre to the pivot."""
+        """The distance of the pivot from the cam's centre."""
         return self.pivot_distance
 
     @property
@@ -78,7 +78,7 @@ class OscillatingFlat(CamFollower, kind="oscillating flat"):
 
 @dataclass(frozen=True)
 class SwingingFace(FaceContact):
-    """The same in numbers: the pivot is at x = distance, the face at phi = first + s from the line to the cam's centre.
+    """A swinging face in numbers: its pivot at x = distance, the face at phi = first + s from the line to the centre.
 
     It is touched at distance cos(phi)/(1 ± phi') from the foot of the pivot.
 
@@ -108,7 +108,7 @@ class SwingingFace(FaceContact):
         return self._waves(s)
 
     def pressure(self, s: Jet) -> Jet:
-        """By where the face is touched: its point moves square to the ray from the pivot."""
+        """The tangent of the pressure angle: the point of the face that is touched moves square to the ray from the pivot."""
         reach = self.reach(s)
         return (reach * 0.0 + self.offset) / reach * self.turning
 
@@ -118,7 +118,7 @@ class SwingingFace(FaceContact):
         return (sine * self.distance - self.reach(s).slope() * self.turning) / rate + self.offset
 
     def reach(self, s: Jet) -> Jet:
-        """From the foot of the pivot towards the cam."""
+        """The distance from the foot of the pivot towards the cam."""
         _, cosine = self._waves(s)
         return cosine * self.distance / self._rate(s)
 

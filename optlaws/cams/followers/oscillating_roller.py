@@ -79,7 +79,7 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
 
     @property
     def pivot(self) -> Quantity:
-        """From the cam's centre to the pivot."""
+        """The distance of the pivot from the cam's centre."""
         return self.pivot_distance
 
     @property
@@ -91,7 +91,7 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
 
 @dataclass(frozen=True)
 class SwingingRoller(RollerContact):
-    """The same in numbers: the pivot is at x = distance, the arm at psi = first + s from the line to the cam's centre.
+    """A swinging roller in numbers: its pivot at x = distance, the arm at psi = first + s from the line to the centre.
 
     Examples
     --------
@@ -107,7 +107,7 @@ class SwingingRoller(RollerContact):
 
     @property
     def roller(self) -> float:
-        """The roller's radius."""
+        """The radius of the roller in metres."""
         return self.radius
 
     @property
@@ -117,7 +117,7 @@ class SwingingRoller(RollerContact):
 
     @property
     def linear(self) -> bool:
-        """False: what the pressure angle allows is a sine of the arm's angle, with lines below and above it."""
+        """False, as the limit of the pressure angle is a sine of the arm's angle, with lines below and above it."""
         return False
 
     def point(self, s: Jet) -> Pair:  # noqa: D102
@@ -192,11 +192,11 @@ class _Sine:
     cosine: float
 
     def value(self, psi: Array) -> Array:
-        """G."""
+        """The values of G at angles of the arm."""
         return np.asarray(self.sine * np.sin(psi) + self.cosine * np.cos(psi))
 
     def slope(self, psi: float) -> float:
-        """G'."""
+        """The derivative of G at an angle of the arm."""
         return float(self.sine * np.cos(psi) - self.cosine * np.sin(psi))
 
     def chord(self, first: float, last: float) -> float:
@@ -209,7 +209,7 @@ class _Sine:
         return bool((self.value(np.linspace(low, high, _LOOKS)) >= 0.0).all())
 
     def shift(self, slope: float, low: float, high: float, *, below: bool) -> float:
-        """What makes a line of a slope lie below it, or above it, between two angles."""
+        """The shift with which a line of a slope lies below it, or above it, between two angles."""
         looks = np.linspace(low, high, _LOOKS)
         off = self.value(looks) - slope * looks
         # between two looks it goes beyond these by less than this

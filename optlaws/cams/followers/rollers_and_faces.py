@@ -39,7 +39,7 @@ class RollerContact(FollowerContact):
 
     @property
     def lost(self) -> int:
-        """Zero: the jet of a point is as long as that of the displacement."""
+        """Zero, as the jet of a point is as long as that of the displacement."""
         return 0
 
     def pressure(self, s: Jet) -> Jet:
@@ -65,7 +65,7 @@ class RollerContact(FollowerContact):
             return 1.0 / self.curvature(s).terms[0] - self.roller
 
     def curvature_excess(self, s: Jet, limit: float) -> Interval:
-        """By how much the pitch curve bends more than it may, 1/m."""
+        """The excess of the curvature of the pitch curve over its limit, 1/m."""
         excess: Interval = self.curvature(s).terms[0] - 1.0 / (limit + self.roller)
         return excess
 
@@ -159,12 +159,12 @@ class FaceContact(FollowerContact):
 
     @property
     def roller(self) -> float:
-        """Zero: a flat face has no roller."""
+        """Zero, as a flat face has no roller."""
         return 0.0
 
     @property
     def lost(self) -> int:
-        """One: the place on the face is a derivative."""
+        """One, as the place on the face is a derivative."""
         return 1
 
     @abstractmethod
@@ -180,7 +180,7 @@ class FaceContact(FollowerContact):
         return self.radius(s).terms[0]
 
     def curvature_excess(self, s: Jet, limit: float) -> Interval:
-        """By how much the radius is less than it may be, m."""
+        """The excess of the least radius over the radius of the profile, m."""
         excess: Interval = -self.radius(s).terms[0] + limit
         return excess
 
@@ -196,7 +196,7 @@ class FaceContact(FollowerContact):
 
     @abstractmethod
     def reach(self, s: Jet) -> Jet:
-        """Where the face is touched, along it."""
+        """The place along the face where it is touched."""
 
 
 def sign(jet: Jet) -> Jet:

@@ -37,7 +37,7 @@ class TranslatingFlat(CamFollower, kind="translating flat"):
 
 @dataclass(frozen=True)
 class SlidingFace(FaceContact):
-    """The same in numbers: the face is at y = height + s and is touched at x = s', by which rho = height + s + s''.
+    """A sliding face in numbers: at y = height + s, touched at x = s', so that rho = height + s + s''.
 
     Examples
     --------
@@ -52,14 +52,14 @@ class SlidingFace(FaceContact):
         return s * 0.0, s * 0.0 + 1.0
 
     def pressure(self, s: Jet) -> Jet:
-        """Zero: the contact force of a face square to its way has no component across it."""
+        """Zero, as the contact force of a face square to its way has no component across it."""
         return s.slope() * 0.0
 
     def radius(self, s: Jet) -> Jet:  # noqa: D102
         return s.slope().slope() + s + (self.level - self.lowest)
 
     def reach(self, s: Jet) -> Jet:
-        """From the way of the slide, to the side to which the cam turns away from it."""
+        """The distance from the way of the slide, to the side to which the cam turns away from it."""
         return s.slope() * self.turning
 
     def state(self, point: Pair, normal: Pair) -> ContactState:  # noqa: D102

@@ -60,13 +60,13 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
         return max(abs(quantity(value, "length", name)) for name, value in given.items())
 
     def from_beneath(self) -> TranslatingRoller:
-        """The same with its offset on the other side."""
+        """The same follower with its offset on the other side."""
         return replace(self, offset=f"{-quantity(self.offset, 'length', 'roller: offset')!r} m")
 
 
 @dataclass(frozen=True)
 class SlidingRoller(RollerContact):
-    """The same in numbers: x = offset, y = height + s.
+    """A sliding roller in numbers: its centre is at x = offset, y = height + s.
 
     Examples
     --------
@@ -80,7 +80,7 @@ class SlidingRoller(RollerContact):
 
     @property
     def roller(self) -> float:
-        """The roller's radius."""
+        """The radius of the roller in metres."""
         return self.radius
 
     def point(self, s: Jet) -> Pair:  # noqa: D102

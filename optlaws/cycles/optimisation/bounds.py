@@ -33,7 +33,7 @@ _NEAR_END = 0.02  # share of a move next to its ends where energies are small an
 
 @dataclass(frozen=True)
 class _Powers:
-    """What makes the power of a move in a unit: inertia b c + viscous b² + spring a b + constant b."""
+    """The terms of the power of a move in a unit: inertia b c + viscous b² + spring a b + constant b."""
 
     inertia: float
     viscous: float
@@ -56,7 +56,7 @@ class _Powers:
 
 
 def bound_by_energy(span: LawSpan, objective: CycleObjective, stroke: float, solution: Solution) -> float:
-    """What no law of a span can beat, dimensionless: the bound of its solution, or a better one by energy."""
+    """The lower bound of a span, dimensionless: that of its solution, or a better one by energy."""
     least, most = kind_of(objective.minimise)[0] == POWER, objective.limits.get(POWER)
     if (
         solution.problem.convex
@@ -109,7 +109,7 @@ Solved = Sequence[tuple[Piece, Solution]]
 
 
 def bound_of(layout: Layout, solved: Solved, objective: CycleObjective, period: float) -> float | None:
-    """What no other laws in the same times can beat: bounds of those looked for, and what the others take."""
+    """The lower bound of a cycle in the same times, from bounds of laws looked for and what the others take."""
     nu, mean = kind_of(objective.minimise)
     if nu == LOADED and not solved:
         return None
@@ -126,7 +126,7 @@ def bound_of(layout: Layout, solved: Solved, objective: CycleObjective, period: 
 
 
 def span_bound(span: LawSpan, piece: Piece, solution: Solution, objective: CycleObjective) -> float:
-    """What no other law of a span can beat, in SI units."""
+    """The lower bound of a span in SI units."""
     nu, mean = kind_of(objective.minimise)
     least = bound_by_energy(span, objective, piece.stroke, solution)
     if nu not in {FORCE, POWER}:
@@ -138,7 +138,7 @@ def span_bound(span: LawSpan, piece: Piece, solution: Solution, objective: Cycle
 
 
 def _taken(piece: Piece, objective: CycleObjective) -> float:
-    """What a law that was given takes, in SI units."""
+    """The value of the objective for a law that was given, in SI units."""
     nu, mean = kind_of(objective.minimise)
     if nu in {FORCE, POWER}:
         taken = effort(objective.drive or read_drive({}, "length"), [piece], piece.duration)

@@ -130,7 +130,7 @@ def _known(drive: CycleDrive | None) -> CycleDrive:
 
 
 def _friction(span: LawSpan, drive: CycleDrive) -> float:
-    """What dry friction adds to the mean square of the force of a motion that may turn back, at least."""
+    """The least addition of dry friction to the mean square of the force of a motion that may turn back."""
     times = zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True)
     moving = sum(stop - start for segment, start, stop in times if not isinstance(segment.given, Dwell))
     gained = 0.0 if span.turns else abs(span.last.velocity) - abs(span.first.velocity)

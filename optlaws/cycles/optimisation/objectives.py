@@ -38,7 +38,7 @@ _FORCES = {"length": "force", "angle": "torque"}
 
 @dataclass(frozen=True)
 class CycleObjective:
-    """What is least over a cycle, the limits of the whole of it, and how rich laws are.
+    """The objective of a cycle, the limits of the whole of it, and the degree of its laws.
 
     Parameters
     ----------

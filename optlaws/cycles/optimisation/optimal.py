@@ -181,7 +181,7 @@ def never_back(span: LawSpan, objective: CycleObjective) -> bool:
 
 
 def scale(span: LawSpan) -> float:
-    """What a span's law is measured by: its displacement, or where it has none how far it gets on the way."""
+    """The scale of a span's law: its displacement, or where it has none how far it gets on the way."""
     if span.displacement:
         return span.displacement
     ways = [abs(position - span.offset) for _, position in span.via]
@@ -278,7 +278,7 @@ def _bound(span: LawSpan, objective: CycleObjective, stroke: float, nu: int, mos
 
 
 def _quantity(span: LawSpan, objective: CycleObjective, stroke: float, nu: int, most: float) -> tuple[str, float]:
-    """What is limited in a part of a span, as a quantity of its law, and its limit."""
+    """The limited quantity of the law in a part of a span, and its limit."""
     if nu in _DRIVEN:
         formula, unit = driven_formula(span, objective.drive, stroke, nu)
         return formula, most / unit

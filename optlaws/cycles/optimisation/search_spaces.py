@@ -119,7 +119,7 @@ def minimised_rms(problem: Problem) -> int | None:
 
 
 def search_space(problem: Problem, span: LawSpan, order: int) -> str:
-    """Among which laws the solution of a span's problem is the best, in words.
+    """The laws, in words, among which the solution of a span's problem is the best.
 
     A polynomial of degree 2 nu - 1 between two joints has the least root mean square of the derivative of order nu, if
     its ends ask for no more than nu conditions each.
@@ -145,7 +145,7 @@ def search_space(problem: Problem, span: LawSpan, order: int) -> str:
 
 
 def remark_on_degrees(problems: Sequence[tuple[LawSpan, Problem]], degree: int) -> tuple[str, ...]:
-    """Which spans have a Z of another degree than was asked for."""
+    """The remarks on spans whose Z has another degree than was asked for."""
     raised = [(span, problem.basis) for span, problem in problems]
     return tuple(
         f"{span.where}: Z has the degree {basis.degree}, not {degree}, for the velocities at its ends"

@@ -40,7 +40,7 @@ ENTRIES = {
 
 @dataclass(frozen=True)
 class CycleDrive:
-    """What a motion y takes: inertia y'' + viscous y' + stiffness y + constant + dry sign(y'), in SI units.
+    """The force of a motion y: inertia y'' + viscous y' + stiffness y + constant + dry sign(y'), in SI units.
 
     Examples
     --------
@@ -72,7 +72,7 @@ class CycleDrive:
         return 4.0 * inertia + 2.0 * damper + spring + abs(self.constant + self.stiffness * offset) + self.dry
 
     def _factors(self, stroke: float, duration: float) -> tuple[float, float, float]:
-        """What a, b and c of a law count in the force."""
+        """The factors of a, b and c of a law in the force."""
         return (
             self.stiffness * stroke,
             self.viscous * factor(stroke, duration, 1),
@@ -119,7 +119,7 @@ _ROUNDING = 1e-12
 
 @dataclass(frozen=True)
 class Effort:
-    """What a drive takes over a cycle, in SI units.
+    """The force and power of a drive over a cycle, in SI units.
 
     Attributes
     ----------
@@ -138,7 +138,7 @@ class Effort:
     mean_power: float
 
     def to_dict(self) -> dict[str, float]:
-        """Plain JSON-able dict."""
+        """The effort as a plain JSON-able dict."""
         return asdict(self)
 
     def shaft_torque(self, angular_velocity: float) -> float:
@@ -147,7 +147,7 @@ class Effort:
 
 
 def effort(drive: CycleDrive, pieces: Sequence[Piece], period: float) -> Effort:
-    """What a drive takes over pieces that make a cycle.
+    """The force and power of a drive over pieces that make a cycle.
 
     Examples
     --------

@@ -70,7 +70,7 @@ class LawSpan:
 
     @property
     def start(self) -> float:
-        """When it begins."""
+        """The time at which it begins."""
         return self.starts[0]
 
     @property
@@ -80,7 +80,7 @@ class LawSpan:
 
     @property
     def where(self) -> str:
-        """What errors call it."""
+        """The name that errors give it."""
         return " and ".join(stretch.where for stretch in self.stretches)
 
 
@@ -94,7 +94,7 @@ class Layout:
 
 
 def layout(programme: Programme, durations: Sequence[float], *, whole: bool = False, absolute: bool = False) -> Layout:
-    """Which laws are known and which are looked for.
+    """The laws that are known and the spans whose law is looked for.
 
     Where nothing is known at the start of the cycle, or `whole` asks for it, its motions are one law that repeats; of
     positions if it is to be `absolute`.
@@ -126,7 +126,7 @@ def _piece(stretch: TimedSegment, start: float, duration: float, offset: float) 
 
 
 def _joint(programme: Programme, pieces: dict[int, Piece], i: int) -> State | None:
-    """What is known where stretch i begins; None where it and the one before are free."""
+    """The known state where segment i begins; None where it and the one before are free."""
     before, after = (i - 1) % len(programme.stretches), i
     ended, begun = _known(programme, pieces, before, 1), _known(programme, pieces, after, 0)
     if ended is not None and begun is not None:

@@ -49,7 +49,7 @@ class Load:
         return (output_rms if mean else output_peak)(of=self.machine.at_speed(1.0 / period), output=output, steady=True)
 
     def motion(self, pieces: Sequence[Piece]) -> RepeatedMotion:
-        """Its steady outputs under pieces that make a cycle, over time in seconds."""
+        """The steady outputs of the load under pieces that make a cycle, over time in seconds."""
         drives_of_pieces, leaps = [], list[tuple[float, float]]()
         for piece in pieces:
             drives_of_pieces += drives.of_law(piece.law, piece.start, piece.duration, piece.offset, piece.stroke)

@@ -47,7 +47,7 @@ class TimedSegment:
 
     @property
     def where(self) -> str:
-        """What errors call it."""
+        """The name that errors give it."""
         return f"segment {self.number} ({self.given.label})"
 
 

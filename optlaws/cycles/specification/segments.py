@@ -29,13 +29,13 @@ class CycleSegment:
 
     @property
     def label(self) -> str:
-        """What it is called."""
+        """The name of the segment, or of its kind."""
         return self.name or type(self).__name__
 
 
 @dataclass(frozen=True)
 class Dwell(CycleSegment):
-    """A rest.
+    """A rest of the follower or the axis.
 
     Examples
     --------

@@ -92,7 +92,7 @@ def _profile(run: PiecewiseMotion, scale: float, master: int, slave: int) -> Pie
 
 
 def _as_run(profile: PiecewiseMotion, exact: PiecewiseMotion, scale: float) -> PiecewiseMotion:
-    """What the drive runs, where the motion lies and in its units."""
+    """The motion that the drive runs, where the exact one lies and in its units."""
     rows = [[c / scale for c in row] for row in profile.coefficients]
     for row in rows:
         row[0] += exact.coefficients[0][0]

@@ -85,7 +85,7 @@ class PointTable:
 
     @kept_property
     def run(self) -> PiecewiseMotion:
-        """What the controller makes of them."""
+        """The motion that the controller makes of the points."""
         return PiecewiseMotion(self.x, self.powers)
 
     def written(self, text: str, model: str, notes: tuple[str, ...] = ()) -> Written:
@@ -184,7 +184,7 @@ def _without_rounding(values: Array) -> Array:
 
 
 def rounding_bound(motion: Motion, x: Array, y: Array, slopes: Array) -> float:
-    """What roundings may add to the acceleration of a clamped cubic spline: 6 eps/dx², for positions wrong by eps/2.
+    """The greatest addition of roundings to the acceleration of a clamped cubic spline: 6 eps/dx², for errors of eps/2.
 
     The spline's accelerations at its points solve a system whose diagonal is twice the sum of what is beside it, with
     six times the second divided differences of the positions on the right; these are wrong by eps/(h_i h_i+1) at most.

@@ -93,7 +93,7 @@ def fields(**values: object) -> str:
 
 
 def leaps_of_single(run: PiecewiseMotion) -> tuple[float, ...]:
-    """By how much velocity, acceleration and jerk may leap where polynomials meet because REAL32 rounds them."""
+    """The greatest leaps of velocity, acceleration and jerk where polynomials meet, for the rounding of REAL32."""
     return tuple(2.0 * bound for bound in error_bounds(run, SINGLE)[1:])
 
 

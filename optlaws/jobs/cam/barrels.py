@@ -73,7 +73,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
 
 
 def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
-    """What a program is told of the cam of a file, in metres and radians.
+    """The data of the cam of a file for programs, in metres and radians.
 
     Raises
     ------
@@ -104,7 +104,7 @@ def read(data: Mapping[str, Any], file: Path) -> tuple[BarrelProblemFile, Barrel
 
 
 def to_data(cam: BarrelCam) -> dict[str, Any]:
-    """What a program is told, in metres and radians."""
+    """The data of a barrel cam for programs, in metres and radians."""
     return {
         "unit": "SI",
         "least_pressure_angle": enclosure(cam.pressure_angles[0]),

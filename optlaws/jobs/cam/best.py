@@ -21,7 +21,7 @@ _HEADINGS = ("what", "value", "no laws are below", "unit", "status")
 
 
 def to_data(cams: Cams) -> dict[str, Any]:
-    """What a program is told, in SI units; nothing where the laws are those of the cycle."""
+    """The data of the best laws for programs, in SI units; nothing where the laws are those of the cycle."""
     best = cams.best
     if best is None:
         return {}

@@ -52,7 +52,7 @@ def run(data: Mapping[str, Any], file: Path, out: Path) -> list[Path]:
 
 
 def answer(data: Mapping[str, Any], file: Path) -> dict[str, Any]:
-    """What a program is told of the cam, in metres and radians: enclosures as pairs, with the angle of the cam.
+    """The data of the cam for programs, in metres and radians: enclosures as pairs, with the angle of the cam.
 
     Raises
     ------

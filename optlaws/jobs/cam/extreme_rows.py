@@ -45,7 +45,7 @@ def extreme_rows(cam: DiscCam, limits: Limits) -> list[list[tables.Cell]]:
 
 
 def extreme_row(name: str, extreme: Extreme, factor: float, unit: str, limit: float | None = None) -> list[tables.Cell]:
-    """One of them, in a unit of so many to the SI unit; its angle is left out where it is a limit that laws touch.
+    """The row of an extreme, in a unit of so many to the SI unit; without its angle where laws touch it as a limit.
 
     Examples
     --------
@@ -57,7 +57,7 @@ def extreme_row(name: str, extreme: Extreme, factor: float, unit: str, limit: fl
 
 
 def enclosure(extreme: Extreme, limit: float | None = None) -> dict[str, float | None]:
-    """One of them for a program, in SI units."""
+    """The enclosure of an extreme for programs, in SI units."""
     high = extreme.high if np.isfinite(extreme.high) else None
     return {"low": extreme.low, "high": high, "angle": _angle(extreme, limit, extreme.angle)}
 

@@ -57,7 +57,7 @@ class SpringEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 class AsManufacturedEntries(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Which files are run against the follower: tables of so many points and decimals, and errors of the profile."""
+    """The files that are run against the follower: tables of so many points and decimals, and errors of the profile."""
 
     points: Several = (361, 721)
     decimals: Several = (3, 4, 6)
@@ -133,7 +133,7 @@ def forces_of(spec: ForcesAndFiles, cam: DiscCam, cycle: Cycle) -> CamForces | N
 
 @dataclass(frozen=True)
 class Findings:
-    """What was asked beside the geometry, computed once."""
+    """The results beside the geometry, each computed once."""
 
     spec: ForcesAndFiles
     cam: DiscCam
@@ -141,7 +141,7 @@ class Findings:
 
     @kept_property
     def forces(self) -> CamForces | None:
-        """The cam's forces."""
+        """The forces of the cam, if asked for."""
         return forces_of(self.spec, self.cam, self.cycle)
 
     @kept_property
@@ -171,7 +171,7 @@ class Findings:
         return peaks_by_name
 
     def to_data(self) -> dict[str, Any]:
-        """What a program is told, in SI units."""
+        """The results as data for programs, in SI units."""
         data: dict[str, Any] = {}
         if self.forces is not None:
             data["forces"] = self.forces.to_dict()

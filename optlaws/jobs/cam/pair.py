@@ -20,7 +20,7 @@ _PREFIX = "return-"
 
 
 def to_data(cams: Cams) -> dict[str, Any]:
-    """What a program is told of the second cam, in metres and radians; nothing where there is none."""
+    """The data of the second cam for programs, in metres and radians; nothing where there is none."""
     if cams.second is None:
         return {}
     extremes = cams.second.extremes

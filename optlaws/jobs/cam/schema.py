@@ -59,7 +59,7 @@ class CamProblemFile(ForcesAndFiles, kw_only=True, forbid_unknown_fields=True):
 
 @dataclass(frozen=True)
 class Cams:
-    """What a file asks for.
+    """The cams that a problem file asks for.
 
     Attributes
     ----------

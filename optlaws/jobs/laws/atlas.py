@@ -63,7 +63,7 @@ def _page(title: str, points: Sequence[StudyPoint]) -> Page:
 
 
 def _costs(points: Sequence[StudyPoint], constant: str) -> tuple[list[str], list[list[tables.Cell]]]:
-    """By B the least constant of each order, and what each order costs over the one below it."""
+    """The least constant of each order by B, and what each order costs over the one below it."""
     degree = max(point.inputs["degree"] for point in points)
     objectives = {
         (point.inputs["B"], point.inputs["order"]): point.constants.get(constant)

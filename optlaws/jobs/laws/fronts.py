@@ -300,7 +300,7 @@ def _window(picture: Picture, fronts: Sequence[Front], axis: int) -> Ends:
 
 
 def _limit_curves(axes: Axes, picture: Picture, fronts: Sequence[Front], x: Ends) -> None:
-    """What no law can beat at each B; fronts of different orders mostly share it."""
+    """The limit of all laws at each B, which fronts of different orders mostly share."""
     values = np.linspace(max(x[0], 1.0 + 1e-3), x[1], 200)
     drawn: list[list[float | None]] = []
     for front in fronts:
@@ -315,7 +315,7 @@ def _limit_curves(axes: Axes, picture: Picture, fronts: Sequence[Front], x: Ends
 
 
 def _corners(axes: Axes, picture: Picture, fronts: Sequence[Front], colours: Sequence[str]) -> None:
-    """What no law can beat in either constant, which no one law need reach in both."""
+    """The limit of all laws in either constant, which no one law need reach in both."""
     for curve, front, shade in zip(picture.front, fronts, colours, strict=True):
         style: dict[str, Any] = {"color": shade, "linewidth": 1.1, "linestyle": (0, (1, 2)), "zorder": 2}
         stated = _freed(front[0].problem, picture.over[0])

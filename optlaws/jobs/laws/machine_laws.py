@@ -54,7 +54,7 @@ class MachineTable(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     stroke: float = 1.0
 
     def machine(self) -> Machine:
-        """The machine, checked.
+        """The machine of the table, checked.
 
         Raises
         ------
@@ -126,7 +126,7 @@ class Kept(Measure, kw_only=True, forbid_unknown_fields=True):
     constant_name: Text | None = msgspec.field(default=None, name="constant")
 
     def bounded(self, machine: Machine) -> Functional:
-        """What is bounded."""
+        """The constant that is bounded."""
         return self.constant(machine) if self.constant_name is None else named(self.constant_name)
 
 
@@ -139,7 +139,7 @@ class Sought(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
     problem: dict[str, Any] = {}
 
     def stated(self, machine: Machine) -> Problem:
-        """The problem.
+        """The problem of the law that is sought.
 
         Raises
         ------
@@ -172,7 +172,7 @@ class Vibration(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
 
 
 class Pictured(msgspec.Struct, kw_only=True, forbid_unknown_fields=True):
-    """Which output of which laws is drawn, with how much of the dwell."""
+    """The output and the laws that are drawn, with how much of the dwell."""
 
     output: Text
     laws: Annotated[list[Text], msgspec.Meta(min_length=1, max_length=6)]
@@ -354,7 +354,7 @@ def _unit(spec: MachineLawsProblemFile) -> str:
 
 
 def _in_machine_units(machine: MachineTable) -> str:
-    """What the dimensionless constants are in the machine's units."""
+    """The dimensionless constants in the machine's units, in words."""
     stroke, duration = machine.stroke, machine.duration
     if (stroke, duration) == (1.0, 1.0):
         return "C and J are dimensionless."
@@ -366,7 +366,7 @@ def _in_machine_units(machine: MachineTable) -> str:
 
 
 def draw(spec: MachineLawsProblemFile, machine: Machine, laws: Sequence[Compared]) -> Figure:
-    """What is left of each mode over its frequency, and an output over time."""
+    """The residual of each mode over its frequency, and an output over time."""
     drawn = [law for name in spec.figure.laws for law in laws if law.name == name and law.law is not None]
     with plot_style():
         modes = spec.vibration.modes

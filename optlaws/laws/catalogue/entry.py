@@ -38,7 +38,7 @@ class Published:
     printed: tuple[tuple[str, str], ...]
 
     def disagreements(self, constants: Constants) -> tuple[str, ...]:
-        """What is printed otherwise than the constants are when rounded to the printed digits."""
+        """The printed values that differ from the constants rounded to the printed digits."""
         different = []
         for name, text in self.printed:
             value = getattr(constants, name).value
@@ -113,7 +113,7 @@ class CatalogueEntry:
 
     @property
     def aliases(self) -> tuple[str, ...]:
-        """Its other names, without the numbers of enumerations."""
+        """The other names of the law, without the numbers of enumerations."""
         return tuple(name.partition(" = ")[0] for _, some in self.names for name in some)
 
     @kept_property

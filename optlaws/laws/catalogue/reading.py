@@ -44,7 +44,7 @@ class _Line(NamedTuple):
     cells: list[str]
 
     def numbers(self, columns: Sequence[int]) -> list[re.Match[str] | None]:
-        """What is a number in some of its columns."""
+        """The numbers in some of its columns."""
         return [_NUMBER.fullmatch(self.cells[i]) if i < len(self.cells) else None for i in columns]
 
 

@@ -172,7 +172,7 @@ def _combined(powers: Sequence[Sequence[Fraction]], weights: Array) -> list[Frac
 
 
 def _searched(missing: Callable[[Array], Array], count: int) -> Array:
-    """What misses least, sought from y = 1, from a y that is less in the middle and from one that is more."""
+    """The weights that miss least, sought from y = 1, from a y that is less in the middle and from one that is more."""
     answers = []
     for first in (0.0, 0.5, -0.5):
         start = np.zeros(count)

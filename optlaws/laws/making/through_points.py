@@ -35,7 +35,7 @@ class LawSpline(NamedTuple):
     free: int
 
     def __call__(self, places: Array) -> Array:
-        """Its values."""
+        """The values of the spline at places."""
         return spline_values(self.knots, places) @ self.coefficients
 
     def law(self) -> PiecewiseLaw:

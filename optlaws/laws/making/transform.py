@@ -179,7 +179,7 @@ def _mean(first: tuple[float, ...], last: tuple[float, ...], share: float) -> li
 
 
 def section(law: PiecewiseLaw, first: int, last: int) -> PiecewiseLaw:
-    """What a law of polynomials does between two of its breaks, its displacement made 1 and its duration 1.
+    """The part of a law of polynomials between two of its breaks, its displacement and its duration scaled to 1.
 
     Parameters
     ----------

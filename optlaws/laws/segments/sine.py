@@ -104,7 +104,7 @@ class SineSegment(Segment, kind="sine"):
 
     @kept_property
     def _steady(self) -> tuple[Array, ...]:
-        """What the powers give to a, b, c and the derivatives above, to the first that is zero."""
+        """The share of the powers in a, b, c and the derivatives above, to the first that is zero."""
         whole = np.polynomial.Polynomial([*self.powers, 0.0]).integ(2)
         return tuple(np.asarray(whole.deriv(nu).coef, dtype=np.float64) for nu in range(len(self.powers) + 3))
 
