@@ -176,7 +176,7 @@ class Cycle(ExportMixin, SerialisationMixin):
 
     @kept_property
     def lower_bound(self) -> float | None:
-        """The lower bound of laws of the `search_space` in the same times; with dry friction, of those that never turn back.
+        """The lower bound of laws of the `search_space` in the same times; with friction, that never turn back.
 
         Laws that are not in it may be below: of a higher degree, of a lower order, of more pieces.
         """
@@ -184,7 +184,7 @@ class Cycle(ExportMixin, SerialisationMixin):
 
     @property
     def search_space(self) -> str | None:
-        """The laws, in words, of which none is below the `lower_bound` and, where the status is optimal, none is better.
+        """The laws, in words, of which none is below the `lower_bound` nor, where the status is optimal, better.
 
         None where no law was looked for. "All motions through the joints" are all whose derivatives before the one that
         is minimised are continuous.

@@ -108,7 +108,7 @@ class SwingingFace(FaceContact):
         return self._waves(s)
 
     def pressure(self, s: Jet) -> Jet:
-        """The tangent of the pressure angle: the point of the face that is touched moves square to the ray from the pivot."""
+        """The tangent of the pressure angle: the point touched moves square to the ray from the pivot."""
         reach = self.reach(s)
         return (reach * 0.0 + self.offset) / reach * self.turning
 
