@@ -18,10 +18,9 @@ from optlaws.cams.cutting.spline import spline
 from optlaws.cams.cutting.text_formats import polar
 from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact, shifted
-from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import positive_quantity, quantity
 from optlaws.numbers import Quantity, bounded, whole
 from optlaws.series.enclosures.branch_and_bound import Function, extremes
 from optlaws.series.enclosures.interval_arrays import Interval
@@ -310,9 +309,7 @@ def with_error(cam: DiscCam, error: Quantity, waves: Any) -> AsMade:  # noqa: AN
     >>> round(with_error(cam, "0.01 mm", waves=3).acceleration_ratio, 3)
     1.002
     """
-    amplitude, count = quantity(error, "length", "error"), whole(waves, "waves", least=1, most=_MOST_WAVES)
-    if amplitude <= 0.0:
-        raise InputError(f"error must be above 0, got {shortened(error)}")
+    amplitude, count = positive_quantity(error, "length", "error"), whole(waves, "waves", least=1, most=_MOST_WAVES)
     cases = [run_against(cam, WavyCurve(cam.profile, amplitude, count, shift), leaps=False) for shift in _SHIFTS]
     return AsMade(*(max(getattr(case, name) for case in cases) for name in AsMade.__dataclass_fields__))
 

@@ -18,7 +18,7 @@ from optlaws.cycles.specification.drive import CycleDrive, read_drive
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
-from optlaws.motion.quantities import TURN, quantity
+from optlaws.motion.quantities import TURN, positive_quantity, quantity
 from optlaws.numbers import Quantity, finite, real_times
 from optlaws.series.enclosures.branch_and_bound import Extremes, Function, extremes
 from optlaws.series.enclosures.enclosed_integral import integral
@@ -108,9 +108,7 @@ def line_contact(width: Any, materials: Any, roller: float) -> LineContact:  # n
     >>> line_contact("20 mm", ("steel", {"young": "3 GPa", "poisson": 0.4}), 0.012).width
     0.02
     """
-    length = quantity(width, "length", "width")
-    if length <= 0.0:
-        raise InputError(f"width must be above 0, got {shortened(width)}")
+    length = positive_quantity(width, "length", "width")
     if not isinstance(materials, tuple | list) or len(materials) != 2:
         raise InputError(f"materials must be two, of the cam and of the follower, got {shortened(materials)}")
     yielding = sum((1.0 - poisson**2) / young for young, poisson in map(_material, materials))
@@ -191,10 +189,7 @@ class CamForces:
     def rate(self) -> float:
         """The cam's angular velocity, rad/s."""
         if self.speed is not None:
-            rate = quantity(self.speed, "angular velocity", "speed")
-            if rate <= 0.0:
-                raise InputError(f"speed must be above 0, got {shortened(self.speed)}")
-            return rate
+            return positive_quantity(self.speed, "angular velocity", "speed")
         if not isinstance(self.cam.motion, Cycle):
             raise InputError("forces need the cam's speed: give one, such as speed='300 rpm'")
         return TURN / self.cam.motion.duration

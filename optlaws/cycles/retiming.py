@@ -13,7 +13,7 @@ from optlaws.laws.making.transform import section
 from optlaws.laws.segments.piecewise import PiecewiseLaw
 from optlaws.mechanisms.cam.polydyne import polydyne
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import TURN, quantity
+from optlaws.motion.quantities import TURN, positive_quantity
 from optlaws.numbers import Quantity
 
 
@@ -104,9 +104,7 @@ def cam_segments(cycle: TimedCycle, period: Quantity, damping: float) -> list[Cy
     InputError
         If a move is not from rest to rest by a law whose jerk is continuous and 0 at both ends.
     """
-    natural = quantity(period, "time", "follower: period")
-    if natural <= 0.0:
-        raise InputError(f"follower: period must be above 0, got {period!r}")
+    natural = positive_quantity(period, "time", "follower: period")
     segments: list[CycleSegment] = []
     for segment, given, piece in cycle.by_segment("the cam of an elastic follower is made move by move"):
         time = f"{piece.duration!r} s"

@@ -15,7 +15,7 @@ from optlaws.errors import InputError
 from optlaws.kept import kept_property
 from optlaws.laws import MotionLaw
 from optlaws.motion.piece import STROKE, Piece, factor, values_of_pieces
-from optlaws.motion.quantities import Given, either, given_quantity, quantity
+from optlaws.motion.quantities import Given, either, given_quantity, positive_quantity, quantity
 from optlaws.numbers import Quantity, derivative, real_times
 
 Array = NDArray[np.float64]
@@ -232,7 +232,7 @@ def motion_of_law(
         raise InputError(
             "say how long the motion takes, duration='0.1 s', or how far its master goes, master='120 deg'"
         )
-    seconds = None if duration is None else _positive(quantity(duration, "time", "duration"), "duration", duration)
+    seconds = None if duration is None else positive_quantity(duration, "time", "duration")
     span = _span(master, seconds)
     rate = None if seconds is None else span.number / seconds
     offset = 0.0 if start is None else moved.same_unit(start, "start")
@@ -299,7 +299,8 @@ def _span(master: Quantity | None, seconds: float | None) -> Given:
         return Given("time", seconds or 0.0, "s")
     either(master, MASTERS, "master")
     span = given_quantity(master, MASTERS, "master")
-    _positive(span.number, "master", master)
+    if span.number <= 0.0:
+        raise InputError(f"master must be above 0, got {master!r}")
     return span
 
 
@@ -308,12 +309,6 @@ def _of_stroke_one(law: MotionLaw) -> MotionLaw:
     if abs(stroke - 1.0) > STROKE:
         raise InputError(f"the law must have the stroke 1, which `stroke` multiplies, but it has {stroke:g}")
     return law
-
-
-def _positive(number: float, name: str, given: Any) -> float:  # noqa: ANN401
-    if number <= 0.0:
-        raise InputError(f"{name} must be above 0, got {given!r}")
-    return number
 
 
 def _value(place: Place) -> float:

@@ -7,7 +7,7 @@ from typing import Literal, TypedDict
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import positive_quantity
 from optlaws.numbers import Quantity, whole
 
 MOST_POINTS = 100_000
@@ -71,26 +71,23 @@ class Cutting:
     about: str = "cam"
 
     def __post_init__(self) -> None:
-        if self.metres <= 0.0:
-            raise InputError(f"tolerance must be above 0, got {shortened(self.tolerance)}")
+        self.metres, self.feed_rate  # noqa: B018 - wrong quantities are refused at once
         whole(self.decimals, "decimals", most=MOST_DECIMALS)
         whole(self.points, "points", least=13, most=MOST_POINTS)
         if self.degree not in DEGREES:
             raise InputError(f"degree must be 3 or 5, got {shortened(self.degree)}")
         if not isinstance(self.about, str):
             raise InputError(f"about must be text, got {shortened(self.about)}")
-        if self.feed is not None and self.feed_rate <= 0.0:
-            raise InputError(f"feed must be above 0, got {shortened(self.feed)}")
 
     @property
     def metres(self) -> float:
         """The tolerance in metres."""
-        return quantity(self.tolerance, "length", "tolerance")
+        return positive_quantity(self.tolerance, "length", "tolerance")
 
     @property
     def feed_rate(self) -> float:
         """The feed in mm a minute; 0 where none is given."""
-        return 0.0 if self.feed is None else 60e3 * quantity(self.feed, "velocity", "feed")
+        return 0.0 if self.feed is None else 60e3 * positive_quantity(self.feed, "velocity", "feed")
 
     @property
     def line(self) -> str:

@@ -12,9 +12,8 @@ from pkgutil import iter_modules
 from typing import Any, ClassVar
 
 from optlaws.cams.followers.contact import FollowerContact
-from optlaws.echo import shortened
 from optlaws.errors import InputError
-from optlaws.motion.quantities import quantity
+from optlaws.motion.quantities import positive_quantity, quantity
 from optlaws.numbers import Quantity
 from optlaws.suggest import unknown_key
 
@@ -55,6 +54,8 @@ class CamFollower(ABC):
     axis: ClassVar[str]
     #: its entries, as errors and the explorer show them
     examples: ClassVar[dict[str, str]]
+    #: its entries that are lengths, by which its size is told
+    lengths: ClassVar[tuple[str, ...]] = ()
     #: the limit that is linear in the law and says the least base circle of all laws; None where none is
     sizing_limit: ClassVar[str | None] = None
 
@@ -79,7 +80,7 @@ class CamFollower(ABC):
     @property
     def size(self) -> float:
         """The greatest length of the follower, m."""
-        return 0.0
+        return max((abs(quantity(getattr(self, name), "length", name)) for name in self.lengths), default=0.0)
 
     @property
     def pivot(self) -> Quantity | None:
@@ -104,10 +105,7 @@ def positive(value: Any, name: str) -> float:  # noqa: ANN401 - it is checked he
     >>> positive("12 mm", "roller")
     0.012
     """
-    length = quantity(value, "length", name)
-    if length <= 0.0:
-        raise InputError(f"{name} must be above 0, got {shortened(value)}")
-    return length
+    return positive_quantity(value, "length", name)
 
 
 def roller_radius(value: Any, place: Place) -> float:  # noqa: ANN401 - it is checked here

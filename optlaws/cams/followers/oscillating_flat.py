@@ -36,6 +36,7 @@ class OscillatingFlat(CamFollower, kind="oscillating flat"):
     face_offset: Quantity = "0 mm"
     axis: ClassVar[str] = "angle"
     examples: ClassVar[dict[str, str]] = {"pivot_distance": "120 mm", "face_offset": "0 mm"}
+    lengths: ClassVar[tuple[str, ...]] = ("pivot_distance",)
 
     def contact(self, place: Place) -> FaceContact:  # noqa: D102
         distance = positive(self.pivot_distance, "face: pivot_distance")
@@ -69,11 +70,6 @@ class OscillatingFlat(CamFollower, kind="oscillating flat"):
     def pivot(self) -> Quantity:
         """The distance of the pivot from the cam's centre."""
         return self.pivot_distance
-
-    @property
-    def size(self) -> float:
-        """The distance of the pivot."""
-        return abs(quantity(self.pivot_distance, "length", "pivot_distance"))
 
 
 @dataclass(frozen=True)

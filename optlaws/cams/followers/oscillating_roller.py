@@ -16,7 +16,6 @@ from optlaws.cams.followers.follower import CamFollower, Place, positive, roller
 from optlaws.cams.followers.rollers_and_faces import RollerContact, half_turn
 from optlaws.errors import InputError
 from optlaws.motion.piece import Piece
-from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 from optlaws.series.enclosures.jets import Jet, Pair
 
@@ -49,6 +48,7 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
     pivot_distance: Quantity
     axis: ClassVar[str] = "angle"
     examples: ClassVar[dict[str, str]] = {"radius": "14 mm", "arm": "110 mm", "pivot_distance": "140 mm"}
+    lengths: ClassVar[tuple[str, ...]] = ("radius", "arm", "pivot_distance")
 
     def contact(self, place: Place) -> RollerContact:  # noqa: D102
         radius, arm = roller_radius(self.radius, place), positive(self.arm, "roller: arm")
@@ -81,12 +81,6 @@ class OscillatingRoller(CamFollower, kind="oscillating roller"):
     def pivot(self) -> Quantity:
         """The distance of the pivot from the cam's centre."""
         return self.pivot_distance
-
-    @property
-    def size(self) -> float:
-        """The greatest of its three lengths."""
-        given = {"radius": self.radius, "arm": self.arm, "pivot_distance": self.pivot_distance}
-        return max(abs(quantity(value, "length", name)) for name, value in given.items())
 
 
 @dataclass(frozen=True)

@@ -38,6 +38,7 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
     offset: Quantity = "0 mm"
     axis: ClassVar[str] = "length"
     examples: ClassVar[dict[str, str]] = {"radius": "12 mm", "offset": "0 mm"}
+    lengths: ClassVar[tuple[str, ...]] = ("radius", "offset")
     sizing_limit: ClassVar[str | None] = PRESSURE
 
     def contact(self, place: Place) -> RollerContact:  # noqa: D102
@@ -52,12 +53,6 @@ class TranslatingRoller(CamFollower, kind="translating roller"):
     def base_radius(self, level: float) -> float:
         """The way from the cam's centre to the roller's at a height."""
         return hypot(level, quantity(self.offset, "length", "roller: offset"))
-
-    @property
-    def size(self) -> float:
-        """The radius of the roller, or the offset."""
-        given = {"radius": self.radius, "offset": self.offset}
-        return max(abs(quantity(value, "length", name)) for name, value in given.items())
 
     def from_beneath(self) -> TranslatingRoller:
         """The same follower with its offset on the other side."""

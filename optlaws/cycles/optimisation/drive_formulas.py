@@ -131,8 +131,7 @@ def _known(drive: CycleDrive | None) -> CycleDrive:
 
 def _friction(span: LawSpan, drive: CycleDrive) -> float:
     """The least addition of dry friction to the mean square of the force of a motion that may turn back."""
-    times = zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True)
-    moving = sum(stop - start for segment, start, stop in times if not isinstance(segment.given, Dwell))
+    moving = sum(stop - start for segment, start, stop in span.timed if not isinstance(segment.given, Dwell))
     gained = 0.0 if span.turns else abs(span.last.velocity) - abs(span.first.velocity)
     positions = [span.offset, *(position for _, position in span.via), span.offset + span.displacement]
     way = sum(abs(after - before) for before, after in pairwise(positions))

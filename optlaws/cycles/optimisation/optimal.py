@@ -293,10 +293,9 @@ def _of_load(objective: CycleObjective, output: str, mean: bool, span: LawSpan) 
 
 def _straight_within(span: LawSpan, most: float) -> bool:
     """Whether uniform motions keep a limit of the velocity."""
-    times = zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True)
     return all(
         is_optimal(stretch.given) or abs(stretch.displacement) <= most * (stop - start)
-        for stretch, start, stop in times
+        for stretch, start, stop in span.timed
     )
 
 
@@ -312,7 +311,7 @@ def _alike(
 
 def _check_mean(span: LawSpan, objective: CycleObjective, axis: str) -> None:
     """Refuse a limit of the velocity that is no more than the mean velocity: such a law cannot even start from rest."""
-    for stretch, start, stop in zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True):
+    for stretch, start, stop in span.timed:
         most = limits_of_stretch(stretch, objective, axis).get(1) if is_optimal(stretch.given) else None
         mean = abs(stretch.displacement) / (stop - start)
         if most is not None and mean >= most:

@@ -41,7 +41,7 @@ def joined_basis(span: LawSpan, order: int, degree: int, minimised: int) -> Piec
         each = min(each, _FEW[minimised] * (degree + order) // 12)
     each = max(1, each)
     breaks, straight = [0.0], list[int]()
-    for stretch, start, stop in zip(span.stretches, span.starts, (*span.starts[1:], span.stop), strict=True):
+    for stretch, start, stop in span.timed:
         if not is_optimal(stretch.given):
             straight.append(len(breaks) - 1)
             breaks.append(place(span, stop))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 from itertools import accumulate
 from typing import NamedTuple
@@ -77,6 +77,11 @@ class LawSpan:
     def duration(self) -> float:
         """How long it takes."""
         return self.stop - self.start
+
+    @property
+    def timed(self) -> Iterator[tuple[TimedSegment, float, float]]:
+        """The segments, each with the times at which it begins and ends."""
+        return zip(self.stretches, self.starts, (*self.starts[1:], self.stop), strict=True)
 
     @property
     def where(self) -> str:

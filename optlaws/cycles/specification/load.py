@@ -14,8 +14,8 @@ from optlaws.mechanisms.machine import drives
 from optlaws.mechanisms.machine.machine import Machine
 from optlaws.mechanisms.machine.over_time import RepeatedMotion, jumps
 from optlaws.motion.piece import Piece, factor
-from optlaws.motion.quantities import quantity
-from optlaws.numbers import not_negative
+from optlaws.motion.quantities import positive_quantity, quantity
+from optlaws.numbers import not_negative, positive
 from optlaws.suggest import unknown_key
 from optlaws.synthesis.problem.constants import Functional
 
@@ -60,10 +60,7 @@ class Load:
     def limit(self, value: Any, output: str, name: str) -> float:  # noqa: ANN401 - it is checked here
         """A limit of an output in SI units: with its unit where that is known, else a number."""
         known = self.dimensions.get(output)
-        bound = not_negative(value, name) if known is None else quantity(value, known, name)
-        if bound <= 0.0:
-            raise InputError(f"{name} must be above 0, got {shortened(value)}")
-        return bound
+        return positive(value, name) if known is None else positive_quantity(value, known, name)
 
 
 def read_load(given: Any, axis: str) -> Load:  # noqa: ANN401 - it is checked here
@@ -92,9 +89,7 @@ def read_load(given: Any, axis: str) -> Load:  # noqa: ANN401 - it is checked he
             raise InputError(f"load: {unknown_key(key, _ENTRIES)}")
     if "period" not in given:
         raise InputError("load: give the period of its free vibration, such as period = '20 ms'")
-    period = quantity(given["period"], "time", "load: period")
-    if period <= 0.0:
-        raise InputError(f"load: period must be above 0, got {shortened(given['period'])}")
+    period = positive_quantity(given["period"], "time", "load: period")
     return _mass_on_a_spring(given, axis, 2.0 * pi / period)
 
 
