@@ -90,12 +90,12 @@ class Report:
 
     Examples
     --------
-    >>> from optlaws.exports.interpolation import cubic_spline
+    >>> from optlaws.exports.interpolation import spline_powers
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", duration="0.1 s")
     >>> x = np.linspace(0.0, 0.1, 13)
-    >>> report = as_run(cubic_spline(x, motion(x)), motion)
+    >>> report = as_run(PiecewiseMotion(x, spline_powers(x, motion(x))), motion)
     >>> round(report.ratio(2), 4), round(report.deviation[0].value, 6), round(report.run.leaps_at_ends[1], 3)
     (0.9923, 0.00154, 701.101)
     """
@@ -324,12 +324,13 @@ def task_sampling(run: PiecewiseMotion, motion: Motion, task: Quantity) -> TaskS
 
     Examples
     --------
-    >>> from optlaws.exports.interpolation import linear
+    >>> from optlaws.exports.interpolation import linear_powers
     >>> from optlaws.motion.motion import motion_of_law
     >>> from optlaws.laws import smoothstep
     >>> motion = motion_of_law(smoothstep(3), stroke="35 mm", duration="0.1 s")
     >>> x = np.linspace(0.0, 0.1, 37)
-    >>> round(task_sampling(linear(x, motion(x)), motion, "0.1 ms").acceleration / motion.peak(2), 1)
+    >>> run = PiecewiseMotion(x, linear_powers(x, motion(x)))
+    >>> round(task_sampling(run, motion, "0.1 ms").acceleration / motion.peak(2), 1)
     27.0
     """
     seconds = quantity(task, "time", "task")

@@ -7,8 +7,8 @@ import pytest
 
 from optlaws import MotionLaw, catalogue, smoothstep
 from optlaws.exports.export import export_motion
-from optlaws.exports.interpolation import cubic_spline
 from optlaws.motion.motion import Motion, motion_of_law
+from tests.exports.interpolations import cubic_spline
 from tests.exports.samples import optimal
 
 FORMATS = ("csv", "rockwell-cam", "rockwell-cam-extended", "lenze", "kas")

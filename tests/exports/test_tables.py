@@ -15,10 +15,10 @@ from optlaws.exports.export import Export, export_motion
 from optlaws.exports.format import FORMATS
 from optlaws.exports.formats.point_table import NumberFormat, spline_table
 from optlaws.exports.formats.rockwell import profile_motion, profile_rows
-from optlaws.exports.interpolation import cubic_spline
 from optlaws.motion.motion import Motion, Units, motion_of_law
 from optlaws.motion.piece import Piece
 from tests.exports import readers
+from tests.exports.interpolations import cubic_spline
 from tests.exports.samples import SAID, one_shot, optimal, press, repeating, shearing, turning
 
 Array = NDArray[np.float64]

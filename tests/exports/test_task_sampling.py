@@ -5,9 +5,9 @@ import pytest
 
 from optlaws import InputError, smoothstep
 from optlaws.exports.export import export_motion
-from optlaws.exports.interpolation import linear
 from optlaws.exports.report import task_sampling
 from optlaws.motion.motion import motion_of_law
+from tests.exports.interpolations import linear
 from tests.exports.samples import one_shot, optimal, press, turning
 
 

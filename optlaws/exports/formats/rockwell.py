@@ -42,9 +42,9 @@ def profile_rows(run: PiecewiseMotion, *, cubic: bool = True) -> list[list[int]]
 
     Examples
     --------
-    >>> from optlaws.exports.interpolation import cubic_spline
-    >>> spline = cubic_spline(np.array([0.0, 40.0, 100.0]), np.array([0.0, 20.0, 25.0]), slopes=(1.0, 0.0))
-    >>> profile_rows(spline)[-1]
+    >>> from optlaws.exports.interpolation import spline_powers
+    >>> x = np.array([0.0, 40.0, 100.0])
+    >>> profile_rows(PiecewiseMotion(x, spline_powers(x, np.array([0.0, 20.0, 25.0]), slopes=(1.0, 0.0))))[-1]
     [2, 1079574528, 0, 1077477376, 0, 1, 0, 0, 0, 0, 0, 0, 0, 0]
     """
     kind = SEGMENT_TYPES["cubic" if cubic else "linear"]
