@@ -1,11 +1,9 @@
 """Interpolations of points as motions, made of the powers that controllers lay between points."""
 
-from typing import Any
-
 import numpy as np
 from numpy.typing import NDArray
 
-from optlaws.exports.interpolation import akima_powers, hermite_powers, linear_powers, spline_powers
+from optlaws.exports.interpolation import Ends, akima_powers, hermite_powers, linear_powers, spline_powers
 from optlaws.motion.polynomials import PiecewiseMotion
 
 Array = NDArray[np.float64]
@@ -16,7 +14,7 @@ def linear(x: Array, y: Array) -> PiecewiseMotion:
 
 
 def cubic_spline(
-    x: Array, y: Array, ends: Any = "clamped", slopes: tuple[float, float] = (0.0, 0.0)
+    x: Array, y: Array, ends: Ends = "clamped", slopes: tuple[float, float] = (0.0, 0.0)
 ) -> PiecewiseMotion:
     return PiecewiseMotion(x, spline_powers(x, y, ends, slopes))
 
