@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from math import inf, pi, tau
 from typing import Any, Literal
 
@@ -20,8 +20,9 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.followers.contact import FollowerContact, shifted
 from optlaws.errors import InputError
 from optlaws.kept import kept_property
+from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import positive_quantity, quantity
-from optlaws.numbers import Quantity, bounded, whole
+from optlaws.numbers import Quantity, whole
 from optlaws.series.enclosures.branch_and_bound import Function, extremes
 from optlaws.series.enclosures.interval_arrays import Interval
 from optlaws.series.enclosures.jets import Jet
@@ -120,7 +121,7 @@ class UnreachedProfileError(InputError):
 
 
 @dataclass(frozen=True)
-class AsMade:
+class AsMade(PlainNumbers):
     """The motion of a follower on a cam as it is made, over the whole turn.
 
     Deviation, acceleration and jerk are enclosed, and no less than the greatest: by 1e-3 of it the first, by 1e-6 the
@@ -151,10 +152,6 @@ class AsMade:
     leap: float
     acceleration_ratio: float
     jerk_ratio: float
-
-    def to_dict(self) -> dict[str, float | None]:
-        """Plain JSON-able dict; what is infinite is None."""
-        return {name: bounded(value) for name, value in asdict(self).items()}
 
 
 def run_against(cam: DiscCam, curve: Outline, outside: float = 0.0, *, leaps: bool = True) -> AsMade:

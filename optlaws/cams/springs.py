@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from math import degrees
 from typing import Any, NoReturn
 
@@ -14,6 +14,7 @@ from optlaws.cams.disc import DiscCam
 from optlaws.cams.forces import CamForces
 from optlaws.echo import shortened
 from optlaws.errors import InfeasibleProblem, InputError
+from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.quantities import quantity
 from optlaws.numbers import Quantity
 from optlaws.series.enclosures.branch_and_bound import Extremes, Function, extremes
@@ -32,7 +33,7 @@ _UNITS = {"length": ("force", "stiffness"), "angle": ("torque", "torsional stiff
 
 
 @dataclass(frozen=True)
-class Spring:
+class Spring(PlainNumbers):
     """A spring that holds a follower on its cam; N and N/m, or N m and N m/rad for one that swings.
 
     Attributes
@@ -69,10 +70,6 @@ class Spring:
     def value(self) -> float:
         """The value of the objective that was sought."""
         return float(getattr(self, self.objective))
-
-    def to_dict(self) -> dict[str, Any]:
-        """The spring as a plain JSON-able dict."""
-        return asdict(self)
 
 
 def least_spring(

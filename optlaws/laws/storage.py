@@ -5,12 +5,14 @@ from __future__ import annotations
 import dataclasses
 from abc import ABC
 from collections.abc import Mapping
+from math import inf
 from typing import Any, ClassVar, Self
 
 from optlaws.echo import shortened
 from optlaws.errors import InputError
 from optlaws.files.reading import JsonText
 from optlaws.lazy import Registry
+from optlaws.numbers import bounded
 
 FORMAT = 1
 
@@ -77,6 +79,38 @@ class StoredLaw(JsonText, ABC):
         return cls(**fields)
 
 
+class PlainNumbers(JsonText):
+    """Frozen dataclasses of numbers and texts as plain data, where what is infinite is None.
+
+    Examples
+    --------
+    >>> from optlaws.cycles.specification.drive import Effort
+    >>> Effort.from_json(Effort(1.0, 0.5, 2.0, 0.0).to_json())
+    Effort(peak_force=1.0, rms_force=0.5, peak_power=2.0, mean_power=0.0)
+    """
+
+    def to_dict(self) -> dict[str, Any]:
+        """The value as a plain JSON-able dict; what is infinite is None."""
+        this: Any = self
+        values = {field.name: getattr(this, field.name) for field in dataclasses.fields(this)}
+        return {name: bounded(value) if isinstance(value, float) else value for name, value in values.items()}
+
+    @classmethod
+    def from_dict(cls, data: Any) -> Self:  # noqa: ANN401 - it is checked here
+        """The value that `to_dict` described.
+
+        Raises
+        ------
+        InputError
+            If a key is unknown or missing.
+        """
+        name = f"a {cls.__name__}"
+        if not isinstance(data, Mapping):
+            raise InputError(f"{name} must be a dict, got {type(data).__name__}")
+        stored = known_fields(cls, data, name)
+        return cls(**{key: _restored(value) for key, value in stored.items()})
+
+
 def contents(value: Any) -> dict[str, Any]:  # noqa: ANN401 - any frozen dataclass
     """The fields of a dataclass as plain data: tuples as lists, what is stored itself as its own dict.
 
@@ -116,6 +150,10 @@ def _plain(value: Any) -> Any:  # noqa: ANN401
     if isinstance(value, tuple):
         return [_plain(part) for part in value]
     return value.to_dict() if hasattr(value, "to_dict") else value
+
+
+def _restored(value: Any) -> Any:  # noqa: ANN401 - plain data
+    return inf if value is None else tuple(value) if isinstance(value, list) else value
 
 
 def _opened(data: Any) -> dict[str, Any]:  # noqa: ANN401

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from functools import partial
 from typing import Any
 
@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from optlaws.errors import InputError
+from optlaws.laws.storage import PlainNumbers
 from optlaws.motion.piece import Piece, factor
 from optlaws.motion.quantities import quantity, table
 from optlaws.suggest import unknown_key
@@ -118,7 +119,7 @@ _ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
-class Effort:
+class Effort(PlainNumbers):
     """The force and power of a drive over a cycle, in SI units.
 
     Attributes
@@ -136,10 +137,6 @@ class Effort:
     rms_force: float
     peak_power: float
     mean_power: float
-
-    def to_dict(self) -> dict[str, float]:
-        """The effort as a plain JSON-able dict."""
-        return asdict(self)
 
     def shaft_torque(self, angular_velocity: float) -> float:
         """The greatest torque at a shaft of constant angular velocity, rad/s."""
